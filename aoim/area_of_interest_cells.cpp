@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The manager's cells: which of them we listen to, by which groups, and who is told that we came.
+// The manager's cells: which of them we listen to, by which groups, and who is asked when we come.
 #include <algorithm>
 #include <array>
 
@@ -100,7 +100,7 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
   const Standing standing = presence_.standing(membership.epoch, &from);
   if (standing != Standing::member && standing != Standing::unknown) return;
-  // Who begins to listen to a near group knows what the rows behind it were told alone.
+  // Who begins to listen to a near group knows what was sent to the rows behind it alone.
   const bool is_near = membership.action == pdu::MembershipAction::join_near;
   if (is_near && membership.near_row >= tiers_.near_rows()) return;
   if (!is_near && membership.action != pdu::MembershipAction::join) return;
@@ -150,7 +150,7 @@ void AreaOfInterestManager::ask_about_joins(bool announcing, nanoseconds now) {
 
 // Says it of the cells joined in this tier, of which none are left.
 void AreaOfInterestManager::announce_membership(std::size_t tier, nanoseconds now) {
-  std::uint64_t told = 0;  // questions of one instant are told apart
+  std::uint64_t announced = 0;  // makes questions of one instant differ
   std::span<const std::byte> rest(joined_[tier]);
   while (!rest.empty()) {
     const auto cells = rest.first(std::min(rest.size(), JoinAsks::kMostCells * kCellSize));
@@ -162,7 +162,7 @@ void AreaOfInterestManager::announce_membership(std::size_t tier, nanoseconds no
     } else {
       membership.action = pdu::MembershipAction::join;
     }
-    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count()) + told++;
+    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count()) + announced++;
     membership.cells = cells;
     add_membership(membership, now);
   }

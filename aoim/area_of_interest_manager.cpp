@@ -19,13 +19,13 @@ using std::chrono::nanoseconds;
 // How much nearer than it is left a contact group is joined.
 constexpr double kContactLeave = 2.0;
 
-// Where groups are handed out, cells are told apart by as many numbers as there can be.
+// Where groups are handed out, cells have as many numbers as there can be.
 CellPartition cells_of(const AreaOfInterestConfig& config) {
   GridConfig grid = config.grid;
   if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
   if (!config.cells) return CellGrid(grid);
   if (config.interop && config.cells->as<LocaleMap>() != nullptr)
-    throw std::invalid_argument("locales are told apart by groups: plain DIS has one");
+    throw std::invalid_argument("locales are distinguished by groups: plain DIS has one");
   if (config.cells->groups() > grid.pool)
     throw std::invalid_argument("cells of " + std::to_string(config.cells->groups()) +
                                 " groups, and a pool of " + std::to_string(grid.pool));

@@ -221,7 +221,7 @@ class AreaOfInterestManager {
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step
   std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< when the last one left
-  std::vector<std::byte> peers_heard_;          ///< encoded PeerEpoch of the list that is told now
+  std::vector<std::byte> peers_heard_;          ///< encoded PeerEpoch of the list that is sent now
   std::vector<std::vector<std::byte>> joined_;  ///< encoded CellIndex of joins to announce, by tier
   std::vector<PresenceEvent> events_, taken_;
   std::array<std::uint64_t, kIncomingVerdicts> incoming_{};

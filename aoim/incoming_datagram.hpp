@@ -18,10 +18,10 @@ enum class IncomingVerdict : std::uint8_t {
   plain,           ///< without trailer: plain DIS from a guest, use it
   own,             ///< our own, looped back
   not_joined,      ///< a group that is left already or was never joined
-  other_scene,     ///< the sender was told and not joined
+  other_scene,     ///< the sender was reported and not joined
   former_life,     ///< of a life of the sender that is over
   duplicate,       ///< received before
-  too_old,         ///< so late that it cannot be told from a duplicate
+  too_old,         ///< so late that it may be a duplicate
   other_exercise,  ///< its trailer or a Presence in it is of another DIS exercise
   impostor,        ///< its trailer names a peer that speaks from another address
   /// Of a sender that has not announced itself: it may run another scene. Once it has, its entities

@@ -73,7 +73,7 @@ Error check_surface(const ForceModel& m) {
   return m.restitution >= 0 && m.restitution <= 1 ? Error::none : Error::restitution_range;
 }
 
-// Round shapes need no normal of their own: zero means "none told".
+// Round shapes need no normal of their own: zero means "none stated".
 bool may_lack_normal(Kind kind) {
   return kind == Kind::none || kind == Kind::sphere || kind == Kind::field;
 }

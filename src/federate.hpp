@@ -85,9 +85,9 @@ class Federate {
   /// Entities of this class are discovered, reflected and removed; no others are, nor any before.
   void subscribe(const EntityClass& entities);
   /// Calls back with each interaction of this type and who said it. Those in the name of another's
-  /// entity are refused, counted (`interactions_refused`) and told; with `sender.owns` the entity
-  /// that the PDU is said for is the sender's, else nobody is heard under its name. A second call
-  /// replaces the first.
+  /// entity are refused, counted (`interactions_refused`) and reported; with `sender.owns` the
+  /// entity that the PDU is said for is the sender's, else nobody is heard under its name. A second
+  /// call replaces the first.
   ///
   ///   federate.subscribe<pdu::Fire>([](const pdu::Fire& fire, const peer::InteractionSender& by) {
   ///     if (by.owns) take_damage(fire);

@@ -57,7 +57,7 @@ struct FederateOptions {
   /// host may be among them. Empty: those of the scene, else to groups. Not over a link of the
   /// caller's.
   std::vector<NamedPeer> peers;
-  /// Is told what becomes of each datagram, see DatagramBalance; outlives the federate.
+  /// Receives what becomes of each datagram, see DatagramBalance; outlives the federate.
   DatagramTap* tap = nullptr;
 };
 

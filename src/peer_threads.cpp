@@ -29,8 +29,9 @@ constexpr nanoseconds kRetry = std::chrono::seconds(1);
 // A deadline of the model loop may come no sooner than this after a step, so that one which is
 // always due cannot take a core.
 constexpr nanoseconds kLeastSleep = microseconds(100);
-// After a pass of the model loop that took longer, as where bodies crowd a hand, a loop of real-time
-// priority rests for as long, so that it takes half a core at most; but no longer than the second.
+// After a pass of the model loop that took longer, as where bodies crowd a hand, a loop of
+// real-time priority rests for as long, so that it takes half a core at most; but no longer than
+// the second.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
 
@@ -73,7 +74,7 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
 }
 
 void PeerThreads::start() {
-  // Several peers of one process are told apart by their applications.
+  // Several peers of one process differ by their applications.
   const auto named = [number = peer_.own_id().application](std::string_view loop) {
     return fmt::format("rk-{} {}", loop, number);
   };

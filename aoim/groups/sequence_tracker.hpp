@@ -45,7 +45,7 @@ struct SequenceCounts {
 /// Tracks the (sender, group) pairs heard last. One thread; allocates nothing after construction.
 class SequenceTracker {
  public:
-  /// Datagrams that may be overtaken and still be told apart from duplicates.
+  /// Datagrams that may be overtaken and still be distinguished from duplicates.
   static constexpr std::size_t kWindow = 256;
   /// Farther than this from the last one, a minute at 1,000 a second, a number tells nothing of
   /// loss: whoever is there begins anew.

@@ -11,7 +11,7 @@ namespace reckon::aoim {
 namespace {
 
 constexpr double kFarthest = 0x1p62;  // squares from the origin; what is farther counts as there
-// The same where locales are told apart by columns.
+// The same where locales are distinguished by columns.
 constexpr std::int64_t kFarthestColumn = std::int64_t{1} << 50, kLocales = 1024;
 static_assert(kMaximumPool < kLocales);
 constexpr int kLastLevel = 63;  // one square a quadrant, however far all are

@@ -50,7 +50,7 @@ struct InterestConfig {
   /// Solid boxes that hide what is behind them from a focus; see Occluders. Default none.
   std::vector<Occluders::Box> occluders;
   /// Foci kept; default 64, and in the manager as many as there are locales where these are more.
-  /// Further ones are ignored (and told by set_foci).
+  /// Further ones are ignored (and reported by set_foci).
   std::size_t maximum_foci = 64;
 };
 

@@ -11,7 +11,7 @@
 namespace reckon::aoim {
 
 /// Groups for near rows are joined so long before a focus gets there [s]: a join takes up to 0.03,
-/// and what is there is told within 0.1 after that.
+/// and what is there is sent within 0.1 after that.
 inline constexpr double kNearAhead = 0.3;
 /// They are kept until the focus is farther than this times the row's end.
 inline constexpr double kNearLeave = 1.1;

@@ -178,19 +178,19 @@ void LeaderRole::take_state(const pdu::SnapshotState& head, std::span<const std:
                             GroupIndex group, nanoseconds now) {
   pdu::EntityState state;
   if (pdu::decode(octets, state) != pdu::DecodeError::none) return;
-  if (head.epoch == leadership_.epoch() || told_.size() >= kMostTold) return;
+  if (head.epoch == leadership_.epoch() || relayed_.size() >= kMostTold) return;
   const nanoseconds heard = now - head.age * std::chrono::milliseconds(10);
   const auto records = octets.subspan(state.header.length);
   octets = octets.first(state.header.length);
   states_.note_if_new(group, head.epoch, state, octets, heard);
   states_.note_records(head.epoch, state.entity_id, records);
-  RelayedState told{head.epoch, {octets.begin(), octets.end()}, {}, heard};
+  RelayedState relayed{head.epoch, {octets.begin(), octets.end()}, {}, heard};
   pdu::AttributeRecordCursor cursor(1, records);
   pdu::AttributeRecord record;
   pdu::HapticRecord model;
   if (cursor.next(record) && pdu::decode(record, model) == pdu::DecodeError::none)
-    told.model = model;
-  told_.push_back(std::move(told));
+    relayed.model = model;
+  relayed_.push_back(std::move(relayed));
 }
 
 void LeaderRole::forget(std::uint32_t epoch, nanoseconds now) {

@@ -29,7 +29,7 @@
 
 namespace reckon::aoim {
 
-/// A state that a leader told us.
+/// A state that a leader relayed to us.
 struct RelayedState {
   std::uint32_t epoch = 0;                 ///< life of the entity's owner, as the leader says
   std::vector<std::byte> octets;           ///< an Entity State PDU
@@ -73,7 +73,7 @@ class LeaderRole {
              std::chrono::nanoseconds now);
   void leave(CellId cell, std::chrono::nanoseconds now);
   /// All beacons that we carry, in the place of those before. One in a cell that we have not joined
-  /// is not told.
+  /// is not announced.
   void set_beacons(std::span<const CarriedBeacon> beacons, Nanoseconds now);
 
   // What others say, `sender` being the life that their datagram is from.
@@ -103,8 +103,8 @@ class LeaderRole {
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
   /// States of snapshots since the last call.
-  [[nodiscard]] std::vector<RelayedState> take_relayed() { return std::exchange(told_, {}); }
-  [[nodiscard]] bool has_relayed() const noexcept { return !told_.empty(); }
+  [[nodiscard]] std::vector<RelayedState> take_relayed() { return std::exchange(relayed_, {}); }
+  [[nodiscard]] bool has_relayed() const noexcept { return !relayed_.empty(); }
   // Where groups are handed out (LeaderConfig::hand_out) ------------------------------------------
 
   /// The group to speak to in a cell: the base group until the cell's has been in the map for
@@ -170,7 +170,7 @@ class LeaderRole {
     pdu.simulation = signature.simulation;
     pdu.epoch = leadership_.epoch();
   }
-  /// Changes of the map within this are told together.
+  /// Changes of the map within this are sent together.
   static constexpr Nanoseconds kMapGap = std::chrono::milliseconds(100);
 
   LeaderConfig config_;
@@ -194,7 +194,7 @@ class LeaderRole {
   Nanoseconds next_plea_{}, next_map_ask_{};
   std::uint32_t version_ = 0;
   std::vector<std::byte> roles_;  ///< encoded, to be sent
-  std::vector<RelayedState> told_;
+  std::vector<RelayedState> relayed_;
 };
 
 }  // namespace reckon::aoim

@@ -166,12 +166,12 @@ void Leading::receive(GroupIndex group, std::span<const std::byte> datagram, std
 
 std::vector<RelayedState> Leading::take_relayed(nanoseconds now) {
   std::vector<RelayedState> taken;
-  for (RelayedState& told : role_.take_relayed()) told_.emplace_back(now, std::move(told));
-  for (auto& [since, told] : told_) {
-    if (presence_.standing(told.epoch) == Standing::member)
-      taken.push_back(std::exchange(told, {}));
+  for (RelayedState& relayed : role_.take_relayed()) relayed_.emplace_back(now, std::move(relayed));
+  for (auto& [since, relayed] : relayed_) {
+    if (presence_.standing(relayed.epoch) == Standing::member)
+      taken.push_back(std::exchange(relayed, {}));
   }
-  std::erase_if(told_, [now](const auto& waiting) {
+  std::erase_if(relayed_, [now](const auto& waiting) {
     return waiting.second.octets.empty() || now - waiting.first > kOwnerAwaited;
   });
   return taken;

@@ -79,7 +79,9 @@ class Leading {
   /// are known by now. One that is older than what the owner itself sent is to be dropped.
   [[nodiscard]] std::vector<RelayedState> take_relayed(Nanoseconds now);
   /// Whether take_relayed() has anything to look at.
-  [[nodiscard]] bool has_relayed() const noexcept { return role_.has_relayed() || !told_.empty(); }
+  [[nodiscard]] bool has_relayed() const noexcept {
+    return role_.has_relayed() || !relayed_.empty();
+  }
 
   // Beacons ---------------------------------------------------------------------------------------
 
@@ -110,8 +112,8 @@ class Leading {
   std::vector<HandedOut> handed_out_;  // by group index - 1
   std::vector<bool> unread_;  // cells whose leaders are still to be asked, by their number - 1
   std::vector<GroupIndex> join_, leave_;
-  std::vector<CarriedBeacon> carried_;                   // of ours
-  std::vector<std::pair<Nanoseconds, RelayedState>> told_;  // and when
+  std::vector<CarriedBeacon> carried_;                         // of ours
+  std::vector<std::pair<Nanoseconds, RelayedState>> relayed_;  // and when
   bool started_ = false;
   Nanoseconds begun_{};        // when we started
   Nanoseconds stepped_{};      // the last time

@@ -39,7 +39,7 @@ class SnapshotReader {
   /// Fills in what is lacking of the role's cell, if anything and if it is time to ask: the first
   /// 64 parts from `from` on. The next place to look from; 0 where there is no more to ask.
   std::size_t fill(pdu::CellRole& role, std::size_t from, std::chrono::nanoseconds now);
-  /// A cell of which nobody has told us all in time, which is given up; false where there is none.
+  /// A cell of which nobody has sent us all in time, which is given up; false where there is none.
   bool take_given_up(std::chrono::nanoseconds now, CellId& cell);
   /// Whether something of this cell is still lacking.
   [[nodiscard]] bool reads(CellId cell) const noexcept;

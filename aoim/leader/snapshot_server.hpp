@@ -20,8 +20,8 @@
 namespace reckon::aoim {
 
 /// The snapshots of the cells that one peer leads. One thread; allocates. Who asks again and again
-/// is told everything once a second (IntroductionBudget): begun snapshots and parts that are lacked
-/// wait for that.
+/// receives everything once a second (IntroductionBudget): begun snapshots and parts that are
+/// lacked wait for that.
 class SnapshotServer {
  public:
   /// States of one part [octets]: with its head and the datagram's trailer it fits where eight bare

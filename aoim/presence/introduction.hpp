@@ -63,7 +63,7 @@ class Introduction {
   /// When the last entity follows a newcomer that is heard now.
   [[nodiscard]] std::chrono::nanoseconds spread() const noexcept { return spread_; }
 
-  /// Forgets newcomers to whom everything has been told.
+  /// Forgets newcomers to whom everything has been sent.
   void expire(std::chrono::nanoseconds now);
 
   /// False where nobody is to be introduced: no entity need be asked about.

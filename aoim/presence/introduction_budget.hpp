@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What introductions may cost: whoever joins, or says that it does, is told of all that a peer
+// What introductions may cost: whoever joins, or says that it does, receives all that a peer
 // owns, and one short datagram must not cause a hundred long ones again and again.
 #pragma once
 
@@ -29,9 +29,9 @@ class IntroductionBudget {
   void spend(std::size_t octets, std::chrono::nanoseconds now) noexcept;
 
  private:
-  double burst_ = kLeastBurst;         // [octets]
-  double rate_ = kLeastRate;           // [octets/s]
-  double spent_ = 0.0;                 // of burst_, at since_
+  double burst_ = kLeastBurst;  // [octets]
+  double rate_ = kLeastRate;    // [octets/s]
+  double spent_ = 0.0;          // of burst_, at since_
   std::chrono::nanoseconds since_{0};
 };
 

@@ -23,7 +23,7 @@ class JoinAsks {
  public:
   /// Cells of one question at most.
   static constexpr std::size_t kMostCells = 128;
-  /// Who has something to tell has told it by then: 130 ms, and slow steps at both ends. Before,
+  /// Who has something to send has sent it by then: 130 ms, and slow steps at both ends. Before,
   /// silence tells nothing.
   static constexpr std::chrono::milliseconds kAnswered{300};
   /// A question is said again with an announcement, which leaves so long after it at the latest.

@@ -21,11 +21,11 @@ namespace reckon::aoim {
 
 /// What the last lists of a peer say.
 struct Hearing {
-  std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when the last one came
+  std::chrono::nanoseconds reported{std::chrono::nanoseconds::min()};  ///< when the last one came
   /// When one came that would list us, or the rival, if it heard us.
-  std::chrono::nanoseconds us_told = told, rival_told = told;
+  std::chrono::nanoseconds us_reported = reported, rival_reported = reported;
   /// The same of one that does list us.
-  std::chrono::nanoseconds us_listed = told;
+  std::chrono::nanoseconds us_listed = reported;
   bool us = false;
   bool missed_us = false;   ///< it had to hear us and did not, and has not listed us since
   bool strangers = false;   ///< it hears lives that we do not know
@@ -56,8 +56,8 @@ struct Peer {
   LifeTip tip;
   bool confirmed = false;      ///< heard more than once
   bool impostor_told = false;  ///< of this life
-  bool quiet = false;          ///< told as such
-  bool unheard = false;        ///< told as such
+  bool quiet = false;          ///< reported as such
+  bool unheard = false;        ///< reported as such
   Hearing hears;
 
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }

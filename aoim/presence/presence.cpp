@@ -263,7 +263,7 @@ void Presence::remove(std::size_t index, PresenceEventKind why) {
   peers_.erase(index);
 }
 
-// When this one is to be told as quiet, or is lost, if it says nothing more.
+// When this one is to be reported as quiet, or is lost, if it says nothing more.
 nanoseconds Presence::silence_due(const Peer& peer) const noexcept {
   const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
   return peer.last_heard + bound + nanoseconds(1);

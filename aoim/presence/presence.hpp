@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Who else is here. Each peer announces itself on the base group at once on start, when it hears a
-// newcomer, and every second; six missed announcements mean it is gone. Another scene is told once
-// and not joined. Who claims an id that another holds waits until it is plain whether the other
-// still lives; two that live settle it between themselves.
+// newcomer, and every second; six missed announcements mean it is gone. Another scene is reported
+// once and not joined. Who claims an id that another holds waits until it is plain whether the
+// other still lives; two that live settle it between themselves.
 #pragma once
 
 #include <chrono>
@@ -60,12 +60,12 @@ struct PresenceConfig {
   /// How lives prove that they are the same as before; null: they do not, and keep their address.
   OneWay one_way = nullptr;
   ChainLink secret{};  ///< of this life, drawn at random
-  /// Silence after which a peer is told as quiet.
+  /// Silence after which a peer is reported as quiet.
   std::chrono::nanoseconds quiet = std::chrono::milliseconds(2500);
   /// Peers heard within this time are in our list of those whom we hear.
   std::chrono::nanoseconds listed = std::chrono::milliseconds(1750);
   /// Peers remembered; default 1,024. Further ones are counted and not joined, unless one can go
-  /// that announced itself once and said nothing since, or never told whom it hears.
+  /// that announced itself once and said nothing since, or never said whom it hears.
   std::size_t capacity = 1024;
   /// Peers believed of one address and port, that is of one process; default 64, what a replayed
   /// exercise may have. Of one address: half of `capacity`.
@@ -86,14 +86,14 @@ enum class PresenceEventKind : std::uint8_t {
   moved,             ///< it speaks from `source` now, no more from `other`, and has proved itself
   departed,          ///< said good-bye, or lost its id: drop its entities
   timed_out,         ///< silent for six heartbeats: drop its entities
-  scene_mismatch,    ///< another scene or cell grid: told once per life, not joined; drop its
+  scene_mismatch,    ///< another scene or cell grid: reported once per life, not joined; drop its
                      ///< entities
   identity_changed,  ///< we lost a dispute: `announced` is ours with the new id, `former` the old
                      ///< id
-  settled,           ///< we hold our id, and all who hear us believe it now: introduce. Not told
-                     ///< beyond the area-of-interest manager, see is_settled()
-  heard_late,        ///< it hears us, but did not when we introduced our entities: introduce again.
-                     ///< Not told beyond the area-of-interest manager
+  settled,      ///< we hold our id, and all who hear us believe it now: introduce. Not reported
+                ///< beyond the area-of-interest manager, see is_settled()
+  heard_late,   ///< it hears us, but did not when we introduced our entities: introduce again.
+                ///< Not reported beyond the area-of-interest manager
   disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
                 ///< from `other`; the holder speaks from `source`, none where that is this
                 ///< peer. Once per claimant
@@ -139,7 +139,7 @@ enum class Standing : std::uint8_t {
   unknown,      ///< no announcement heard (yet), or it claims an id that another holds
   own,          ///< ourselves
   member,       ///< same scene, present life
-  other_scene,  ///< told and not joined
+  other_scene,  ///< reported and not joined
   former_life,  ///< a later life of that peer has been heard since, or it said good-bye
   impostor,     ///< it speaks in the name of a peer that speaks from elsewhere
 };
@@ -181,7 +181,7 @@ class Presence {
   /// once and some times more, so that others take the proof soon.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept;
   /// A datagram in the name of this epoch came from elsewhere; see Standing::impostor. Of one that
-  /// can prove itself it is told when it has not done so half a second later.
+  /// can prove itself it is reported when it has not done so half a second later.
   void note_impostor(std::uint32_t epoch, const SourceAddress& from, std::chrono::nanoseconds now);
 
   /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
@@ -248,7 +248,7 @@ class Presence {
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  static constexpr std::size_t kCrowds = 16;  // sources remembered as told
+  static constexpr std::size_t kCrowds = 16;  // sources remembered as reported
 
   // A peer that announces itself under an id that another holds, or we do.
   struct Claimant {
@@ -257,7 +257,7 @@ class Presence {
     SourceAddress source;
     Hearing hears;
     LifeTip tip;
-    bool told = false;
+    bool reported = false;
   };
   // What our next announcement is for.
   enum class Cause : std::uint8_t { heartbeat, repetition, news };
@@ -368,7 +368,7 @@ class Presence {
   std::uint32_t listed_to_ = 0;    // the last one of the last part of our list
   std::vector<Claimant> claimants_;
   FormerLives former_;
-  std::vector<SourceAddress> crowds_;  // told, oldest first
+  std::vector<SourceAddress> crowds_;  // reported, oldest first
   std::vector<std::uint32_t> list_;
   std::vector<pdu::Presence> outgoing_, farewells_;
   std::vector<PresenceEvent> events_, taken_;

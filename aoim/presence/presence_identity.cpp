@@ -16,7 +16,7 @@ using std::chrono::nanoseconds;
 constexpr std::chrono::milliseconds kStraggler{200};
 // A life that was taken for over and speaks after this is alive.
 constexpr std::chrono::milliseconds kRevival{1000};
-// A claim that is not settled after this is told.
+// A claim that is not settled after this is reported.
 constexpr std::chrono::milliseconds kLongDispute{1000};
 // Beyond the wait of a restart and a straggler: all who hear us believe us.
 constexpr std::chrono::milliseconds kBelieved{850};
@@ -107,7 +107,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
     insist(now);
   } else if (claimant->announced.simulation != heard.simulation) {
     claimant->since = now;
-    claimant->told = false;
+    claimant->reported = false;
   }
   claimant->announced = heard;
   claimant->last_heard = now;
@@ -163,8 +163,8 @@ bool Presence::settle_claims(nanoseconds now) {
       continue;
     }
     const bool still = now - claimant.last_heard < kLongDispute;
-    if (claimant.told || !still || now - claimant.since <= kLongDispute) continue;
-    claimant.told = true;
+    if (claimant.reported || !still || now - claimant.since <= kLongDispute) continue;
+    claimant.reported = true;
     tell(PresenceEventKind::disputed, claimant.announced);
     events_.back().other = claimant.source;
     if (!ours) events_.back().source = peers_[holder].source;
@@ -248,9 +248,11 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
   if (any_is_back) return false;
   const std::uint32_t theirs = rival.announced.epoch;
   const nanoseconds since = now - kRecentList - round();
-  const auto names_us = [since](const Hearing& hears) { return hears.us_told > since && hears.us; };
+  const auto names_us = [since](const Hearing& hears) {
+    return hears.us_reported > since && hears.us;
+  };
   const auto names_rival = [since, theirs](const Hearing& hears) {
-    return hears.rival_told > since && hears.rival == theirs;
+    return hears.rival_reported > since && hears.rival == theirs;
   };
   const Support mine =
       support([&](const Hearing& hears, std::uint32_t) { return names_us(hears); });
@@ -260,7 +262,7 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
   // Whether somebody whom we hear has named neither of us and will: a newcomer, or one that was
   // cut off. One that never tells whom it hears is no witness.
   const bool awaited = std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
-    const bool tells = peer.hears.told > since || now - peer.first_heard <= config_.established;
+    const bool tells = peer.hears.reported > since || now - peer.first_heard <= config_.established;
     return peer.joined && peer.confirmed && tells && now - peer.last_heard <= config_.listed &&
            !names_us(peer.hears) && !names_rival(peer.hears);
   });
@@ -353,10 +355,10 @@ nanoseconds Presence::next_identity_step() const noexcept {
       next = std::min(next, restart_at(claimant, peers_[holder]));
     }
     // Not where it was silent for longer when we looked last, having stood still ourselves.
-    const nanoseconds told = claimant.since + kLongDispute + nanoseconds(1);
+    const nanoseconds reported = claimant.since + kLongDispute + nanoseconds(1);
     const nanoseconds looked = awake_.value_or(nanoseconds::min());
-    if (!claimant.told && std::max(told, looked) < claimant.last_heard + kLongDispute) {
-      next = std::min(next, told);
+    if (!claimant.reported && std::max(reported, looked) < claimant.last_heard + kLongDispute) {
+      next = std::min(next, reported);
     }
   }
   return next;

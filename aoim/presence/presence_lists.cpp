@@ -32,14 +32,14 @@ void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseco
     if ((list.continues & pdu::kPeersHeardAbove) != 0) last = highest;
   }
   const auto covers = [&](std::uint32_t epoch) { return first <= epoch && epoch <= last; };
-  hearing.told = now;
+  hearing.reported = now;
   if (covers(own_.epoch)) {
     hearing.us = false;
-    hearing.us_told = now;
+    hearing.us_reported = now;
   }
   if (covers(hearing.rival)) {
     hearing.rival = 0;
-    hearing.rival_told = now;
+    hearing.rival_reported = now;
   }
   if (!below) hearing.strangers = false;
   for (const pdu::PeerEpoch& heard : epochs) {
@@ -48,7 +48,7 @@ void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseco
     const Claimant* claimant = find_claimant(heard.epoch);
     if (claimant != nullptr && claimant->announced.simulation == id()) {
       hearing.rival = heard.epoch;
-      hearing.rival_told = now;
+      hearing.rival_reported = now;
     }
     if (claimant == nullptr && standing(heard.epoch) == Standing::unknown) hearing.strangers = true;
   }
@@ -80,7 +80,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
   if (peer.hears.us && peer.unheard) {
     peer.unheard = false;
     tell(PresenceEventKind::heard_again, peer);
-  } else if (!peer.hears.us && peer.hears.us_told == now && !peer.unheard && running_ &&
+  } else if (!peer.hears.us && peer.hears.us_reported == now && !peer.unheard && running_ &&
              now > acquainted) {
     peer.unheard = true;
     tell(PresenceEventKind::unheard, peer);
@@ -90,7 +90,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
 // What we introduce is lost on one that does not believe us yet, or has forgotten us.
 void Presence::note_listing(Peer& peer, nanoseconds now) {
   Hearing& hears = peer.hears;
-  if (!running_ || hears.us_told != now) return;
+  if (!running_ || hears.us_reported != now) return;
   if (hears.us) {
     if (std::exchange(hears.missed_us, false)) tell(PresenceEventKind::heard_late, peer);
     hears.us_listed = now;

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kTells{3000};
 
 }  // namespace
 
-// One process has one id. Told once for each source, as long as it is remembered.
+// One process has one id. Reported once for each source, as long as it is remembered.
 bool Presence::is_crowd(const SourceAddress& from) {
   if (from.port == 0) return false;
   std::size_t of_process = 0, of_address = 0;
@@ -29,10 +29,10 @@ bool Presence::is_crowd(const SourceAddress& from) {
   for (const Claimant& claimant : claimants_) count(claimant.source);
   if (of_process < config_.per_source && of_address < (config_.capacity + 1) / 2) return false;
   ++counts_.crowd;
-  const bool told = std::any_of(crowds_.begin(), crowds_.end(), [&](const SourceAddress& one) {
+  const bool reported = std::any_of(crowds_.begin(), crowds_.end(), [&](const SourceAddress& one) {
     return one.octets == from.octets;
   });
-  if (told) return true;
+  if (reported) return true;
   if (crowds_.size() == kCrowds) crowds_.erase(crowds_.begin());
   crowds_.push_back(from);
   tell(PresenceEventKind::crowd, own_);
@@ -40,7 +40,7 @@ bool Presence::is_crowd(const SourceAddress& from) {
   return true;
 }
 
-// Who announced itself once and said nothing since goes, and who never told whom it hears; of all
+// Who announced itself once and said nothing since goes, and who never said whom it hears; of all
 // these the one that came first.
 bool Presence::make_room(std::chrono::nanoseconds now, const SourceAddress& from) {
   if (is_crowd(from)) return false;
@@ -49,7 +49,7 @@ bool Presence::make_room(std::chrono::nanoseconds now, const SourceAddress& from
     std::size_t oldest = peers_.size();
     for (std::size_t i = 0; i < peers_.size(); ++i) {
       const Peer& peer = peers_[i];
-      const bool tells = peer.hears.told > std::chrono::nanoseconds::min();
+      const bool tells = peer.hears.reported > std::chrono::nanoseconds::min();
       const std::chrono::nanoseconds since = now - peer.first_heard;
       if (peer.confirmed ? tells || since <= kTells : since <= kConfirmation) continue;
       if (oldest == peers_.size() || peers_[i].first_heard < peers_[oldest].first_heard) oldest = i;

@@ -35,10 +35,10 @@ bool AdaptiveOrder::add(const MotionSample& sample) noexcept {
   return true;
 }
 
-bool AdaptiveOrder::add(const MotionSample& sample, const Pose& told) noexcept {
+bool AdaptiveOrder::add(const MotionSample& sample, const Pose& sent) noexcept {
   const double before = history_.size() > 0 ? history_[0].time : sample.time;
   if (!add(sample)) return false;
-  const double error = (sample.position - told.position).norm();
+  const double error = (sample.position - sent.position).norm();
   told_error_ = std::max(settings_.memory * told_error_, error);
   interval_ = std::max(settings_.memory * interval_, sample.time - before);
   return true;
@@ -76,21 +76,21 @@ double AdaptiveOrder::stray(double tau) const noexcept {
   return kSpare * told_error_ * waited * waited * waited;
 }
 
-Pose AdaptiveOrder::predict_near(const Pose& told, double tau) const noexcept {
+Pose AdaptiveOrder::predict_near(const Pose& sent, double tau) const noexcept {
   const double most = stray(tau);
-  if (!(most > 0)) return told;
+  if (!(most > 0)) return sent;
   Pose pose = predict(tau);
-  const Eigen::Vector3d off = pose.position - told.position;
+  const Eigen::Vector3d off = pose.position - sent.position;
   const double distance = off.norm();
-  if (!std::isfinite(distance)) return told;
+  if (!std::isfinite(distance)) return sent;
   const double fade = std::min((kGivenUp - silence(tau)) / (kGivenUp - kFollowed), 1.0);
   const double scale = fade * (distance > most ? most / distance : 1.0);
-  pose.position = told.position + scale * off;
-  pose.velocity = told.velocity + scale * (pose.velocity - told.velocity);
+  pose.position = sent.position + scale * off;
+  pose.velocity = sent.velocity + scale * (pose.velocity - sent.velocity);
   if (fade < 1) {
-    pose.orientation = told.orientation.slerp(fade, pose.orientation);
+    pose.orientation = sent.orientation.slerp(fade, pose.orientation);
     pose.angular_velocity =
-        told.angular_velocity + fade * (pose.angular_velocity - told.angular_velocity);
+        sent.angular_velocity + fade * (pose.angular_velocity - sent.angular_velocity);
   }
   return pose;
 }

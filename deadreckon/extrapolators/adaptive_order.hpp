@@ -32,18 +32,18 @@ class AdaptiveOrder {
   /// Takes an update; what each extrapolator had predicted for its instant is scored first. False
   /// where the history refuses it.
   bool add(const MotionSample& sample) noexcept;
-  /// Takes an update for which the update before had `told` this pose: what prediction as sent was
+  /// Takes an update for which the update before had `sent` this pose: what prediction as sent was
   /// off by then bounds how far the choice may later stray from it.
-  bool add(const MotionSample& sample, const Pose& told) noexcept;
+  bool add(const MotionSample& sample, const Pose& sent) noexcept;
   /// The pose `tau` seconds after the newest update, by the present choice, wherever that leads.
   [[nodiscard]] Pose predict(double tau) const noexcept;
-  /// The same, kept near `told`, the pose that the newest update tells for this instant. An owner
-  /// that sends by a threshold and is silent says by that: I am where I told, but for the
+  /// The same, kept near `sent`, the pose that the newest update states for this instant. An owner
+  /// that sends by a threshold and is silent says by that: I am where I said, but for the
   /// threshold. So the choice is followed as far as the last updates have shown prediction as sent
   /// to be off, and given up in the course of a silence much longer than theirs.
-  /// |pose - told| <= stray(tau); the orientation follows the choice, and comes back alike.
-  [[nodiscard]] Pose predict_near(const Pose& told, double tau) const noexcept;
-  /// The most that predict_near() goes from what was told [m]: what prediction as sent was off by,
+  /// |pose - sent| <= stray(tau); the orientation follows the choice, and comes back alike.
+  [[nodiscard]] Pose predict_near(const Pose& sent, double tau) const noexcept;
+  /// The most that predict_near() goes from what was sent [m]: what prediction as sent was off by,
   /// growing with the third power of time as the error of a second order does; 0 from kGivenUp
   /// intervals on.
   [[nodiscard]] double stray(double tau) const noexcept;

@@ -24,15 +24,15 @@ namespace reckon::deadreckon {
 /// `none` gives no force.
 struct ForceModel {
   pdu::ForceModelKind kind = pdu::ForceModelKind::none;
-  double k1 = 0;                                       ///< Stiffness [N/m], >= 0.
-  double k3 = 0;                                       ///< Hardening [N/m^3], >= 0.
-  double damping = 0;                                  ///< Along the normal [N s/m], >= 0.
-  double mass = 0;                                     ///< Of the entity [kg], >= 0; 0 = not told.
-  double static_friction = 0;                          ///< Coefficient, >= kinetic_friction.
-  double kinetic_friction = 0;                         ///< Coefficient, >= 0.
-  double restitution = 0;                              ///< 0 (plastic) to 1 (elastic).
-  double radius = 0;                                   ///< Of sphere, field or region [m], >= 0.
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< Centre or contact point, body axes [m].
+  double k1 = 0;                                    ///< Stiffness [N/m], >= 0.
+  double k3 = 0;                                    ///< Hardening [N/m^3], >= 0.
+  double damping = 0;                               ///< Along the normal [N s/m], >= 0.
+  double mass = 0;                                  ///< Of the entity [kg], >= 0; 0 = not stated.
+  double static_friction = 0;                       ///< Coefficient, >= kinetic_friction.
+  double kinetic_friction = 0;                      ///< Coefficient, >= 0.
+  double restitution = 0;                           ///< 0 (plastic) to 1 (elastic).
+  double radius = 0;                                ///< Of sphere, field or region [m], >= 0.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< Centre or contact point, body axes [m].
   Eigen::Vector3d normal = -Eigen::Vector3d::UnitZ();  ///< Outwards, body axes, unit (body up).
   std::uint16_t surface = 0;                           ///< Identity of the touched surface.
   double validity = 0;  ///< Seconds for which the coefficients hold after the update.

@@ -194,9 +194,9 @@ bool should_send(const PartState& truth, const PartState& sent, double since,
                  const PartThresholds& thresholds, double longest) noexcept {
   if (truth.parameters().size() != sent.parameters().size()) return true;
   for (const PartParameter& is : truth.parameters()) {
-    const PartParameter* told = sent.find(is.part, is.metric);
-    if (told == nullptr || told->attached_to != is.attached_to) return true;
-    const double off = difference(is.metric, is.value, predict(*told, since, longest).value);
+    const PartParameter* last = sent.find(is.part, is.metric);
+    if (last == nullptr || last->attached_to != is.attached_to) return true;
+    const double off = difference(is.metric, is.value, predict(*last, since, longest).value);
     // Negated, so that what is not a number is sent too.
     if (!(std::abs(off) <= threshold(is.metric, thresholds))) return true;
   }

@@ -31,7 +31,7 @@ enum class PartMetric : std::uint8_t {
   return metric >= PartMetric::azimuth;
 }
 
-/// One number of one part, with its rate, as an update told it.
+/// One number of one part, with its rate, as an update stated it.
 struct PartParameter {
   std::uint32_t part = 0;         ///< Class of the part, SISO UID 59, without the metric.
   std::uint16_t attached_to = 0;  ///< 0 = the entity itself, else a part.
@@ -144,8 +144,8 @@ class PartConvergence {
       : settings_(settings), longest_(longest) {}
 
   /// An update of the instant `time` takes over at `now`. Parts that are new or attached elsewhere
-  /// are shown as told at once, so are lengths off by more than the teleport distance; parts that
-  /// are not in it are gone.
+  /// are shown as received at once, so are lengths off by more than the teleport distance; parts
+  /// that are not in it are gone.
   void update(const PartState& state, double time, double now) noexcept {
     update(state, time, now, longest_);
   }

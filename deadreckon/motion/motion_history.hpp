@@ -11,7 +11,7 @@
 
 namespace reckon::deadreckon {
 
-/// The motion that one update told, all in reference axes but the angular velocity. A sender that
+/// The motion that one update stated, all in reference axes but the angular velocity. A sender that
 /// sends positions alone leaves the rates at zero.
 struct MotionSample {
   double time = 0;                                     ///< Of the sender's instant [s].

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers by their lowest bits: how many are told, and which number was meant. Under the residual
+// Numbers by their lowest bits: how many are sent, and which number was meant. Under the residual
 // form; pure functions, inline so that nothing goes through memory. Any thread.
 #pragma once
 

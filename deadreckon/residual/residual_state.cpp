@@ -190,8 +190,8 @@ struct Reading {
   n.orientation = wrapped(take(in, old.orientation, width(kOrientation)), scale.turn_bits);
   const unsigned turning = in.take(kAxisBits);
   n.angular_velocity = each_axis([&](auto i) {
-    const unsigned told = width(kTurnRate) * (turning >> i & 1U);
-    return restored(in.take(told), old.angular_velocity[i], told);
+    const unsigned turn_bits = width(kTurnRate) * (turning >> i & 1U);
+    return restored(in.take(turn_bits), old.angular_velocity[i], turn_bits);
   });
   n.acceleration = take(in, old.acceleration, width(kAcceleration));
   n.velocity = take(in, nearest(predicted_velocity(old, n, scale)), width(kVelocity));
@@ -280,9 +280,9 @@ bool ResidualEncoder::restores(const Widths& widths, const StateNumbers& now,
     return (back[0] ^ numbers[0]) | (back[1] ^ numbers[1]) | (back[2] ^ numbers[2]);
   };
   const auto rates = each_axis([&](auto i) {
-    const unsigned told = kWidths[widths.code[kTurnRate]] * (widths.turning >> i & 1U);
+    const unsigned turn_bits = kWidths[widths.code[kTurnRate]] * (widths.turning >> i & 1U);
     const std::int32_t rate = now.angular_velocity[i];
-    return restored(static_cast<std::uint64_t>(rate), old.angular_velocity[i], told) ^ rate;
+    return restored(static_cast<std::uint64_t>(rate), old.angular_velocity[i], turn_bits) ^ rate;
   });
   const auto angles = wrapped(
       restored(bits_of(now.orientation), old.orientation, kWidths[widths.code[kOrientation]]),

@@ -37,7 +37,7 @@ class ResidualEncoder {
   explicit ResidualEncoder(const pdu::StateScale& scale = {}) noexcept : scale_(scale) {}
 
   /// Notes that `state` goes out plain, as the key of what follows. False where its motion cannot
-  /// be told in quanta: then everything goes plain.
+  /// be stated in quanta: then everything goes plain.
   bool note_key(const pdu::EntityState& state) noexcept;
 
   /// Writes the body of `state`. Octets written; 0 where it has to go plain, as a key: there is no
@@ -54,7 +54,7 @@ class ResidualEncoder {
   };
   struct Widths {
     std::array<unsigned, 5> code{};
-    unsigned turning = 0;  // a bit for each axis whose turn rate is told
+    unsigned turning = 0;  // a bit for each axis whose turn rate is sent
     bool fit = true;
   };
   void note(const ResidualReference& sent) noexcept;

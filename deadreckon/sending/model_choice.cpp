@@ -19,7 +19,7 @@ bool is_off(const MotionSample& truth, const Pose& seen, const Thresholds& thres
          !(angle_between(truth.orientation, seen.orientation) <= thresholds.angle);
 }
 
-// Which models are alike for a motion is told by their poses after so long [s]...
+// Which models are alike for a motion is seen from their poses after so long [s]...
 constexpr double kHorizon = 1.0;
 // ...being within this share of the thresholds.
 constexpr double kAlike = 0.1;

@@ -47,9 +47,9 @@ class ModelChoice {
             const SendRule& rule = kDefaultSendRule) noexcept;
 
   /// The model to send the latest sample with; FPW before the first. The first sample decides for
-  /// the simplest model whose pose a second later is that of RVB, which uses all that is told.
+  /// the simplest model whose pose a second later is that of RVB, which uses all that is sent.
   /// Where that is FPW it decides for RPB if orientations count (a threshold below half a turn), so
-  /// that the first bend is told too. While the sample tells no turn, FPW is named for RPB and RVW
+  /// that the first bend is sent too. While the sample tells no turn, FPW is named for RPB and RVW
   /// for RVB: the same prediction in reference axes.
   [[nodiscard]] pdu::DeadReckoningAlgorithm chosen() const noexcept;
 

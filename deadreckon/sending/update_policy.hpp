@@ -33,7 +33,7 @@ enum class SendReason : std::uint8_t {
 inline constexpr double kHapticHeartbeat = 5.0;
 
 /// An event is said again after this [s] at the latest, where changes are said again at all: who
-/// was told of an entity in one datagram that was lost does not see it until then.
+/// missed the one datagram with it does not see it until then.
 inline constexpr double kEventRepeat = 0.6;
 
 /// A peer is silent when nothing came for this many heartbeats.

@@ -38,8 +38,8 @@ double Blow::move_on(double dt, bool felt) noexcept {
   return dt + (behind - playback_.behind());
 }
 
-double Blow::deepest_guess(double told, double closing, double k1) noexcept {
-  return told + closing * std::sqrt(kStopped / std::max(k1, 1.0));
+double Blow::deepest_guess(double depth, double closing, double k1) noexcept {
+  return depth + closing * std::sqrt(kStopped / std::max(k1, 1.0));
 }
 
 double Blow::release(double dt) const noexcept {

@@ -46,9 +46,9 @@ class Blow {
   [[nodiscard]] bool is_guessed(double since) const noexcept {
     return is_on() && since > playback_.behind();
   }
-  /// How deep a hand comes into ours that was `told` [m] deep and closes in at `closing` [m/s]: as
-  /// a light hand would that a spring of k1 [N/m] stops.
-  [[nodiscard]] static double deepest_guess(double told, double closing, double k1) noexcept;
+  /// How deep a hand comes into ours that was stated to be `depth` [m] deep and closes in at
+  /// `closing` [m/s]: as a light hand would that a spring of k1 [N/m] stops.
+  [[nodiscard]] static double deepest_guess(double depth, double closing, double k1) noexcept;
 
   /// Share of what a surface stands too deep in our hand that it goes back in dt [s]: in a blow as
   /// fast as the news says. What a follower would leave standing strikes our hand harder than its

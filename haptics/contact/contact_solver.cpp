@@ -104,7 +104,7 @@ ContactResult ContactSolver::step(const Vector3d& device) noexcept {
 }
 
 // The SCP never gets farther from the device than it is. What is touched may be left behind by a
-// way that no longer meets its box, and is to be told.
+// way that no longer meets its box, and is to be notified.
 void ContactSolver::find_near(const Vector3d& device) noexcept {
   ++step_;
   near_.clear();

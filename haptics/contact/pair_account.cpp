@@ -19,21 +19,21 @@ void PairAccount::open(const pdu::EntityId& whose, std::uint32_t life, double to
   id = whose;
   used = true;
   epoch = life;
-  told = seen = std::isfinite(total) ? std::max(0.0, total) : 0.0;
+  stated = seen = std::isfinite(total) ? std::max(0.0, total) : 0.0;
 }
 
 void PairAccount::hear(std::uint32_t life, double total) noexcept {
   const bool sound = std::isfinite(total) && total >= 0 && total <= kGreatestTotal;
   if (life != epoch) {
     epoch = life;
-    seen = told = sound ? total : kGreatestTotal;
+    seen = stated = sound ? total : kGreatestTotal;
   } else if (sound) {
-    told = std::max(told, total);
+    stated = std::max(stated, total);
   }
 }
 
 void PairAccount::claim(EnergyPort& port) noexcept {
-  const double claimed = std::min(told - seen, port.receivable());
+  const double claimed = std::min(stated - seen, port.receivable());
   if (!(claimed > 0)) return;
   const double fits = port.credit(claimed, std::max(0.0, believed));
   received += fits;

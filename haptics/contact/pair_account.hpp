@@ -19,7 +19,7 @@ struct PairAccount {
   std::uint64_t last_step = 0;  ///< of the servo, when it was last in a contact set
   double given = 0.0;           ///< [J], running total from us
   double received = 0.0;        ///< [J], credited to us
-  double told = 0.0;            ///< [J], greatest total heard from the owner
+  double stated = 0.0;          ///< [J], greatest total heard from the owner
   double seen = 0.0;            ///< [J], of it, what was credited or is lost; the rest waits
   /// [J], what the owner should have in store by what we saw: work that its surface did on our
   /// spring and our gifts to it, less what was credited from it. What it says to have given is

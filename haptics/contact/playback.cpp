@@ -21,11 +21,11 @@ double seconds(std::chrono::nanoseconds time) noexcept {
   return 1e-9 * static_cast<double>(time.count());
 }
 
-// On from a pose for `longer` [s], no faster than it was `told` [m/s] to be, and not back.
-deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& told,
+// On from a pose for `longer` [s], no faster than `stated` [m/s], and not back.
+deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& stated,
                           double longer) noexcept {
-  if (pose.velocity.squaredNorm() > told.squaredNorm()) pose.velocity = told;
-  if (!(pose.velocity.dot(told) > 0)) pose.velocity.setZero();
+  if (pose.velocity.squaredNorm() > stated.squaredNorm()) pose.velocity = stated;
+  if (!(pose.velocity.dot(stated) > 0)) pose.velocity.setZero();
   pose.position += longer * pose.velocity;
   return pose;
 }
@@ -35,20 +35,20 @@ deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& told,
 deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) noexcept {
   if (!(age > kTrustedFaster)) return deadreckon::extrapolate(state, age);
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
-  // Told to go on as it does: where it leads says nothing more.
+  // It goes on as it does: where it leads says nothing more.
   if (!terms.acceleration && !terms.body_axes) {
     if (!(age > kTrusted)) return deadreckon::extrapolate(state, age);
     const deadreckon::Pose steady = deadreckon::extrapolate(state, kTrusted);
     return carry_on(steady, steady.velocity, age - kTrusted);
   }
-  const Eigen::Vector3d told =
+  const Eigen::Vector3d stated =
       terms.body_axes ? deadreckon::extrapolate(state, 0.0).velocity : state.velocity;
   deadreckon::Pose pose = deadreckon::extrapolate(state, kTrustedFaster);
-  const bool faster = pose.velocity.squaredNorm() > told.squaredNorm();
+  const bool faster = pose.velocity.squaredNorm() > stated.squaredNorm();
   const double trusted = faster ? kTrustedFaster : kTrusted;
   if (!(age > trusted)) return deadreckon::extrapolate(state, age);
   if (!faster) pose = deadreckon::extrapolate(state, trusted);
-  return carry_on(pose, told, age - trusted);
+  return carry_on(pose, stated, age - trusted);
 }
 
 void Playback::hear(const deadreckon::KinematicState& state,

@@ -89,9 +89,9 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
   blow_.hear(hand.state, hand.state_time);
-  const ContactParameters told = target_at(pose_told(), step);
-  told_ = told.point;
-  if (!touching() || haptics::geometry(told, step.probe).depth < 0) expect_blow(step);
+  const ContactParameters stated = target_at(stated_pose(), step);
+  stated_point_ = stated.point;
+  if (!touching() || haptics::geometry(stated, step.probe).depth < 0) expect_blow(step);
   pose_ = pose_now();
   full_ = target_at(pose_, step);
   stop_before_centre(full_.point, step.probe);
@@ -118,7 +118,7 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
 }
 
 // As its owner said.
-deadreckon::Pose RemoteContact::pose_told() const noexcept {
+deadreckon::Pose RemoteContact::stated_pose() const noexcept {
   return deadreckon::extrapolate(hand_.state, 0.0);
 }
 
@@ -147,14 +147,14 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
 void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
                                        const Eigen::Vector3d& probe) const noexcept {
   if (!hand_.has_device || !is_sphere(full_.kind)) return;
-  const Eigen::Vector3d away = probe - told_;
+  const Eigen::Vector3d away = probe - stated_point_;
   const double distance = away.norm();
   if (!(distance > 0)) return;
   double deepest = kDeepestGuess * full_.reach;
   if (blow_.is_guessed(seconds_between(hand_.state_time, predicted_at_))) {
     const double closing = std::max(0.0, away.dot(pose_.velocity) / distance);
-    const double told = std::max(0.0, full_.reach - distance);
-    deepest = std::min(deepest, Blow::deepest_guess(told, closing, full_.k1));
+    const double stated = std::max(0.0, full_.reach - distance);
+    deepest = std::min(deepest, Blow::deepest_guess(stated, closing, full_.k1));
   }
   const double nearest = std::min(distance, full_.reach - deepest);
   const double beyond = nearest - (probe - centre).dot(away) / distance;
@@ -204,8 +204,8 @@ bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept 
 
 void RemoteContact::expect_blow(const StepContext& step) noexcept {
   if (!hand_.has_device) return;
-  const Eigen::Vector3d away = step.probe - told_;
-  const double closing = away.dot(pose_told().velocity) / away.norm();
+  const Eigen::Vector3d away = step.probe - stated_point_;
+  const double closing = away.dot(stated_pose().velocity) / away.norm();
   blow_.expect(closing, std::max(tracker_.age(), seconds_between(hand_.state_time, step.now)));
 }
 

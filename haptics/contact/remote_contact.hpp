@@ -125,7 +125,7 @@ class RemoteContact {
   [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
-  [[nodiscard]] deadreckon::Pose pose_told() const noexcept;
+  [[nodiscard]] deadreckon::Pose stated_pose() const noexcept;
   [[nodiscard]] deadreckon::Pose pose_now(double before = 0.0) const noexcept;
   void expect_blow(const StepContext& step) noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
@@ -148,10 +148,10 @@ class RemoteContact {
   SurfaceTracker tracker_;
   Blow blow_;
   deadreckon::Pose pose_;
-  ContactParameters full_;                          // of the prediction now, gain = fade_
-  ContactPlace before_;                             // of the same record one step ago
-  ContactGeometry there_;                           // of full_, at our hand
-  Eigen::Vector3d told_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
+  ContactParameters full_;                                  // of the prediction now, gain = fade_
+  ContactPlace before_;                                     // of the same record one step ago
+  ContactGeometry there_;                                   // of full_, at our hand
+  Eigen::Vector3d stated_point_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
   double coming_store_ = 0.0;                         // [J], with that force

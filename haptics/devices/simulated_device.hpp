@@ -30,11 +30,11 @@ struct SimulatedDeviceConfig {
   double damping = 1.0;           ///< [N s/m], >= 0; all of it counts as sure
   double hand_stiffness = 200.0;  ///< [N/m], the hand's spring to its target; 0 = no hand
   double hand_damping = 3.0;      ///< [N s/m]
-  double max_force = 10.0;        ///< [N], as told to the servo
-  double max_speed = 2.0;         ///< [m/s], as told to the servo
-  double max_stiffness = 0.0;     ///< [N/m], as told to the servo; 0 = no limit of its own
-  /// Writes until a force is at the handle, 0 .. kMostDelay, as told to the servo: each write moves
-  /// the queue on by one, so that it is so many servo periods late.
+  double max_force = 10.0;        ///< [N], as the servo is given it
+  double max_speed = 2.0;         ///< [m/s], as the servo is given it
+  double max_stiffness = 0.0;     ///< [N/m], as the servo is given it; 0 = no limit of its own
+  /// Writes until a force is at the handle, 0 .. kMostDelay, as the servo is given it: each write
+  /// moves the queue on by one, so that it is so many servo periods late.
   int delay_samples = 0;
   /// Then the force drops to zero by itself, > 0 and at most HapticDevice::kWatchdog. One and a
   /// half servo periods keep a late step from holding a force that is out of date; it is dropped

@@ -21,7 +21,7 @@ namespace reckon::haptics {
 /// The SCP settles at one clearance above that: 0.4 nm, of objects above 4 m 1e-10 of their size.
 class ImplicitSolid {
  public:
-  /// @param what it is called where a plan is told, "cylinder"
+  /// @param what it is called where a plan is printed, "cylinder"
   /// @throws std::invalid_argument for a function that leaves nothing solid
   ImplicitSolid(SignedFunction function, std::string what);
   /// @throws std::invalid_argument for measures that make no solid

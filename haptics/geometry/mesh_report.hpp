@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // What was found in a mesh and what was done about it, as numbers and as sentences: nothing is
-// mended, left out or scaled without being told.
+// mended, left out or scaled without a report.
 #pragma once
 
 #include <Eigen/Core>

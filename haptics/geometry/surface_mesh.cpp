@@ -123,7 +123,8 @@ void SurfaceMesh::plant(const TriangleSoup& soup) {
 namespace {
 
 // The distance from a triangle is a convex function of time and so stays above its tangent at the
-// start: of the triangles near a ball most are told so, by one point instead of seven features.
+// start: of the triangles near a ball most are ruled out so, by one point instead of seven
+// features.
 bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexcept {
   const Vector3d gap = way.origin - closest_on_triangle(triangle, way.origin);
   const double distance = gap.norm();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // How stiff a device shows what others move, where its energy does not allow the whole force: a
-// spring that is too stiff for what the hands put in is shown softer, and told to its owner, so
+// spring that is too stiff for what the hands put in is shown softer, and its owner is informed, so
 // that both ends feel the same softer spring instead of one a part and the other the whole.
 #pragma once
 

@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFloor = 1e-10;  // of the greatest Hankel value: states below it are dropped
-constexpr double kParted = 1e8;   // largest number by which parts may be told apart
+constexpr double kParted = 1e8;   // largest number by which parts may be separated
 constexpr int kScaleRounds = 10;  // of row and column norms
 
 [[noreturn]] void refuse(const std::string& what) {

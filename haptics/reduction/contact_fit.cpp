@@ -34,7 +34,7 @@ struct Normal {
 struct Limit {
   Vector3d row;
   double limit = 0.0;
-  const char* told = "";
+  const char* reason = "";
 };
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -186,7 +186,7 @@ ContactFit fit_contact(std::span<const ContactSample> samples, const FitLimits& 
   const unsigned binding = best_binding(normal, rows, best);
   for (unsigned i = 0; i < rows.size(); ++i) {
     if ((binding >> i & 1U) == 0) continue;
-    fit.told += (fit.told.empty() ? "" : ", ") + std::string(rows[i].told);
+    fit.binding += (fit.binding.empty() ? "" : ", ") + std::string(rows[i].reason);
   }
   const Vector3d coefficients = best.cwiseQuotient(normal.units).cwiseMax(0.0);
   fit.contact = {coefficients[0], coefficients[1], coefficients[2]};

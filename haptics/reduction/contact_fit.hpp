@@ -47,7 +47,7 @@ struct ContactFit {
   double hold_error = 0.0;  ///< rms of holding each force for the horizon [N], 0: not known
   double deepest = 0.0;     ///< where the fit ends [m]
   double lasts = 0.0;       ///< [s] from the last sample
-  std::string told;         ///< which limit binds, empty where none does
+  std::string binding;      ///< which limit binds, empty where none does
 
   /// A fit that is no better than holding the last force is not, nor one over a shorter window
   /// than it is to be used for.

@@ -76,12 +76,13 @@ Acceptance accepted(const StateSpace& position_to_force, const RenderingDevice& 
                                  answer.angular_frequency, " rad/s, it has ", device.damping);
   if (!(-need.least <= device.damping)) {
     answer.added_damping = 0.0;
-    answer.told = text("acceptance: the model ", needs, ", and a damper beside it does not help; ",
-                       "lower its stiffness, or render it faster");
+    answer.remark =
+        text("acceptance: the model ", needs, ", and a damper beside it does not help; ",
+             "lower its stiffness, or render it faster");
     return answer;
   }
   if (answer.added_damping > 0.0) {
-    answer.told =
+    answer.remark =
         text("the model ", needs, "; ", answer.added_damping, " N s/m of direct damping is added");
   }
   answer.model = model;
@@ -92,16 +93,16 @@ PassiveImpedance nearest_passive(const StateSpace& speed_to_force) {
   PassiveImpedance answer;
   const PositiveRealReport report = judge_positive_real(speed_to_force);
   if (!std::isfinite(report.least)) {
-    answer.told = text("passive impedance: ", describe(report),
-                       "; no damping mends that, choose another operating point");
+    answer.remark = text("passive impedance: ", describe(report),
+                         "; no damping mends that, choose another operating point");
     return answer;
   }
   answer.model = speed_to_force;
   if (report.is_positive_real()) return answer;
   answer.added_damping = -report.least * (1.0 + kNoise);
   answer.model->D.diagonal().array() += answer.added_damping;
-  answer.told = text("passive impedance: ", describe(report), "; ", answer.added_damping,
-                     " N s/m of direct damping is added");
+  answer.remark = text("passive impedance: ", describe(report), "; ", answer.added_damping,
+                       " N s/m of direct damping is added");
   return answer;
 }
 

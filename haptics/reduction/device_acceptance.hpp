@@ -24,7 +24,7 @@ struct Acceptance {
   double required = 0.0;           ///< device damping that the model needs as it came [N s/m]
   double angular_frequency = 0.0;  ///< where it needs that [rad/s]
   double added_damping = 0.0;      ///< that was given to it [N s/m]
-  std::string told;                ///< what was added, or why it is refused; else empty
+  std::string remark;              ///< what was added, or why it is refused; else empty
 };
 
 /// Samples the model, held over each period, and holds it against thesis (3.5),
@@ -42,7 +42,7 @@ struct Acceptance {
 struct PassiveImpedance {
   std::optional<StateSpace> model;  ///< empty: no damping makes it passive
   double added_damping = 0.0;       ///< [N s/m]
-  std::string told;                 ///< what was added, or why it is refused; else empty
+  std::string remark;               ///< what was added, or why it is refused; else empty
 };
 [[nodiscard]] PassiveImpedance nearest_passive(const StateSpace& speed_to_force);
 

@@ -88,8 +88,9 @@ std::string refusal(const ModalForceModel& model) {
   if (!model.shape.allFinite() || !model.rest.allFinite()) {
     return "modal force model: a shape or the static rest is not finite; give numbers";
   }
-  if (std::string told = refused_below_zero(model.omega, "omega"); !told.empty()) return told;
-  if (std::string told = refused_below_zero(model.damping, "damping"); !told.empty()) return told;
+  if (std::string reason = refused_below_zero(model.omega, "omega"); !reason.empty()) return reason;
+  if (std::string reason = refused_below_zero(model.damping, "damping"); !reason.empty())
+    return reason;
   return refused_rest(model);
 }
 

@@ -174,7 +174,7 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
 }
 
 // The device dropped the force by itself. Up to where it did so the sample is like any other, after
-// that the hand moved without a force. Where that is not told, how much it took from the hand is
+// that the hand moved without a force. Where that is not known, how much it took from the hand is
 // not known.
 void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept {
   ++tally_.let_go;

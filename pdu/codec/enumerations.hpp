@@ -230,7 +230,7 @@ enum class CellScheme : std::uint8_t {
   locales = 4
 };
 
-/// How Entity States are told in a Compressed States PDU (ours).
+/// How a Compressed States PDU holds Entity States (ours).
 enum class CompressedForm : std::uint8_t { none = 0, compact = 1, delta = 2, residual = 3 };
 
 /// What a CellMembership PDU says (ours).
@@ -240,7 +240,7 @@ enum class MembershipAction : std::uint8_t {
   leave = 2,
   lead = 3,
   resign = 4,
-  join_near = 5,  ///< a near group of the cells, of the row that is told
+  join_near = 5,  ///< a near group of the cells, of the row that is stated
 };
 
 /// 129 to 255: experimental by common use; these go last in a bundle.

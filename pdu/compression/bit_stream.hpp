@@ -17,7 +17,7 @@ namespace reckon::pdu {
 /// Three numbers of so many bits are put and taken at once.
 inline constexpr unsigned kThreeTogether = 18;
 
-/// Writes into octets of the caller; what does not fit is not written, and told by finish().
+/// Writes into octets of the caller; what does not fit is not written, and reported by finish().
 class BitWriter {
  public:
   explicit BitWriter(std::span<std::byte> out) noexcept : out_(out) {}

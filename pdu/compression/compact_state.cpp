@@ -63,18 +63,18 @@ void put_rest(BitWriter& out, const Rest& rest) noexcept {
   out.put(groups, kGroups);
   for (const std::uint64_t octets : rest) {
     if (octets == 0) continue;
-    std::uint64_t told = 0;
+    std::uint64_t sent = 0;
     unsigned map = 0, bits = 0;
     for (unsigned at = 64; at > 0; at -= 8) {
       const std::uint64_t octet = octets >> (at - 8) & 0xFF;
-      const unsigned is_told = octet != 0 ? 1 : 0;
-      map = map << 1 | is_told;
-      told = told << 8 * is_told | octet;
-      bits += 8 * is_told;
+      const unsigned is_sent = octet != 0 ? 1 : 0;
+      map = map << 1 | is_sent;
+      sent = sent << 8 * is_sent | octet;
+      bits += 8 * is_sent;
     }
     out.put(map, 8);
-    out.put(told >> 32, bits > 32 ? bits - 32 : 0);
-    out.put(told, std::min(bits, 32U));
+    out.put(sent >> 32, bits > 32 ? bits - 32 : 0);
+    out.put(sent, std::min(bits, 32U));
   }
 }
 
@@ -92,12 +92,12 @@ Rest take_rest(BitReader& in) noexcept {
     if ((groups & 1U << group) == 0) continue;
     const unsigned map = in.take(8);
     const unsigned bits = 8 * ones_of(map);
-    std::uint64_t told = in.take_wide(bits > 32 ? bits - 32 : 0) << 32;
-    told = bits > 32 ? told | in.take(32) : in.take(bits);
+    std::uint64_t sent = in.take_wide(bits > 32 ? bits - 32 : 0) << 32;
+    sent = bits > 32 ? sent | in.take(32) : in.take(bits);
     for (unsigned i = 0; i < 8; ++i) {
-      const unsigned is_told = map >> i & 1U;
-      rest[group] |= (is_told != 0 ? told & 0xFF : 0) << 8 * i;
-      told >>= 8 * is_told;
+      const unsigned is_sent = map >> i & 1U;
+      rest[group] |= (is_sent != 0 ? sent & 0xFF : 0) << 8 * i;
+      sent >>= 8 * is_sent;
     }
   }
   return rest;

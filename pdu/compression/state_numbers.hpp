@@ -13,7 +13,7 @@
 
 namespace reckon::pdu {
 
-/// Steps in which motion is told. Raising one saves about a bit an axis each time it doubles, and
+/// Steps in which motion is sent. Raising one saves about a bit an axis each time it doubles, and
 /// shows that much more error. All finite and above 0.
 struct StateQuanta {
   double position = 1e-3;      ///< [m] 1e-6 .. 10

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cell Snapshot (experimental PDU 147): the last states of the entities of a cell, told by its
+// Cell Snapshot (experimental PDU 147): the last states of the entities of a cell, relayed by its
 // leader to who has come late, in numbered parts.
 #pragma once
 
@@ -17,9 +17,9 @@ namespace reckon::pdu {
 /// Stands before each state of a snapshot.
 struct SnapshotState {
   std::uint32_t epoch = 0;   ///< life of the entity's owner
-  std::uint16_t length = 0;  ///< of what follows [octets]: an Entity State PDU, and the HapticRecord
-                             ///< of its force model where it has one
-  std::uint16_t age = 0;     ///< since the leader heard it [10 ms]; 65,535: that or longer
+  std::uint16_t length = 0;  ///< of what follows [octets]: an Entity State PDU, and the
+                             ///< HapticRecord of its force model where it has one
+  std::uint16_t age = 0;  ///< since the leader heard it [10 ms]; 65,535: that or longer
 
   friend constexpr auto operator<=>(const SnapshotState&, const SnapshotState&) = default;
 };

@@ -41,15 +41,16 @@ struct Presence {
   std::uint32_t epoch = 0;       ///< drawn anew at every start of the process
   std::uint16_t pool_size = 0;   ///< multicast groups after the base group
   std::uint16_t port = 3000;     ///< UDP port of all groups
-  std::uint64_t scene_hash = 0;  ///< peers with another hash are told and not joined
+  std::uint64_t scene_hash = 0;  ///< peers with another hash are reported and not joined
   std::uint64_t send_time = 0;   ///< UTC since 1970 [ns]
   /// The base group: an IPv6 address, or an IPv4 one as ::ffff:a.b.c.d.
   std::array<std::uint8_t, 16> base_group{};
   CellScheme cell_scheme = CellScheme::none;
   /// Which peer of the scene this is, from 1: its devices, entities and operator are its own.
-  std::uint8_t scene_peer = 0;    ///< 0: none; 255: not known yet
-  std::uint16_t flags = 0;        ///< kPresence...; unknown bits are ignored
-  float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon; else of the smallest cell [m]
+  std::uint8_t scene_peer = 0;  ///< 0: none; 255: not known yet
+  std::uint16_t flags = 0;      ///< kPresence...; unknown bits are ignored
+  float cell_size =
+      0.0F;  ///< side of a square, or centre to corner of a hexagon; else of the smallest cell [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
   float interest_radius = 0.0F;   ///< how far this peer's entities sense [m]
   /// UTC second at which the process started; of two that claim an address anew the older keeps it.

@@ -21,7 +21,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Damaged files hold times that 63 bits of nanoseconds cannot; sums with these can still be told.
+// Damaged files hold times that 63 bits of nanoseconds cannot; sums with these can still be
+// recognised.
 constexpr std::int64_t kEarliestSecond = -(std::int64_t{1} << 31);
 constexpr std::int64_t kLatestSecond = 6'000'000'000;  // in the year 2160
 
@@ -234,8 +235,9 @@ std::unique_ptr<DatagramSource> open_capture(const std::string& path, bool follo
                              "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
   }
   if (follow && stream->is_compressed())
-    throw std::runtime_error(name + " is compressed, and --follow reads plain files only; record "
-                                    "to a name without .zst, or leave --follow out");
+    throw std::runtime_error(name +
+                             " is compressed, and --follow reads plain files only; record "
+                             "to a name without .zst, or leave --follow out");
   std::FILE* grows = follow && stream->is_plain_file() ? file : nullptr;
   return std::make_unique<PcapSource>(std::move(stream), std::move(handle), name, grows);
 }

@@ -54,7 +54,7 @@ CaptureWriter::~CaptureWriter() {
   try {
     flush();
   } catch (const CaptureWriteError&) {
-    // The file was cut back to its last whole block; finish() would have told.
+    // The file was cut back to its last whole block; finish() would have reported it.
   }
 }
 

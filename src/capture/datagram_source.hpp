@@ -82,7 +82,7 @@ class DatagramSource {
   virtual void stop() noexcept = 0;
 };
 
-/// One file, whole, as one datagram of frame 1 (at most 65535 octets; more is cut and told).
+/// One file, whole, as one datagram of frame 1 (at most 65535 octets; more is cut and reported).
 /// @throws std::system_error with the path where it cannot be read.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_raw_file(const std::string& path);
 

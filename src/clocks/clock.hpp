@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The one way to learn what time it is. The four loops are told the time; only the threads that
-// call them, and the transport, hold a Clock.
+// The one way to learn what time it is. The four loops receive the time as an argument; only the
+// threads that call them, and the transport, hold a Clock.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,7 @@ class SteadyClock final : public Clock {
   [[nodiscard]] std::chrono::nanoseconds utc_now() const noexcept override;
 };
 
-/// A clock that moves only when it is told to, for tests and for replays.
+/// A clock that moves only when it is set, for tests and for replays.
 class ManualClock final : public Clock {
  public:
   /// Starts at steady time `start`; UTC runs `utc_offset` ahead of it.

@@ -65,7 +65,7 @@ class PeerClock {
 class PeerClocks {
  public:
   static constexpr std::size_t kCapacity = 1024;
-  /// In one PDU: eight, or as many as it takes to have told all in 32 s, up to kMostEchoes.
+  /// In one PDU: eight, or as many as it takes to send all in 32 s, up to kMostEchoes.
   static constexpr std::size_t kEchoes = 8, kMostEchoes = 24;
   /// Peers unheard for so long are not echoed.
   static constexpr std::chrono::nanoseconds kRecent = std::chrono::seconds(5);

@@ -43,7 +43,7 @@ class StateCompressor {
 
   /// The same for those who hear the group of a cell and a near group of it: no key, so that all
   /// who hear the one lean on the same. Returns its octets; 0 where there is no key that they know,
-  /// or it tells of parts: all are to be told.
+  /// or it has parts: then all receive the whole state.
   /// @param group of the cell
   [[nodiscard]] std::size_t compress_near(const pdu::EntityState& state, aoim::GroupIndex group,
                                           std::chrono::nanoseconds now,

@@ -29,9 +29,9 @@ nanoseconds later(nanoseconds time, nanoseconds span) {
 
 void ExerciseClock::take(const pdu::StartResume& order, nanoseconds utc) noexcept {
   const nanoseconds from = std::max(to_time(order.real_world_time), utc);
-  const nanoseconds told = to_time(order.simulation_time);
+  const nanoseconds stated = to_time(order.simulation_time);
   now_ = {utc, at(utc), is_running(utc)};
-  next_ = {from, told > nanoseconds(0) ? told : at(from), true};
+  next_ = {from, stated > nanoseconds(0) ? stated : at(from), true};
 }
 
 void ExerciseClock::take(const pdu::StopFreeze& order, nanoseconds utc) noexcept {

@@ -15,7 +15,7 @@ namespace reckon::peer {
 class ExerciseClock {
  public:
   /// @param utc of this peer at which the order was taken: it takes effect at its real-world time,
-  /// at once where that is over or not told.
+  /// at once where that is over or not stated.
   void take(const pdu::StartResume& order, std::chrono::nanoseconds utc) noexcept;
   void take(const pdu::StopFreeze& order, std::chrono::nanoseconds utc) noexcept;
 

@@ -83,9 +83,9 @@ void AoimWatch::tell_outside(aoim::AreaOfInterestManager& aoim) noexcept {
       counts.accepted > at_begin_.accepted || counts.lingering > at_begin_.lingering;
   const bool outside = counts.outside > at_begin_.outside;
   at_begin_ = counts;
-  if (inside) all_outside_told_ = false;
-  if (inside || !outside || all_outside_told_) return;
-  all_outside_told_ = true;
+  if (inside) all_outside_reported_ = false;
+  if (inside || !outside || all_outside_reported_) return;
+  all_outside_reported_ = true;
   tell(
       "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
       "{:.4g} m; raise it to see them",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the area-of-interest layer leaves out, told to the user: each matter once when it begins and
-// once when it is over.
+// What the area-of-interest layer leaves out, reported to the user: each matter once when it begins
+// and once when it is over.
 #pragma once
 
 #include <chrono>
@@ -46,9 +46,9 @@ class AoimWatch {
   Matter capped_, full_, given_up_;
   std::uint64_t given_up_before_ = 0;
   bool begun_ = false;
-  Nanoseconds window_end_{0};      // within which entities are looked for
-  aoim::InterestCounts at_begin_;  // of that window
-  bool all_outside_told_ = false;  // and none came inside since
+  Nanoseconds window_end_{0};          // within which entities are looked for
+  aoim::InterestCounts at_begin_;      // of that window
+  bool all_outside_reported_ = false;  // and none came inside since
 };
 
 }  // namespace reckon::peer

@@ -29,7 +29,7 @@ void BeaconWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
   const auto followed = aoim.sight().followed();
   for (std::size_t i = 0; i < std::min(followed.size(), followed_.size()); ++i) {
     const aoim::FollowedBeacon& one = followed[i];
-    tell_followed(one, followed_[i], out);
+    report_followed(one, followed_[i], out);
     LeadersView::Followed& row = view.followed[view.followed_count++];
     row = {{}, one.found, one.cell.q, one.cell.r, one.group.value};
     std::copy_n(followed_[i].name.begin(), std::min(followed_[i].name.size(), row.name.size() - 1),
@@ -38,16 +38,16 @@ void BeaconWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
   if (aoim.leader() != nullptr) look_at_ours(aoim, now, out);
 }
 
-void BeaconWatch::tell_followed(const aoim::FollowedBeacon& now, Followed& before,
-                                haptics::SpscRing<Notice>& out) noexcept {
+void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& before,
+                                  haptics::SpscRing<Notice>& out) noexcept {
   const bool listens = now.number.value > 0;
-  if (now.found && (!before.told || before.cell != now.cell)) {
-    before.told = true;
+  if (now.found && (!before.reported || before.cell != now.cell)) {
+    before.reported = true;
     before.cell = now.cell;
     static_cast<void>(
         out.push(make_notice("beacon {} is in cell {},{}", before.name, now.cell.q, now.cell.r)));
-  } else if (!listens && before.told) {
-    before.told = false;
+  } else if (!listens && before.reported) {
+    before.reported = false;
     static_cast<void>(out.push(make_notice("beacon {} is nowhere", before.name)));
   }
 }
@@ -60,9 +60,9 @@ void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseco
     const auto cell = aoim.leading()->carried_in(one.tag);
     if (!row || !cell || *cell == aoim::CellId{row->column, row->row}) {
       one.ours = now;
-      one.told = false;
-    } else if (now - one.ours >= kDisputed && !one.told) {
-      one.told = true;
+      one.reported = false;
+    } else if (now - one.ours >= kDisputed && !one.reported) {
+      one.reported = true;
       static_cast<void>(out.push(
           make_notice("beacon {} is another peer's, in cell {},{}: who follows it goes there, give "
                       "one of the two another name",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Beacons that this peer follows and carries, told to the user when they are found, move, are lost,
-// or turn out to be another peer's.
+// Beacons that this peer follows and carries, reported to the user when they are found, move, are
+// lost, or turn out to be another peer's.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace reckon::peer {
 /// One thread; allocates at set-up, and where entities with beacons are new.
 class BeaconWatch {
  public:
-  /// A beacon of ours that the map has had in another cell for so long is told to be another's.
+  /// A beacon of ours that the map has had in another cell for so long is reported as another's.
   static constexpr std::chrono::nanoseconds kDisputed = std::chrono::seconds(3);
 
   /// @param follow names as beacon_names takes them
@@ -44,18 +44,18 @@ class BeaconWatch {
  private:
   struct Followed {
     std::string name;
-    bool told = false;  ///< as found
-    aoim::CellId cell;  ///< in which it was told to be
+    bool reported = false;  ///< as found
+    aoim::CellId cell;      ///< in which it was reported to be
   };
   struct Carried {
     EntityNumber number;
     std::uint32_t tag;
     std::string name;
     std::chrono::nanoseconds ours{};  ///< when the map last had it where we have it, or not at all
-    bool told = false;                ///< to be another's
+    bool reported = false;            ///< to be another's
   };
-  void tell_followed(const aoim::FollowedBeacon& now, Followed& before,
-                     haptics::SpscRing<Notice>& out) noexcept;
+  void report_followed(const aoim::FollowedBeacon& now, Followed& before,
+                       haptics::SpscRing<Notice>& out) noexcept;
   void look_at_ours(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
                     haptics::SpscRing<Notice>& out) noexcept;
 

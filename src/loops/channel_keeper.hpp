@@ -24,7 +24,7 @@ class ChannelKeeper {
   explicit ChannelKeeper(const AwarenessConfig& config) : config_(config) {}
 
   /// To be called some twenty times a second, after the foci have been set. What begins and ends is
-  /// told to `out`.
+  /// reported to `out`.
   void look(const RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 

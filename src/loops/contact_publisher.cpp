@@ -45,9 +45,9 @@ void fill_accounts(const HandPort& other, const pdu::EntityId& hand, RemoteHand&
   out.neighbours = 0;
   out.version = static_cast<std::uint32_t>(servo.step);
   for (std::size_t i = 0; i < servo.count; ++i) {
-    const haptics::ContactAccount& told = servo.contacts[i];
-    if (told.given > 0 || told.need > 0 || told.spring_need > 0) ++out.neighbours;
-    if (told.id != hand) continue;
+    const haptics::ContactAccount& one = servo.contacts[i];
+    if (one.given > 0 || one.need > 0 || one.spring_need > 0) ++out.neighbours;
+    if (one.id != hand) continue;
     out.given_to_us = servo.contacts[i].given;
     out.need = servo.contacts[i].need;
     out.spring_need = servo.contacts[i].spring_need;

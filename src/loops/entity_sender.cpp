@@ -57,7 +57,7 @@ bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t tier,
   const std::size_t audience = entity.audiences()->audience_of(aoim_.tiers().row_of(tier));
   return entity.audiences()->is_behind(audience + 1) &&
          aoim_.must_send(tier, entity.id(), to_position(entity.truth().position),
-                         {entity.told_at(audience), {}}, pass.now);
+                         {entity.last_sent_at(audience), {}}, pass.now);
 }
 
 // Whether somebody asks for it: the next decision of those who are asked for says `event`.
@@ -86,12 +86,12 @@ void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) con
 
 bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audience,
                                   const Pass& pass) const noexcept {
-  return entity.audiences()->is_out_of_step(audience, pdu::to_seconds(entity.told_at(audience - 1)),
-                                            pdu::to_seconds(pass.now));
+  return entity.audiences()->is_out_of_step(
+      audience, pdu::to_seconds(entity.last_sent_at(audience - 1)), pdu::to_seconds(pass.now));
 }
 
-// What is felt of an entity in company is told to those near at once, by its contact group where
-// there are some; all others are told as much as they need to see.
+// What is felt of an entity in company is sent to those near at once, by its contact group where
+// there are some; all others receive as much as they need to see.
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
@@ -118,7 +118,7 @@ Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds
   return {waits ? SendReason::none : inmost, in_company};
 }
 
-// The outmost audience that has to be told says how far the update goes.
+// The outmost audience to which it is due says how far the update goes.
 Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                                        SendReason inmost, bool in_company) noexcept {
   const Audiences& audiences = *entity.audiences();
@@ -138,7 +138,7 @@ Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, na
   return how;
 }
 
-// The row of the nearest receiver; null where all are told the same.
+// The row of the nearest receiver; null where all receive the same.
 const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const noexcept {
   static constexpr aoim::Channel kNothing{0.0, aoim::Body::rigid, 0.0, 0.0, 1.0, false, 1.0};
   const aoim::ReceiverChannels* receivers = aoim_.receivers();
@@ -169,7 +169,7 @@ bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t a
   if (!is_by_distance(reason)) return false;
   const aoim::Channel* channel = channel_of(entity, std::max(audience, inmost_row(audiences)));
   if (channel == nullptr || channel->kept) return false;
-  const nanoseconds last = by_rows ? entity.told_at(audience) : entity.last_sent;
+  const nanoseconds last = by_rows ? entity.last_sent_at(audience) : entity.last_sent;
   const double rate = entity.is_resting() ? channel->passive_hz : channel->active_hz;
   if (rate > 0.0 && pass.now - last >= pdu::from_seconds(1.0 / rate)) return false;
   nanoseconds again = pass.now + kLookAgain;
@@ -210,7 +210,7 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
     entity.last_sent = pass.now;
     if (!written.leans && !entity.is_thinned(body)) entity.last_whole = pass.now;
   } else if (how.audience >= inmost_row(audiences)) {
-    entity.look_again(pass.now + kLookAgain);  // others may still have to be told
+    entity.look_again(pass.now + kLookAgain);  // it may still be due to others
     octets += tell_row(entity, position, records, terms, how.audience, pass.now);
   }
   if (octets == 0) return false;
@@ -227,7 +227,7 @@ std::size_t EntitySender::tell_felt(const aoim::Position& position,
   return pdu::wire_size(update_.state) + records.size();
 }
 
-// Where it cannot lean on what all know, all are told with the next pass, and nobody now.
+// Where it cannot lean on what all know, it is sent to all with the next pass, and to nobody now.
 std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& position,
                                    std::span<const std::byte> records,
                                    const aoim::BundleTerms& terms, std::size_t audience,
@@ -255,7 +255,8 @@ std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& po
   return size;
 }
 
-// Octets of the state as it goes out. Who is new, or was told something new, gets it plain.
+// Octets of the state as it goes out. A newcomer, or one to whom something new was sent, gets it
+// plain.
 EntitySender::Written EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& position,
                                              std::span<const std::byte> records,
                                              const aoim::BundleTerms& terms, bool is_event,

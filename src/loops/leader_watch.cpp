@@ -53,9 +53,10 @@ LeaderWatch::LeaderWatch(Counters& counters, bool on) {
   changes_ = &counters.make("leader_changes", "times that a cell or the scene got another leader");
   led_ = &counters.make("cells_led", "cells that this peer leads");
   map_version_ = &counters.make("group_map_version", "version of the map of groups that is in use");
-  told_in_ = &counters.make("states_told_in", "states that leaders told this peer when it came");
-  parts_out_ =
-      &counters.make("snapshot_parts_out", "parts of snapshots that this peer told as a leader");
+  relayed_in_ =
+      &counters.make("states_relayed_in", "states that leaders relayed to this peer when it came");
+  parts_out_ = &counters.make("snapshot_parts_out",
+                              "parts of snapshots that this peer reported as a leader");
 }
 
 void LeaderWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
@@ -76,12 +77,12 @@ void LeaderWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
   parts_out_->set(role->server().parts_sent());
 
   const bool changed = std::any_of(cells_.begin(), cells_.end(),
-                                   [](const Cell& cell) { return cell.leader != cell.told; });
+                                   [](const Cell& cell) { return cell.leader != cell.reported; });
   if (!changed) tell_at_ = nanoseconds(-1);
   if (changed && tell_at_ < nanoseconds(0)) tell_at_ = now + kGather;
   if (!changed || now < tell_at_) return;
   for (const Cell& cell : cells_) {
-    if (cell.leader != cell.told) tell_cells(aoim, cell.leader, out);
+    if (cell.leader != cell.reported) report_cells(aoim, cell.leader, out);
   }
   tell_at_ = nanoseconds(-1);
 }
@@ -106,15 +107,15 @@ void LeaderWatch::note_cell(const aoim::AreaOfInterestManager& aoim, aoim::CellI
 }
 
 // One sentence of all that this one leads anew, and one of the scene.
-void LeaderWatch::tell_cells(const aoim::AreaOfInterestManager& aoim, std::uint32_t leader,
-                             haptics::SpscRing<Notice>& out) noexcept {
+void LeaderWatch::report_cells(const aoim::AreaOfInterestManager& aoim, std::uint32_t leader,
+                               haptics::SpscRing<Notice>& out) noexcept {
   const LeaderName name(aoim, leader);
   std::array<char, 64> cells{};
   char* end = cells.data();
   std::size_t count = 0;
   for (Cell& cell : cells_) {
-    if (cell.leader != leader || cell.told == leader) continue;
-    cell.told = leader;
+    if (cell.leader != leader || cell.reported == leader) continue;
+    cell.reported = leader;
     if (cell.id == aoim::kWholeScene) {
       static_cast<void>(out.push(make_notice("the scene is led by {} now", name.view())));
       continue;

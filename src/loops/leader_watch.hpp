@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who leads the scene and the cells that this peer is in, told to the user when it changes.
+// Who leads the scene and the cells that this peer is in, reported to the user when it changes.
 #pragma once
 
 #include <chrono>
@@ -21,31 +21,31 @@ class LeaderWatch {
   /// Changes of cells within this are one sentence for each leader.
   static constexpr std::chrono::nanoseconds kGather = std::chrono::milliseconds(500);
 
-  /// Makes the counters leader_changes, cells_led, group_map_version, states_told_in and
+  /// Makes the counters leader_changes, cells_led, group_map_version, states_relayed_in and
   /// snapshot_parts_out, where `on`. `counters` outlives it.
   LeaderWatch(Counters& counters, bool on);
 
   /// Call it some twenty times a second. Sentences go to `out`.
   void look(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
-  /// A leader has told us a state.
-  void note_told() noexcept {
-    if (told_in_ != nullptr) told_in_->add();
+  /// A leader has relayed a state to us.
+  void note_relayed() noexcept {
+    if (relayed_in_ != nullptr) relayed_in_->add();
   }
   /// As of the last look; what is followed is filled in by BeaconWatch.
   [[nodiscard]] LeadersView& view() noexcept { return view_; }
   [[nodiscard]] const LeadersView& view() const noexcept { return view_; }
 
  private:
-  /// A cell of ours: who leads it, and whom the user was told.
+  /// A cell of ours: who leads it, and who was reported to.
   struct Cell {
     aoim::CellId id;
-    std::uint32_t leader = 0, told = 0;
+    std::uint32_t leader = 0, reported = 0;
     bool present = false;
   };
   void note_cell(const aoim::AreaOfInterestManager& aoim, aoim::CellId id, std::uint32_t leader);
-  void tell_cells(const aoim::AreaOfInterestManager& aoim, std::uint32_t leader,
-                  haptics::SpscRing<Notice>& out) noexcept;
+  void report_cells(const aoim::AreaOfInterestManager& aoim, std::uint32_t leader,
+                    haptics::SpscRing<Notice>& out) noexcept;
 
   LeadersView view_;
   std::vector<Cell> cells_;
@@ -53,7 +53,7 @@ class LeaderWatch {
   Counter* changes_ = nullptr;
   Counter* led_ = nullptr;
   Counter* map_version_ = nullptr;
-  Counter* told_in_ = nullptr;
+  Counter* relayed_in_ = nullptr;
   Counter* parts_out_ = nullptr;
 };
 

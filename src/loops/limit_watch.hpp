@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The walls of a peer (hands that a servo takes, rows of the state table, rings), force models that
-// it refuses and sealed datagrams that it has no key for, told to the user when it happens.
+// it refuses and sealed datagrams that it has no key for, reported to the user when it happens.
 #pragma once
 
 #include <chrono>

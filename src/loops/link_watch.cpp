@@ -25,7 +25,7 @@ Reason reason_of(int error, std::string_view (*remedy)(const std::error_code&) n
   return {what == nullptr ? "an unknown error" : what, to_do.empty() ? "" : "; ", to_do};
 }
 
-// One that no other follows is told after so long.
+// One that no other follows is reported after so long.
 constexpr std::chrono::nanoseconds kLoneRefusal = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -88,7 +88,7 @@ void LinkWatch::tell_sends() noexcept {
   if (fails && !refusal_) {
     refusal_ = Refusal{now_, at_.sent, false};
     fails = false;
-  } else if (refusal_ && !refusal_->told) {
+  } else if (refusal_ && !refusal_->reported) {
     fails = fails || now_ - refusal_->since >= kLoneRefusal;
   }
   const Turn turn = unsent_.turn(fails, now_);
@@ -96,7 +96,7 @@ void LinkWatch::tell_sends() noexcept {
     const Reason reason = reason_of(at_.last_send_error, send_remedy);
     tell("{} fails: {}{}{}", at_.sent > refusal_->sent ? "sending some datagrams" : "SENDING",
          reason.what, reason.separator, reason.remedy);
-    refusal_->told = true;
+    refusal_->reported = true;
   }
   if (turn == Turn::ends) refusal_.reset();
   if (turn == Turn::ends) tell("sending works again; {} datagrams were refused", at_.send_errors);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the link of a peer fares, told to the user when it happens: interfaces that go and come,
+// How the link of a peer fares, reported to the user when it happens: interfaces that go and come,
 // groups that cannot be joined, sends that fail, datagrams that the kernel drops.
 #pragma once
 
@@ -23,8 +23,8 @@ class LinkWatch {
   /// `link` and `counters` outlive it; base_unjoined and groups_unjoined are what it looks at.
   LinkWatch(Link& link, const GroupAddress& base, Counters& counters);
 
-  /// Call it some times a second. Each trouble is told once when it begins, with the remedy, and
-  /// once when it is over. Sentences go to `out`.
+  /// Call it some times a second. Each trouble is reported once when it begins, with the remedy,
+  /// and once when it is over. Sentences go to `out`.
   void look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
   /// Where datagrams are sent from now.
   [[nodiscard]] IpEndpoint own_endpoint() const noexcept { return link_.local_endpoint(); }
@@ -48,7 +48,7 @@ class LinkWatch {
   struct Refusal {
     std::chrono::nanoseconds since;
     std::uint64_t sent;
-    bool told;
+    bool reported;
   };
   std::optional<Refusal> refusal_;
   bool any_unjoined_ = false;  ///< at the last look, besides the base group

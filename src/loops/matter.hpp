@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Something that is told once when it begins and once when it is over.
+// Something that is reported once when it begins and once when it is over.
 #pragma once
 
 #include <chrono>

@@ -23,7 +23,7 @@
 
 namespace reckon::peer {
 
-/// A group to join or leave, told by the model loop.
+/// A group to join or leave, by order of the model loop.
 struct GroupCommand {
   GroupAddress group;
   bool join = true;
@@ -41,9 +41,9 @@ class NetworkReadLoop {
  public:
   static constexpr std::chrono::nanoseconds kStale = std::chrono::seconds(1);
 
-  /// All references outlive the loop. The first group that it is told to join is the base group.
+  /// All references outlive the loop. The first group that it joins is the base group.
   /// @param exercise of which datagrams are taken; nothing: any octets are
-  /// @param tap is told what it drops and why; may be null
+  /// @param tap receives what it drops and why; may be null
   /// @param felt where those of contact groups go, so that none waits behind others; nothing: where
   /// all go. While one of the two rings is full nothing is taken.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
@@ -58,7 +58,8 @@ class NetworkReadLoop {
   [[nodiscard]] bool is_full() const noexcept { return full_; }
   /// Who was muted and who is heard again, oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
-  /// Where members speak from, told by the model loop whenever that changes; one writer thread.
+  /// Where members speak from, published by the model loop whenever that changes; one writer
+  /// thread.
   [[nodiscard]] haptics::TripleBuffer<KnownSources>& known() noexcept { return known_; }
 
  private:

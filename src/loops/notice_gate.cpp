@@ -15,7 +15,7 @@ namespace {
 using aoim::PresenceEventKind;
 using std::chrono::nanoseconds;
 
-// Whether one more line may be told, of so many at once (a virtual scheduling algorithm, ITU-T
+// Whether one more line may be reported, of so many at once (a virtual scheduling algorithm, ITU-T
 // I.371 A: `free_at` is when none of them would be in use).
 bool take_line(nanoseconds& free_at, int at_once, nanoseconds now) noexcept {
   if (free_at > now + (at_once - 1) * NoticeGate::kGap) return false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is told of others, so that nobody on the network fills the user's terminal or log: of the
-// strangers of a host together one line a second, with the number of those that were left out.
+// What is reported of others, so that nobody on the network fills the user's terminal or log: of
+// the strangers of a host together one line a second, with the number of those that were left out.
 #pragma once
 
 #include <array>

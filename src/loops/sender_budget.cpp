@@ -126,7 +126,7 @@ void SenderBudget::look(nanoseconds now) noexcept {
 void SenderBudget::tell(Source& source, bool muted) noexcept {
   source.muted = muted;
   muted_ += muted ? 1 : std::size_t(-1);
-  static_cast<void>(told_.push({source.who, muted, source.dropped}));
+  static_cast<void>(out_.push({source.who, muted, source.dropped}));
   source.dropped = 0;
 }
 

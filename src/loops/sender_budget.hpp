@@ -53,8 +53,8 @@ class SenderBudget {
   static constexpr std::uint32_t kMostOfAddress = 8000, kMostOfAddressPressed = 6000;
   static constexpr std::uint32_t kCalm = 1000;  ///< fewer in a window: heard again
 
-  /// @param told who is muted and heard again; outlives this
-  explicit SenderBudget(haptics::SpscRing<MutedSender>& told) noexcept : told_(told) {}
+  /// @param out receives who is muted and heard again; outlives this
+  explicit SenderBudget(haptics::SpscRing<MutedSender>& out) noexcept : out_(out) {}
 
   /// Whether a datagram is to be read. @param received when the link had it, steady time
   /// @param pressed whether little room is left for what is read
@@ -93,7 +93,7 @@ class SenderBudget {
   void turn(Source& source, std::chrono::nanoseconds received) noexcept;
   void tell(Source& source, bool muted) noexcept;
 
-  haptics::SpscRing<MutedSender>& told_;
+  haptics::SpscRing<MutedSender>& out_;
   std::array<std::array<Source, kWays>, kSets> sources_{};
   std::array<Known, KnownSources::kMost> known_{};
   std::array<Known, KnownSources::kMost> before_{};  // of know() alone

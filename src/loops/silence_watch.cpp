@@ -80,7 +80,7 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
 
 void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
   look.remote.believe_peer(doubt.epoch, doubt.since, look.now);
-  if (doubt.told) {
+  if (doubt.reported) {
     static_cast<void>(
         look.out.push(make_notice("peer {}:{} is heard again after {:.1f} s", peer.id().site,
                                   peer.id().application, pdu::to_seconds(look.now - doubt.heard))));
@@ -89,8 +89,8 @@ void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& loo
 }
 
 void SilenceWatch::tell(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
-  if (doubt.told) return;
-  doubt.told = true;
+  if (doubt.reported) return;
+  doubt.reported = true;
   static_cast<void>(look.out.push(
       make_notice("peer {}:{} is silent for {:.2g} s: its hands are no longer felt", peer.id().site,
                   peer.id().application, pdu::to_seconds(look.now - peer.last_heard))));

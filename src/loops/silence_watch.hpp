@@ -58,7 +58,7 @@ class SilenceWatch {
     std::chrono::nanoseconds heard{0};  // last, before
     std::chrono::nanoseconds since{0};
     bool whole = false;  // all that it owns, not just what is touched
-    bool told = false;
+    bool reported = false;
   };
   struct Look {
     std::span<const Touched> touched;

@@ -43,7 +43,7 @@ class Subscriber {
                  haptics::SpscRing<Notice>& notices) noexcept;
 
   /// A leader has relayed a state.
-  void note_relayed() noexcept { leader_watch_.note_told(); }
+  void note_relayed() noexcept { leader_watch_.note_relayed(); }
   [[nodiscard]] const LeadersView& leaders() const noexcept { return leader_watch_.view(); }
 
  private:

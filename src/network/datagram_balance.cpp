@@ -62,9 +62,9 @@ void DatagramBalance::arrive(const DatagramEvent& event) {
   const std::uint32_t number = event.sequence;
   auto found = open_.find(key);
   if (found != open_.end()) {
-    const std::int32_t ahead = ahead_of(number, found->second.told.last);
+    const std::int32_t ahead = ahead_of(number, found->second.stretch.last);
     if (ahead > kFarthestNumber || ahead < -kFarthestNumber) {
-      over_.stretches.push_back(found->second.told);
+      over_.stretches.push_back(found->second.stretch);
       open_.erase(found);
       found = open_.end();
     }
@@ -72,28 +72,29 @@ void DatagramBalance::arrive(const DatagramEvent& event) {
   if (found == open_.end()) {
     const auto membership = memberships_.find(event.group);
     const bool joined = membership != memberships_.end();
-    open_[key].told = {
+    open_[key].stretch = {
         key, number, number, 1, 0, 0, joined ? membership->second.joined : nanoseconds(-1)};
     return;
   }
   OpenStretch& open = found->second;
-  Stretch& told = open.told;
+  Stretch& stretch = open.stretch;
   open.heard = true;
-  if (ahead_of(number, told.last) > 0) {
-    if (number != told.last + 1) open.gaps.push_back({told.last + 1, number - 1});
-    told.missing += number - told.last - 1;
-    told.last = number;
-    ++told.arrived;
-  } else if (ahead_of(number, told.first) < 0) {
-    if (number + 1 != told.first) open.gaps.insert(open.gaps.begin(), {number + 1, told.first - 1});
-    told.missing += told.first - number - 1;
-    told.first = number;
-    ++told.arrived;
+  if (ahead_of(number, stretch.last) > 0) {
+    if (number != stretch.last + 1) open.gaps.push_back({stretch.last + 1, number - 1});
+    stretch.missing += number - stretch.last - 1;
+    stretch.last = number;
+    ++stretch.arrived;
+  } else if (ahead_of(number, stretch.first) < 0) {
+    if (number + 1 != stretch.first)
+      open.gaps.insert(open.gaps.begin(), {number + 1, stretch.first - 1});
+    stretch.missing += stretch.first - number - 1;
+    stretch.first = number;
+    ++stretch.arrived;
   } else if (fill_gap(open, number)) {
-    --told.missing;
-    ++told.arrived;
+    --stretch.missing;
+    ++stretch.arrived;
   } else {
-    ++told.copies;
+    ++stretch.copies;
   }
   if (open.gaps.size() > kMostGaps) open.gaps.erase(open.gaps.begin());
 }
@@ -124,14 +125,14 @@ void DatagramBalance::track(const DatagramEvent& event) {
   const SenderInGroup key{event.epoch, event.stream, event.group};
   auto found = tracked_.find(key);
   if (event.verdict == SequenceVerdict::first || found == tracked_.end()) {
-    if (found != tracked_.end()) over_.tracked.push_back(found->second.told);
+    if (found != tracked_.end()) over_.tracked.push_back(found->second.stretch);
     tracked_[key] = {};
-    tracked_[key].told = {key, event.sequence, event.sequence, 1, 0};
+    tracked_[key].stretch = {key, event.sequence, event.sequence, 1, 0};
     return;
   }
   OpenTracked& open = found->second;
   open.heard = true;
-  open.told.lost += event.lost;
+  open.stretch.lost += event.lost;
   if (event.verdict == SequenceVerdict::leap) {
     open.leapt_to = event.sequence;
     open.has_leapt = true;
@@ -139,16 +140,16 @@ void DatagramBalance::track(const DatagramEvent& event) {
   }
   // Where the numbering has followed a leap, that number counts too.
   const std::uint32_t greatest =
-      ahead_of(event.sequence, open.told.last) > 0 ? event.sequence : open.told.last;
+      ahead_of(event.sequence, open.stretch.last) > 0 ? event.sequence : open.stretch.last;
   const auto window = static_cast<std::int32_t>(aoim::SequenceTracker::kWindow);
   if (open.has_leapt && ahead_of(open.leapt_to, greatest) <= window) {
     open.has_leapt = false;
-    ++open.told.received;
-    if (ahead_of(open.leapt_to, open.told.last) > 0) open.told.last = open.leapt_to;
+    ++open.stretch.received;
+    if (ahead_of(open.leapt_to, open.stretch.last) > 0) open.stretch.last = open.leapt_to;
   }
-  ++open.told.received;
-  if (ahead_of(event.sequence, open.told.last) > 0) open.told.last = event.sequence;
-  if (ahead_of(event.sequence, open.told.first) < 0) open.told.first = event.sequence;
+  ++open.stretch.received;
+  if (ahead_of(event.sequence, open.stretch.last) > 0) open.stretch.last = event.sequence;
+  if (ahead_of(event.sequence, open.stretch.first) < 0) open.stretch.first = event.sequence;
 }
 
 void DatagramBalance::end_stretches(const GroupAddress& group) {
@@ -157,7 +158,7 @@ void DatagramBalance::end_stretches(const GroupAddress& group) {
       ++one;
       continue;
     }
-    over_.stretches.push_back(one->second.told);
+    over_.stretches.push_back(one->second.stretch);
     one = open_.erase(one);
   }
 }
@@ -172,15 +173,15 @@ void DatagramBalance::end_membership(const DatagramEvent& end) {
   memberships_.erase(found);
 }
 
-template <class Open, class Told>
-void DatagramBalance::end_silent(std::map<SenderInGroup, Open>& open, std::vector<Told>& over,
+template <class Open, class Over>
+void DatagramBalance::end_silent(std::map<SenderInGroup, Open>& open, std::vector<Over>& over,
                                  nanoseconds now, bool end) {
   for (auto one = open.begin(); one != open.end();) {
     Open& what = one->second;
     if (what.heard) what.silent_since = now;
     what.heard = false;
     const bool is_over = end || now - what.silent_since >= kSilence;
-    if (is_over) over.push_back(what.told);
+    if (is_over) over.push_back(what.stretch);
     one = is_over ? open.erase(one) : std::next(one);
   }
 }

@@ -72,7 +72,7 @@ struct BalanceReport {
 };
 
 /// Adds up the events of one tap. One thread; allocates. Memory by what is heard at a time: of who
-/// is silent for kSilence the stretch is told and ended.
+/// is silent for kSilence the stretch is reported and ended.
 class DatagramBalance {
  public:
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::minutes(5);
@@ -94,13 +94,13 @@ class DatagramBalance {
     std::uint32_t first = 0, last = 0;
   };
   struct OpenStretch {
-    Stretch told;
+    Stretch stretch;
     std::vector<Gap> gaps;  ///< ascending
     bool heard = true;      ///< since the last report
     std::chrono::nanoseconds silent_since{0};
   };
   struct OpenTracked {
-    TrackedStretch told;
+    TrackedStretch stretch;
     std::uint32_t leapt_to = 0;  ///< a number that the tracker does not believe yet
     bool has_leapt = false;
     bool heard = true;
@@ -111,8 +111,8 @@ class DatagramBalance {
   void end_stretches(const GroupAddress& group);
   void track(const DatagramEvent& event);
   void end_membership(const DatagramEvent& end);
-  template <class Open, class Told>
-  static void end_silent(std::map<SenderInGroup, Open>& open, std::vector<Told>& over,
+  template <class Open, class Over>
+  static void end_silent(std::map<SenderInGroup, Open>& open, std::vector<Over>& over,
                          std::chrono::nanoseconds now, bool end);
 
   DatagramTap& tap_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of each datagram, told by the loops as it happens to whoever keeps the balance
+// What becomes of each datagram, reported by the loops as it happens to whoever keeps the balance
 // (DatagramBalance): so that not one can be missing without a reason. Off unless a program asks.
 #pragma once
 
@@ -34,7 +34,7 @@ enum class DatagramFate : std::uint8_t {
   unsealable,      ///< the envelopes' numbers are at their end
   // Sockets of groups.
   joined,        ///< from `asked` on at the soonest, from `time` on surely
-  left,          ///< between `asked` and `time`; what still waited there is told as `unread`
+  left,          ///< between `asked` and `time`; what still waited there is reported as `unread`
   kernel_drops,  ///< `count` were dropped for want of room
   // In.
   arrived,         ///< the kernel gave it to us, copies included

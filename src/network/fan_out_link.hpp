@@ -33,7 +33,7 @@ struct FanOutOptions {
   std::uint8_t exercise = 1;      ///< of what is put in front
   /// Plain DIS: nothing is put in front, and what comes without it is of the base group.
   bool plain = false;
-  DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; outlives the link
+  DatagramTap* tap = nullptr;  ///< of what becomes of each datagram; outlives the link
 };
 
 /// Around a link whose own endpoint the others know. One copy to each address, those to one address

@@ -26,7 +26,7 @@ struct ImpairedLinkOptions {
   std::size_t max_datagram{2048};     ///< longest payload kept [octets]; longer ones are truncated
   std::size_t max_senders{256};       ///< beyond it senders share one sequence
   std::chrono::nanoseconds start{0};  ///< the start of the run, for outages, by `clock`
-  DatagramTap* tap{nullptr};          ///< is told what it does to which datagram; outlives it
+  DatagramTap* tap{nullptr};          ///< of what it does to which datagram; outlives it
 };
 
 /// Delays on the way in; sends straight through. Threads as any Link: receive and wait by one.

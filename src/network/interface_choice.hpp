@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which network interface a peer uses: the user's word, else a stated rule whose scores are told.
+// Which network interface a peer uses: the user's word, else a stated rule whose scores are
+// reported.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +57,7 @@ struct InterfaceChoice {
 };
 
 /// Picks from `candidates` by name, address or index if `requested` is not empty (a missing cable
-/// is only told then), else by score, the lower index among equals. @throws std::runtime_error,
+/// is only reported then), else by score, the lower index among equals. @throws std::runtime_error,
 /// listing what there is, where nothing fits. Pure.
 [[nodiscard]] InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
                                                std::string_view requested, bool ipv6);

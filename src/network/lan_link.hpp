@@ -26,7 +26,7 @@ struct LanLinkOptions {
   std::uint64_t receiver{0};  ///< number of this peer; those with other numbers lose others
   /// Where there is no multicast: to whom each datagram goes. Empty: to the groups themselves.
   std::vector<NamedPeer> peers;
-  GroupPool pool = GroupPool::ipv4_default();  ///< whose groups are told apart then
+  GroupPool pool = GroupPool::ipv4_default();  ///< whose groups are distinguished then
   std::uint8_t exercise{1};
   bool plain{false};  ///< plain DIS, see FanOutOptions
 };

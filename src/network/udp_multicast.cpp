@@ -87,7 +87,7 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
   if (asked.offload) segment_refusal = segment_error(slots[0].socket);
   segment_told = segment_refusal != 0;
   buffer_size = socket_options.coalesce ? kMostCoalesced : asked.max_datagram;
-  // One more, where somebody is told what waited in a group that is left while all are in use.
+  // One more, where a tap receives what waited in a group that is left while all are in use.
   const std::size_t most = asked.batch + (asked.tap == nullptr ? 0 : 1);
   buffers = std::make_unique_for_overwrite<std::byte[]>(most * buffer_size);
   if (!watch(epoll, wake.get(), kWakeTag) || !watch(epoll, first_epoll.get(), kFirstTag) ||
@@ -280,7 +280,7 @@ IpEndpoint UdpMulticast::local_endpoint() const noexcept {
   return state_->local;
 }
 
-bool UdpMulticast::take_event(LinkEvent& event) noexcept { return state_->told.pop(event); }
+bool UdpMulticast::take_event(LinkEvent& event) noexcept { return state_->link_events.pop(event); }
 
 std::size_t UdpMulticast::max_payload() const noexcept { return state_->max_payload; }
 

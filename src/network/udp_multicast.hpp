@@ -46,8 +46,8 @@ struct UdpMulticastOptions {
   /// it can; off: each datagram goes and comes by itself.
   bool offload{true};
   std::size_t max_groups{1024};  ///< room for joins, made at set-up
-  DatagramTap* tap{nullptr};     ///< is told what becomes of each datagram; outlives the link
-  /// Around it is a FanOutLink of this pool: a tap is told of the group that a datagram says in
+  DatagramTap* tap{nullptr};     ///< of what becomes of each datagram; outlives the link
+  /// Around it is a FanOutLink of this pool: a tap receives the group that a datagram says in
   /// front, and of all after that.
   std::optional<GroupPool> framed{};
   /// Groups behind the base of this pool are read before each turn of any other group, up to half
@@ -64,11 +64,11 @@ struct UdpOffload {
 
 /// UDP multicast on one interface. Send and receive allocate nothing.
 ///
-/// It outlives its interface: wait() is told by the kernel when interfaces or addresses change, and
+/// It outlives its interface: the kernel notifies wait() when interfaces or addresses change, and
 /// takes the interface anew (the same name or the address asked for; another one, after five
 /// seconds, only where it was chosen by rule): the own port stays where it can, the groups are
-/// joined again. What own datagrams to the first group that was joined no longer bring back is told
-/// as well, and joined again once. All that comes as take_event().
+/// joined again. What own datagrams to the first group that was joined no longer bring back is
+/// reported as well, and joined again once. All that comes as take_event().
 class UdpMulticast final : public Link {
  public:
   /// Opens the sending socket, which is also where unicast arrives. @throws std::system_error or
@@ -79,7 +79,7 @@ class UdpMulticast final : public Link {
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
   /// At most two system calls for 64 datagrams, one of them for what waits in the kernel; one more
   /// where the wire takes less than is sent. Runs are cut by the kernel; where it refuses, each
-  /// goes alone, from then on too, and that is told by take_event().
+  /// goes alone, from then on too, and take_event() reports that.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;

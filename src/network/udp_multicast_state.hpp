@@ -171,12 +171,12 @@ struct UdpMulticast::State {
   bool told_by_kernel{false};  ///< else it is looked at each second
   bool host_changed{false};
   bool away{false};      ///< the interface carries nothing
-  bool hindered{false};  ///< the last look at the host failed, and that is told
+  bool hindered{false};  ///< the last look at the host failed, and that is reported
   nanoseconds away_since{0};
   nanoseconds next_look{0};
   std::vector<GroupAddress> unjoined;  ///< lost with the interface and not back yet
   EchoWatch echo;
-  haptics::SpscRing<LinkEvent> told{32};
+  haptics::SpscRing<LinkEvent> link_events{32};
 
   std::size_t buffer_size{0};            ///< [octets] of each; room for a run where those may come
   std::unique_ptr<std::byte[]> buffers;  ///< `batch` of them; pages are taken as they are used

@@ -127,7 +127,7 @@ void UdpMulticast::State::count_drops(Slot& slot, std::uint32_t drops) noexcept 
   options.tap->push(DatagramTap::Loop::read, event);
 }
 
-// What is left of it is not handed up; a tap is told why.
+// What is left of it is not handed up; a tap receives why.
 void UdpMulticast::State::pass_over(Arrived& run, const std::byte* start,
                                     DatagramFate fate) noexcept {
   for (; options.tap != nullptr && run.left > 0; --run.left) {
@@ -165,8 +165,8 @@ void UdpMulticast::State::settle(Slot& slot) noexcept {
     count_drops(slot, memory[SK_MEMINFO_DROPS]);
 }
 
-// Leaves the group. Where a tap is told what waits, the membership ends before that is read:
-// closing can wait for the kernel's lock of interfaces, and what came meanwhile would be told
+// Leaves the group. Where a tap asks for what waits, the membership ends before that is read:
+// closing can wait for the kernel's lock of interfaces, and what came meanwhile would be reported
 // nowhere.
 void UdpMulticast::State::close(Slot& slot) noexcept {
   const nanoseconds asked = clock.now();

@@ -21,7 +21,8 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(500);
 // An interface that was chosen by rule may be replaced by another after so long.
 constexpr nanoseconds kChooseAnother = std::chrono::seconds(5);
-// IPv6 tries for a second or two whether an address is free; a socket refused for longer is told.
+// IPv6 tries for a second or two whether an address is free; a socket refused for longer is
+// link_events.
 constexpr nanoseconds kAddressTried = std::chrono::seconds(3);
 
 }  // namespace
@@ -45,7 +46,8 @@ void UdpMulticast::State::recover() noexcept {
     tell_of_offload();
   } catch (const std::exception& failure) {
     next_look = now + kLookEvery;  // no descriptor or no memory for now: looked at again
-    if (has_news) tell_hindrance(failure.what());  // else groups that are refused are told as such
+    if (has_news)
+      tell_hindrance(failure.what());  // else groups that are refused are reported as such
   }
 }
 
@@ -191,11 +193,11 @@ void UdpMulticast::State::look_for_echo(nanoseconds now) {
 }
 
 void UdpMulticast::State::tell(std::string_view sentence) noexcept {
-  LinkEvent* event = told.claim();
+  LinkEvent* event = link_events.claim();
   if (event == nullptr) return;  // whoever asks lags by 32 of them
   event->text = {};
   sentence.copy(event->text.data(), event->text.size() - 1);
-  told.publish();
+  link_events.publish();
 }
 
 }  // namespace reckon::peer

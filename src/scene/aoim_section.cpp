@@ -75,7 +75,7 @@ Section<AoimConfig> aoim_section() {
           {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
            "multicast groups after the base group; not 2 or 3"},
           {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),
-           "of the pool, joined at once at most; what is beyond is not heard, and told"},
+           "of the pool, joined at once at most; what is beyond is not received, and reported"},
           {"leaders", &AoimConfig::leaders,
            "each cell has a leader, who tells what is in it to those that come late; the same for "
            "all peers"},

@@ -127,7 +127,7 @@ std::vector<Row<AoimConfig>> awareness_rows() {
       {"budget", of(&Config::budget), within("B", 0, 1e9),
        "with `channels`: octets of updates a second that this peer can take: distances count as "
        "longer until that "
-       "is met, and the others are told; 0 is no bound"},
+       "is met, and the others are informed; 0 is no bound"},
       {"kinds", of(&Config::kinds),
        "of entities that are shown, as in \"platform, life form\"; when absent, all"},
       {"aura", of(&Config::aura), within("m", 0, kWorld),

@@ -166,7 +166,7 @@ Section<TouchModel> force_model_section() {
            "outwards, body axes; the default is up"},
           {"validity", &Model::validity, within("s", 12, 65),
            "after so long without an update the force fades out"},
-          {"mass", &Model::mass, within("kg", 0, 1e9), "of the entity; 0: not told"},
+          {"mass", &Model::mass, within("kg", 0, 1e9), "of the entity; 0: not stated"},
           {"restitution", &Model::restitution, within("", 0, 1), "0 plastic, 1 elastic"},
       },
       check_force_model};
@@ -181,9 +181,10 @@ void check_beacon(TomlReader& table, const SceneFile& scene, const EntityConfig&
                               entity.beacon, kLongestBeacon));
   }
   if (!scene.aoim.hand_out) {
-    return table.problem("beacon",
-                         "'beacon' is told with the groups that are handed out: set 'leaders' and "
-                         "'hand_out' of [aoim], or take it out");
+    return table.problem(
+        "beacon",
+        "'beacon' is announced with the groups that are handed out: set 'leaders' and "
+        "'hand_out' of [aoim], or take it out");
   }
   if (!tags.insert(aoim::beacon_tag(entity.beacon)).second) {
     table.problem("beacon", fmt::format("there is another beacon '{}': give it a name of its own",

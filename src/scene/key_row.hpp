@@ -51,7 +51,7 @@ inline Written written(bool value, std::string_view) {
   return {KeyKind::boolean, value ? "true" : "false"};
 }
 
-/// None: what holds then is told by the sentence.
+/// None: what holds then is in the sentence.
 inline Written written(const std::optional<bool>& value, std::string_view) {
   return {KeyKind::boolean, !value ? "" : *value ? "true" : "false"};
 }

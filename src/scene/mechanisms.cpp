@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 9> kWords{
     "all who listen to a cell to receive the same",
     "leaders of cells",
     "a map of the groups that are handed out",
-    "receivers that are told apart by distance",
+    "receivers that are distinguished by distance",
 };
 
 std::string_view words_of(Condition condition) {

@@ -25,7 +25,7 @@ enum class Condition : unsigned char {
   one_stream,     ///< all who listen to a cell receive the same
   leaders,        ///< cells have leaders
   group_map,      ///< a map says which cell has which group
-  channels,       ///< receivers are told apart by their distance
+  channels,       ///< receivers are distinguished by their distance
 };
 
 /// A mechanism that a scene file can switch on.

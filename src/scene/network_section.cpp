@@ -143,7 +143,7 @@ Section<NetworkConfig> network_section() {
            "shows"},
           {"rate", &NetworkConfig::rate, within("", 100, 1e6),
            "datagrams a second in one group, from all peers: the receive buffer holds 50 ms of "
-           "them; less than that is told"},
+           "them; less than that is reported"},
           {"offload", &NetworkConfig::offload,
            "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
           {"key", &NetworkConfig::key,

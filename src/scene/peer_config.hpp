@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer is told before it starts: plain structs with the defaults of docs/scene_files.md.
+// What configures a peer before it starts: plain structs with the defaults of docs/scene_files.md.
 // scene_file.hpp fills them; nothing here changes once a peer runs.
 #pragma once
 

@@ -60,7 +60,7 @@ void check_aoim_of(TomlReader& file, const SceneFile& scene);
 void read_entities(TomlReader& file, SceneFile& out);
 void read_devices(TomlReader& file, SceneFile& out);
 
-/// Which of `keys` the table has; anything but exactly one is a problem, of which `what` is told.
+/// Which of `keys` the table has; anything but exactly one is a problem, reported with `what`.
 std::string only_one(TomlReader& table, const std::vector<std::string_view>& keys,
                      std::string_view what);
 /// The key type, by numbers or in words.

@@ -107,7 +107,7 @@ void TomlReader::require(std::string_view key) {
   const bool misspelt = std::ranges::any_of(*table_, [&](const auto& entry) {
     return !nearest_word(entry.first.str(), std::array{key}).empty();
   });
-  if (misspelt) return;  // already told
+  if (misspelt) return;  // already reported
   problem(key, fmt::format("{} needs '{}': {}", section_name(section_), key, spec(key).sentence));
 }
 

@@ -77,7 +77,7 @@ std::span<const std::byte> Greeter::write(SealedSenders& senders, std::span<std:
 
 void Greeter::meet(const SealedSenders& senders, nanoseconds now) noexcept {
   patience_ = kFirstPatience;
-  // What was heard of one that has lost its place can be told to us again, with our nonce of then.
+  // What was heard of one that has lost its place can be sent to us again, with our nonce of then.
   // Another nonce than ever before is enough: answers are sealed.
   if (dropped_ != senders.trusted_dropped()) ++own_.nonce;
   dropped_ = senders.trusted_dropped();

@@ -14,7 +14,7 @@ namespace reckon::peer {
 using RandomSource = bool (*)(std::span<std::byte>) noexcept;
 
 /// The kernel's, getrandom(2), and where the CPU has RDRAND its own added: two copies of one
-/// machine may draw the same from their kernels until these are told. 1 us.
+/// machine may draw the same from their kernels until these notice. 1 us.
 [[nodiscard]] bool system_random(std::span<std::byte> out) noexcept;
 
 /// The random source has failed: no exercise is sealed without. Neither a fault of usage nor of the

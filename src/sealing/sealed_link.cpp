@@ -101,7 +101,7 @@ struct SealedLink::State {
   void begin_anew(nanoseconds now) noexcept;
   void tend(nanoseconds now) noexcept;
   void greet(nanoseconds now) noexcept;
-  /// Sealed, and sent. What the inner link tells of its sends is told under the lock too: two
+  /// Sealed, and sent. What the inner link reports of its sends is reported under the lock too: two
   /// threads send.
   [[nodiscard]] bool send(SealingStream stream, const IpEndpoint& to,
                           std::span<const std::byte> bytes, std::span<std::byte> room,

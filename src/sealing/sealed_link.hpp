@@ -33,8 +33,7 @@ struct SealedLinkOptions {
   ExercisePlaces places{};                ///< what is sealed for another one does not open
   RandomSource random{system_random};
   InstanceNumber instance{system_instance};  ///< asked ten times a second
-  DatagramTap* tap{
-      nullptr};  ///< is told what becomes of envelopes and what is in them; outlives it
+  DatagramTap* tap{nullptr};  ///< of what becomes of envelopes and what is in them; outlives it
 };
 
 /// Seals and opens, under a boot drawn at random at construction. A boot heard for the first time

@@ -41,8 +41,8 @@ std::string SealingNews::text() const {
 
 bool SealingWatch::Lasting::turn(nanoseconds now, nanoseconds span) noexcept {
   if (first < nanoseconds(0)) first = now;
-  if (now - first < span || (told >= nanoseconds(0) && now - told < kAgain)) return false;
-  told = now;
+  if (now - first < span || (reported >= nanoseconds(0) && now - reported < kAgain)) return false;
+  reported = now;
   return true;
 }
 

@@ -47,9 +47,9 @@ class SealingWatch {
   [[nodiscard]] haptics::SpscRing<SealingNews>& news() noexcept { return news_; }
 
  private:
-  /// Something that has to last before it is told, and is told once a minute.
+  /// Something that has to last before it is reported, and is reported once a minute.
   struct Lasting {
-    std::chrono::nanoseconds first{-1}, told{-1};
+    std::chrono::nanoseconds first{-1}, reported{-1};
     [[nodiscard]] bool turn(std::chrono::nanoseconds now, std::chrono::nanoseconds span) noexcept;
   };
 

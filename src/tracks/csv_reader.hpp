@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Rows of numbers from a CSV file with a header, one at a time: RFC 4180 with its quotes, any ends
-// of lines. What is wrong is told with file, line and column.
+// of lines. What is wrong is reported with file, line and column.
 //
 //   CsvReader csv("hand.csv");
 //   const auto time = csv.find("t_s");

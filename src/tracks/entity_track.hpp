@@ -31,7 +31,7 @@ struct TrackSamples {
 
   std::vector<double> times;                     ///< [s], growing by kLeastStep at least
   std::vector<Eigen::Vector3d> positions;        ///< [m], S; as many
-  std::vector<Eigen::Quaterniond> orientations;  ///< body to S; as many, or none: not told
+  std::vector<Eigen::Quaterniond> orientations;  ///< body to S; as many, or none: not stated
 };
 
 /// Reads a table with a header; columns t_s, px_m, py_m, pz_m and perhaps qw, qx, qy, qz (body to

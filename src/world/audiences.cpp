@@ -32,7 +32,7 @@ Audiences::Audiences(bool felt, std::span<const aoim::Channel> rows,
                                  times * first_repeat, rule, deadreckon::kEventRepeat),
         behind);
     slack_ = times * inmost.thresholds().position;
-    if (rows[row].body != aoim::Body::rigid) told_of_parts_ = sides_.size();
+    if (rows[row].body != aoim::Body::rigid) receive_parts_ = sides_.size();
   }
 }
 
@@ -40,8 +40,8 @@ void Audiences::event(std::size_t outmost) noexcept {
   for (std::size_t i = 0; i < std::min(outmost, sides_.size()); ++i) sides_[i].event();
 }
 
-void Audiences::told(std::size_t audience, const deadreckon::KinematicState& as_received,
-                     double now, deadreckon::SendReason reason, bool whole) noexcept {
+void Audiences::note_sent(std::size_t audience, const deadreckon::KinematicState& as_received,
+                          double now, deadreckon::SendReason reason, bool whole) noexcept {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const bool is_in_step = felt_ && i == 0;
     i < audience ? sides_[i].told_all(as_received, now, reason, whole || is_in_step)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// To whom an update of an entity of ours goes, where not all are told the same: those who hear its
+// To whom an update of an entity of ours goes, where not all receive the same: those who hear its
 // contact group, those who hear the group of a near row of channels, and all. Part of the model
 // loop.
 #pragma once
@@ -47,8 +47,8 @@ class Audiences {
   [[nodiscard]] std::size_t audience_of(std::size_t row) const noexcept {
     return felt_ ? row + 1 : row;
   }
-  /// The outmost one that is told of articulated parts.
-  [[nodiscard]] std::size_t told_of_parts() const noexcept { return told_of_parts_; }
+  /// The outmost one that receives articulated parts.
+  [[nodiscard]] std::size_t receive_parts() const noexcept { return receive_parts_; }
 
   // Of those behind the inmost: audiences from 1 on.
 
@@ -59,22 +59,22 @@ class Audiences {
     return sides_[audience - 1].decide(truth, now);
   }
   /// An update went to this audience. @param whole all that there is to say of it
-  void told(std::size_t audience, const deadreckon::KinematicState& as_received, double now,
-            deadreckon::SendReason reason, bool whole) noexcept;
-  /// Whether those before it were told something that it was not.
+  void note_sent(std::size_t audience, const deadreckon::KinematicState& as_received, double now,
+                 deadreckon::SendReason reason, bool whole) noexcept;
+  /// Whether something was sent to those before it and not to it.
   [[nodiscard]] bool is_behind(std::size_t audience) const noexcept {
     return sides_[audience - 1].is_behind();
   }
-  /// When it was told last [s].
-  [[nodiscard]] double told_at(std::size_t audience) const noexcept {
-    return sides_[audience - 1].told();
+  /// When something was sent to it last [s].
+  [[nodiscard]] double last_sent_at(std::size_t audience) const noexcept {
+    return sides_[audience - 1].last_sent();
   }
   /// When decide() is due for one of those from `audience` on though nothing changes.
   [[nodiscard]] double next(std::size_t audience) const noexcept;
 
   // Whom it is of use to tell.
 
-  /// How far off [m] others may be from where they were told to be, as far as they are told as
+  /// How far off [m] others may be from where their last update put them, as far as they receive as
   /// coarsely as this entity.
   [[nodiscard]] double slack() const noexcept { return slack_; }
   /// In the rows before this one nobody is known to listen.
@@ -86,12 +86,13 @@ class Audiences {
   [[nodiscard]] bool has_to_look(std::chrono::nanoseconds now) const noexcept {
     return now >= look_again_;
   }
-  /// Whether nobody is known any more to hear what those before this audience were told alone, last
-  /// at `told` and since [s]: this one is told it once, so that whoever does hear it knows no more
-  /// than is watched.
-  [[nodiscard]] bool is_out_of_step(std::size_t audience, double told, double now) const noexcept {
+  /// Whether nobody is known any more to hear what was sent to those before this audience alone,
+  /// last at `last_sent` [s]: it is sent to this one once, so that whoever does hear it knows no
+  /// more than is watched.
+  [[nodiscard]] bool is_out_of_step(std::size_t audience, double last_sent,
+                                    double now) const noexcept {
     return audience > 0 && audience <= served() && is_behind(audience) &&
-           now - told >= pdu::to_seconds(kGrace);
+           now - last_sent >= pdu::to_seconds(kGrace);
   }
   void serve(std::size_t row, std::chrono::nanoseconds look_again) noexcept {
     served_row_ = row;
@@ -101,7 +102,7 @@ class Audiences {
  private:
   std::vector<SeenSide> sides_;  // of audiences 1 ..
   bool felt_;
-  std::size_t told_of_parts_ = 0;
+  std::size_t receive_parts_ = 0;
   double slack_ = 0.0;
   std::size_t served_row_ = 0;
   std::chrono::nanoseconds look_again_ = std::chrono::nanoseconds::min();

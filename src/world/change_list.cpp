@@ -8,7 +8,7 @@ namespace reckon::peer {
 ChangeList::ChangeList(std::size_t capacity) : noted_(capacity) {
   present_.reserve(capacity);
   gone_.reserve(capacity);
-  told_.reserve(2 * capacity);
+  taken_.reserve(2 * capacity);
 }
 
 void ChangeList::discovered() {
@@ -47,14 +47,14 @@ void ChangeList::forget(std::uint32_t entry) noexcept {
 
 std::span<const EntityChange> ChangeList::take(std::span<const RemoteEntity> rows) noexcept {
   // Who comes back under an ID has gone under it before.
-  told_.assign(gone_.begin(), gone_.end());
+  taken_.assign(gone_.begin(), gone_.end());
   for (const Present& present : present_) {
-    told_.push_back({rows[present.row].id, present.change});
+    taken_.push_back({rows[present.row].id, present.change});
     noted_[present.row] = kNone;
   }
   gone_.clear();
   present_.clear();
-  return told_;
+  return taken_;
 }
 
 }  // namespace reckon::peer

@@ -24,7 +24,7 @@ struct EntityChange {
 /// one of each entity that has gone. It follows the table row by row, as a RowColumn does. One
 /// thread; allocates only at construction.
 ///
-/// An entity that comes and goes in between is not told; one that goes and comes back is, as
+/// An entity that comes and goes in between is not listed; one that goes and comes back is, as
 /// removed and then discovered.
 class ChangeList {
  public:
@@ -52,10 +52,10 @@ class ChangeList {
   void note(std::size_t place, Change change) noexcept;
   void forget(std::uint32_t entry) noexcept;
 
-  RowColumn<std::uint32_t> noted_;  // of each row: its place in present_, or kNone
-  std::vector<Present> present_;    // rows that have come or changed
-  std::vector<EntityChange> gone_;  // that have been told
-  std::vector<EntityChange> told_;  // at the last take()
+  RowColumn<std::uint32_t> noted_;   // of each row: its place in present_, or kNone
+  std::vector<Present> present_;     // rows that have come or changed
+  std::vector<EntityChange> gone_;   // that have been listed
+  std::vector<EntityChange> taken_;  // at the last take()
 };
 
 }  // namespace reckon::peer

@@ -28,7 +28,7 @@ struct Inbound {
     stop_freeze,
     start_resume,
     other,
-    claim,  ///< said of an entity by who cannot be its owner; all that is told is whose it is
+    claim,  ///< said of an entity by who cannot be its owner; all that it states is whose it is
   };
   /// Entities of ours that one of others can touch at a time; further ones are counted.
   static constexpr std::size_t kAccounts = 8;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a haptic device can show of what the scene asks: fixed at the start, told to the user.
+// What a haptic device can show of what the scene asks: fixed at the start, reported to the user.
 #pragma once
 
 #include <algorithm>

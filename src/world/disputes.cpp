@@ -33,10 +33,10 @@ std::optional<Dispute> Disputes::take_news(std::chrono::nanoseconds now) noexcep
   Pair* oldest = nullptr;
   for (std::size_t i = 0; i < count_; ++i) {
     Pair& pair = pairs_[i];
-    if (!pair.told && (oldest == nullptr || pair.first < oldest->first)) oldest = &pair;
+    if (!pair.reported && (oldest == nullptr || pair.first < oldest->first)) oldest = &pair;
   }
   if (oldest == nullptr) return {};
-  oldest->told = true;
+  oldest->reported = true;
   last_news_ = now;
   return oldest->dispute;
 }

@@ -34,14 +34,14 @@ class Disputes {
 
   /// One more datagram or update refused. Some 20 ns.
   void note(const Dispute& dispute, std::chrono::nanoseconds now) noexcept;
-  /// The oldest that has not been told, at most one each kGap.
+  /// The oldest that has not been reported, at most one each kGap.
   [[nodiscard]] std::optional<Dispute> take_news(std::chrono::nanoseconds now) noexcept;
 
  private:
   struct Pair {
     Dispute dispute;
     std::chrono::nanoseconds first{0}, last{0};
-    bool told = false;
+    bool reported = false;
   };
   [[nodiscard]] Pair* find(const Dispute& dispute) noexcept;
 

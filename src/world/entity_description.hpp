@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // What an owner says of an entity (who it is, how exactly it is sent, what hands feel of it) and
-// where it truly is. A hand, a truck and a post are told in the same words.
+// where it truly is. A hand, a truck and a post are described in the same words.
 #pragma once
 
 #include <Eigen/Core>

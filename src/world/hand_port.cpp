@@ -35,11 +35,11 @@ constexpr std::chrono::milliseconds kGlidingAccounts{40};
 // of both every 8 ms. Without sliding the acceleration is the spring's.
 constexpr double kRubbing = 0.015;
 constexpr double kSureInContact = 4.0;
-// What is told is what it will be so much later [s], about half way to the next update; but half of
+// What is sent is what it will be so much later [s], about half way to the next update; but half of
 // it at most is guessed so, for where hands meet and part it changes all at once.
 constexpr double kAhead = 0.004;
 constexpr double kGuessed = 0.5;
-// Free, the servo's acceleration is told, unless the last velocities differ by more than may be
+// Free, the servo's acceleration is sent, unless the last velocities differ by more than may be
 // noise, and than this [m/s^2]: a millimetre in 70 ms.
 constexpr double kSteady = 0.4;
 

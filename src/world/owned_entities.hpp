@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // All entities that this peer owns, and which of them have to be looked at now: those whose truth
-// was told anew, those whose heartbeat is due. One that rests costs nothing in between.
+// was updated, those whose heartbeat is due. One that rests costs nothing in between.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct OwnerSettings {
   double teleport_distance = 10.0;  ///< [m] > 0
   /// Motion is rounded to the quanta of the compressed forms, unless there is none.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
-  bool contact_groups = false;  ///< what is felt is told to those near apart
+  bool contact_groups = false;  ///< what is felt is sent to those near separately
   /// With near groups: the rows of channels that are not kept, the nearest first.
   std::vector<aoim::Channel> rows = {};
 };

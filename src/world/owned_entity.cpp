@@ -46,14 +46,14 @@ deadreckon::ForceModel believed(deadreckon::ForceModel model) {
 }
 
 double heartbeat_of(const EntityDescription& description) {
-  const nanoseconds told = description.dead_reckoning.heartbeat;
+  const nanoseconds stated = description.dead_reckoning.heartbeat;
   if (!description.model) {
-    return told > nanoseconds(0) ? pdu::to_seconds(told)
-                                 : deadreckon::nominal_heartbeat(description.type);
+    return stated > nanoseconds(0) ? pdu::to_seconds(stated)
+                                   : deadreckon::nominal_heartbeat(description.type);
   }
   // A force that fades out before it is said again would come and go; one update may be lost.
   const double wanted =
-      told > nanoseconds(0) ? pdu::to_seconds(told) : deadreckon::kHapticHeartbeat;
+      stated > nanoseconds(0) ? pdu::to_seconds(stated) : deadreckon::kHapticHeartbeat;
   return std::min(wanted, believed(*description.model).validity / deadreckon::kTimeoutMultiplier);
 }
 
@@ -195,11 +195,11 @@ EntityTruth OwnedEntity::truth_at(nanoseconds now) const noexcept {
 }
 
 // What peers are to believe: the truth, or where it froze.
-EntityTruth OwnedEntity::told_truth(nanoseconds now) const noexcept {
+EntityTruth OwnedEntity::stated_truth(nanoseconds now) const noexcept {
   if (!frozen_) return truth_at(now);
-  EntityTruth told = frozen_at_;
-  told.time = now;
-  return told;
+  EntityTruth stated = frozen_at_;
+  stated.time = now;
+  return stated;
 }
 
 pdu::DeadReckoningAlgorithm OwnedEntity::algorithm() const noexcept {
@@ -207,7 +207,7 @@ pdu::DeadReckoningAlgorithm OwnedEntity::algorithm() const noexcept {
 }
 
 deadreckon::KinematicState OwnedEntity::motion_at(nanoseconds now) const noexcept {
-  return motion_of(told_truth(now));
+  return motion_of(stated_truth(now));
 }
 
 deadreckon::KinematicState OwnedEntity::motion_of(const EntityTruth& truth) const noexcept {
@@ -246,15 +246,15 @@ bool OwnedEntity::consider_accounts(nanoseconds now,
 
 SendReason OwnedEntity::decide(nanoseconds now,
                                std::span<const deadreckon::ProbeState> probes) noexcept {
-  const EntityTruth told = told_truth(now);
-  const double seconds = pdu::to_seconds(told.time);
-  const deadreckon::Pose truth = pose_of(told);
-  if (choice_ && !told.lasting_velocity) {
-    choice_->note({seconds, told.position, told.orientation, told.velocity, told.acceleration,
-                   told.angular_velocity},
+  const EntityTruth stated = stated_truth(now);
+  const double seconds = pdu::to_seconds(stated.time);
+  const deadreckon::Pose truth = pose_of(stated);
+  if (choice_ && !stated.lasting_velocity) {
+    choice_->note({seconds, stated.position, stated.orientation, stated.velocity,
+                   stated.acceleration, stated.angular_velocity},
                   config_.thresholds, *config_.rule);
   }
-  if (parts_ && parts_are_off(seconds)) event(audiences_ ? audiences_->told_of_parts() : 0);
+  if (parts_ && parts_are_off(seconds)) event(audiences_ ? audiences_->receive_parts() : 0);
   TouchSide::Miss miss;
   if (touch_ && !probes.empty()) {
     miss = touch_->worst_miss(truth, seconds, probes, config_.thresholds);
@@ -263,12 +263,12 @@ SendReason OwnedEntity::decide(nanoseconds now,
 }
 
 SendReason OwnedEntity::decide_for(std::size_t audience, nanoseconds now) const noexcept {
-  const EntityTruth told = told_truth(now);
-  return audiences_->decide(audience, pose_of(told), pdu::to_seconds(told.time));
+  const EntityTruth stated = stated_truth(now);
+  return audiences_->decide(audience, pose_of(stated), pdu::to_seconds(stated.time));
 }
 
-nanoseconds OwnedEntity::told_at(std::size_t audience) const noexcept {
-  return audience == 0 ? last_built_ : pdu::from_seconds(audiences_->told_at(audience));
+nanoseconds OwnedEntity::last_sent_at(std::size_t audience) const noexcept {
+  return audience == 0 ? last_built_ : pdu::from_seconds(audiences_->last_sent_at(audience));
 }
 
 bool OwnedEntity::parts_are_off(double now) const noexcept {
@@ -282,8 +282,8 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
   const bool is_felt = touch_ && body == aoim::Body::full;
   const bool has_parts = parts_ && body != aoim::Body::rigid;
   update.state = template_;
-  const EntityTruth told = told_truth(now);
-  if (deadreckon::to_wire(motion_of(told), *frame_, update.state, config_.acceleration) !=
+  const EntityTruth stated = stated_truth(now);
+  if (deadreckon::to_wire(motion_of(stated), *frame_, update.state, config_.acceleration) !=
       ConversionError::none) {
     return false;
   }
@@ -305,18 +305,18 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
       ConversionError::none) {
     return false;
   }
-  const double seconds = pdu::to_seconds(told.time);
+  const double seconds = pdu::to_seconds(stated.time);
   policy_.sent(decoded, seconds, reason);
-  if (audiences_) audiences_->told(audience, decoded, seconds, reason, !is_thinned(body));
+  if (audiences_) audiences_->note_sent(audience, decoded, seconds, reason, !is_thinned(body));
   if (is_felt) {
     note_touch(update.model, decoded, seconds);
     note_accounts(accounts, update);
   } else if (touch_) {
     touch_->predictor_.update_entity(decoded, seconds);
   }
-  const bool all_know = !audiences_ || audience >= audiences_->told_of_parts();
+  const bool all_know = !audiences_ || audience >= audiences_->receive_parts();
   if (has_parts && all_know) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
-  last_built_ = told.time;
+  last_built_ = stated.time;
   held_until_ = nanoseconds::max();
   has_waited_ = false;
   return true;

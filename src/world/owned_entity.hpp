@@ -121,7 +121,7 @@ class OwnedEntity {
   void felt_event() noexcept { policy_.event(); }
   /// Appearance as on the wire, but for the bits that the peer sets itself. An event.
   void set_appearance(std::uint32_t appearance) noexcept;
-  /// While frozen, peers are told that it stays where it was, whatever its truth does.
+  /// While frozen, updates state that it stays where it was, whatever its truth does.
   void set_frozen(bool frozen) noexcept;
   [[nodiscard]] bool is_frozen() const noexcept { return frozen_; }
   void set_deactivated() noexcept;
@@ -152,18 +152,18 @@ class OwnedEntity {
   [[nodiscard]] deadreckon::SendReason decide(
       std::chrono::nanoseconds now, std::span<const deadreckon::ProbeState> probes = {}) noexcept;
 
-  /// From now on some are told what others are not: with `felt`, of what is felt, by contact
-  /// groups; with two rows of channels or more, by near groups. What hands feel is told by near
-  /// groups only where that is told by contact groups.
+  /// From now on some receive what others do not: with `felt`, what is felt, by contact
+  /// groups; with two rows of channels or more, by near groups. What hands feel is sent by near
+  /// groups only where that is sent by contact groups.
   void tell_apart(bool felt, std::span<const aoim::Channel> rows);
-  /// Null where all are told the same.
+  /// Null where all receive the same.
   [[nodiscard]] Audiences* audiences() noexcept { return audiences_.get(); }
   [[nodiscard]] const Audiences* audiences() const noexcept { return audiences_.get(); }
-  /// Why this audience, 1 or more, has to be told; `none` where it need not be.
+  /// Why an update is due to this audience, 1 or more; `none` where it is not.
   [[nodiscard]] deadreckon::SendReason decide_for(std::size_t audience,
                                                   std::chrono::nanoseconds now) const noexcept;
-  /// Steady time at which an audience was told last.
-  [[nodiscard]] std::chrono::nanoseconds told_at(std::size_t audience) const noexcept;
+  /// Steady time at which an audience was sent its last update.
+  [[nodiscard]] std::chrono::nanoseconds last_sent_at(std::size_t audience) const noexcept;
 
   /// Fills `update` with what is true at `now` and notes it as sent. `utc` is the same instant.
   /// False where the state cannot be sent (beyond the wire's range): nothing is noted.
@@ -216,7 +216,7 @@ class OwnedEntity {
   struct Parts {
     deadreckon::PartState truth, sent;
   };
-  [[nodiscard]] EntityTruth told_truth(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] EntityTruth stated_truth(std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] deadreckon::KinematicState motion_of(const EntityTruth& truth) const noexcept;
   [[nodiscard]] pdu::DeadReckoningAlgorithm algorithm() const noexcept;
   [[nodiscard]] bool parts_are_off(double now) const noexcept;
@@ -235,7 +235,7 @@ class OwnedEntity {
   double teleport_distance_;
   std::unique_ptr<deadreckon::ModelChoice> choice_;  // where the configuration names no model
   std::unique_ptr<TouchSide> touch_;
-  std::unique_ptr<Audiences> audiences_;  // where some are told apart
+  std::unique_ptr<Audiences> audiences_;  // where some receive more than others
   std::unique_ptr<StateCompressor> compressor_;
   std::unique_ptr<Parts> parts_;
   EntityTruth frozen_at_;

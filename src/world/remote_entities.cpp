@@ -174,12 +174,12 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
   const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   const bool halted = known && frozen != row.frozen;
   const bool other_model = known && state.algorithm != row.state.algorithm;
-  const deadreckon::Pose told = is_adaptive() ? row.predicted(*time) : deadreckon::Pose();
+  const deadreckon::Pose expected = is_adaptive() ? row.predicted(*time) : deadreckon::Pose();
   note_state(row, heard, *time);
   note_held(row, heard, *time, true);
   const deadreckon::Pose after = row.predicted(at.now);
   const bool abrupt = halted || (known && is_teleport(shown, after));
-  if (is_adaptive()) note_history(row, told, abrupt || other_model);
+  if (is_adaptive()) note_history(row, expected, abrupt || other_model);
   if (known) {
     note_jump(row, before, after, servo);
     row.convergence.restart(settings_.convergence.settings, shown, row.expected(after, at.now),
@@ -224,20 +224,20 @@ void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
 }
 
 bool RemoteEntities::is_teleport(const deadreckon::Pose& shown,
-                                 const deadreckon::Pose& told) const noexcept {
+                                 const deadreckon::Pose& expected) const noexcept {
   const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
-  const double angle = deadreckon::angle_between(told.orientation, shown.orientation);
-  return !((told.position - shown.position).norm() <= settings.teleport_distance) ||
+  const double angle = deadreckon::angle_between(expected.orientation, shown.orientation);
+  return !((expected.position - shown.position).norm() <= settings.teleport_distance) ||
          !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
 }
 
 // Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
 // instants a better knowledge of the sender's clock has turned back.
-void RemoteEntities::note_history(RemoteEntity& row, const deadreckon::Pose& told,
+void RemoteEntities::note_history(RemoteEntity& row, const deadreckon::Pose& expected,
                                   bool abrupt) noexcept {
   const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));
   deadreckon::AdaptiveOrder& order = orders_[table_.place_of(row)];
-  if (!abrupt && row.updates > 0 && order.add(sample, told)) return;
+  if (!abrupt && row.updates > 0 && order.add(sample, expected)) return;
   deadreckon::AdaptiveSettings settings;
   settings.sent = sent_rates(row.state.algorithm);
   order = deadreckon::AdaptiveOrder(settings);

@@ -92,7 +92,7 @@ class RemoteEntities {
   bool take(const Inbound& update, const Arrival& arrival,
             const haptics::ServoSnapshot& servo) noexcept;
   /// In whose name somebody speaks who says something that is no state: by the rule of states, the
-  /// owner where one of `ids` is his. What is refused is counted in `disputed_in` and told. An
+  /// owner where one of `ids` is his. What is refused is counted in `disputed_in` and reported. An
   /// entity number that no entity has stands for its site and application. Some 20 ns each.
   [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept;
   /// Something that is to be believed came from there: its rows are not given to others.
@@ -127,7 +127,7 @@ class RemoteEntities {
   /// foci have been set; 50 ns for each that is looked at.
   void look_outside(std::chrono::nanoseconds now) noexcept;
 
-  /// Calls visit(epoch of its peer, position [m, S] as it was told, carried on to `now`, speed
+  /// Calls visit(epoch of its peer, position [m, S] as it was received, carried on to `now`, speed
   /// [m/s]) for each entity heard, shown or not.
   template <typename Visit>
   void for_each_place(std::chrono::nanoseconds now, Visit&& visit) const {
@@ -244,10 +244,10 @@ class RemoteEntities {
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
   void note_state(RemoteEntity& row, const StateInHand& heard,
                   std::chrono::nanoseconds time) noexcept;
-  /// `told`: what the update before said of this one's instant.
-  void note_history(RemoteEntity& row, const deadreckon::Pose& told, bool abrupt) noexcept;
+  /// `expected`: what the update before said of this one's instant.
+  void note_history(RemoteEntity& row, const deadreckon::Pose& expected, bool abrupt) noexcept;
   [[nodiscard]] bool is_teleport(const deadreckon::Pose& shown,
-                                 const deadreckon::Pose& told) const noexcept;
+                                 const deadreckon::Pose& expected) const noexcept;
   void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
                  const haptics::ServoSnapshot& servo) noexcept;
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;

@@ -28,35 +28,35 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   if (row == nullptr) return;
   const HeldState& held = held_.behind(table_.place_of(*row), settings_.near_rows - 1);
   if (!held.is_heard) return;
-  Inbound told = update;
-  told.state.header.timestamp = held.timestamp;
+  Inbound known = update;
+  known.state.header.timestamp = held.timestamp;
   Arrival then = arrival;
   then.arrival = held.time;
   then.group = aoim::kBaseGroup;
-  keep_outside(OutsideEntity(told, then, held.state, timeout));
+  keep_outside(OutsideEntity(known, then, held.state, timeout));
 }
 
-// As if it had been told to us out there: when it was said is known, so no clock is asked again.
+// As if it had been received out there: when it was said is known, so no clock is asked again.
 void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   const std::size_t place = table_.place_of(row);
-  HeldState told{row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
+  HeldState known{row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
   const bool near = held_.is_on() && held_.shown_by(place) != aoim::kBaseGroup;
-  if (near) told = held_.behind(place, settings_.near_rows - 1);
-  if (!told.is_heard) return;
+  if (near) known = held_.behind(place, settings_.near_rows - 1);
+  if (!known.is_heard) return;
 
   Inbound update;
   update.entity = row.id;
   update.has_state = true;
   pdu::EntityState& pdu = update.state;
   pdu.entity_id = row.id;
-  pdu.header.timestamp = told.timestamp;
+  pdu.header.timestamp = known.timestamp;
   pdu.entity_type = row.type;
   pdu.force_id = row.force_id;
   pdu.appearance = row.appearance;
   pdu.capabilities = row.capabilities;
   std::copy_n(row.marking.begin(), pdu.marking.text.size(), pdu.marking.text.begin());
   std::array<std::byte, 32 * deadreckon::PartState::kCapacity> parts;
-  if (const deadreckon::PartState* state = parts_.told(row))
+  if (const deadreckon::PartState* state = parts_.received(row))
     pdu.variable_parameters = std::span(parts).first(deadreckon::to_wire(*state, parts));
   deadreckon::ForceModel model = row.model;
   model.validity = std::max(pdu::to_seconds(row.valid_until - row.last_heard), 0.0);
@@ -67,11 +67,11 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
 
   Arrival arrival;
   arrival.now = owners_.last_heard(place);
-  arrival.arrival = told.time;
+  arrival.arrival = known.time;
   arrival.epoch = row.epoch;
   arrival.clock.aligned = false;
   arrival.from = owners_.owner(place);
-  OutsideEntity entity(update, arrival, told.state, row.timeout);
+  OutsideEntity entity(update, arrival, known.state, row.timeout);
   entity.set_last_heard(row.last_heard);
   keep_outside(entity);
 }

@@ -15,7 +15,7 @@ using deadreckon::PartParameter;
 using deadreckon::PartReading;
 using deadreckon::PartState;
 
-// Parts of a frozen entity stand as told.
+// Parts of a frozen entity stand as received.
 PartState standing(const PartState& state) {
   PartState still;
   for (PartParameter part : state.parameters()) {
@@ -32,9 +32,9 @@ std::size_t left_out(const PartReading& reading) {
 }  // namespace
 
 ShownPart ShownParts::operator[](std::size_t i) const noexcept {
-  const PartParameter& told = parts_->state().parameters()[i];
+  const PartParameter& received = parts_->state().parameters()[i];
   const PartMotion motion = parts_->shown(i, now_);
-  return {told.part, told.attached_to, told.metric, motion.value, motion.rate};
+  return {received.part, received.attached_to, received.metric, motion.value, motion.rate};
 }
 
 RemoteParts::RemoteParts(const deadreckon::ConvergenceSettings& settings, Counters& counters)

@@ -65,8 +65,8 @@ class RemoteParts {
   /// Gives the place of a row back; nothing happens where it has none.
   void release(RemoteEntity& row) noexcept;
 
-  /// What the last update told of them; null where the row has none.
-  [[nodiscard]] const deadreckon::PartState* told(const RemoteEntity& row) const noexcept {
+  /// What the last update stated of them; null where the row has none.
+  [[nodiscard]] const deadreckon::PartState* received(const RemoteEntity& row) const noexcept {
     if (row.parts_place == RemoteEntity::kNoParts) return nullptr;
     return &places_[row.parts_place].state();
   }

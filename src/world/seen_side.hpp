@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What those know of an entity of ours who are not told all of it: they hear the group of its cell,
-// and perhaps those of some near rows of the channels, but not all those of nearer rows, or not its
-// contact group. Part of the model loop.
+// What those know of an entity of ours who do not receive all of it: they hear the group of its
+// cell, and perhaps those of some near rows of the channels, but not all those of nearer rows, or
+// not its contact group. Part of the model loop.
 #pragma once
 
 #include <limits>
@@ -16,10 +16,10 @@ namespace reckon::peer {
 /// clock. One thread; no allocation.
 class SeenSide {
  public:
-  /// What only those within reach were told is told to all so much later [s] at the latest, for who
-  /// went out of reach meanwhile has heard a part of it.
+  /// What was sent only to those within reach is sent to all so much later [s] at the latest, for
+  /// who went out of reach meanwhile has heard a part of it.
   static constexpr double kBehind = 0.5;
-  /// No such haste: who goes to a row behind goes back to what was told there (HeldStates).
+  /// No such haste: who goes to a row behind goes back to what was sent there (HeldStates).
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   /// @param policy nothing has been sent by  @param behind for how long it may lack what those
@@ -37,34 +37,34 @@ class SeenSide {
     const bool is_late = reason == deadreckon::SendReason::none && now >= next_in_step();
     return is_late ? deadreckon::SendReason::heartbeat : reason;
   }
-  /// They were told, as those nearer were, see UpdatePolicy::sent(). @param whole all that there is
-  /// to say of it
+  /// It was sent to them, as to those nearer, see UpdatePolicy::sent(). @param whole all that there
+  /// is to say of it
   void told_all(const deadreckon::KinematicState& as_received, double now,
                 deadreckon::SendReason reason, bool whole = true) noexcept {
     policy_.sent(as_received, now, reason);
-    told_ = now;
+    last_sent_ = now;
     if (whole) is_behind_ = false;
   }
-  /// Only those nearer were told.
+  /// It was sent to those nearer alone.
   void told_those_near() noexcept { is_behind_ = true; }
-  /// Whether those nearer were told something that they were not.
+  /// Whether something was sent to those nearer and not to them.
   [[nodiscard]] bool is_behind() const noexcept { return is_behind_; }
-  /// When they were told last [s].
-  [[nodiscard]] double told() const noexcept { return told_; }
+  /// When something was sent to them last [s].
+  [[nodiscard]] double last_sent() const noexcept { return last_sent_; }
   /// When decide() is due though nothing changes.
   [[nodiscard]] double next() const noexcept {
-    const double next = told_ + policy_.silence();
+    const double next = last_sent_ + policy_.silence();
     return next < next_in_step() ? next : next_in_step();
   }
 
  private:
   [[nodiscard]] double next_in_step() const noexcept {
-    return is_behind_ ? told_ + most_behind_ : kNever;
+    return is_behind_ ? last_sent_ + most_behind_ : kNever;
   }
 
   deadreckon::UpdatePolicy policy_;
   double most_behind_;
-  double told_ = -1e9;  // long ago
+  double last_sent_ = -1e9;  // long ago
   bool is_behind_ = false;
 };
 

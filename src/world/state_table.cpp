@@ -15,7 +15,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 // An owner that watches a threshold cannot be silent for so long while its hand speeds up or slows
-// down: what it told of that is over.
+// down: what it stated of that is over.
 constexpr nanoseconds kLongestStroke = std::chrono::milliseconds(600);
 
 constexpr std::ptrdiff_t kLine = 64;  // of a processor's cache [octets]

@@ -13,7 +13,7 @@ namespace {
 // Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds
 // 0.02.
 constexpr double kSmallEnergy = 2e-6;
-// A need is told again when it has changed by this share.
+// A need is sent again when it has changed by this share.
 constexpr double kNeedChange = 0.25;
 
 }  // namespace
@@ -44,9 +44,9 @@ bool TouchSide::accounts_changed(std::span<const EnergyAccount> accounts) const 
     const double need = before == sent.end() ? 0.0 : pdu::from_microjoules(before->need);
     if (now.given - given > kSmallEnergy) return true;
     const double wish = before == sent.end() ? 0.0 : pdu::from_microjoules(before->spring_need);
-    const auto changed = [](double wanted, double told) {
-      const double change = std::abs(wanted - told);
-      return change > kSmallEnergy && change > kNeedChange * std::max(wanted, told);
+    const auto changed = [](double wanted, double stated) {
+      const double change = std::abs(wanted - stated);
+      return change > kSmallEnergy && change > kNeedChange * std::max(wanted, stated);
     };
     return changed(now.need, need) || changed(now.spring_need, wish);
   });

@@ -200,7 +200,7 @@ TEST(LateJoiner, OfACellOfAThousandIsToldByItsLeaderAloneWithinASecond) {
               1e-3 * static_cast<double>(took), share);
   EXPECT_LT(took, 1000U);
   EXPECT_LE(share, 1.2);
-  EXPECT_EQ(field.world_.count(kOwners, "states_told_in"), kOwners * kEach);
+  EXPECT_EQ(field.world_.count(kOwners, "states_relayed_in"), kOwners * kEach);
   EXPECT_GT(field.world_.count(kWitness, "snapshot_parts_out"), 100U);
 }
 
@@ -211,7 +211,7 @@ TEST(LateJoiner, FeelsAtOnceWhatTheLeaderToldAndItsOwnerIsSilent) {
   field.world_.run(4000);
   field.start(2, 1);
   field.world_.run(900);
-  EXPECT_EQ(field.world_.count(2, "states_told_in"), 2U);
+  EXPECT_EQ(field.world_.count(2, "states_relayed_in"), 2U);
   const auto& remote = field.world_.peer(2).model().remote();
   const peer::RemoteEntity* post = remote.find({1, 2, 1});
   ASSERT_NE(post, nullptr);
@@ -248,7 +248,7 @@ TEST(LateJoiner, ShowsWhatMovesWhereItIs) {
     const nanoseconds now = field.world_.clock().now();
     const double there = kMiddle.x() + 6.9;
     EXPECT_NEAR(car->shown(now).position.x(), there, 0.1);
-    EXPECT_EQ(field.world_.count(2, "states_told_in"), 2U);
+    EXPECT_EQ(field.world_.count(2, "states_relayed_in"), 2U);
     EXPECT_EQ(field.world_.count(2, "stale_in"), 0U);
     drive(3000, 1.5);  // it leaps and goes on faster
     EXPECT_NEAR(remote.find({1, 2, 1})->shown(field.world_.clock().now()).position.x(),

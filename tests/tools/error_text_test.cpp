@@ -70,7 +70,7 @@ const Mistake kMistakes[] = {
     {{"peer", "a.toml", "--to", "10.0.0.7,,b"}, "names nobody", "commas between"},
     {{"peer", "a.toml", "--balance", "1ms"},
      "--balance: a line every 100ms",
-     "the most that is told"},
+     "the most that is printed"},
     {{"peer", test::source_dir() + "/scenes/two_hands.toml", "--balance", "1s"},
      "--balance: which peer of the scene",
      "as in --operator 1"},

@@ -157,8 +157,8 @@ struct CommandLine::Parser {
       const bool shown = word.empty() || is_among(word, words);
       const std::string names = listed(word.empty() ? words : word);
       option->group(shown ? fmt::format("Of {} {}", verb, names) : "");
-      const std::string told = names + ": ", help = option->get_description();
-      if (help.starts_with(told)) option->description(help.substr(told.size()));
+      const std::string prefix = names + ": ", help = option->get_description();
+      if (help.starts_with(prefix)) option->description(help.substr(prefix.size()));
     }
     std::string footer = "Examples:";
     const std::string of_word = fmt::format("reckon {} {}", verb, word);

@@ -66,8 +66,8 @@ class CommandLine {
   [[nodiscard]] std::vector<std::string> given() const;
 
   /// Fills the targets. Returns nothing where the verb should go on, else the exit status to
-  /// return: 0 after `--help` (shown on out), 2 for wrong usage (told on err, with the nearest flag
-  /// or word where one was mistyped).
+  /// return: 0 after `--help` (shown on out), 2 for wrong usage (reported on err, with the nearest
+  /// flag or word where one was mistyped).
   [[nodiscard]] std::optional<int> parse(Arguments arguments, const Console& console);
 
  private:

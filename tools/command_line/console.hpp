@@ -50,18 +50,18 @@ struct Verb {
   std::string_view name;
   std::string_view summary;  ///< One line, shown by `reckon help`.
   /// Does it and returns the exit status (an ExitCode). May throw UsageError, EnvironmentError,
-  /// std::system_error (told as an environment fault); anything else is told as internal.
+  /// std::system_error (reported as an environment fault); anything else is reported as internal.
   int (*run)(Arguments arguments, const Console& console);
   bool elsewhere = false;  ///< It is part of another program, which `run` starts.
 };
 
-/// Wrong usage or an unreadable file: told on stderr, exit 2. The text names the value and the
+/// Wrong usage or an unreadable file: reported on stderr, exit 2. The text names the value and the
 /// remedy.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Network or device not usable: told on stderr, exit 3. The text names the remedy.
+/// Network or device not usable: reported on stderr, exit 3. The text names the remedy.
 struct EnvironmentError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -42,7 +42,8 @@ int dispatch(const VerbProgram& program, Arguments arguments, const Console& con
                          : refuse_verb(program, first, console);
 }
 
-int told(const Console& console, Arguments arguments, const std::exception& error, ExitCode code) {
+int report_error(const Console& console, Arguments arguments, const std::exception& error,
+                 ExitCode code) {
   const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
   std::string_view text = error.what();
   while (text.ends_with('\n')) text.remove_suffix(1);
@@ -140,22 +141,22 @@ int run_verb_program(const VerbProgram& program, Arguments arguments,
       throw std::system_error(errno, std::generic_category(), "writing the output");
     return status;
   } catch (const UsageError& error) {
-    return told(console, arguments, error, ExitCode::usage);
+    return report_error(console, arguments, error, ExitCode::usage);
   } catch (const peer::CsvError& error) {
-    return told(console, arguments, error, ExitCode::usage);
+    return report_error(console, arguments, error, ExitCode::usage);
   } catch (const EnvironmentError& error) {
-    return told(console, arguments, error, ExitCode::environment);
+    return report_error(console, arguments, error, ExitCode::environment);
   } catch (const std::system_error& error) {
     // Nobody reads on, as behind `| head`: no fault of anybody.
     if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
     if (std::ferror(console.out) != 0)
-      return told(console, arguments, std::system_error(error.code(), "writing the output"),
-                  ExitCode::environment);
-    return told(console, arguments, error, ExitCode::environment);
+      return report_error(console, arguments, std::system_error(error.code(), "writing the output"),
+                          ExitCode::environment);
+    return report_error(console, arguments, error, ExitCode::environment);
   } catch (const std::bad_alloc&) {
     return out_of_memory(console, arguments);
   } catch (const std::exception& error) {
-    return told(console, arguments, error, ExitCode::internal);
+    return report_error(console, arguments, error, ExitCode::internal);
   }
 }
 

@@ -23,7 +23,7 @@ void EntityEvents::hear(const pdu::PduHeader&, std::span<const std::byte>,
                         const peer::InteractionSender&) noexcept {}
 
 // While the last letter is read, changes gather in the table: of each entity the newest. What has
-// merely been updated is told too, so that its count is known when it goes.
+// merely been updated is reported too, so that its count is known when it goes.
 void EntityEvents::end_pass(peer::ModelLoop& loop) noexcept {
   if (!letters_.is_free()) return;
   Letter& letter = letters_.letter();

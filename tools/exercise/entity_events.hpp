@@ -18,8 +18,8 @@
 namespace reckon::tools {
 
 /// Follows the table of remote entities through its changes, which needs
-/// PeerOptions::record_changes. One that comes and goes between two calls of report() is not told.
-/// The model loop's thread gathers, another one reports; neither waits for the other.
+/// PeerOptions::record_changes. One that comes and goes between two calls of report() is not
+/// reported. The model loop's thread gathers, another one reports; neither waits for the other.
 ///
 ///   peer.model().receive(&events);  // while the loops stand still
 ///   ...

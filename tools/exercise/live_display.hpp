@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What demo and peer show while they run: the live table on a terminal, else what there is to be
-// told, line by line.
+// What demo and peer show while they run: the live table on a terminal, else what there is to
+// report, line by line.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,7 @@ class LiveDisplay {
  public:
   static constexpr std::chrono::nanoseconds kDrawEvery = std::chrono::milliseconds(200);
   static constexpr std::chrono::nanoseconds kStatusEvery = std::chrono::seconds(10);
-  /// Notices that are told after the table; what is older is counted.
+  /// Notices that are printed after the table; what is older is counted.
   static constexpr std::size_t kMostKept = 20;
 
   /// @param console outlives it  @param peers of this program

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a run as one peer of a LAN cost, told at its end.
+// What a run as one peer of a LAN cost, reported at its end.
 #pragma once
 
 #include <cstdio>

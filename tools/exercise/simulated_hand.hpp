@@ -42,7 +42,7 @@ struct SimulatedHands {
 [[nodiscard]] SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,
                                                   const haptics::HandScript& script = nullptr);
 
-/// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
+/// Opens every mesh and every trace that `hands` hands need, so that a bad file is reported before
 /// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place
 /// and the remedy.
 void check_files(const peer::SceneFile& scene, std::size_t hands);

@@ -53,7 +53,7 @@ std::vector<double> EntityRow::recent_jumps() const {
   return out;
 }
 
-/// Told by the listener of one PDU, it counts.
+/// The listener notifies it of each PDU, and it counts.
 struct EntityTable::Counting : ListenerObserver {
   Counting(EntityTable& the_table, const PduRow& the_pdu, const peer::SourceDatagram& the_datagram)
       : table(the_table), pdu(the_pdu), datagram(the_datagram) {}

@@ -358,28 +358,28 @@ Listener::AccountKey Listener::key(const pdu::EntityId& from, const pdu::EntityI
 }
 
 void Listener::take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record) {
-  const ToldEnergy told{record.given, pdu::from_microjoules(record.need)};
-  if (!std::isfinite(told.given) || !std::isfinite(told.need)) {
+  const StatedEnergy stated{record.given, pdu::from_microjoules(record.need)};
+  if (!std::isfinite(stated.given) || !std::isfinite(stated.need)) {
     ++refusals_.values;
     return;
   }
   const auto place = accounts_.find(key(id, record.counterpart));
   if (place != accounts_.end())
-    place->second = told;
+    place->second = stated;
   else if (accounts_.size() < kMostAccounts)
-    accounts_.emplace(key(id, record.counterpart), told);
+    accounts_.emplace(key(id, record.counterpart), stated);
   else
     ++refusals_.crowded;
 }
 
-ToldEnergy Listener::told_energy(const pdu::EntityId& from,
-                                 const pdu::EntityId& to) const noexcept {
+StatedEnergy Listener::stated_energy(const pdu::EntityId& from,
+                                     const pdu::EntityId& to) const noexcept {
   const auto place = accounts_.find(key(from, to));
-  return place == accounts_.end() ? ToldEnergy{} : place->second;
+  return place == accounts_.end() ? StatedEnergy{} : place->second;
 }
 
-ToldEnergy Listener::told_energy(const pdu::EntityId& from) const noexcept {
-  ToldEnergy sum;
+StatedEnergy Listener::stated_energy(const pdu::EntityId& from) const noexcept {
+  StatedEnergy sum;
   for (auto place = accounts_.lower_bound(key(from, {0, 0, 0}));
        place != accounts_.end() && place->first <= key(from, {0xFFFF, 0xFFFF, 0xFFFF}); ++place) {
     sum.given += place->second.given;

@@ -135,8 +135,8 @@ struct TouchedEntity {
   HeardModel model_before;  ///< where before.is_haptic()
 };
 
-/// What one entity last told of the energy that it gave to another.
-struct ToldEnergy {
+/// What one entity last stated of the energy that it gave to another.
+struct StatedEnergy {
   double given = 0;  ///< [J], running total
   double need = 0;   ///< [J]
 };
@@ -212,11 +212,11 @@ class Listener {
   /// What the datagram at hand is about, at most 128 of it.
   [[nodiscard]] std::span<const TouchedEntity> touched() const noexcept { return touched_; }
 
-  /// What `from` last told about `to`; zeros where it told nothing.
-  [[nodiscard]] ToldEnergy told_energy(const pdu::EntityId& from,
-                                       const pdu::EntityId& to) const noexcept;
+  /// What `from` last stated about `to`; zeros where it stated nothing.
+  [[nodiscard]] StatedEnergy stated_energy(const pdu::EntityId& from,
+                                           const pdu::EntityId& to) const noexcept;
   /// Its `given` and `need` summed over all counterparts.
-  [[nodiscard]] ToldEnergy told_energy(const pdu::EntityId& from) const noexcept;
+  [[nodiscard]] StatedEnergy stated_energy(const pdu::EntityId& from) const noexcept;
 
   [[nodiscard]] const ListenerRefusals& refusals() const noexcept { return refusals_; }
 
@@ -268,7 +268,7 @@ class Listener {
   std::vector<peer::SenderClock> clocks_;  // one an entity, where the timing asks for it
   std::vector<HeardModel> models_;
   peer::KeyIndex index_;
-  std::map<AccountKey, ToldEnergy> accounts_;
+  std::map<AccountKey, StatedEnergy> accounts_;
   std::vector<TouchedEntity> touched_;
   pdu::EntityState read_;                                 // room for the one at hand
   std::optional<peer::StateRestorer> restorer_;           // from the first Compressed States on

@@ -50,15 +50,15 @@ bool is_event(const FixedOctets& before, const FixedOctets& now) noexcept {
 
 Innovation innovation(const deadreckon::KinematicState& before,
                       const deadreckon::KinematicState& now, const Interval& between) noexcept {
-  const deadreckon::Pose told = deadreckon::extrapolate(before, between.seconds);
+  const deadreckon::Pose predicted = deadreckon::extrapolate(before, between.seconds);
   Innovation found;
-  found.jump = (now.position - told.position).norm();
-  const bool turned = now.orientation.coeffs() != told.orientation.coeffs();
-  if (turned) found.turn = deadreckon::angle_between(now.orientation, told.orientation);
+  found.jump = (now.position - predicted.position).norm();
+  const bool turned = now.orientation.coeffs() != predicted.orientation.coeffs();
+  if (turned) found.turn = deadreckon::angle_between(now.orientation, predicted.orientation);
   const double timing = between.noise + kVelocityRounding * between.seconds;
   found.above_noise =
-      found.jump > kLeastJump + timing * std::max(told.velocity.norm(), now.velocity.norm()) ||
-      found.turn > kLeastTurn + timing * told.angular_velocity.norm();
+      found.jump > kLeastJump + timing * std::max(predicted.velocity.norm(), now.velocity.norm()) ||
+      found.turn > kLeastTurn + timing * predicted.angular_velocity.norm();
   return found;
 }
 

@@ -38,7 +38,7 @@ struct Innovation {
                                     const deadreckon::KinematicState& now,
                                     const Interval& between) noexcept;
 
-/// Whether something changed that is told at once, whatever the motion.
+/// Whether something changed that is sent at once, whatever the motion.
 [[nodiscard]] bool is_event(const FixedOctets& before, const FixedOctets& now) noexcept;
 
 /// Threshold, heartbeat or repeat. What comes near the heartbeat [s] counts as such unless it is

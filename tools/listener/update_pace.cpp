@@ -31,28 +31,28 @@ Interval UpdatePace::interval(const FixedOctets& before, const FixedOctets& now,
   const std::uint32_t stamp = timestamp_of(now);
   const std::uint32_t last = timestamp_of(before);
   if (pdu::is_absolute(stamp) != pdu::is_absolute(last)) return between;
-  const double told = to_seconds(pdu::difference(stamp, last));
-  if (told == 0) {
+  const double stated = to_seconds(pdu::difference(stamp, last));
+  if (stated == 0) {
     between.duplicate = passed < kDuplicateWithin &&
                         std::memcmp(&before[kBodyAt], &now[kBodyAt], kFixedOctets - kBodyAt) == 0;
     return between;
   }
-  if (told < 0) {
-    between.late = told > -kLateWithin && late_in_a_row_ < kLateInARow;
+  if (stated < 0) {
+    between.late = stated > -kLateWithin && late_in_a_row_ < kLateInARow;
     between.set_back = !between.late;
     return between;
   }
-  const double told_sum = told_time_ + told;
+  const double stated_sum = stated_time_ + stated;
   const double arrival_sum = arrival_time_ + passed;
-  if (told_sum <= kPace * arrival_sum + 1 && arrival_sum <= kSlowness * told_sum + kSlack)
-    return {told, kTimestampNoise};
+  if (stated_sum <= kPace * arrival_sum + 1 && arrival_sum <= kSlowness * stated_sum + kSlack)
+    return {stated, kTimestampNoise};
   return between;
 }
 
 void UpdatePace::advance(const FixedOctets& before, const FixedOctets& now,
                          double passed) noexcept {
   arrival_time_ += passed;
-  told_time_ +=
+  stated_time_ +=
       std::max(to_seconds(pdu::difference(timestamp_of(now), timestamp_of(before))), 0.0);
   late_in_a_row_ = 0;
 }

@@ -38,7 +38,7 @@ class UpdatePace {
   void note_late() noexcept { ++late_in_a_row_; }
 
  private:
-  double told_time_ = 0;            // passed by timestamps, where they went forward [s]
+  double stated_time_ = 0;          // passed by timestamps, where they went forward [s]
   double arrival_time_ = 0;         // and by arrivals meanwhile [s]
   std::uint8_t late_in_a_row_ = 0;  // timestamps in a row that lay before
 };

@@ -29,7 +29,7 @@ constexpr double kStraight = 0.05;
 /// Far outside of the picture [px]; readers of SVG fail on much more.
 constexpr double kFar = 1e4;
 
-/// Told apart on white and on black, and by most who see few colours (Okabe and Ito).
+/// Distinct on white and on black, and to most who see few colours (Okabe and Ito).
 constexpr std::array<std::string_view, SvgPlot::kMostCurves> kColours{
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 

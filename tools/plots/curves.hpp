@@ -33,7 +33,7 @@ struct SvgPlot {
   /// Ends of the upright axis, below and above 0; curves are cut there. Empty: it holds all values.
   std::optional<std::array<double, 2>> range;
 
-  /// Colours, and so curves that can be told apart; more are not drawn.
+  /// Colours, and so curves that can be distinguished; more are not drawn.
   static constexpr std::size_t kMostCurves = 6;
 };
 
@@ -42,7 +42,7 @@ struct SvgPlot {
 [[nodiscard]] std::string svg_text(const SvgPlot& plot);
 
 /// Plots one below the other as one picture: its title, lines of notes, and over each plot that
-/// plot's title. Legends in columns; curves are told apart by dashes too, for print without colour.
+/// plot's title. Legends in columns; curves differ by dashes too, for print without colour.
 [[nodiscard]] std::string svg_panels(std::string_view title, std::span<const std::string> notes,
                                      std::span<const SvgPlot> plots);
 

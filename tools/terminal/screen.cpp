@@ -86,7 +86,7 @@ Shared shared;
 
 void give_back() {
   const auto written = write(shared.descriptor, shared.farewell.data(), shared.farewell.size());
-  static_cast<void>(written);  // nobody is left to be told
+  static_cast<void>(written);  // nobody is left to report to
   tcsetattr(shared.descriptor, TCSANOW, &shared.before);
 }
 

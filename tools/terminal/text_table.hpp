@@ -37,7 +37,7 @@ class TextTable {
 };
 
 /// Columns of a terminal row that UTF-8 text takes (code points; wide and combining ones are not
-/// told apart).
+/// distinguished).
 [[nodiscard]] std::size_t text_width(std::string_view utf8);
 
 /// The first `columns` columns of UTF-8 text; control characters, which would move a cursor, are

@@ -84,7 +84,7 @@ bool asks_for_number(const peer::SceneFile& scene, const PeerVerbOptions& option
   return !options.operator_number && peer::peers_of(scene) > 1 && !scene.network.interop;
 }
 
-// The peer that `options` ask for, with its simulated hands, and what there is to be told of its
+// The peer that `options` ask for, with its simulated hands, and what there is to report of its
 // link.
 class RunningPeer {
  public:
@@ -152,7 +152,7 @@ void print_notice(std::FILE* out, const peer::Notice& notice, double seconds) {
   print_line(out, line);
 }
 
-/// What became of each datagram, told so often.
+/// What became of each datagram, reported so often.
 class BalanceLines {
  public:
   BalanceLines(nanoseconds every, std::FILE* out) : every_(every), next_(every), out_(out) {}
@@ -286,7 +286,7 @@ int run_peer(Arguments arguments, const Console& console) {
                                  options.name, options.name.size(), kLongestMarking));
   check_beacons(options.follow);
   if (options.balance && *options.balance < kLookEvery)
-    throw UsageError("--balance: a line every 100ms is the most that is told");
+    throw UsageError("--balance: a line every 100ms is the most that is printed");
   return run(options, console);
 }
 

@@ -68,8 +68,8 @@ class Recording {
         writer_(create_recording(writer_options())),
         status_(console.err, begin_) {}
 
-  /// Records until it is told to end. Throws EnvironmentError where the file takes no more; what
-  /// was recorded is told in either case.
+  /// Records until it is asked to end. Throws EnvironmentError where the file takes no more; what
+  /// was recorded is reported in either case.
   void run();
 
  private:

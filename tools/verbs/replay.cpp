@@ -352,7 +352,7 @@ void check(const ReplayOptions& options) {
     throw UsageError(fmt::format(
         "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
         options.rate));
-  // What is not there is told when it is opened.
+  // What is not there is reported when it is opened.
   std::error_code none;
   const bool is_pipe = options.file == "-" || (std::filesystem::exists(options.file, none) &&
                                                !can_be_read_again(options.file));

@@ -73,7 +73,7 @@ std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
                             peer::format_quantity(device.max_force_rate, "N/s"));
 }
 
-/// "; hands as asked": kinds of things that are not softened. Softer ones are told with their
+/// "; hands as asked": kinds of things that are not softened. Softer ones are printed with their
 /// stiffness between peers, see softened_notes().
 std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& can) {
   std::string text;

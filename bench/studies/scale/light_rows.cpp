@@ -21,7 +21,7 @@ void LightRows::tell_apart(LightEntity& entity, const deadreckon::KinematicState
   entity.audiences = std::make_unique<peer::Audiences>(
       false, channels_.audiences(), entity.policy, deadreckon::kDefaultSendRule, first_heartbeat);
   const std::size_t all = entity.audiences->last();
-  do entity.audiences->told(all, state, told, reason, true);
+  do entity.audiences->note_sent(all, state, told, reason, true);
   while (reason == SendReason::heartbeat &&
          entity.audiences->next(all) - told < 0.99 * entity.policy.heartbeat());
 }
@@ -30,7 +30,7 @@ void LightRows::tell_apart(LightEntity& entity, const deadreckon::KinematicState
 std::size_t LightRows::asked_row(const LightEntity& entity, const Looked& at, double time) const {
   const peer::Audiences& audiences = *entity.audiences;
   for (std::size_t row = near_rows(); world_.introduction.is_pending() && row-- > 0;) {
-    const double told = row == 0 ? entity.told : audiences.told_at(row);
+    const double told = row == 0 ? entity.told : audiences.last_sent_at(row);
     if (audiences.is_behind(row + 1) &&
         world_.introduction.is_due(at.id, group(row, at.cell), pdu::from_seconds(told),
                                    pdu::from_seconds(time)))
@@ -67,7 +67,9 @@ LightRows::Due LightRows::choose(const LightEntity& entity, const deadreckon::Po
   for (std::size_t row = audiences.last() + 1; row-- > 0;) {
     SendReason reason =
         row == 0 ? entity.policy.decide(truth, time) : audiences.decide(row, truth, time);
-    const auto told = [&](std::size_t to) { return to == 0 ? entity.told : audiences.told_at(to); };
+    const auto told = [&](std::size_t to) {
+      return to == 0 ? entity.told : audiences.last_sent_at(to);
+    };
     if (reason == SendReason::none && row > 0 && audiences.is_out_of_step(row, told(row - 1), time))
       reason = SendReason::heartbeat;
     if (reason == SendReason::none || row < audiences.served()) continue;

@@ -282,7 +282,7 @@ class World {
     owned.told = time_;
     if (design_.dead_reckoning && decoded) {
       owned.policy.sent(state, time_, reason);
-      if (owned.audiences) owned.audiences->told(sent.row, state, time_, reason, true);
+      if (owned.audiences) owned.audiences->note_sent(sent.row, state, time_, reason, true);
     }
     if (sent.row < rows_.near_rows()) return;
     owned.last_group = sent.cell;

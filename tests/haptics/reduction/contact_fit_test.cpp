@@ -36,7 +36,7 @@ TEST(ContactFit, FindsCoefficientsThatTheSamplesWereMadeOf) {
   EXPECT_NEAR(fit.contact.k1, wall.k1, 1e-4 * wall.k1);
   EXPECT_NEAR(fit.contact.k3, wall.k3, 1e-4 * wall.k3);
   EXPECT_NEAR(fit.contact.damping, wall.damping, 1e-4);
-  EXPECT_EQ(fit.told, "");
+  EXPECT_EQ(fit.binding, "");
   EXPECT_TRUE(fit.worth_sending());
   EXPECT_LE(fit.error, 1e-4);
 }
@@ -113,7 +113,7 @@ TEST(ContactFit, IsTheNearestWithinItsLimits) {
         ContactCoefficients{200.0, 1e5, 2.0}}) {
     const std::vector<ContactSample> samples = recorded(wall, 0.0, 0.3);
     const ContactFit fit = fit_contact(samples, limits);
-    EXPECT_NE(fit.told, "");
+    EXPECT_NE(fit.binding, "");
     const double least = weighted_squares(samples, fit.contact);
     for (int trial = 0; trial < 20000; ++trial) {
       // All over the limits, and close by.

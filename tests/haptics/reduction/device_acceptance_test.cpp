@@ -43,12 +43,12 @@ TEST(DeviceAcceptance, OfASpringIsTheClosedForm) {
   EXPECT_TRUE(soft.model);
   EXPECT_NEAR(soft.required, 0.5, 1e-9);
   EXPECT_EQ(soft.added_damping, 0.0);
-  EXPECT_EQ(soft.told, "");
+  EXPECT_EQ(soft.remark, "");
   // A damper takes as much off the need of slow motion as it adds to that of fast motion.
   const Acceptance stiff = accepted(spring(1000.0), {0.4, 1e-3});
   EXPECT_FALSE(stiff.model);
-  EXPECT_THAT(stiff.told, HasSubstr("it has 0.4"));
-  EXPECT_THAT(stiff.told, HasSubstr("lower its stiffness"));
+  EXPECT_THAT(stiff.remark, HasSubstr("it has 0.4"));
+  EXPECT_THAT(stiff.remark, HasSubstr("lower its stiffness"));
 }
 
 // A mode that pushes where it should yield, but only slowly: damping beside it mends that.
@@ -57,10 +57,10 @@ TEST(DeviceAcceptance, AddsTheLeastDamperThatDoes) {
   StateSpace model{number(-rate), number(rate), number(active * rate), number(100.0), 0.0};
   const RenderingDevice device{0.5, 1e-3};
   const Acceptance answer = accepted(model, device);
-  ASSERT_TRUE(answer.model) << answer.told;
+  ASSERT_TRUE(answer.model) << answer.remark;
   EXPECT_GT(answer.required, device.damping);
   EXPECT_GT(answer.added_damping, 0.0);
-  EXPECT_THAT(answer.told, HasSubstr("of direct damping is added"));
+  EXPECT_THAT(answer.remark, HasSubstr("of direct damping is added"));
   EXPECT_LE(swept_need(*answer.model, 20000), device.damping * (1 + 1e-9));
   // A hundredth less does not do.
   const double less = 0.99 * answer.added_damping / device.sample_period;
@@ -78,14 +78,14 @@ TEST(DeviceAcceptance, CatchesTheModelThatReductionMadeActive) {
   const PassiveImpedance as_it_is = nearest_passive(full);
   ASSERT_TRUE(as_it_is.model);
   EXPECT_EQ(as_it_is.added_damping, 0.0);
-  EXPECT_EQ(as_it_is.told, "");
+  EXPECT_EQ(as_it_is.remark, "");
 
   const StateSpace reduced = residualised(full, 1);
   EXPECT_NEAR(reduced.D(0, 0), -0.05, 1e-12);
   const PassiveImpedance mended = nearest_passive(reduced);
   ASSERT_TRUE(mended.model);
   EXPECT_NEAR(mended.added_damping, 0.05, 1e-6);
-  EXPECT_THAT(mended.told, HasSubstr("of direct damping is added"));
+  EXPECT_THAT(mended.remark, HasSubstr("of direct damping is added"));
 
   StateSpace unstable = reduced;
   unstable.A(0, 0) = 1.0;
@@ -112,7 +112,7 @@ TEST(DeviceAcceptance, NeverLetsAModelNeedMoreThanTheDeviceHas) {
     }
     const RenderingDevice device{0.1 + 2 * unit(random), 1e-3};
     const Acceptance answer = accepted(model, device);
-    ASSERT_EQ(answer.model.has_value(), answer.told.empty() || answer.added_damping > 0.0);
+    ASSERT_EQ(answer.model.has_value(), answer.remark.empty() || answer.added_damping > 0.0);
     if (!answer.model) {
       ++refused;
       ASSERT_GT(answer.required, device.damping);

@@ -48,7 +48,7 @@ TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
               HasSubstr("x.toml:3:10: 'follow' needs a map of the groups that are handed out: set "
                         "'hand_out' too"));
   EXPECT_THAT(test::refusal("[[entity]]\nbeacon = \"gate\"\n"),
-              HasSubstr("x.toml:2:10: 'beacon' is told with the groups that are handed out"));
+              HasSubstr("x.toml:2:10: 'beacon' is announced with the groups that are handed out"));
   EXPECT_THAT(test::refusal(kHandsOut + "follow = \"the gate\"\n"),
               HasSubstr("'follow': \"the gate\" is no name of a beacon"));
   EXPECT_THAT(test::refusal(kHandsOut + "[[entity]]\nbeacon = \"\"\n"),

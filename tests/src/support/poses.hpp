@@ -15,7 +15,7 @@ inline deadreckon::Pose at(double x) {
 }
 
 /// As it is told. @param x [m]  @param speed [m/s]; 0: static
-inline deadreckon::KinematicState told_at(double x, double speed = 0.0) {
+inline deadreckon::KinematicState last_sent_at(double x, double speed = 0.0) {
   deadreckon::KinematicState state;
   state.position = {x, 0, 0};
   if (speed != 0.0) state.algorithm = pdu::DeadReckoningAlgorithm::fpw;

@@ -11,7 +11,7 @@ namespace {
 
 using deadreckon::SendReason;
 using test::at;
-using test::told_at;
+using test::last_sent_at;
 
 constexpr double kThreshold = 0.01;  // [m]
 
@@ -20,7 +20,7 @@ SeenSide told() {
   deadreckon::Thresholds thresholds;
   thresholds.position = kThreshold;
   SeenSide seen(deadreckon::UpdatePolicy(thresholds, 5.0, 1.0));
-  seen.told_all(told_at(0.0, 1.0), 1.0, SendReason::event);
+  seen.told_all(last_sent_at(0.0, 1.0), 1.0, SendReason::event);
   return seen;
 }
 
@@ -41,7 +41,7 @@ TEST(SeenSide, IsToldWhatThoseNearWereToldHalfASecondLaterAtTheLatest) {
   EXPECT_EQ(seen.next(), 1.0 + SeenSide::kBehind);
   EXPECT_EQ(seen.decide(at(0.49), 1.49), SendReason::none);
   EXPECT_EQ(seen.decide(at(0.5), 1.5), SendReason::heartbeat);
-  seen.told_all(told_at(0.0, 1.0), 1.5, SendReason::heartbeat);
+  seen.told_all(last_sent_at(0.0, 1.0), 1.5, SendReason::heartbeat);
   EXPECT_EQ(seen.decide(at(1.0), 2.5), SendReason::none) << "nobody knows more than the others";
 }
 

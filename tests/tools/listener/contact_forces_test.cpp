@@ -191,12 +191,12 @@ TEST(ContactForces, RememberWhatEachToldOfEnergy) {
   account.given = 0.25;
   account.need = 500;
   (void)update(heard, {.entity = 1, .time = kStart, .account = account});
-  EXPECT_EQ(heard.listener.told_energy({1, 2, 1}, {1, 2, 2}).given, 0.25);
-  EXPECT_EQ(heard.listener.told_energy({1, 2, 1}).need, 5e-4);
-  EXPECT_EQ(heard.listener.told_energy({1, 2, 2}, {1, 2, 1}).given, 0.0);
+  EXPECT_EQ(heard.listener.stated_energy({1, 2, 1}, {1, 2, 2}).given, 0.25);
+  EXPECT_EQ(heard.listener.stated_energy({1, 2, 1}).need, 5e-4);
+  EXPECT_EQ(heard.listener.stated_energy({1, 2, 2}, {1, 2, 1}).given, 0.0);
   account.given = std::numeric_limits<double>::infinity();
   (void)update(heard, {.entity = 1, .time = kStart + seconds(1), .account = account});
-  EXPECT_EQ(heard.listener.told_energy({1, 2, 1}).given, 0.25);
+  EXPECT_EQ(heard.listener.stated_energy({1, 2, 1}).given, 0.25);
 }
 
 TEST(ContactForces, OfMoreEntitiesThanThereIsRoomForAreCountedNotKept) {

@@ -18,7 +18,7 @@
 namespace reckon::tools {
 namespace {
 
-/// What the codec says under a code without a row is told all the same.
+/// What the codec says under a code without a row is reported all the same.
 constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};
 
 const CheckRule& rule_of(std::string_view code) {
@@ -77,7 +77,7 @@ void CheckView::expect(const peer::SourceDatagram& datagram) {
 
 void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
                     std::chrono::nanoseconds, std::string& out) {
-  if (!row.rule.empty() && !is_told_type(row))
+  if (!row.rule.empty() && !is_reported_type(row))
     tell({rule_of(row.rule), row.frame, row.pdu, row.offset, row.fault_offset, row.time, row.id,
           row.reason},
          out);
@@ -87,8 +87,8 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
     if (row.entity_state != nullptr) {
       memory = memory_of(row, *row.entity_state);
       checked.memory = memory;
-      if (memory == nullptr && !told_limit_) {
-        told_limit_ = true;
+      if (memory == nullptr && !reported_limit_) {
+        reported_limit_ = true;
         tell({rule_of(kMemoryRule), row.frame, row.pdu, row.offset, row.offset, row.time, row.id,
               fmt::format("{} entities are remembered, this one is not", most_entities_)},
              out);
@@ -102,9 +102,9 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
     highest_rank_ = std::max(highest_rank_, pdu::bundle_rank(row.header.pdu_type));
 }
 
-bool CheckView::is_told_type(const PduRow& row) {
+bool CheckView::is_reported_type(const PduRow& row) {
   if (row.rule != pdu::rule(pdu::DecodeError::unknown_type)) return false;
-  return std::exchange(told_types_[static_cast<std::size_t>(row.header.pdu_type)], true);
+  return std::exchange(reported_types_[static_cast<std::size_t>(row.header.pdu_type)], true);
 }
 
 EntityMemory* CheckView::memory_of(const PduRow& row, const pdu::EntityState& pdu) {

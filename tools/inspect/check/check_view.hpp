@@ -59,8 +59,8 @@ class CheckView final : public View {
   };
 
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
-  /// An unknown type is told once and not for each of its PDUs.
-  [[nodiscard]] bool is_told_type(const PduRow& row);
+  /// An unknown type is reported once and not for each of its PDUs.
+  [[nodiscard]] bool is_reported_type(const PduRow& row);
   void check_pdu(const CheckedPdu& checked, std::string& out);
   void look_at_attribute(const PduRow& row);
   void tell(const Finding& finding, std::string& out);
@@ -77,8 +77,8 @@ class CheckView final : public View {
   std::uint8_t highest_rank_ = 0;
   std::chrono::nanoseconds last_time_{};
   std::unordered_map<std::uint64_t, EntityMemory> entities_;
-  bool told_limit_ = false;
-  std::array<bool, 256> told_types_{};
+  bool reported_limit_ = false;
+  std::array<bool, 256> reported_types_{};
   std::map<std::string_view, std::uint64_t> counts_;  // by code
 };
 

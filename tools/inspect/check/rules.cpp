@@ -142,9 +142,9 @@ std::optional<double> timestamp_error(const CheckedPdu& checked) {
   }
   if (!has_history(checked) || pdu::is_absolute(checked.memory->first_timestamp))
     return std::nullopt;
-  const double told = pdu::to_seconds(pdu::past_the_hour(timestamp)) -
-                      pdu::to_seconds(pdu::past_the_hour(checked.memory->first_timestamp));
-  return std::remainder(told - pdu::to_seconds(arrival - checked.memory->first_time), 3600.0);
+  const double stated = pdu::to_seconds(pdu::past_the_hour(timestamp)) -
+                        pdu::to_seconds(pdu::past_the_hour(checked.memory->first_timestamp));
+  return std::remainder(stated - pdu::to_seconds(arrival - checked.memory->first_time), 3600.0);
 }
 
 bool is_out_of_tolerance(const CheckedPdu& checked) {
@@ -171,7 +171,7 @@ Fault missed_heartbeat(const CheckedPdu& checked) {
 /// Another address at once; the same address with another port only when the first comes back, as
 /// a program that was started again speaks from a new port too.
 bool is_duplicate(const EntityMemory& memory, const peer::IpEndpoint& sender) {
-  if (memory.told_duplicate || sender == memory.sender) return false;
+  if (memory.reported_duplicate || sender == memory.sender) return false;
   return sender.octets != memory.sender.octets || sender == memory.earlier_sender;
 }
 
@@ -193,10 +193,10 @@ double contradiction(const CheckedPdu& checked) {
       pdu::to_seconds(pdu::difference(checked.row.header.timestamp, memory.timestamp));
   if (interval < kShortestInterval || interval > kLongestInterval) return 0;
   const Eigen::Vector3d way = position_of(*checked.entity_state) - memory.position;
-  const Eigen::Vector3d told =
+  const Eigen::Vector3d stated =
       0.5 * interval * (memory.velocity + velocity_of(*checked.entity_state));
-  const double error = (way - told).norm();
-  const double scale = std::max(way.norm(), told.norm());
+  const double error = (way - stated).norm();
+  const double scale = std::max(way.norm(), stated.norm());
   return error > kLeastContradiction && error > kGrossly * scale ? error : 0;
 }
 
@@ -285,14 +285,14 @@ constexpr auto kRules = std::to_array<CheckRule>({
     {"W-TIMESTAMP-ORDER", "An entity's timestamp runs backwards.",
      "reordered on the way, or two clocks stamp one entity", back_in_time},
     {"W-TIMESTAMP-TOLERANCE",
-     "A timestamp is more than 5 s from the arrival. Told once until it is "
+     "A timestamp is more than 5 s from the arrival. Reported once until it is "
      "right again.",
      "synchronise clocks (NTP), or send relative timestamps; captures that were replayed show it "
      "too",
      out_of_tolerance},
     {kHeartbeatRule, "An entity was silent for more than 2.4 heartbeats of its kind and domain.",
      "send Entity States at the heartbeat, and a deactivated one at the end", missed_heartbeat},
-    {"W-DUPLICATE-ID", "One entity ID comes from two senders. Told once.",
+    {"W-DUPLICATE-ID", "One entity ID comes from two senders. Reported once.",
      "give each simulation its own site and application", duplicate_id},
     {"W-VELOCITY", "Velocity and positions of an entity contradict each other grossly.",
      "check units (m/s), sign, and axes: geocentric for DRM 1 to 5, body for 6 to 9",
@@ -304,10 +304,12 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "datagram.",
      "send both in one datagram, or clear bit 3 of the PDU status", coupled_without},
     {"I-UNKNOWN-TYPE",
-     "No field table for this PDU type: its octets are kept as they are. Told once for each type.",
+     "No field table for this PDU type: its octets are kept as they are. Reported once for each "
+     "type.",
      "nothing to do: it is stepped over by its length"},
     {"I-UNNAMED",
-     "A number stands for something that SISO-REF-010 has no name for. Told at an entity's first "
+     "A number stands for something that SISO-REF-010 has no name for. Reported at an entity's "
+     "first "
      "update.",
      "look it up in the sender's list of enumerations; it may be newer than ours", unnamed_value},
     {"I-BUNDLE-ORDER", "The order of the bundle is not the one that older receivers survive.",
@@ -349,7 +351,8 @@ void remember(EntityMemory& memory, const CheckedPdu& checked) {
     memory.first_timestamp = pdu.header.timestamp;
     memory.sender = memory.earlier_sender = checked.datagram.source;
   }
-  memory.told_duplicate = memory.told_duplicate || is_duplicate(memory, checked.datagram.source);
+  memory.reported_duplicate =
+      memory.reported_duplicate || is_duplicate(memory, checked.datagram.source);
   if (memory.sender != checked.datagram.source) {
     memory.earlier_sender = memory.sender;
     memory.sender = checked.datagram.source;

@@ -26,7 +26,7 @@ struct EntityMemory {
   pdu::EntityId id;
   peer::IpEndpoint sender;
   peer::IpEndpoint earlier_sender;  ///< before the sender changed last
-  bool told_duplicate = false;
+  bool reported_duplicate = false;
   bool haptic = false;  ///< has had a force model: its heartbeat is 5 s
   bool gone = false;    ///< said that it leaves: silence is no fault
   bool out_of_tolerance = false;
@@ -79,7 +79,7 @@ inline constexpr std::string_view kMemoryRule = "I-ENTITY-LIMIT";
 /// Timestamps may be off by so much.
 inline constexpr double kTimestampTolerance = 5.0;  // [s]
 
-/// Silence that is longer than 2.4 heartbeats, told as a clause; nothing where it is not.
+/// Silence that is longer than 2.4 heartbeats, as a clause; nothing where it is not.
 [[nodiscard]] std::optional<std::string> silence(const EntityMemory& memory,
                                                  std::chrono::nanoseconds now);
 

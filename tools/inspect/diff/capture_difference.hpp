@@ -30,9 +30,9 @@ struct CaptureShare {
 /// What an entity said of itself.
 struct EntityTraits {
   CaptureShare share;
-  std::string marking;           ///< the last one told
-  std::uint8_t force = 0;        ///< the last one told
-  std::uint32_t algorithms = 0;  ///< bit n: DRM n was told; bit 31: one above 30
+  std::string marking;           ///< the last one sent
+  std::uint8_t force = 0;        ///< the last one sent
+  std::uint32_t algorithms = 0;  ///< bit n: DRM n was sent; bit 31: one above 30
   bool has_state = false;
 };
 

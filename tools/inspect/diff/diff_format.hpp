@@ -61,7 +61,7 @@ inline std::map<std::string_view, TypeInBoth> types_of(const CaptureDifference& 
   return all;
 }
 
-/// The number of every DRM that was told.
+/// The number of every DRM that was sent.
 inline std::vector<unsigned> algorithms_of(const EntityTraits& traits) {
   std::vector<unsigned> out;
   for (unsigned bit = 0; bit < 32; ++bit)

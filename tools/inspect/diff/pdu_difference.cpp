@@ -19,7 +19,7 @@ namespace {
 
 using Octets = std::span<const std::byte>;
 
-/// Octets of a block that are written out; what follows is told by "...".
+/// Octets of a block that are written out; "..." stands for what follows.
 constexpr std::size_t kMostHex = 16;
 
 std::string hex_text(Octets octets) {

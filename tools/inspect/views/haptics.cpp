@@ -157,13 +157,13 @@ void HapticsView::flush(std::string& out) {
 }
 
 void HapticsView::append_sample(const ContactForce& force, nanoseconds time) {
-  const ToldEnergy told = heard_.told_energy(force.by, force.on);
+  const StatedEnergy stated = heard_.stated_energy(force.by, force.on);
   const Eigen::Vector3d& f = force.force;
   if (format_ == Format::csv) {
     append_time(rows_, time);
     fmt::format_to(end_of(rows_), ",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
                    id_text(force.on), id_text(force.by), force.depth, f.norm(), f.x(), f.y(), f.z(),
-                   told.given, told.need);
+                   stated.given, stated.need);
     return;
   }
   rows_ += "{\"kind\":\"sample\",\"time\":";
@@ -173,7 +173,7 @@ void HapticsView::append_sample(const ContactForce& force, nanoseconds time) {
                  "\"given\":{},\"need\":{}}}\n",
                  id_text(force.on), id_text(force.by), json_number(force.depth),
                  json_number(f.norm()), json_number(f.x()), json_number(f.y()), json_number(f.z()),
-                 json_number(told.given), json_number(told.need));
+                 json_number(stated.given), json_number(stated.need));
 }
 
 double HapticsView::seconds(std::uint64_t samples) const {
@@ -245,7 +245,7 @@ void HapticsView::text_entities(std::string& out) const {
                    {"GIVEN mJ", kRight},
                    {"NEED mJ", kRight}});
   for (const auto& [key, kept] : entities_) {
-    const ToldEnergy told = heard_.told_energy(kept.id);
+    const StatedEnergy stated = heard_.stated_energy(kept.id);
     const deadreckon::ForceModel& model = kept.model;
     const bool expired = kept.valid_until < last_;
     table.add({id_text(kept.id), kept.marking, std::string(pdu::name(model.kind)),
@@ -254,7 +254,8 @@ void HapticsView::text_entities(std::string& out) const {
                fmt::format("{:.2g}/{:.2g}", model.static_friction, model.kinetic_friction),
                fmt::format("{:.4g}", 1e3 * model.radius), fmt::format("{}", kept.updates),
                fmt::format("{:g}{}", model.validity, expired ? " over" : ""),
-               fmt::format("{:.3g}", 1e3 * told.given), fmt::format("{:.3g}", 1e3 * told.need)});
+               fmt::format("{:.3g}", 1e3 * stated.given),
+               fmt::format("{:.3g}", 1e3 * stated.need)});
   }
   out += '\n';
   out += table.text();
@@ -321,7 +322,7 @@ void HapticsView::json(std::string& out) const {
                    json_number(jumps.max));
   }
   for (const auto& [key, kept] : entities_) {
-    const ToldEnergy told = heard_.told_energy(kept.id);
+    const StatedEnergy stated = heard_.stated_energy(kept.id);
     const deadreckon::ForceModel& model = kept.model;
     fmt::format_to(end_of(out), "{{\"kind\":\"entity\",\"id\":\"{}\"", id_text(kept.id));
     append_json_member(out, "marking", kept.marking);
@@ -333,8 +334,8 @@ void HapticsView::json(std::string& out) const {
         static_cast<unsigned>(model.kind), json_number(model.k1), json_number(model.k3),
         json_number(model.damping), json_number(model.mass), json_number(model.static_friction),
         json_number(model.kinetic_friction), json_number(model.radius), kept.updates,
-        json_number(model.validity), kept.valid_until >= last_, json_number(told.given),
-        json_number(told.need));
+        json_number(model.validity), kept.valid_until >= last_, json_number(stated.given),
+        json_number(stated.need));
   }
   const ListenerRefusals& refused = heard_.refusals();
   fmt::format_to(end_of(out),

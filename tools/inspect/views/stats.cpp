@@ -118,7 +118,7 @@ void StatsView::text(std::string& out) const {
                  "{:.2f} PDUs a datagram; {:.1f} % of the octets on the wire are PDUs; ",
                  totals_.pdus_per_datagram(), 100 * totals_.efficiency());
   if (sequences.received == 0)
-    out += "no trailers, so loss cannot be told\n";
+    out += "no trailers, so loss cannot be known\n";
   else
     fmt::format_to(end_of(out), "{} lost of {}, {} late, {} twice\n", sequences.lost,
                    sequences.received - sequences.duplicated + sequences.lost, sequences.reordered,
@@ -145,7 +145,7 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
   TextTable table(columns);
   const Rows all = rows(by);
   const double seconds = totals_.seconds();
-  const bool told = loss_.counts().received > 0;
+  const bool known = loss_.counts().received > 0;
   for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
     const TrafficShare& share = all[i].share;
     std::vector<std::string> cells{all[i].key,
@@ -156,7 +156,7 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
                                    fmt::format("{}", share.errors)};
     if (has_datagrams(by)) {
       cells.push_back(fmt::format("{}", share.datagrams));
-      cells.push_back(told ? fmt::format("{}", share.lost) : "-");
+      cells.push_back(known ? fmt::format("{}", share.lost) : "-");
     }
     table.add(std::move(cells));
   }
