@@ -23,7 +23,7 @@ namespace reckon::aoim {
 struct Hearing {
   std::chrono::nanoseconds reported{std::chrono::nanoseconds::min()};  ///< when the last one came
   /// When one came that would list us, or the rival, if it heard us.
-  std::chrono::nanoseconds us_reported = reported, rival_reported = reported;
+  std::chrono::nanoseconds us_at = reported, rival_at = reported;
   /// The same of one that does list us.
   std::chrono::nanoseconds us_listed = reported;
   bool us = false;

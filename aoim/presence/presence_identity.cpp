@@ -248,11 +248,9 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
   if (any_is_back) return false;
   const std::uint32_t theirs = rival.announced.epoch;
   const nanoseconds since = now - kRecentList - round();
-  const auto names_us = [since](const Hearing& hears) {
-    return hears.us_reported > since && hears.us;
-  };
+  const auto names_us = [since](const Hearing& hears) { return hears.us_at > since && hears.us; };
   const auto names_rival = [since, theirs](const Hearing& hears) {
-    return hears.rival_reported > since && hears.rival == theirs;
+    return hears.rival_at > since && hears.rival == theirs;
   };
   const Support mine =
       support([&](const Hearing& hears, std::uint32_t) { return names_us(hears); });

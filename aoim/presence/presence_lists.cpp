@@ -35,11 +35,11 @@ void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseco
   hearing.reported = now;
   if (covers(own_.epoch)) {
     hearing.us = false;
-    hearing.us_reported = now;
+    hearing.us_at = now;
   }
   if (covers(hearing.rival)) {
     hearing.rival = 0;
-    hearing.rival_reported = now;
+    hearing.rival_at = now;
   }
   if (!below) hearing.strangers = false;
   for (const pdu::PeerEpoch& heard : epochs) {
@@ -48,7 +48,7 @@ void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseco
     const Claimant* claimant = find_claimant(heard.epoch);
     if (claimant != nullptr && claimant->announced.simulation == id()) {
       hearing.rival = heard.epoch;
-      hearing.rival_reported = now;
+      hearing.rival_at = now;
     }
     if (claimant == nullptr && standing(heard.epoch) == Standing::unknown) hearing.strangers = true;
   }
@@ -80,7 +80,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
   if (peer.hears.us && peer.unheard) {
     peer.unheard = false;
     tell(PresenceEventKind::heard_again, peer);
-  } else if (!peer.hears.us && peer.hears.us_reported == now && !peer.unheard && running_ &&
+  } else if (!peer.hears.us && peer.hears.us_at == now && !peer.unheard && running_ &&
              now > acquainted) {
     peer.unheard = true;
     tell(PresenceEventKind::unheard, peer);
@@ -90,7 +90,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
 // What we introduce is lost on one that does not believe us yet, or has forgotten us.
 void Presence::note_listing(Peer& peer, nanoseconds now) {
   Hearing& hears = peer.hears;
-  if (!running_ || hears.us_reported != now) return;
+  if (!running_ || hears.us_at != now) return;
   if (hears.us) {
     if (std::exchange(hears.missed_us, false)) tell(PresenceEventKind::heard_late, peer);
     hears.us_listed = now;

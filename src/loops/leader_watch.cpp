@@ -55,8 +55,8 @@ LeaderWatch::LeaderWatch(Counters& counters, bool on) {
   map_version_ = &counters.make("group_map_version", "version of the map of groups that is in use");
   relayed_in_ =
       &counters.make("states_relayed_in", "states that leaders relayed to this peer when it came");
-  parts_out_ = &counters.make("snapshot_parts_out",
-                              "parts of snapshots that this peer reported as a leader");
+  parts_out_ =
+      &counters.make("snapshot_parts_out", "parts of snapshots that this peer sent as a leader");
 }
 
 void LeaderWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,

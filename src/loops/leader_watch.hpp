@@ -37,7 +37,7 @@ class LeaderWatch {
   [[nodiscard]] const LeadersView& view() const noexcept { return view_; }
 
  private:
-  /// A cell of ours: who leads it, and who was reported to.
+  /// A cell of ours: who leads it, and who was last reported to the user.
   struct Cell {
     aoim::CellId id;
     std::uint32_t leader = 0, reported = 0;

@@ -21,8 +21,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(500);
 // An interface that was chosen by rule may be replaced by another after so long.
 constexpr nanoseconds kChooseAnother = std::chrono::seconds(5);
-// IPv6 tries for a second or two whether an address is free; a socket refused for longer is
-// link_events.
+// IPv6 tries for a second or two whether an address is free; a longer refusal is reported.
 constexpr nanoseconds kAddressTried = std::chrono::seconds(3);
 
 }  // namespace
@@ -46,8 +45,7 @@ void UdpMulticast::State::recover() noexcept {
     tell_of_offload();
   } catch (const std::exception& failure) {
     next_look = now + kLookEvery;  // no descriptor or no memory for now: looked at again
-    if (has_news)
-      tell_hindrance(failure.what());  // else groups that are refused are reported as such
+    if (has_news) tell_hindrance(failure.what());  // else refused groups are reported as such
   }
 }
 

@@ -46,46 +46,46 @@ TEST(Audiences, AreOneForEachRowAndTheInmostForWhatIsFelt) {
 
 TEST(Audiences, AskWhereTheirOwnCopyIsOffByTheirOwnThreshold) {
   Audiences all = made(false);
-  all.told(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
-  all.told(0, last_sent_at(0.15), 1.1, SendReason::position, true);
+  all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
+  all.note_sent(0, last_sent_at(0.15), 1.1, SendReason::position, true);
   EXPECT_EQ(all.decide(1, at(0.19), 1.1), SendReason::none) << "twice as wide";
   EXPECT_EQ(all.decide(1, at(0.21), 1.1), SendReason::position);
   EXPECT_EQ(all.decide(2, at(0.21), 1.1), SendReason::none);
   EXPECT_EQ(all.decide(2, at(0.81), 1.1), SendReason::position);
-  all.told(1, last_sent_at(0.21), 1.1, SendReason::position, true);
+  all.note_sent(1, last_sent_at(0.21), 1.1, SendReason::position, true);
   EXPECT_EQ(all.decide(1, at(0.3), 1.2), SendReason::none);
   EXPECT_EQ(all.decide(2, at(0.81), 1.2), SendReason::position) << "that was not for them";
 }
 
 TEST(Audiences, AreBehindUntilTheyAreToldTheWholeOfIt) {
   Audiences all = made(false);
-  all.told(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
+  all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   EXPECT_FALSE(all.is_behind(1) || all.is_behind(2));
-  all.told(1, last_sent_at(0.1), 1.1, SendReason::position, true);
+  all.note_sent(1, last_sent_at(0.1), 1.1, SendReason::position, true);
   EXPECT_FALSE(all.is_behind(1));
   EXPECT_TRUE(all.is_behind(2));
-  all.told(2, last_sent_at(0.2), 1.2, SendReason::position, false);
+  all.note_sent(2, last_sent_at(0.2), 1.2, SendReason::position, false);
   EXPECT_TRUE(all.is_behind(2)) << "its parts are not theirs to know";
-  all.told(2, last_sent_at(0.2), 1.3, SendReason::event, true);
+  all.note_sent(2, last_sent_at(0.2), 1.3, SendReason::event, true);
   EXPECT_FALSE(all.is_behind(2));
 }
 
 TEST(Audiences, ArePutInStepOnceWhereNobodyIsServedBeforeThem) {
   Audiences all = made(false);
-  all.told(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
-  all.told(0, last_sent_at(0.1), 2.0, SendReason::position, true);
+  all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
+  all.note_sent(0, last_sent_at(0.1), 2.0, SendReason::position, true);
   EXPECT_FALSE(all.is_out_of_step(1, 2.0, 9.0)) << "somebody may listen to the nearest row";
   all.serve(2, {});
   EXPECT_FALSE(all.is_out_of_step(1, 2.0, 2.5)) << "nor is who was near gone at once";
   EXPECT_TRUE(all.is_out_of_step(1, 2.0, 3.0));
   EXPECT_TRUE(all.is_out_of_step(2, 1.0, 3.0));
-  all.told(2, last_sent_at(0.1), 3.0, SendReason::heartbeat, true);
+  all.note_sent(2, last_sent_at(0.1), 3.0, SendReason::heartbeat, true);
   EXPECT_FALSE(all.is_out_of_step(2, 3.0, 9.0));
 }
 
 TEST(Audiences, AreToldAgainTheLaterTheCoarser) {
   Audiences all = made(false);
-  all.told(all.last(), last_sent_at(0.0), 1.0, SendReason::position, true);
+  all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::position, true);
   EXPECT_DOUBLE_EQ(all.next(1), 3.0) << "1 s, twice as long";
   EXPECT_DOUBLE_EQ(all.next(2), 6.0) << "eight times, a heartbeat at most";
   EXPECT_EQ(all.decide(1, at(0.0), 3.0), SendReason::heartbeat);
@@ -94,8 +94,8 @@ TEST(Audiences, AreToldAgainTheLaterTheCoarser) {
 // Contact groups as without rows.
 TEST(Audiences, OfWhatIsFeltFollowHalfASecondLaterAtTheLatest) {
   Audiences all = made(true);
-  all.told(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
-  all.told(0, last_sent_at(0.0), 1.1, SendReason::force, true);
+  all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
+  all.note_sent(0, last_sent_at(0.0), 1.1, SendReason::force, true);
   EXPECT_DOUBLE_EQ(all.next(1), 1.5);
   EXPECT_EQ(all.decide(1, at(0.0), 1.5), SendReason::heartbeat);
   EXPECT_EQ(all.decide(2, at(0.0), 1.5), SendReason::none) << "who leaves a row goes back";
