@@ -21,11 +21,11 @@ namespace reckon::aoim {
 
 /// What the last lists of a peer say.
 struct Hearing {
-  std::chrono::nanoseconds reported{std::chrono::nanoseconds::min()};  ///< when the last one came
+  std::chrono::nanoseconds came{std::chrono::nanoseconds::min()};  ///< when the last one came
   /// When one came that would list us, or the rival, if it heard us.
-  std::chrono::nanoseconds us_at = reported, rival_at = reported;
+  std::chrono::nanoseconds us_at = came, rival_at = came;
   /// The same of one that does list us.
-  std::chrono::nanoseconds us_listed = reported;
+  std::chrono::nanoseconds us_listed = came;
   bool us = false;
   bool missed_us = false;   ///< it had to hear us and did not, and has not listed us since
   bool strangers = false;   ///< it hears lives that we do not know

@@ -260,7 +260,7 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
   // Whether somebody whom we hear has named neither of us and will: a newcomer, or one that was
   // cut off. One that never tells whom it hears is no witness.
   const bool awaited = std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
-    const bool tells = peer.hears.reported > since || now - peer.first_heard <= config_.established;
+    const bool tells = peer.hears.came > since || now - peer.first_heard <= config_.established;
     return peer.joined && peer.confirmed && tells && now - peer.last_heard <= config_.listed &&
            !names_us(peer.hears) && !names_rival(peer.hears);
   });

@@ -32,7 +32,7 @@ void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseco
     if ((list.continues & pdu::kPeersHeardAbove) != 0) last = highest;
   }
   const auto covers = [&](std::uint32_t epoch) { return first <= epoch && epoch <= last; };
-  hearing.reported = now;
+  hearing.came = now;
   if (covers(own_.epoch)) {
     hearing.us = false;
     hearing.us_at = now;

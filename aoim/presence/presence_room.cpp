@@ -49,7 +49,7 @@ bool Presence::make_room(std::chrono::nanoseconds now, const SourceAddress& from
     std::size_t oldest = peers_.size();
     for (std::size_t i = 0; i < peers_.size(); ++i) {
       const Peer& peer = peers_[i];
-      const bool tells = peer.hears.reported > std::chrono::nanoseconds::min();
+      const bool tells = peer.hears.came > std::chrono::nanoseconds::min();
       const std::chrono::nanoseconds since = now - peer.first_heard;
       if (peer.confirmed ? tells || since <= kTells : since <= kConfirmation) continue;
       if (oldest == peers_.size() || peers_[i].first_heard < peers_[oldest].first_heard) oldest = i;
