@@ -172,7 +172,7 @@ class EnergyPort {
   double period_ = 0.0;  // [s], of the last hold
   double owed_ = 0.0;
   double unearned_ = 0.0;  // of E, what others gave
-  double pushed_ = 0.0;    // of that, what went into the hand and did not come back
+  double pushed_ = 0.0;    // of that, what left E, as into the hand, and did not come back
   double unseen_ = kUnseen;
   double received_power_ = std::numeric_limits<double>::infinity();
   double receivable_ = kReceivedAtOnce;

@@ -23,7 +23,8 @@ class AoimWatch {
   /// `counters` outlive it.
   AoimWatch(const SceneFile& scene, Counters& counters);
 
-  /// Call it after each set_foci, with the answer. Sentences go to `out`.
+  /// Call it each time the manager's listen() has been asked for the cells, with the answer.
+  /// Sentences go to `out`.
   void look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 

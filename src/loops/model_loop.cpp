@@ -6,10 +6,8 @@
 #include <array>
 
 #include "reckon/pdu/codec/codec.hpp"
-#include "reckon/pdu/management/acknowledge.hpp"
-#include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
-#include "reckon/peer/world/addressed.hpp"
+#include "reckon/peer/loops/send_pdu.hpp"
 #include "reckon/peer/world/interaction_issuers.hpp"
 
 namespace reckon::peer {
@@ -50,6 +48,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
       subscriber_(wiring, aoim_, owned_, remote_),
       watches_(wiring),
+      orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       view_(wiring) {}
 
 // A pass
@@ -239,7 +238,7 @@ void ModelLoop::emit(bool everything) noexcept {
   pdu::TimeExchange exchange;
   if (aoim_.presence().is_due(pass_.now) &&
       time_.echo(owned_.simulation().simulation(), exchange)) {
-    queue(exchange);
+    send_pdu(aoim_, exchange, std::nullopt, pass_.now);
   }
   aoim_.step(pass_.now, sink);
   if (everything) aoim_.flush(pass_.now, sink);
@@ -283,7 +282,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
 // In another's name it is neither obeyed nor heard.
 void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
   const bool order = update.kind != Inbound::Kind::other;
-  if (order && !obeys(update, arrival)) return;
+  if (order && !orders_.obeys(update, arrival, pass_)) return;
   const InteractionIssuers issuers = issuers_of(update.pdu.header, update.pdu.bytes);
   const Voice voice = remote_.hear(issuers.ids(), arrival);
   if (voice == Voice::refused) return counted_.interactions_refused.add();
@@ -291,56 +290,7 @@ void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) 
     const auto peer = arrival.epoch == 0 ? std::nullopt : aoim_.presence().id_of(arrival.epoch);
     guest_->hear(update.pdu.header, update.pdu.bytes, {arrival.from, peer, voice == Voice::owner});
   }
-  if (order) take_control(update, arrival);
-}
-
-void ModelLoop::take_control(const Inbound& update, const Arrival& arrival) noexcept {
-  if (!is_addressed(update.entity, owned_.simulation().simulation())) return;
-  const bool frozen = update.kind == Inbound::Kind::stop_freeze;
-  if (is_whole(update.entity)) {
-    owned_.for_each([&](OwnedEntity& entity, EntityNumber number) {
-      entity.set_frozen(frozen);
-      owned_.look_at(number);
-    });
-    answer(update, arrival, own_id());
-  } else if (OwnedEntity* entity = owned_.find(update.entity.entity)) {
-    entity->set_frozen(frozen);
-    owned_.look_at(update.entity.entity);
-    answer(update, arrival, entity->id());
-  }
-}
-
-// A peer gives orders in its own name alone, and nobody else does in the name of a peer.
-bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
-  if (!is_addressed(update.entity, owned_.simulation().simulation())) return true;
-  const aoim::PeerId originator = update.originator.simulation();
-  const auto epoch = aoim_.presence().epoch_of(originator);
-  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
-  const bool member = unnamed || (epoch && *epoch == arrival.epoch);
-  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
-  if (genuine && scene_.network.management.allows(originator, member)) return true;
-  counted_.orders_refused.add();
-  watches_.note_order(update.originator,
-                      update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume", arrival.from,
-                      pass_.now);
-  return false;
-}
-
-void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
-                       const pdu::EntityId& own) noexcept {
-  const bool frozen = update.kind == Inbound::Kind::stop_freeze;
-  pdu::Acknowledge answer;
-  answer.header.exercise_id = scene_.network.exercise;
-  answer.header.timestamp = time_.stamp(pass_.utc);
-  answer.originating_entity_id = own;
-  answer.receiving_entity_id = update.originator;
-  answer.acknowledge_flag =
-      frozen ? pdu::AcknowledgeFlag::stop_freeze : pdu::AcknowledgeFlag::start_resume;
-  answer.response_flag = pdu::ResponseFlag::able_to_comply;
-  answer.request_id = update.request_id;
-  queue(answer);
-  report("{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", update.originator.site,
-         update.originator.application, update.originator.entity, AddressText(arrival.from).view());
+  if (order) orders_.carry_out(update, arrival, own_id(), pass_);
 }
 
 void ModelLoop::take_presence_events() noexcept {
@@ -400,13 +350,6 @@ void ModelLoop::send_what_is_felt() noexcept {
     entity.event();
     owned_.look_at(number);
   }
-}
-
-template <typename Pdu>
-void ModelLoop::queue(const Pdu& pdu) noexcept {
-  std::array<std::byte, 512> octets;
-  const std::size_t size = pdu::encode(pdu, octets);
-  static_cast<void>(say(std::span(octets.data(), size), std::nullopt));
 }
 
 template <typename... Arguments>

@@ -22,6 +22,7 @@
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/loops/order_stage.hpp"
 #include "reckon/peer/loops/peer_watches.hpp"
 #include "reckon/peer/loops/subscriber.hpp"
 #include "reckon/peer/loops/touch_stage.hpp"
@@ -115,9 +116,6 @@ class ModelLoop : private UpdateHandler {
   void drop_stale(Nanoseconds now) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept override;
   void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
-  void take_control(const Inbound& update, const Arrival& arrival) noexcept;
-  [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
-  void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
   void take_presence_events() noexcept;
   void take_relayed() noexcept;
   void doubt_the_silent() noexcept;
@@ -128,8 +126,6 @@ class ModelLoop : private UpdateHandler {
   void look_around() noexcept;
   void publish_view() noexcept;
   void emit(bool everything) noexcept;
-  template <typename Pdu>
-  void queue(const Pdu& pdu) noexcept;
   template <typename... Arguments>
   void report(std::string_view format, const Arguments&... arguments) noexcept;
 
@@ -147,6 +143,7 @@ class ModelLoop : private UpdateHandler {
   TouchStage touch_;
   Subscriber subscriber_;
   PeerWatches watches_;
+  OrderStage orders_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
   Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // somebody

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "reckon/pdu/codec/codec.hpp"
 #include "reckon/peer/loops/contact_publisher.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/loops/send_pdu.hpp"
 #include "reckon/peer/world/impact.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -185,10 +185,7 @@ void TouchStage::send_impact(const HandPort& port, const RemoteEntity& row,
   impact->header.timestamp = time_.stamp(pass.utc);
   impact->issuing_entity_id = own;
   impact->event_id = {own.site, own.application, ++impacts_};
-  std::array<std::byte, 128> octets;
-  const std::size_t size = pdu::encode(*impact, octets);
-  const aoim::PduPayload payload{std::span(octets.data(), size)};
-  static_cast<void>(aoim_.send(aoim::kCellTier, payload, to_position(servo.scp), pass.now));
+  send_pdu(aoim_, *impact, to_position(servo.scp), pass.now);
 }
 
 void TouchStage::publish_contacts(const Pass& pass) noexcept {

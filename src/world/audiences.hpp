@@ -74,8 +74,8 @@ class Audiences {
 
   // Whom it is of use to tell.
 
-  /// How far off [m] others may be from where their last update put them, as far as they receive as
-  /// coarsely as this entity.
+  /// How far off [m] others may be from where their last update put them, as far as their
+  /// updates are as coarse as this entity's.
   [[nodiscard]] double slack() const noexcept { return slack_; }
   /// In the rows before this one nobody is known to listen.
   [[nodiscard]] std::size_t served_row() const noexcept { return served_row_; }

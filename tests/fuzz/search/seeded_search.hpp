@@ -47,9 +47,9 @@ class SeededSearch {
     bool all = false;
     app.add_option("--first", first, "seed to begin with");
     app.add_option("--seeds", seeds, "so many numbers from there on");
-    app.add_option("--every", every, "only each so-manieth of them")->check(CLI::PositiveNumber);
+    app.add_option("--every", every, "one of every so many of them")->check(CLI::PositiveNumber);
     app.add_flag("--all", all, "goes on after a finding");
-    auto* replayed = app.add_option("--replay", again, "one seed, told at length");
+    auto* replayed = app.add_option("--replay", again, "one seed, step by step");
     CLI11_PARSE(app, argc, argv);
     return replayed->count() > 0 ? replay(again) : search(first, seeds, every, all);
   }
