@@ -18,7 +18,7 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 
 // Time constant [s] of the velocity along the normal that is sent while hands touch. Below it two
 // hands of 0.1 kg over 500 N/m ring at 16 Hz, above it they lag behind a common motion;
-// docs/haptic_stability.md has the table.
+// docs/measurements/touch.md has the table.
 constexpr double kContactSmoothing = 0.05;
 // It is half as long where a hand slides over another at this speed [m/s], a third at twice as
 // much: what moves it along the normal then is the shape that it slides over, not the spring.
