@@ -19,6 +19,7 @@
 #include "reckon/aoim/leader/leader_config.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
 #include "reckon/aoim/presence/presence.hpp"
+#include "reckon/aoim/tiers/tier_table.hpp"
 
 namespace reckon::aoim {
 
@@ -68,11 +69,29 @@ struct AreaOfInterestConfig {
   std::chrono::nanoseconds crossing_gap = std::chrono::milliseconds(100);
 };
 
+/// The cells. Where groups are handed out, they have as many numbers as there can be.
+/// @throws std::invalid_argument for cells that the pool or plain DIS cannot have
+[[nodiscard]] CellPartition cells_of(const AreaOfInterestConfig& config);
+
+/// Who receives what. @throws std::invalid_argument as ChannelTable does
+[[nodiscard]] TierTable tiers_of(const AreaOfInterestConfig& config);
+
 /// Groups behind the base group with these settings: those of the cells, of near rows, of what is
 /// felt.
 [[nodiscard]] std::size_t all_groups(const AreaOfInterestConfig& config);
 
 /// What a peer announces of itself, with the cells and groups that `config` says.
 [[nodiscard]] pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config);
+
+// The configurations of the manager's parts, completed
+// ---------------------------------------------
+
+/// @throws std::invalid_argument where contact or near groups are asked for that cannot be
+[[nodiscard]] AggregatorConfig aggregator_of(const AreaOfInterestConfig& config,
+                                             const pdu::Presence& own);
+[[nodiscard]] InterestConfig interest_of(const AreaOfInterestConfig& config,
+                                         const CellPartition& cells);
+[[nodiscard]] IntroductionConfig introduction_of(const AreaOfInterestConfig& config,
+                                                 const CellPartition& cells);
 
 }  // namespace reckon::aoim

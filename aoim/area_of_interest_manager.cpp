@@ -3,145 +3,36 @@
 #include "reckon/aoim/area_of_interest_manager.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
-#include <string>
 
-#include "reckon/aoim/interest/focus_cover.hpp"
-#include "reckon/aoim/interest/near_rows.hpp"
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::aoim {
-namespace {
-
 using std::chrono::nanoseconds;
-
-// How much nearer than it is left a contact group is joined.
-constexpr double kContactLeave = 2.0;
-
-// Where groups are handed out, cells have as many numbers as there can be.
-CellPartition cells_of(const AreaOfInterestConfig& config) {
-  GridConfig grid = config.grid;
-  if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
-  if (!config.cells) return CellGrid(grid);
-  if (config.interop && config.cells->as<LocaleMap>() != nullptr)
-    throw std::invalid_argument("locales are distinguished by groups: plain DIS has one");
-  if (config.cells->groups() > grid.pool)
-    throw std::invalid_argument("cells of " + std::to_string(config.cells->groups()) +
-                                " groups, and a pool of " + std::to_string(grid.pool));
-  return *config.cells;
-}
-
-std::size_t near_rows_of(const AreaOfInterestConfig& config) {
-  if (!config.near_groups || config.channels.empty()) return 0;
-  return ChannelTable(config.channels).near_rows();
-}
-
-SubscriptionConfig subscription_of(const TierTable& tiers, std::size_t tier,
-                                   SubscriptionConfig config) {
-  if (tiers.is_near(tier)) return near_subscription(config);
-  if (!tiers.is_felt(tier)) return config;
-  config.leave_factor = std::max(config.leave_factor, kContactLeave);
-  config.maximum_groups = kMaximumPool;  // what a hand touches is not left out
-  return config;
-}
-
-std::vector<Subscription> subscriptions_of(const TierTable& tiers, const CellPartition& cells,
-                                           const SubscriptionConfig& config) {
-  std::vector<Subscription> all;
-  all.reserve(tiers.count());
-  for (std::size_t tier = 0; tier < tiers.count(); ++tier)
-    all.emplace_back(cells, subscription_of(tiers, tier, config));
-  return all;
-}
-
-void check_more_groups(const AreaOfInterestConfig& config) {
-  const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
-  if (!config.contact_groups && !config.near_groups) return;
-  if (config.interop) refuse("contact and near groups: plain DIS has one group");
-  if (config.leader.on && config.leader.hand_out)
-    refuse("contact and near groups are those of the fixed tile: none is handed out");
-  if (config.grid.pool < 2 || all_groups(config) > kMaximumPool)
-    refuse("contact and near groups: take a pool of 4 or more, and 1000 groups in all at most");
-  if (!config.near_groups) return;
-  if (config.channels.empty() || ChannelTable(config.channels).near_rows() == 0)
-    refuse("near groups: the channels have no row that is near, not kept, and not the last");
-  if (config.leader.on) refuse("near groups: leaders would tell what was said in all of them");
-  if (config.channels[ChannelTable(config.channels).kept_rows()].coarser > 1.0)
-    refuse("near groups: the nearest row has the thresholds of the scene");
-}
-
-AggregatorConfig complete(AggregatorConfig config, const AreaOfInterestConfig& all,
-                          const pdu::Presence& own) {
-  check_more_groups(all);
-  config.pool = all_groups(all);
-  config.sender = own.simulation;
-  config.epoch = own.epoch;
-  config.exercise_id = own.header.exercise_id;
-  return config;
-}
-
-InterestConfig complete(InterestConfig config, const CellPartition& cells) {
-  config.maximum_foci = std::max(config.maximum_foci, FocusCover::most(cells.as<LocaleMap>()));
-  return config;
-}
-
-IntroductionConfig complete(IntroductionConfig config, const AreaOfInterestConfig& all,
-                            const CellPartition& cells) {
-  config.pool = std::max<std::size_t>(cells.groups(), all_groups(all));
-  return config;
-}
-
-// The last 24 octets, where they are a trailer.
-std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagram) noexcept {
-  if (datagram.size() < pdu::kDatagramTrailerSize) return {};
-  pdu::DatagramTrailer trailer;
-  const auto error = pdu::decode(datagram.last(pdu::kDatagramTrailerSize), trailer);
-  const bool whole = trailer.header.length == pdu::kDatagramTrailerSize;
-  if (error != pdu::DecodeError::none || !whole) return {};
-  return trailer;
-}
-
-}  // namespace
-
-std::size_t all_groups(const AreaOfInterestConfig& config) {
-  const TierTable tiers(config.contact_groups, near_rows_of(config), config.grid.pool);
-  return config.grid.pool * tiers.count();
-}
-
-pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config) {
-  own.cell_scheme = config.cells ? config.cells->scheme() : config.grid.scheme;
-  own.cell_size = static_cast<float>(config.cells ? config.cells->finest() : config.grid.cell_size);
-  own.pool_size = static_cast<std::uint16_t>(config.grid.pool);
-  if (config.interop) own.flags |= pdu::kPresenceInterop;
-  return own;
-}
 
 AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own)
     : config_(config),
       cells_(cells_of(config)),
-      tiers_(config.contact_groups, near_rows_of(config), config.grid.pool),
-      subscriptions_(subscriptions_of(tiers_, cells_, config.subscription)),
-      sight_(complete(config.interest, cells_), cells_, subscriptions_.front(), config.follow,
+      tiers_(tiers_of(config)),
+      subscriptions_(tiers_, cells_, config.subscription,
+                     {config.radius, config.farthest_nimbus, config.channels}),
+      sight_(interest_of(config, cells_), cells_, subscriptions_.cells(), config.follow,
              config.cells ? config.cells->finest() : config.grid.cell_size),
-      aggregator_(complete(config.aggregator, config, own)),
+      aggregator_(aggregator_of(config, own)),
       presence_(config.presence, announcement(own, config)),
-      introductions_(complete(config.introduction, config, cells_),
+      introductions_(introduction_of(config, cells_),
                      std::max<std::size_t>(cells_.groups(), all_groups(config))),
       sequences_(config.tracked),
-      asks_(cells_.groups()) {
-  joined_.resize(tiers_.count());
-  join_.reserve(all_groups(config));
-  leave_.reserve(all_groups(config));
+      joins_(tiers_, cells_.groups()) {
   aggregator_.set_interop(kBaseGroup, config.interop);
-  peers_heard_.reserve(config.presence.capacity * pdu::kFixedSize<pdu::PeerEpoch>);
-  joined_.front().reserve(cells_.groups() * pdu::kFixedSize<pdu::CellIndex>);
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
   if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
   if (config.leader.on && !config.interop)
-    leading_.emplace(config.leader, config.grid.pool, cells_, subscriptions_.front(), presence_,
+    leading_.emplace(config.leader, config.grid.pool, cells_, subscriptions_.cells(), presence_,
                      config.locate);
   if (!config.follow.empty() && !hands_out())
     throw std::invalid_argument("beacons are found in the map of groups: hand groups out");
@@ -202,6 +93,49 @@ bool AreaOfInterestManager::must_send(std::size_t tier, const pdu::EntityId& ent
          introductions_.is_due(entity, tiers_.group(tier, cells_.group(position)), last.at, now);
 }
 
+// ------------------------------------------------------------------------------------- subscribe
+
+SubscriptionChange AreaOfInterestManager::listen(std::size_t tier, std::span<const Focus> foci,
+                                                 nanoseconds now) {
+  if (tier >= tiers_.count()) return {};
+  const SubscriptionChange change =
+      tier == kCellTier ? listen_to_cells(foci, now) : listen_beside_cells(tier, foci, now);
+  subscriptions_.note(change);
+  for (const GroupIndex group : change.leave) sequences_.forget(group);
+  for (const GroupIndex group : change.join) sequences_.forget(group);
+  return change;
+}
+
+SubscriptionChange AreaOfInterestManager::listen_beside_cells(std::size_t tier,
+                                                              std::span<const Focus> foci,
+                                                              nanoseconds now) {
+  const SubscriptionChange cells = subscriptions_.update(tier, foci, now);
+  if (started_ && tiers_.is_near(tier)) {
+    for (const GroupIndex cell : cells.join)
+      joins_.ask_once(tier, subscriptions_.of(tier).cell(cell));
+  }
+  return subscriptions_.groups_of(tier, cells);
+}
+
+SubscriptionChange AreaOfInterestManager::listen_to_cells(std::span<const Focus> foci,
+                                                          nanoseconds now) {
+  sight_.set_foci(foci);
+  if (config_.interop) return {};
+  const auto besides = sight_.follow(now, config_.leader.empty, [&](std::uint32_t tag) {
+    return leading_->role().directory().find_beacon(tag, now);
+  });
+  const SubscriptionChange change = subscriptions_.update(kCellTier, foci, now, besides);
+  if (!change.leave.empty()) sight_.leave_locale();
+  if (!hands_out()) {
+    for (const GroupIndex group : change.leave) joins_.asks().leave(group);
+  }
+  if (leading_) return leading_->follow(change, now + utc_offset_, now);
+  // Whoever receives our start introduces everything.
+  for (const GroupIndex group : change.join)
+    joins_.asks().join(group, subscriptions_.cells().cell(group), started_, now);
+  return change;
+}
+
 // ---------------------------------------------------------------------------------------- filter
 
 Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::byte> datagram,
@@ -215,7 +149,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   } else if (trailer) {
     incoming.verdict = judge_datagram(group, from, incoming);
     if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
-    if (incoming.sequence && group.value <= cells_.groups()) asks_.note_heard(group);
+    if (incoming.sequence && group.value <= cells_.groups()) joins_.asks().note_heard(group);
   }
 
   // Presence is heard from everyone but ourselves: it is what changes a sender's standing, and it
@@ -249,13 +183,8 @@ bool AreaOfInterestManager::is_of_exercise(
     const std::optional<pdu::DatagramTrailer>& trailer) const noexcept {
   const std::uint8_t ours = presence_.own().header.exercise_id;
   if (trailer && trailer->header.exercise_id != ours) return false;
-  if (group != kBaseGroup || config_.interop) return true;
-  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
-    if (bundled.error != pdu::DecodeError::none) continue;
-    const bool tells = bundled.header.pdu_type == pdu::PduType::presence;
-    if (tells && bundled.header.exercise_id != ours) return false;
-  }
-  return true;
+  const bool may_announce = group == kBaseGroup && !config_.interop;
+  return !may_announce || !announces_another_exercise(datagram, ours);
 }
 
 IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group, const SourceAddress& from,
@@ -265,7 +194,7 @@ IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group, const So
   if (standing == Standing::own) return IncomingVerdict::own;
   if (standing == Standing::former_life) return IncomingVerdict::former_life;
   if (standing == Standing::impostor) return IncomingVerdict::impostor;
-  if (!hears(group)) return IncomingVerdict::not_joined;
+  if (!subscriptions_.hears(group)) return IncomingVerdict::not_joined;
   if (standing == Standing::other_scene) return IncomingVerdict::other_scene;
   // Until it has announced itself nobody knows whose numbers these are.
   if (standing == Standing::unknown) return IncomingVerdict::use;
@@ -296,6 +225,31 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
     }
   }
   conclude(now);
+}
+
+// Who joins a cell has not heard its entities yet. What is asked again of us is known by its
+// instant.
+void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
+                                            const SourceAddress& from) {
+  if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
+  const Standing standing = presence_.standing(membership.epoch, &from);
+  if (standing != Standing::member && standing != Standing::unknown) return;
+  // Who begins to listen to a near group knows what was sent to the rows behind it alone.
+  const bool is_near = membership.action == pdu::MembershipAction::join_near;
+  if (is_near && membership.near_row >= tiers_.near_rows()) return;
+  if (!is_near && membership.action != pdu::MembershipAction::join) return;
+  if (!is_near && !heard_asks_.note(membership.epoch, membership.since)) return;
+  const std::size_t tier = is_near ? tiers_.of_row(membership.near_row) : kCellTier;
+  const nanoseconds heard_for = presence_.heard_for(membership.epoch);
+  for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
+    const CellId id{cell.column, cell.row};
+    if (is_near || id != kWholeScene) {
+      introductions_.begin(tiers_.group(tier, cells_.group(id)), heard_for, now);
+    } else if (hands_out() && standing == Standing::member) {
+      leading_->role().doubt_map(now);
+      introductions_.begin(kBaseGroup, heard_for, now);
+    }
+  }
 }
 
 // Draws the consequences of what presence found out, and keeps the events for the peer.
@@ -351,10 +305,34 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
 void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   announce(now);
   lead(now);
-  announce_memberships(now);
+  const bool asks = joins_.asks().has_new();
+  joins_.step(now, stamp(now), to_everybody(now));
+  if (asks) presence_.announce_by(joins_.asks().next_repetition());
   introductions_.step(now);
   aggregator_.flush_due(now, sink);
   note_said(now);
+}
+
+void AreaOfInterestManager::announce(nanoseconds now) {
+  const std::span<const pdu::Presence> outgoing = presence_.step(now);
+  conclude(now);
+  for (pdu::Presence announced : outgoing) {
+    const bool leaves = (announced.flags & pdu::kPresenceLeaving) != 0;
+    // Entities that came before we are known would be dropped.
+    if (introduce_ && !leaves) introductions_.begin(kBaseGroup, {}, now);
+    introduce_ = introduce_ && leaves;
+    const ControlStamp sender = stamp(now);
+    announced.send_time = static_cast<std::uint64_t>(sender.utc.count());
+    announced.header.timestamp = sender.timestamp;
+    std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
+    const std::size_t size = pdu::encode(announced, octets);
+    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
+    if (leaves) continue;
+    joins_.repeat(now, stamp(now), to_everybody(now));
+    presence_.announce_by(joins_.asks().next_repetition());
+  }
+  if (const auto heard = presence_.take_list(now, said_))
+    aggregator_.add(kBaseGroup, peers_heard_.encode(*heard, stamp(now)), now);
 }
 
 void AreaOfInterestManager::lead(nanoseconds now) {
@@ -363,8 +341,17 @@ void AreaOfInterestManager::lead(nanoseconds now) {
       now, pdu::to_dis_timestamp(now + utc_offset_, synchronised_),
       [&](GroupIndex group, std::span<const std::byte> pdu) { aggregator_.add(group, pdu, now); });
   CellId cell;
-  while (leading_->role().take_given_up(now, cell)) ask_owners(kCellTier, cell);
-  if (leading_->role().take_plea(now)) ask_owners(kCellTier, kWholeScene);
+  while (leading_->role().take_given_up(now, cell)) joins_.ask_once(kCellTier, cell);
+  if (leading_->role().take_plea(now)) joins_.ask_once(kCellTier, kWholeScene);
+}
+
+ControlStamp AreaOfInterestManager::stamp(nanoseconds now) const noexcept {
+  return {presence_.own().header.exercise_id, presence_.id(), presence_.own().epoch,
+          pdu::to_dis_timestamp(now + utc_offset_, synchronised_), now + utc_offset_};
+}
+
+JoinAnnouncer::Send AreaOfInterestManager::to_everybody(nanoseconds now) {
+  return [this, now](std::span<const std::byte> pdu) { aggregator_.add(kBaseGroup, pdu, now); };
 }
 
 void AreaOfInterestManager::note_said(nanoseconds now) noexcept {
@@ -373,19 +360,12 @@ void AreaOfInterestManager::note_said(nanoseconds now) noexcept {
   datagrams_said_ = datagrams;
 }
 
-void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
-  announce(now);
-  lead(now);
-  aggregator_.flush_all(now, sink);
-}
-
 nanoseconds AreaOfInterestManager::next_step() const noexcept {
   nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
   next = std::min(next, introductions_.next_step());
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
   if (leading_) next = std::min(next, leading_->next_step());
-  const auto is_pending = [](const std::vector<std::byte>& cells) { return !cells.empty(); };
-  if (asks_.has_new() || std::ranges::any_of(joined_, is_pending)) next = nanoseconds::min();
+  if (joins_.is_pending()) next = nanoseconds::min();
   return next;
 }
 

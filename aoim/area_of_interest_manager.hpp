@@ -29,7 +29,10 @@
 #include "reckon/aoim/leader/leading.hpp"
 #include "reckon/aoim/presence/introductions.hpp"
 #include "reckon/aoim/presence/join_asks.hpp"
+#include "reckon/aoim/presence/peers_heard_encoder.hpp"
 #include "reckon/aoim/presence/presence.hpp"
+#include "reckon/aoim/tiers/join_announcer.hpp"
+#include "reckon/aoim/tiers/tier_subscriptions.hpp"
 #include "reckon/aoim/tiers/tier_table.hpp"
 #include "reckon/aoim/tiers/update_payload.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
@@ -88,13 +91,9 @@ class AreaOfInterestManager {
   [[nodiscard]] const Introductions& introductions() const noexcept { return introductions_; }
   /// Where those are who receive what we send; null where it is not thinned out by that.
   [[nodiscard]] ReceiverChannels* receivers() noexcept { return channels_ ? &*channels_ : nullptr; }
-  /// How far distances count to a peer: what it announces. 1 where it is not known.
-  [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept {
-    return presence_.stretch_of(epoch);
-  }
-  /// What we announce of that from now on; see ChannelTable::fit.
+  /// How far distances count to us: what we announce from now on; see ChannelTable::fit.
   void set_stretch(double stretch) noexcept {
-    stretch_ = stretch;
+    subscriptions_.set_stretch(stretch);
     presence_.set_stretch(stretch);
   }
   /// Where this peer sends from; once that has changed others are to know soon.
@@ -128,28 +127,18 @@ class AreaOfInterestManager {
   /// Which remote entities are of interest, and what was judged.
   [[nodiscard]] Sight& sight() noexcept { return sight_; }
   [[nodiscard]] const Sight& sight() const noexcept { return sight_; }
-  /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
-  [[nodiscard]] bool is_own(const pdu::EntityId& entity) const noexcept {
-    return entity.simulation() == presence_.id();
-  }
-
   /// Our part in leading; null where cells have no leaders.
   [[nodiscard]] Leading* leading() noexcept { return leading_ ? &*leading_ : nullptr; }
   [[nodiscard]] const Leading* leading() const noexcept { return leading_ ? &*leading_ : nullptr; }
-  /// The same of its LeaderRole.
-  [[nodiscard]] const LeaderRole* leader() const noexcept {
-    return leading_ ? &leading_->role() : nullptr;
-  }
 
   // 4 aggregate -----------------------------------------------------------------------------------
 
   /// Emits what is due: announcements, memberships, bundles. `sink` gets (GroupIndex,
   /// std::span<const std::byte>) and must not call the manager.
   void step(std::chrono::nanoseconds now, DatagramSink sink);
-  /// Emits everything that waits, e.g. after stop.
-  void flush(std::chrono::nanoseconds now, DatagramSink sink);
-  /// Hands over what waits, without a word of presence: for who throws it away, being too old.
-  void empty(std::chrono::nanoseconds now, DatagramSink sink) { aggregator_.flush_all(now, sink); }
+  /// Emits what is queued and not yet due, too: after the step that follows stop, or to throw it
+  /// away.
+  void flush(std::chrono::nanoseconds now, DatagramSink sink) { aggregator_.flush_all(now, sink); }
   /// When step has to be called next at the latest; duration max where nothing is pending.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
@@ -161,13 +150,9 @@ class AreaOfInterestManager {
 
   [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
   [[nodiscard]] const CellPartition& cells() const noexcept { return cells_; }
-  /// Of cells: where groups are handed out, each has a number of its own here, else that of its
-  /// group.
-  [[nodiscard]] const Subscription& subscription() const noexcept { return subscriptions_.front(); }
-  /// Groups that we have joined, the base group not counted.
-  [[nodiscard]] std::size_t joined_groups() const noexcept;
-  /// Whether we have joined this one; the base group always.
-  [[nodiscard]] bool hears(GroupIndex group) const noexcept;
+  /// Which cells and groups we listen to. Of cells: where groups are handed out, each has a number
+  /// of its own here, else that of its group.
+  [[nodiscard]] const TierSubscriptions& subscriptions() const noexcept { return subscriptions_; }
   [[nodiscard]] const Aggregator& aggregator() const noexcept { return aggregator_; }
   [[nodiscard]] const SequenceTracker& sequences() const noexcept { return sequences_; }
   /// Datagrams by verdict since the start.
@@ -186,43 +171,36 @@ class AreaOfInterestManager {
   void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now,
                        const SourceAddress& from);
   void lead(std::chrono::nanoseconds now);
-  void ask_owners(std::size_t tier, CellId cell);
-  void announce_membership(std::size_t tier, std::chrono::nanoseconds now);
-  void add_membership(pdu::CellMembership membership, std::chrono::nanoseconds now);
-  void ask_about_joins(bool announcing, std::chrono::nanoseconds now);
   SubscriptionChange listen_to_cells(std::span<const Focus> foci, std::chrono::nanoseconds now);
-  [[nodiscard]] std::span<const Focus> foci_of(std::size_t tier, std::span<const Focus> foci);
+  SubscriptionChange listen_beside_cells(std::size_t tier, std::span<const Focus> foci,
+                                         std::chrono::nanoseconds now);
   [[nodiscard]] bool hands_out() const noexcept { return leading_ && leading_->hands_out(); }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
-  void announce_peers_heard(std::chrono::nanoseconds now);
-  void announce_memberships(std::chrono::nanoseconds now);
+  [[nodiscard]] ControlStamp stamp(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] JoinAnnouncer::Send to_everybody(std::chrono::nanoseconds now);
   void note_said(std::chrono::nanoseconds now) noexcept;
 
   AreaOfInterestConfig config_;
   CellPartition cells_;
   TierTable tiers_;
-  std::vector<Subscription> subscriptions_;  ///< to the same cells, by tier
+  TierSubscriptions subscriptions_;
   Sight sight_;
   Aggregator aggregator_;
   Presence presence_;
   Introductions introductions_;
   SequenceTracker sequences_;
-  JoinAsks asks_;
+  JoinAnnouncer joins_;
   HeardAsks heard_asks_;
   std::optional<Leading> leading_;
-  std::vector<GroupIndex> join_, leave_;
-  double stretch_ = 1.0;  ///< ours, see set_stretch()
   std::optional<ReceiverChannels> channels_;
-  std::vector<Focus> tier_foci_;  ///< foci as far as a tier reaches
   bool started_ = false;
   bool introduce_ = false;  ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step
   std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< when the last one left
-  std::vector<std::byte> peers_heard_;          ///< encoded PeerEpoch of the list that is sent now
-  std::vector<std::vector<std::byte>> joined_;  ///< encoded CellIndex of joins to announce, by tier
+  PeersHeardEncoder peers_heard_;
   std::vector<PresenceEvent> events_, taken_;
   std::array<std::uint64_t, kIncomingVerdicts> incoming_{};
 };

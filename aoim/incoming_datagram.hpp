@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
@@ -43,5 +44,13 @@ struct Incoming {
   /// Of a known peer's in a group that we hear: what its number says.
   std::optional<SequenceVerdict> sequence;
 };
+
+/// The last octets of a datagram, where they are a trailer. Any octets may come.
+[[nodiscard]] std::optional<pdu::DatagramTrailer> trailer_of(
+    std::span<const std::byte> datagram) noexcept;
+
+/// Whether a Presence in it is of another DIS exercise than this one. Any octets may come.
+[[nodiscard]] bool announces_another_exercise(std::span<const std::byte> datagram,
+                                              std::uint8_t exercise) noexcept;
 
 }  // namespace reckon::aoim

@@ -94,12 +94,6 @@ void Leading::read_cells(nanoseconds now) {
   }
 }
 
-std::size_t Leading::joined_groups() const noexcept {
-  return static_cast<std::size_t>(
-      std::count_if(handed_out_.begin(), handed_out_.end(),
-                    [](const HandedOut& handed) { return handed.joined; }));
-}
-
 // A state of ours, received by the others when its bundle leaves.
 void Leading::note_own(GroupIndex cell, const pdu::EntityState& state,
                        std::span<const std::byte> records, nanoseconds deadline) {

@@ -61,11 +61,6 @@ class Leading {
   }
   /// Cells that we listen to have changed. @return groups to join and to leave, until the next call
   SubscriptionChange follow(const SubscriptionChange& cells, Nanoseconds utc, Nanoseconds now);
-  // Where groups are handed out:
-  [[nodiscard]] bool has_joined(GroupIndex group) const noexcept {
-    return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
-  }
-  [[nodiscard]] std::size_t joined_groups() const noexcept;
 
   // States ----------------------------------------------------------------------------------------
 

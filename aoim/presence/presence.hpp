@@ -218,6 +218,10 @@ class Presence {
   /// Who we are at present.
   [[nodiscard]] const pdu::Presence& own() const noexcept { return own_; }
   [[nodiscard]] PeerId id() const noexcept { return own_.simulation; }
+  /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
+  [[nodiscard]] bool is_own(const pdu::EntityId& entity) const noexcept {
+    return entity.simulation() == id();
+  }
   /// The others, one for each id.
   [[nodiscard]] std::span<const Peer> peers() const noexcept { return peers_.rows(); }
   /// @param from the source of the datagram; nothing: whatever it is

@@ -35,7 +35,7 @@ void BeaconWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
     std::copy_n(followed_[i].name.begin(), std::min(followed_[i].name.size(), row.name.size() - 1),
                 row.name.begin());
   }
-  if (aoim.leader() != nullptr) look_at_ours(aoim, now, out);
+  if (aoim.leading() != nullptr) look_at_ours(aoim, now, out);
 }
 
 void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& before,
@@ -56,7 +56,7 @@ void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& bef
 void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
                                haptics::SpscRing<Notice>& out) noexcept {
   for (Carried& one : carried_) {
-    const auto row = aoim.leader()->directory().find_beacon(one.tag, now);
+    const auto row = aoim.leading()->role().directory().find_beacon(one.tag, now);
     const auto cell = aoim.leading()->carried_in(one.tag);
     if (!row || !cell || *cell == aoim::CellId{row->column, row->row}) {
       one.ours = now;

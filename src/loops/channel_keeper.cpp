@@ -24,10 +24,10 @@ void ChannelKeeper::note_places(const RemoteEntities& remote, aoim::AreaOfIntere
                                 Nanoseconds now) const {
   aoim::ReceiverChannels& receivers = *aoim.receivers();
   receivers.clear();
-  remote.for_each_place(now,
-                        [&](std::uint32_t epoch, const Eigen::Vector3d& position, double speed) {
-                          receivers.add(to_position(position), aoim.stretch_of(epoch), speed);
-                        });
+  remote.for_each_place(
+      now, [&](std::uint32_t epoch, const Eigen::Vector3d& position, double speed) {
+        receivers.add(to_position(position), aoim.presence().stretch_of(epoch), speed);
+      });
 }
 
 // What others send is as rich as the nearest receiver wants it: with others near them we may get

@@ -61,20 +61,20 @@ LeaderWatch::LeaderWatch(Counters& counters, bool on) {
 
 void LeaderWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
                        haptics::SpscRing<Notice>& out) noexcept {
-  const aoim::LeaderRole* role = aoim.leader();
-  if (role == nullptr || changes_ == nullptr) return;
+  if (aoim.leading() == nullptr || changes_ == nullptr) return;
+  const aoim::LeaderRole& role = aoim.leading()->role();
   view_.cells = view_.led = view_.leaderless = view_.count = 0;
   for (Cell& cell : cells_) cell.present = false;
-  role->leadership().for_each_cell(
+  role.leadership().for_each_cell(
       [&](aoim::CellId id, std::uint32_t leader) { note_cell(aoim, id, leader); });
   std::erase_if(cells_, [](const Cell& cell) { return !cell.present; });
-  const aoim::GroupDirectory& directory = role->directory();
+  const aoim::GroupDirectory& directory = role.directory();
   const bool holds = directory.holds(now);
   view_.map_version = holds ? directory.version() : 0;
   view_.map_cells = holds ? directory.entries().size() : 0;
   led_->set(view_.led);
   map_version_->set(view_.map_version);
-  parts_out_->set(role->server().parts_sent());
+  parts_out_->set(role.server().parts_sent());
 
   const bool changed = std::any_of(cells_.begin(), cells_.end(),
                                    [](const Cell& cell) { return cell.leader != cell.reported; });

@@ -38,15 +38,15 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
       counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
-      aoim_(with_secret(aoim_config(wiring.scene, wiring.frame), identity.secret),
-            presence(wiring.scene, wiring.frame, wiring.pool, identity)),
+      participant_(with_secret(aoim_config(wiring.scene, wiring.frame), identity.secret),
+                   presence(wiring.scene, wiring.frame, wiring.pool, identity), *this),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       intake_(wiring, aoim_, time_, remote_, counted_),
       outlet_(wiring, counted_),
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
-      subscriber_(wiring, aoim_, owned_, remote_),
+      subscriber_(wiring, participant_, owned_, remote_),
       watches_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       view_(wiring) {}
@@ -76,7 +76,7 @@ void ModelLoop::drop_stale(nanoseconds now) noexcept {
   const std::optional<nanoseconds> due = aoim_.aggregator().next_deadline();
   const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
   if (!is_stale) return;
-  aoim_.empty(now, [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
+  aoim_.flush(now, [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
     outlet_.drop_stale(group, octets);
   });
 }
@@ -84,8 +84,7 @@ void ModelLoop::drop_stale(nanoseconds now) noexcept {
 void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
   intake_.read(pass_, owned_.simulation().simulation(), *this);
-  take_presence_events();
-  take_relayed();
+  participant_.deliver(now);
   doubt_the_silent();
   send_what_is_felt();
   remote_.expire(now);
@@ -240,8 +239,8 @@ void ModelLoop::emit(bool everything) noexcept {
       time_.echo(owned_.simulation().simulation(), exchange)) {
     send_pdu(aoim_, exchange, std::nullopt, pass_.now);
   }
+  if (everything) return participant_.drain(pass_.now, sink);
   aoim_.step(pass_.now, sink);
-  if (everything) aoim_.flush(pass_.now, sink);
 }
 
 // Where the first hand is, or the first entity, or the scene's origin.
@@ -258,7 +257,7 @@ void ModelLoop::publish_view() noexcept {
   view.own = own_id();
   view.owned = owned_.size();
   view.peers = aoim_.presence().peers().size();
-  view.groups = aoim_.joined_groups();
+  view.groups = aoim_.subscriptions().joined_groups();
   view.leaders = subscriber_.leaders();
   const OwnedEntity* first = owned_.find(view.own.entity);
   view.frozen = first != nullptr && first->is_frozen();
@@ -293,42 +292,38 @@ void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) 
   if (order) orders_.carry_out(update, arrival, own_id(), pass_);
 }
 
-void ModelLoop::take_presence_events() noexcept {
-  for (const aoim::PresenceEvent& event : aoim_.take_events()) {
-    using Kind = aoim::PresenceEventKind;
-    if (const auto dropped = event.dropped()) {
-      remote_.drop_peer(dropped->name, event.kind == Kind::timed_out ? Gone::silent : Gone::left);
-      intake_.forget_keys(dropped->epoch);
-    }
-    if (event.kind == Kind::newcomer || event.kind == Kind::renamed)
-      remote_.claim(event.peer(), event.announced.epoch);
-    if (event.kind == Kind::identity_changed) owned_.rename(event.peer());
-    if (event.kind == Kind::heard_again) heard_again_ = pass_.now;
-    watches_.report(event, pass_.now);
-  }
+void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
+  remote_.claim(name, epoch);
 }
 
-// What leaders tell of cells that we have come late to, as if we had heard its owners then.
-void ModelLoop::take_relayed() noexcept {
-  aoim::Leading* leading = aoim_.leading();
-  if (leading == nullptr || !leading->has_relayed()) return;
-  for (const aoim::RelayedState& relayed : leading->take_relayed(pass_.now)) {
-    const auto from = aoim_.presence().source_of(relayed.epoch);
-    Inbound update;
-    update.has_state = true;
-    if (!from || pdu::decode(relayed.octets, update.state) != pdu::DecodeError::none) continue;
-    update.entity = update.state.entity_id;
-    update.has_model = relayed.model.has_value();
-    if (relayed.model) update.model = *relayed.model;
-    const Arrival arrival{pass_.now,
-                          pass_.utc,
-                          std::min(relayed.heard, pass_.now),
-                          relayed.epoch,
-                          time_.evidence(relayed.epoch),
-                          *from};
-    subscriber_.note_relayed();
-    take_update(update, arrival);
-  }
+void ModelLoop::drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept {
+  remote_.drop_peer(life.name, silent ? Gone::silent : Gone::left);
+  intake_.forget_keys(life.epoch);
+}
+
+void ModelLoop::rename(const aoim::PeerId& own) noexcept { owned_.rename(own); }
+
+void ModelLoop::report(const aoim::PresenceEvent& event) noexcept {
+  if (event.kind == aoim::PresenceEventKind::heard_again) heard_again_ = pass_.now;
+  watches_.report(event, pass_.now);
+}
+
+void ModelLoop::receive(const aoim::RelayedState& relayed,
+                        const aoim::SourceAddress& from) noexcept {
+  Inbound update;
+  update.has_state = true;
+  if (pdu::decode(relayed.octets, update.state) != pdu::DecodeError::none) return;
+  update.entity = update.state.entity_id;
+  update.has_model = relayed.model.has_value();
+  if (relayed.model) update.model = *relayed.model;
+  const Arrival arrival{pass_.now,
+                        pass_.utc,
+                        std::min(relayed.heard, pass_.now),
+                        relayed.epoch,
+                        time_.evidence(relayed.epoch),
+                        from};
+  subscriber_.note_relayed();
+  take_update(update, arrival);
 }
 
 void ModelLoop::doubt_the_silent() noexcept {

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/participant.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/clocks/time_keeper.hpp"
@@ -53,7 +53,7 @@ class ModelGuest {
 };
 
 /// The loop. step() and stop() by one thread; no allocation but in add().
-class ModelLoop : private UpdateHandler {
+class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
  public:
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
 
@@ -116,8 +116,12 @@ class ModelLoop : private UpdateHandler {
   void drop_stale(Nanoseconds now) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept override;
   void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
-  void take_presence_events() noexcept;
-  void take_relayed() noexcept;
+  void claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept override;
+  void drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept override;
+  void rename(const aoim::PeerId& own) noexcept override;
+  void receive(const aoim::RelayedState& relayed,
+               const aoim::SourceAddress& from) noexcept override;
+  void report(const aoim::PresenceEvent& event) noexcept override;
   void doubt_the_silent() noexcept;
   void send_what_is_felt() noexcept;
   void consider_others() noexcept;
@@ -134,7 +138,8 @@ class ModelLoop : private UpdateHandler {
   ModelCounters counted_;
   OwnedEntities owned_;
   TrackedEntities tracked_;
-  aoim::AreaOfInterestManager aoim_;
+  aoim::Participant participant_;
+  aoim::AreaOfInterestManager& aoim_ = participant_.manager();
   TimeKeeper time_;
   RemoteEntities remote_;
   EntitySender sender_;

@@ -19,7 +19,8 @@ bool OrderStage::obeys(const Inbound& order, const Arrival& arrival, const Pass&
   const auto epoch = aoim_.presence().epoch_of(originator);
   const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
   const bool member = unnamed || (epoch && *epoch == arrival.epoch);
-  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(order.originator));
+  const bool genuine =
+      member || (!epoch && arrival.epoch == 0 && !aoim_.presence().is_own(order.originator));
   if (genuine && network_.management.allows(originator, member)) return true;
   counted_.orders_refused.add();
   watches_.note_order(order.originator,

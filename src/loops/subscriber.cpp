@@ -10,12 +10,13 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-Subscriber::Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim,
+Subscriber::Subscriber(const ModelWiring& wiring, aoim::Participant& participant,
                        OwnedEntities& owned, RemoteEntities& remote)
     : scene_(wiring.scene),
       pool_(wiring.pool),
       commands_(wiring.commands),
-      aoim_(aoim),
+      participant_(participant),
+      aoim_(participant.manager()),
       owned_(owned),
       remote_(remote),
       cover_(cells_of(wiring.scene.aoim)),
@@ -51,15 +52,12 @@ void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> near,
   if (moved_ && scene_.aoim.hand_out) place_beacons(now);
   if (moved_) cover_our_entities();
   const aoim::TierTable& tiers = aoim_.tiers();
-  const aoim::SubscriptionChange change = aoim_.listen(aoim::kCellTier, foci_, now);
-  command(change);
-  for (std::size_t row = 0; row < tiers.near_rows(); ++row) {
-    const aoim::SubscriptionChange of_row = aoim_.listen(tiers.of_row(row), foci_, now);
-    command(of_row);
-    remote_.leave_groups(of_row.leave, now);
-  }
+  participant_.listen(foci_, now, [&](std::size_t tier, const aoim::SubscriptionChange& change) {
+    command(change);
+    if (tiers.is_near(tier)) remote_.leave_groups(change.leave, now);
+    if (tier == aoim::kCellTier) aoim_watch_.look(aoim_, change, now, notices);
+  });
   if (tiers.has_felt()) listen_near(now, near);
-  aoim_watch_.look(aoim_, change, now, notices);
   leader_watch_.look(aoim_, now, notices);
   beacon_watch_.look(aoim_, now, notices, leader_watch_.view());
 }

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/aoim/interest/focus_cover.hpp"
+#include "reckon/aoim/participant.hpp"
 #include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/beacon_watch.hpp"
 #include "reckon/peer/loops/contact_foci.hpp"
@@ -26,7 +26,7 @@ namespace reckon::peer {
 class Subscriber {
  public:
   /// References outlive this.
-  Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, OwnedEntities& owned,
+  Subscriber(const ModelWiring& wiring, aoim::Participant& participant, OwnedEntities& owned,
              RemoteEntities& remote);
 
   /// An entity of ours has moved, is new or is gone.
@@ -55,6 +55,7 @@ class Subscriber {
   const SceneFile& scene_;
   const GroupPool& pool_;
   haptics::SpscRing<GroupCommand>& commands_;
+  aoim::Participant& participant_;
   aoim::AreaOfInterestManager& aoim_;
   OwnedEntities& owned_;
   RemoteEntities& remote_;

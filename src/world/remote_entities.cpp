@@ -104,7 +104,7 @@ void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
 
 bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
-  if (aoim_.is_own(update.entity)) return false;
+  if (aoim_.presence().is_own(update.entity)) return false;
   if (!is_nameable(update.entity)) return reserved_.add(), false;
   RemoteEntity* row = table_.find(update.entity);
   if (!may_speak(update.entity, arrival, row)) return false;

@@ -76,8 +76,8 @@ Voice RemoteEntities::hear(std::span<const pdu::EntityId> ids, const Arrival& ar
   const pdu::EntityId* other = nullptr;
   aoim::SourceAddress owner;
   for (const pdu::EntityId& id : ids) {
-    const Voice voice =
-        aoim_.is_own(id) ? Voice::refused : voice_of(id, arrival, table_.find(id), owner);
+    const Voice voice = aoim_.presence().is_own(id) ? Voice::refused
+                                                    : voice_of(id, arrival, table_.find(id), owner);
     if (voice == Voice::owner) return voice;
     if (voice == Voice::refused && other == nullptr) other = &id;
   }

@@ -71,7 +71,7 @@ TEST(ContactGroups, AreNoneUnlessAskedFor) {
   AreaOfInterestManager& plain = world.place({0, 0, 0}, config());
   EXPECT_FALSE(plain.tiers().has_felt());
   EXPECT_TRUE(world.reach_from({0, 0, 0}, 0).join.empty());
-  EXPECT_FALSE(plain.hears(contact_group_at(plain, {0, 0, 0})));
+  EXPECT_FALSE(plain.subscriptions().hears(contact_group_at(plain, {0, 0, 0})));
   const std::size_t none = plain.tiers().felt();
   EXPECT_EQ(plain.send(none, StatePayload{entity_state(1)}, {0, 0, 0}, world.now),
             AddResult::refused_group);
@@ -83,22 +83,22 @@ TEST(ContactGroups, AreJoinedBeforeAHandIsThereAndLeftLate) {
   Hands world;
   AreaOfInterestManager& manager = world.place({0, 0, 0}, with_contacts());
   const GroupIndex next = contact_group_at(manager, {110, 0, 0});
-  const std::size_t groups = manager.joined_groups();
+  const std::size_t groups = manager.subscriptions().joined_groups();
   const double border = 125.0 * std::sqrt(3.0) / 2.0, ahead = 2.0 * 0.1;  // at 2 m/s
   world.reach_from({border - kReach - ahead - 0.01, 0, 0}, 0, 2.0);
-  EXPECT_FALSE(manager.hears(next));
+  EXPECT_FALSE(manager.subscriptions().hears(next));
   world.reach_from({border - kReach - ahead + 0.01, 0, 0}, 0, 2.0);
-  EXPECT_TRUE(manager.hears(next)) << "a join takes up to 30 ms";
-  EXPECT_EQ(manager.joined_groups(), groups + 1);
-  EXPECT_FALSE(manager.hears(contact_group_at(manager, {-110, 0, 0})));
+  EXPECT_TRUE(manager.subscriptions().hears(next)) << "a join takes up to 30 ms";
+  EXPECT_EQ(manager.subscriptions().joined_groups(), groups + 1);
+  EXPECT_FALSE(manager.subscriptions().hears(contact_group_at(manager, {-110, 0, 0})));
 
   world.now += seconds(3);
   world.reach_from({border - 1.9 * kReach, 0, 0}, 0);
-  EXPECT_TRUE(manager.hears(next)) << "within twice the reach";
+  EXPECT_TRUE(manager.subscriptions().hears(next)) << "within twice the reach";
   const auto change = world.reach_from({0, 0, 0}, 0);
   ASSERT_EQ(change.leave.size(), 1u);
   EXPECT_EQ(change.leave[0], next);
-  EXPECT_FALSE(manager.hears(next));
+  EXPECT_FALSE(manager.subscriptions().hears(next));
 }
 
 TEST(ContactGroups, AreJoinedWhateverTheCapOfOthers) {
@@ -107,9 +107,9 @@ TEST(ContactGroups, AreJoinedWhateverTheCapOfOthers) {
   Hands world;
   AreaOfInterestManager& manager = world.place({0, 0, 0}, how);
   world.reach_from({125.0 * std::sqrt(3.0) / 2.0, 0, 0}, 0);
-  EXPECT_TRUE(manager.hears(contact_group_at(manager, {107, 0, 0})));
-  EXPECT_TRUE(manager.hears(contact_group_at(manager, {110, 0, 0})));
-  EXPECT_EQ(manager.subscription().joined().size(), 1u);
+  EXPECT_TRUE(manager.subscriptions().hears(contact_group_at(manager, {107, 0, 0})));
+  EXPECT_TRUE(manager.subscriptions().hears(contact_group_at(manager, {110, 0, 0})));
+  EXPECT_EQ(manager.subscriptions().cells().joined().size(), 1u);
 }
 
 TEST(ContactGroups, CountNoLossOfWhatPassedWhileTheyWereLeft) {

@@ -112,7 +112,7 @@ TEST(NearGroups, AreNoneUnlessAskedFor) {
   AreaOfInterestManager& plain = world.place({0, 0, 0}, how);
   EXPECT_EQ(plain.tiers().near_rows(), 0u);
   EXPECT_TRUE(world.listen(0).join.empty());
-  EXPECT_FALSE(plain.hears(near_group_at(plain, 0, {0, 0, 0})));
+  EXPECT_FALSE(plain.subscriptions().hears(near_group_at(plain, 0, {0, 0, 0})));
 }
 
 TEST(NearGroups, OfTheSameNumbersAreOfTheSameCellAndRow) {
@@ -139,18 +139,18 @@ TEST(NearGroups, AreJoinedBeforeAFastFocusIsThereAndLeftLate) {
   const GroupIndex next = near_group_at(manager, 0, {kBorder + 1, 0, 0});
   world.members[0].place = {kBorder - kEnd - 30.5, 0, 0};
   world.listen(0, 100.0);
-  EXPECT_FALSE(manager.hears(next));
+  EXPECT_FALSE(manager.subscriptions().hears(next));
   world.members[0].place = {kBorder - kEnd - 29.5, 0, 0};
   world.listen(0, 100.0);
-  EXPECT_TRUE(manager.hears(next));
+  EXPECT_TRUE(manager.subscriptions().hears(next));
   world.now += seconds(3);
   world.members[0].place = {kBorder - 1.05 * kEnd, 0, 0};
   world.listen(0);
-  EXPECT_TRUE(manager.hears(next)) << "within 1.1 of it";
+  EXPECT_TRUE(manager.subscriptions().hears(next)) << "within 1.1 of it";
   world.members[0].place = {kBorder - 1.15 * kEnd, 0, 0};
   const auto change = world.listen(0);
   EXPECT_NE(std::ranges::find(change.leave, next), change.leave.end());
-  EXPECT_FALSE(manager.hears(next));
+  EXPECT_FALSE(manager.subscriptions().hears(next));
 }
 
 TEST(NearGroups, AreThoseOfAllCellsWhereAFocusLeaps) {
@@ -158,9 +158,9 @@ TEST(NearGroups, AreThoseOfAllCellsWhereAFocusLeaps) {
   AreaOfInterestManager& manager = world.place({0, 0, 0});
   world.now += seconds(3);
   world.stand(0, {5000, 5000, 0});
-  EXPECT_TRUE(manager.hears(near_group_at(manager, 0, {5000, 5000, 0})));
-  EXPECT_TRUE(manager.hears(near_group_at(manager, 1, {5040, 5000, 0})));
-  EXPECT_TRUE(manager.hears(manager.route({5150, 5000, 0})));
+  EXPECT_TRUE(manager.subscriptions().hears(near_group_at(manager, 0, {5000, 5000, 0})));
+  EXPECT_TRUE(manager.subscriptions().hears(near_group_at(manager, 1, {5040, 5000, 0})));
+  EXPECT_TRUE(manager.subscriptions().hears(manager.route({5150, 5000, 0})));
 }
 
 // Over its budget a receiver leaves the near groups of what is farthest; kept rows stay.
@@ -170,15 +170,15 @@ TEST(NearGroups, AreLeftByWhoCannotTakeWhatTheySay) {
   how.channels = rows(true);
   AreaOfInterestManager& manager = world.place({kBorder - 15, 0, 0}, how);
   const GroupIndex next = near_group_at(manager, 0, {kBorder + 1, 0, 0});
-  EXPECT_TRUE(manager.hears(next));
+  EXPECT_TRUE(manager.subscriptions().hears(next));
   world.now += seconds(3);
   manager.set_stretch(2.0);
   world.listen(0);
-  EXPECT_FALSE(manager.hears(next)) << "15 m count as 30";
+  EXPECT_FALSE(manager.subscriptions().hears(next)) << "15 m count as 30";
   world.members[0].place = {kBorder - 0.5, 0, 0};
   manager.set_stretch(1000.0);
   world.listen(0);
-  EXPECT_TRUE(manager.hears(next)) << "within the row that is kept";
+  EXPECT_TRUE(manager.subscriptions().hears(next)) << "within the row that is kept";
 }
 
 // Who begins to listen asks; who speaks there tells, in that group alone.

@@ -69,7 +69,7 @@ TEST(UnevenCells, ReachAllWithinTheRadiusInRandomWorlds) {
       const Focus focus{places[i], 0.0, radius(random)};
       manager.listen(kCellTier, {&focus, 1}, seconds(3 * i));
       for (const Position& other : places) {
-        const bool hears = manager.hears(manager.route(other));
+        const bool hears = manager.subscriptions().hears(manager.route(other));
         const bool near = distance(focus.position, other) <= focus.radius;
         within += near;
         heard_outside += hears && !near;
@@ -97,8 +97,9 @@ TEST(UnevenCells, AreJoinedBeforeABorderIsReachedAndNotToAndFro) {
       const CellId cell = manager.cells().cell(focus.position);
       crossings += cell != last;
       last = cell;
-      unheard += !manager.hears(manager.route(focus.position));
-      unheard += distance(focus.position, near) <= 200.0 && !manager.hears(manager.route(near));
+      unheard += !manager.subscriptions().hears(manager.route(focus.position));
+      unheard += distance(focus.position, near) <= 200.0 &&
+                 !manager.subscriptions().hears(manager.route(near));
     }
   }
   EXPECT_GE(crossings, 20U);
@@ -145,7 +146,7 @@ TEST(UnevenCells, HaveContactGroupsBehindThePool) {
   const auto change = manager.listen(manager.tiers().felt(), {&hand, 1}, seconds(1));
   ASSERT_EQ(change.join.size(), 1U);
   EXPECT_EQ(change.join[0].value, manager.route(hand.position).value + 64);
-  EXPECT_TRUE(manager.hears(change.join[0]));
+  EXPECT_TRUE(manager.subscriptions().hears(change.join[0]));
 }
 
 TEST(UnevenCells, AreRefusedWhereGroupsAreTooFew) {
@@ -198,7 +199,7 @@ TEST(UnevenCells, AreHeardEachByItselfByAPeerThatIsInHundredsOfLocales) {
   std::vector<Focus> ours;  // in every second room
   for (std::uint16_t i = 0; i < kRooms; i += 2) ours.push_back({{10.0 * i, 0, 0}, 0.0, 8.0});
   manager.listen(kCellTier, cover.cover(ours), seconds(0));
-  EXPECT_EQ(manager.joined_groups(), kRooms / 2U);
+  EXPECT_EQ(manager.subscriptions().joined_groups(), kRooms / 2U);
   for (std::uint16_t i = 0; i < kRooms; ++i) {
     const Position there{10.0 * i + (i % 2 == 0 ? 1.0 : -4.0), 0, 0};
     const auto verdict = manager.sight().judge(there, 0.0, 1, false);

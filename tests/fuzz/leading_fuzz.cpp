@@ -69,8 +69,9 @@ class Session {
     say(static_cast<std::uint16_t>(2 + at(0) % 2), group, octets);
     if (at(0) % 8 == 4) look(10.0 * at(1));
     if (at(0) % 16 != 8) step();
-    require(aoim_.leader()->directory().entries().size() <= kPool, "a map of more than the pool");
-    require(aoim_.joined_groups() <= kPool, "more groups joined than there are");
+    require(aoim_.leading()->role().directory().entries().size() <= kPool,
+            "a map of more than the pool");
+    require(aoim_.subscriptions().joined_groups() <= kPool, "more groups joined than there are");
   }
 
  private:

@@ -145,9 +145,9 @@ class ManagedHost {
     return manager_.listen(kCellTier, {&focus, 1}, now);
   }
   [[nodiscard]] GroupIndex route(const Position& place) const { return manager_.route(place); }
-  [[nodiscard]] bool hears(GroupIndex group) const { return manager_.hears(group); }
+  [[nodiscard]] bool hears(GroupIndex group) const { return manager_.subscriptions().hears(group); }
   [[nodiscard]] std::span<const GroupIndex> joined() const {
-    return manager_.subscription().joined();
+    return manager_.subscriptions().cells().joined();
   }
 
  private:

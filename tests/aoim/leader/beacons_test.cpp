@@ -113,7 +113,7 @@ struct Peers {
       }
       for (const auto& [from, group, octets] : wire) {
         for (std::size_t to = 0; to < managers.size(); ++to) {
-          if (to == from || !managers[to] || !managers[to]->hears(group)) continue;
+          if (to == from || !managers[to] || !managers[to]->subscriptions().hears(group)) continue;
           static_cast<void>(managers[to]->receive(group, octets, now));
         }
       }
@@ -124,8 +124,8 @@ struct Peers {
   }
   [[nodiscard]] bool listens(std::size_t to, std::size_t at) const {
     const AreaOfInterestManager& manager = *managers[to];
-    return manager.subscription().is_joined(manager.cells().group(places[at])) &&
-           manager.hears(managers[at]->route(places[at]));
+    return manager.subscriptions().cells().is_joined(manager.cells().group(places[at])) &&
+           manager.subscriptions().hears(managers[at]->route(places[at]));
   }
 
   nanoseconds now = seconds(10);
@@ -188,7 +188,7 @@ TEST(Beacons, StayFoundWhenTheLeaderOfTheSceneDies) {
     ASSERT_TRUE(three.followed(2).found) << i;
     ASSERT_TRUE(three.listens(2, 1)) << i;
   }
-  EXPECT_TRUE(three.managers[1]->leader()->leads(kWholeScene));
+  EXPECT_TRUE(three.managers[1]->leading()->role().leads(kWholeScene));
 }
 
 // A pool of which nothing is left: the cell speaks to the base group, and is found all the same.
@@ -208,13 +208,14 @@ TEST(Beacons, OfOneCellDoNotTakeTurns) {
   three.carried[1] = kGate;
   three.carried[2] = kFerry;
   three.run(seconds(12));  // the cells of before are empty by then
-  const std::uint32_t version = three.managers[0]->leader()->directory().version();
+  const std::uint32_t version = three.managers[0]->leading()->role().directory().version();
   for (int i = 0; i < 50; ++i) {
     three.run(milliseconds(100));
     for (const FollowedBeacon& one : three.managers[0]->sight().followed())
       ASSERT_TRUE(one.found) << i;
   }
-  EXPECT_EQ(three.managers[0]->leader()->directory().version(), version) << "the map stands";
+  EXPECT_EQ(three.managers[0]->leading()->role().directory().version(), version)
+      << "the map stands";
 }
 
 TEST(Beacons, OfOneNameAreThatOfWhoSaidItFirst) {

@@ -103,7 +103,7 @@ struct Cell {
   }
   [[nodiscard]] std::size_t leader() const {
     for (std::size_t i = 0; i < peers.size(); ++i) {
-      if (alive[i] && peers[i]->leader()->leads(cell())) return i;
+      if (alive[i] && peers[i]->leading()->role().leads(cell())) return i;
     }
     return ~std::size_t{0};
   }
@@ -174,7 +174,7 @@ TEST(LateJoin, HasANewLeaderWithinTwoSecondsOfADeathAndIsToldByIt) {
   const std::uint32_t epoch = static_cast<std::uint32_t>(100 + next);
   for (std::size_t i = 0; i < kOwners; ++i) {
     if (!cell.alive[i]) continue;
-    EXPECT_EQ(cell.peers[i]->leader()->leader(cell.cell()), epoch);
+    EXPECT_EQ(cell.peers[i]->leading()->role().leader(cell.cell()), epoch);
   }
   cell.add();
   cell.run(seconds(1));
@@ -207,7 +207,7 @@ TEST(LateJoin, AsksTheOwnersWhereItLeadsBeforeItWasToldAll) {
   ASSERT_LT(cell.told.size(), kOwners * kEntities);
   cell.peers[leader]->listen(kCellTier, {&elsewhere, 1}, cell.now);
   cell.run(milliseconds(300));
-  EXPECT_TRUE(cell.peers.back()->leader()->leads(cell.cell()));
+  EXPECT_TRUE(cell.peers.back()->leading()->role().leads(cell.cell()));
   EXPECT_GT(cell.introduced, 0U);
 }
 

@@ -62,13 +62,13 @@ struct LeaderAndOwner {
         static_cast<void>(peers[i]->take_events());
       }
       for (const auto& [to, group, octets] : wire) {
-        if (!peers[to] || !peers[to]->hears(group)) continue;
+        if (!peers[to] || !peers[to]->subscriptions().hears(group)) continue;
         static_cast<void>(peers[to]->receive(group, octets, now));
       }
     }
   }
   [[nodiscard]] bool is_kept() const {
-    return peers[0]->leader()->states().find(kEntity) != nullptr;
+    return peers[0]->leading()->role().states().find(kEntity) != nullptr;
   }
 
   nanoseconds now = seconds(10);

@@ -26,7 +26,7 @@ struct Place {
 /// The scene and the cells that it has joined.
 [[nodiscard]] inline std::vector<aoim::CellId> cells_of(const SimulatedHost& host) {
   std::vector<aoim::CellId> cells{aoim::kWholeScene};
-  for (const aoim::GroupIndex group : host.aoim().subscription().joined()) {
+  for (const aoim::GroupIndex group : host.aoim().subscriptions().cells().joined()) {
     cells.push_back(host.aoim().cells().cell_of(group));
   }
   return cells;

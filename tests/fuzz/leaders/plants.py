@@ -3,6 +3,8 @@
 """Faults to plant in the leaders of cells: name, file of aoim, text that is there once, text in its stead."""
 
 PLANTS = [
+    ("what leaders relay not passed on", "participant.cpp",
+     "    if (from) handler_.receive(state, *from);\n", ""),
     ("neither of two leaders gives way", "leader/cell_leadership.cpp",
      "    if (older) return follow(cell, claimed, now);\n", ""),
     ("newcomer does not listen", "leader/cell_leadership.cpp",

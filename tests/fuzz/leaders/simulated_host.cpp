@@ -52,7 +52,7 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
                              nanoseconds clock, nanoseconds now)
     : place_(plan.hosts[host].place),
       beacon_(plan.beacons ? beacon_of(host) : 0),
-      aoim_(config_of(plan, host), presence_of(host, epoch, now + clock)),
+      participant_(config_of(plan, host), presence_of(host, epoch, now + clock), *this),
       maps_(plan.pool),
       sent_(plan.hosts[host].entities) {
   set_clock(clock);
@@ -65,13 +65,13 @@ void SimulatedHost::look_around(nanoseconds now) {
   const aoim::Focus focus{place_, 0.0, kRadius};
   const aoim::PlacedBeacon beacon{beacon_, place_};
   if (beacon_ != 0) aoim_.leading()->set_beacons({&beacon, 1}, now);
-  aoim_.listen(aoim::kCellTier, {&focus, 1}, now);
+  participant_.listen({&focus, 1}, now, [](std::size_t, const aoim::SubscriptionChange&) {});
 }
 
-void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool told) {
+void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool relayed) {
   const double version = state.location.z;
   Known& known = known_[state.entity_id];
-  if (told && known.epoch == epoch && known.version >= version) return;
+  if (relayed && known.epoch == epoch && known.version >= version) return;
   known = {epoch, version};
 }
 
@@ -92,10 +92,14 @@ void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> d
       if (counts) take(state, epoch, false);
     }
   }
-  for (const aoim::RelayedState& told : aoim_.leading()->take_relayed(now)) {
-    pdu::EntityState state;
-    if (pdu::decode(told.octets, state) == pdu::DecodeError::none) take(state, told.epoch, true);
-  }
+  participant_.deliver(now);
+}
+
+void SimulatedHost::receive(const aoim::RelayedState& relayed,
+                            const aoim::SourceAddress&) noexcept {
+  pdu::EntityState state;
+  if (pdu::decode(relayed.octets, state) == pdu::DecodeError::none)
+    take(state, relayed.epoch, true);
 }
 
 void SimulatedHost::send_due(nanoseconds now) {
@@ -122,13 +126,12 @@ void SimulatedHost::step(nanoseconds now, aoim::DatagramSink sink) {
   send_due(now);
   aoim_.step(now, sink);
   maps_.look(role(), now);
-  static_cast<void>(aoim_.take_events());
+  participant_.deliver(now);
 }
 
 void SimulatedHost::say_goodbye(nanoseconds now, aoim::DatagramSink sink) {
   aoim_.stop();
-  aoim_.step(now, sink);
-  aoim_.flush(now, sink);
+  participant_.drain(now, sink);
 }
 
 nanoseconds SimulatedHost::next(nanoseconds now) const noexcept {

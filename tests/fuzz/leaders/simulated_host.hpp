@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/participant.hpp"
 #include "reckon/tests/fuzz/leaders/map_record.hpp"
 #include "reckon/tests/fuzz/leaders/plan.hpp"
 
@@ -32,7 +32,7 @@ struct Known {
   double version = 0.0;
 };
 
-class SimulatedHost {
+class SimulatedHost : private aoim::ParticipantHandler {
  public:
   SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds clock,
                 nanoseconds now);
@@ -49,15 +49,17 @@ class SimulatedHost {
   [[nodiscard]] nanoseconds next(nanoseconds now) const noexcept;
   [[nodiscard]] aoim::AreaOfInterestManager& aoim() noexcept { return aoim_; }
   [[nodiscard]] const aoim::AreaOfInterestManager& aoim() const noexcept { return aoim_; }
-  [[nodiscard]] const aoim::LeaderRole& role() const noexcept { return *aoim_.leader(); }
+  [[nodiscard]] const aoim::LeaderRole& role() const noexcept { return aoim_.leading()->role(); }
   [[nodiscard]] std::uint32_t epoch() const noexcept { return aoim_.presence().own().epoch; }
   [[nodiscard]] aoim::CellId cell() const noexcept {
     return aoim_.cells().cell_of(aoim_.cells().group(place_));
   }
-  [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept { return aoim_.hears(group); }
+  [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept {
+    return aoim_.subscriptions().hears(group);
+  }
   /// Whether it listens to what happens in the cell of another one.
   [[nodiscard]] bool listens_to(const SimulatedHost& other) const noexcept {
-    return aoim_.subscription().is_joined(aoim_.cells().group(other.place_));
+    return aoim_.subscriptions().cells().is_joined(aoim_.cells().group(other.place_));
   }
   /// Where it says its states.
   [[nodiscard]] aoim::GroupIndex group() const noexcept { return aoim_.route(place_); }
@@ -80,12 +82,18 @@ class SimulatedHost {
   };
   void look_around(nanoseconds now);
   void send_due(nanoseconds now);
-  void take(const pdu::EntityState& state, std::uint32_t epoch, bool told);
+  void claim(const aoim::PeerId&, std::uint32_t) noexcept override {}
+  void drop(const aoim::PresenceEvent::Dropped&, bool) noexcept override {}
+  void rename(const aoim::PeerId&) noexcept override {}
+  void receive(const aoim::RelayedState& state, const aoim::SourceAddress& from) noexcept override;
+  void report(const aoim::PresenceEvent&) noexcept override {}
+  void take(const pdu::EntityState& state, std::uint32_t epoch, bool relayed);
 
   aoim::Position place_;
   std::uint32_t beacon_ = 0;  ///< that it carries; 0: none
   double version_ = 1.0;
-  aoim::AreaOfInterestManager aoim_;
+  aoim::Participant participant_;
+  aoim::AreaOfInterestManager& aoim_ = participant_.manager();
   MapRecord maps_;
   std::vector<Sent> sent_;
   std::map<pdu::EntityId, Known> known_;

@@ -75,7 +75,8 @@ SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t e
                              nanoseconds now, nanoseconds clock)
     : wide_(plan.wide),
       moves_(plan.hosts[host].moves),
-      aoim_(config_of(plan, epoch), presence_of(plan, host, epoch, now + clock)) {
+      participant_(config_of(plan, epoch), presence_of(plan, host, epoch, now + clock), *this),
+      id_(aoim_.presence().id()) {
   Dice dice(mixed(plan.seed, 5, host));
   for (std::size_t i = 0; i < plan.hosts[host].entities; ++i) {
     OwnEntity entity;
@@ -104,7 +105,7 @@ aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const st
   if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
   const std::uint32_t epoch = incoming.trailer.epoch;
   if (incoming.verdict == IncomingVerdict::use) take_entities(datagram, epoch, now);
-  take_own_events();
+  participant_.deliver(now);
   return incoming;
 }
 
@@ -132,7 +133,7 @@ void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint
       continue;
     }
     if (sender == nullptr || sender->id() != state.entity_id.simulation()) continue;
-    if (aoim_.is_own(state.entity_id)) continue;
+    if (aoim_.presence().is_own(state.entity_id)) continue;
     const auto row = std::find_if(shown_.begin(), shown_.end(), [&](const ShownEntity& shown) {
       return shown.id == state.entity_id;
     });
@@ -149,28 +150,31 @@ void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint
   }
 }
 
-void SimulatedPeer::take_own_events() {
-  for (const aoim::PresenceEvent& event : aoim_.take_events()) {
-    switch (event.kind) {
-      case PresenceEventKind::restarted:
-        truth_.forget(event.former_epoch);
-        break;
-      case PresenceEventKind::moved:
-      case PresenceEventKind::departed:
-      case PresenceEventKind::timed_out:
-        truth_.forget(event.announced.epoch);
-        break;
-      default:
-        break;
-    }
-    if (const auto dropped = event.dropped()) drop_shown(dropped->name);
-    events_.push_back(event);
-  }
+// Who may speak for an entity is read from the table of peers.
+void SimulatedPeer::claim(const aoim::PeerId&, std::uint32_t) noexcept {}
+
+void SimulatedPeer::drop(const aoim::PresenceEvent::Dropped& life, bool) noexcept {
+  std::erase_if(shown_,
+                [&](const ShownEntity& shown) { return shown.id.simulation() == life.name; });
 }
 
-void SimulatedPeer::drop_shown(aoim::PeerId owner) {
-  std::erase_if(shown_,
-                [owner](const ShownEntity& shown) { return shown.id.simulation() == owner; });
+// No cell has a leader.
+void SimulatedPeer::receive(const aoim::RelayedState&, const aoim::SourceAddress&) noexcept {}
+
+void SimulatedPeer::report(const aoim::PresenceEvent& event) noexcept {
+  switch (event.kind) {
+    case PresenceEventKind::restarted:
+      truth_.forget(event.former_epoch);
+      break;
+    case PresenceEventKind::moved:
+    case PresenceEventKind::departed:
+    case PresenceEventKind::timed_out:
+      truth_.forget(event.announced.epoch);
+      break;
+    default:
+      break;
+  }
+  events_.push_back(event);
 }
 
 std::vector<aoim::PresenceEvent> SimulatedPeer::take_events() {
@@ -184,12 +188,13 @@ void SimulatedPeer::look_around(nanoseconds now) {
   for (const OwnEntity& entity : entities_) {
     foci_.push_back({entity.at(now), entity.speed, kRadius});
   }
-  const aoim::SubscriptionChange change = aoim_.listen(aoim::kCellTier, foci_, now);
-  for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
-  for (const aoim::GroupIndex group : change.join) {
-    truth_.forget(group);
-    joined_[group.value] = now;
-  }
+  participant_.listen(foci_, now, [&](std::size_t, const aoim::SubscriptionChange& change) {
+    for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
+    for (const aoim::GroupIndex group : change.join) {
+      truth_.forget(group);
+      joined_[group.value] = now;
+    }
+  });
   next_look_ = now + kLookPeriod;
   std::erase_if(shown_,
                 [&](const ShownEntity& shown) { return now - shown.heard > kEntityTimeout; });
@@ -227,14 +232,13 @@ void SimulatedPeer::step(nanoseconds now, aoim::DatagramSink sink) {
   if (now >= next_look_) look_around(now);
   send_due(now);
   aoim_.step(now, sink);
-  take_own_events();
+  participant_.deliver(now);
 }
 
 void SimulatedPeer::leave(nanoseconds now, aoim::DatagramSink sink) {
   aoim_.stop();
-  aoim_.step(now, sink);
-  aoim_.flush(now, sink);
-  take_own_events();
+  participant_.drain(now, sink);
+  participant_.deliver(now);
 }
 
 nanoseconds SimulatedPeer::next(nanoseconds now) const noexcept {

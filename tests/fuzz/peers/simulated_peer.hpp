@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One process of the simulation: the product's manager of interest areas with all it holds, driven
-// as the model loop drives it, and as little of entities as is needed to see who sends and who
-// shows what.
+// One process of the simulation: the product's participant, and as little of entities as is needed
+// to see who sends and who shows what.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/participant.hpp"
 #include "reckon/tests/fuzz/peers/counted_truth.hpp"
 #include "reckon/tests/fuzz/peers/plan.hpp"
 
@@ -45,7 +44,7 @@ struct OwnEntity {
   [[nodiscard]] aoim::Position at(nanoseconds now) const noexcept;
 };
 
-class SimulatedPeer {
+class SimulatedPeer : private aoim::ParticipantHandler {
  public:
   SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds now,
                 nanoseconds clock);
@@ -63,9 +62,9 @@ class SimulatedPeer {
   /// Events since the last call.
   [[nodiscard]] std::vector<aoim::PresenceEvent> take_events();
   [[nodiscard]] const aoim::AreaOfInterestManager& aoim() const noexcept { return aoim_; }
-  [[nodiscard]] aoim::PeerId id() const noexcept { return aoim_.presence().id(); }
+  [[nodiscard]] aoim::PeerId id() const noexcept { return id_; }
   [[nodiscard]] bool is_joined(aoim::GroupIndex group) const noexcept {
-    return group == aoim::kBaseGroup || aoim_.subscription().is_joined(group);
+    return aoim_.subscriptions().hears(group);
   }
   /// When we joined the group where an entity at `position` speaks; long ago where we have not.
   [[nodiscard]] nanoseconds joined(const aoim::Position& position) const noexcept {
@@ -93,8 +92,11 @@ class SimulatedPeer {
   [[nodiscard]] bool was_misjudged() const noexcept { return misjudged_; }
 
  private:
-  void take_own_events();
-  void drop_shown(aoim::PeerId owner);
+  void claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept override;
+  void drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept override;
+  void rename(const aoim::PeerId& own) noexcept override { id_ = own; }
+  void receive(const aoim::RelayedState& state, const aoim::SourceAddress& from) noexcept override;
+  void report(const aoim::PresenceEvent& event) noexcept override;
   void take_entities(std::span<const std::byte> datagram, std::uint32_t epoch, nanoseconds now);
   void note_truth(aoim::GroupIndex group, const aoim::Incoming& incoming);
   void look_around(nanoseconds now);
@@ -104,7 +106,9 @@ class SimulatedPeer {
 
   bool wide_, moves_ = false;
   nanoseconds chatter_at_ = nanoseconds::max();
-  aoim::AreaOfInterestManager aoim_;
+  aoim::Participant participant_;
+  aoim::AreaOfInterestManager& aoim_ = participant_.manager();
+  aoim::PeerId id_;
   std::vector<OwnEntity> entities_;
   std::vector<ShownEntity> shown_;
   std::vector<aoim::PresenceEvent> events_;

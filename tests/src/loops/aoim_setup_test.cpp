@@ -40,7 +40,7 @@ void construct(const SceneFile& scene) {
   for (const double away : {0.0, 1e6, -1e6}) {
     const aoim::Focus focus{{away, -away, away}, 10.0, scene.aoim.radius};
     const auto change = manager.listen(aoim::kCellTier, {&focus, 1}, std::chrono::nanoseconds(0));
-    EXPECT_LE(manager.subscription().joined().size(), scene.aoim.groups);
+    EXPECT_LE(manager.subscriptions().cells().joined().size(), scene.aoim.groups);
     for (const aoim::GroupIndex group : change.join) {
       EXPECT_LE(group.value, scene.aoim.pool);
       EXPECT_TRUE(pool.address(group.value - 1u).is_multicast());

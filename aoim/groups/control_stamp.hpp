@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What every control PDU of a peer says of its sender.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "reckon/aoim/groups/peer_id.hpp"
+
+namespace reckon::aoim {
+
+/// The sender of a control PDU, and when it was made.
+struct ControlStamp {
+  std::uint8_t exercise = 0;
+  PeerId simulation;
+  std::uint32_t epoch = 0;
+  std::uint32_t timestamp = 0;     ///< DIS timestamp of `utc`
+  std::chrono::nanoseconds utc{};  ///< since 1970
+
+  /// Fills in the header, the simulation and the epoch.
+  template <typename ControlPdu>
+  void put(ControlPdu& pdu) const noexcept {
+    pdu.header.exercise_id = exercise;
+    pdu.header.timestamp = timestamp;
+    pdu.simulation = simulation;
+    pdu.epoch = epoch;
+  }
+};
+
+}  // namespace reckon::aoim
