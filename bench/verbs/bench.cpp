@@ -207,8 +207,9 @@ void declare_flags(tools::CommandLine& line, BenchOptions& options, LatencyOptio
   line.only_for("latency");
   line.option("--iface", latency.iface, "latency: interface that is used (lo)");
   line.option("--key", latency.key, "latency: key file, of a touch that is sealed");
-  line.flag("--contact-groups", latency.contact_groups,
-            "latency: the touch goes by a group of its own, as [aoim] contact_groups has it");
+  line.flag(
+      "--contact-groups", latency.touch_tier,
+      "latency: the touch goes by a group of its own, as [[aoim.tier]] to = \"touch\" has it");
 }
 
 /// What the flags of all studies say of this one.

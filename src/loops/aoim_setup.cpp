@@ -20,10 +20,6 @@ namespace {
 constexpr std::array<std::uint8_t, 16> kIpv4Mapped{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
 
 void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig& config) {
-  if (awareness.channels) {
-    const std::span<const aoim::Channel> rows = awareness.table();
-    config.channels.assign(rows.begin(), rows.end());
-  }
   config.interest.kinds = awareness.kinds_wanted;
   if (awareness.aura > 0.0) config.interest.aura = awareness.aura;
   for (const OccluderConfig& box : awareness.occluders)
@@ -58,8 +54,9 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.presence.one_way = follow_chain;
   add_awareness(scene.aoim.awareness, config);
   config.radius = scene.aoim.radius;
-  config.contact_groups = scene.aoim.contact_groups;
-  config.near_groups = scene.aoim.near_rows() > 0;
+  config.channels = channels_of(scene.aoim.tiers);
+  config.contact_groups = has_touch_tier(scene.aoim.tiers);
+  config.near_groups = own_group_count(scene.aoim.tiers) > 0;
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
   for (const std::string& name : beacon_names(scene.aoim.follow))
@@ -76,20 +73,20 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
   return config;
 }
 
-std::span<const aoim::Channel> audience_rows_of(const AoimConfig& aoim) {
-  if (aoim.near_rows() == 0) return {};
-  const std::span<const aoim::Channel> table = aoim.awareness.table();
-  return table.subspan(aoim::ChannelTable(table).kept_rows());
+std::vector<aoim::Channel> audience_rows_of(const AoimConfig& aoim) {
+  if (own_group_count(aoim.tiers) == 0) return {};
+  std::vector<aoim::Channel> rows = channels_of(aoim.tiers);
+  std::erase_if(rows, [](const aoim::Channel& row) { return row.kept; });
+  return rows;
 }
 
 OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identity) {
-  const std::span<const aoim::Channel> rows = audience_rows_of(scene.aoim);
   return {identity.simulation,
           scene.network.exercise,
           scene.convergence.settings.teleport_distance,
           scene.network.compression,
-          scene.aoim.contact_groups,
-          {rows.begin(), rows.end()}};
+          has_touch_tier(scene.aoim.tiers),
+          audience_rows_of(scene.aoim)};
 }
 
 RemoteSettings remote_settings(const SceneFile& scene) {
@@ -99,10 +96,10 @@ RemoteSettings remote_settings(const SceneFile& scene) {
   settings.convergence.settings.threshold = scene.dead_reckoning.thresholds.position;
   settings.convergence.settings.threshold_angle = scene.dead_reckoning.thresholds.angle;
   settings.acceleration = scene.dead_reckoning.acceleration;
-  settings.bodies_in_part = scene.aoim.awareness.channels;
+  settings.bodies_in_part = has_distance_tiers(scene.aoim.tiers);
   settings.nimbus = scene.aoim.awareness.nimbus;
   settings.strangers_memory = scene.network.strangers_memory;
-  settings.near_rows = scene.aoim.near_rows();
+  settings.near_rows = own_group_count(scene.aoim.tiers);
   settings.touch = scene.network.touch;
   settings.longest_validity = longest_validity(scene);
   return settings;
@@ -128,7 +125,7 @@ IpEndpoint endpoint_of(const aoim::SourceAddress& source) noexcept {
 GroupPool pool_of(const SceneFile& scene) { return {scene.network.group, scene.aoim.all_groups()}; }
 
 std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
-  if (!scene.aoim.contact_groups) return {};
+  if (!has_touch_tier(scene.aoim.tiers)) return {};
   const std::size_t before = scene.aoim.all_groups() - scene.aoim.pool;
   return GroupPool(pool_of(scene).address(before - 1), scene.aoim.pool);
 }
@@ -141,8 +138,10 @@ GroupNeeds group_needs(const SceneFile& scene) {
   const std::size_t felt =
       config.contact_groups ? cells.groups_bound(contact_reach(scene.hand)) : 0;
   std::size_t near = 0;
-  for (const aoim::Channel& row : audience_rows_of(scene.aoim).first(scene.aoim.near_rows()))
-    near += cells.groups_bound(std::min(row.farthest, scene.aoim.radius));
+  for (const TierConfig& tier : scene.aoim.tiers) {
+    if (tier.own_group)
+      near += cells.groups_bound(std::min(tier.channel.farthest, scene.aoim.radius));
+  }
   return {cells.groups_bound(scene.aoim.radius + config.farthest_nimbus), cells.groups_in_use(),
           config.subscription.maximum_groups, felt, near};
 }

@@ -32,9 +32,9 @@ struct ModelIdentity {
   aoim::ChainLink secret{};     ///< by which this life proves itself, random
 };
 
-/// With near groups: the rows of channels that are not kept, the nearest first; else none. Good as
-/// long as the configuration.
-[[nodiscard]] std::span<const aoim::Channel> audience_rows_of(const AoimConfig& aoim);
+/// Where tiers by distance have groups of their own: the rows of those that are not kept, the
+/// nearest first; else none.
+[[nodiscard]] std::vector<aoim::Channel> audience_rows_of(const AoimConfig& aoim);
 
 /// What all entities of this peer share.
 [[nodiscard]] OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identity);

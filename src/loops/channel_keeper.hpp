@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Channels by distance ([aoim] channels): who receives what this peer sends, and how much this peer
+// Tiers by distance ([[aoim.tier]]): who receives what this peer sends, and how much this peer
 // itself can take.
 #pragma once
 
@@ -17,7 +17,7 @@
 namespace reckon::peer {
 
 /// Keeps the places of receivers, and the budget. One thread; allocates where more is heard than
-/// ever before; 0.1 us for each entity heard, ten times a second. Does nothing without channels.
+/// ever before; 0.1 us for each entity heard, ten times a second. Does nothing without such tiers.
 class ChannelKeeper {
  public:
   /// @param config outlives this

@@ -48,7 +48,8 @@ DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestMa
       counted_(counted),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
-      overtaken_(wiring.scene.network.exercise, kFarAtOnce, wiring.scene.aoim.awareness.channels),
+      overtaken_(wiring.scene.network.exercise, kFarAtOnce,
+                 has_distance_tiers(wiring.scene.aoim.tiers)),
       queued_(kFarAtOnce),
       admitted_(kFarAtOnce) {}
 

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/mechanisms.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -19,6 +18,7 @@ namespace {
 void check_aoim(TomlReader& table, AoimConfig& config) {
   check_awareness(table, config.awareness);
   check_cells(table, config);
+  check_tiers(table, config.tiers);
   try {
     static_cast<void>(beacon_names(config.follow));
   } catch (const std::invalid_argument& error) {
@@ -31,34 +31,19 @@ void check_aoim(TomlReader& table, AoimConfig& config) {
 /// Groups of more tiers are as many again as those of the cells.
 void check_pool(TomlReader& file, const SceneFile& scene) {
   const AoimConfig& aoim = scene.aoim;
-  if (!aoim.contact_groups && !aoim.near_groups) return;
-  const std::string_view which = aoim.contact_groups ? "contact_groups" : "near_groups";
+  if (aoim.all_groups() == aoim.pool) return;
+  const std::string_view which = has_touch_tier(aoim.tiers) ? "to = \"touch\"" : "own_group";
   const std::size_t most = aoim::kMaximumPool / (aoim.all_groups() / aoim.pool);
   if (aoim.pool == 1)
-    file.problem_in("aoim", "pool",
+    file.problem_at("aoim.pool",
                     fmt::format("'{}' has a group for each cell, and a 'pool' of 1 has no cells: "
                                 "take 4 to {}",
                                 which, most));
   if (aoim.pool > most)
-    file.problem_in(
-        "aoim", "pool",
+    file.problem_at(
+        "aoim.pool",
         fmt::format("'{}' needs as many groups again as the 'pool': take one of 4 to {}", which,
                     most));
-}
-
-/// What near groups need of the rows of channels.
-void check_near_rows(TomlReader& file, const SceneFile& scene) {
-  const AoimConfig& aoim = scene.aoim;
-  if (!aoim.near_groups || !aoim.awareness.channels) return;
-  const aoim::ChannelTable table(aoim.awareness.table());
-  if (table.near_rows() == 0)
-    return file.problem_in("aoim", "near_groups",
-                           "'near_groups' needs a row of 'channel' that is not 'kept', before the "
-                           "last");
-  if (table.channel(table.kept_rows()).coarser > 1.0)
-    file.problem_in("aoim", "near_groups",
-                    "'near_groups' needs the thresholds of the scene in the nearest row: a "
-                    "'coarser' of 1");
 }
 
 }  // namespace
@@ -87,12 +72,9 @@ Section<AoimConfig> aoim_section() {
            "with `hand_out`: beacons of entities, as in \"gate, ferry\", whose cells are listened "
            "to "
            "and whose contents are shown, wherever they are"},
-          {"contact_groups", &AoimConfig::contact_groups,
-           "what is felt goes by a second group of its cell, which those alone listen to who can "
-           "touch there, and which is read first; the same for all peers"},
-          {"near_groups", &AoimConfig::near_groups,
-           "with `channels`: each row but the last and those that are kept is said by a group of "
-           "its own of each cell, which those alone listen to who are so near; the same for all "
+          {"tier", &AoimConfig::tiers, tier_section(),
+           "who receives an update, how often and how well, inmost first: those who can touch the "
+           "entity, then by distance; when absent, everything goes to all; the same for all "
            "peers"},
       },
       check_aoim};
@@ -104,7 +86,6 @@ Section<AoimConfig> aoim_section() {
 void check_aoim_of(TomlReader& file, const SceneFile& scene) {
   check_mechanisms(file, scene);
   check_pool(file, scene);
-  check_near_rows(file, scene);
 }
 
 }  // namespace reckon::peer

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 
 #include "reckon/peer/scene/toml_reader.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 using enum Condition;
 
-constexpr std::array<std::string_view, 9> kWords{
+constexpr std::array<std::string_view, 8> kWords{
     "datagrams that plain DIS does not know",
     "more than one multicast group",
     "groups that stay those of their cells",
@@ -24,7 +25,6 @@ constexpr std::array<std::string_view, 9> kWords{
     "all who listen to a cell to receive the same",
     "leaders of cells",
     "a map of the groups that are handed out",
-    "receivers that are distinguished by distance",
 };
 
 std::string_view words_of(Condition condition) {
@@ -35,6 +35,13 @@ bool is_given(Condition condition) { return condition >= leaders; }
 
 bool has(const std::vector<Condition>& conditions, Condition one) {
   return std::ranges::find(conditions, one) != conditions.end();
+}
+
+/// The first tier of which `is` holds.
+template <class Is>
+std::size_t first_tier(const SceneFile& scene, Is is) {
+  const Tiers& tiers = scene.aoim.tiers;
+  return static_cast<std::size_t>(std::ranges::find_if(tiers, is) - tiers.begin());
 }
 
 const std::vector<Mechanism> kMechanisms{
@@ -86,23 +93,35 @@ const std::vector<Mechanism> kMechanisms{
      {},
      {}},
     {"aoim",
-     "channels",
-     [](const SceneFile& scene) { return scene.aoim.awareness.channels; },
-     {},
-     {whole_states},
-     {channels}},
-    {"aoim",
-     "contact_groups",
-     [](const SceneFile& scene) { return scene.aoim.contact_groups; },
+     "tier",
+     [](const SceneFile& scene) { return has_touch_tier(scene.aoim.tiers); },
      {many_groups, fixed_groups},
      {},
-     {}},
+     {},
+     "to = \"touch\"",
+     [](const SceneFile& scene) {
+       return first_tier(scene,
+                         [](const TierConfig& tier) { return tier.to == Recipients::touch; });
+     }},
     {"aoim",
-     "near_groups",
-     [](const SceneFile& scene) { return scene.aoim.near_groups; },
-     {many_groups, fixed_groups, channels},
+     "tier",
+     [](const SceneFile& scene) { return has_distance_tiers(scene.aoim.tiers); },
+     {},
+     {whole_states},
+     {},
+     "to = \"distance\"",
+     [](const SceneFile& scene) {
+       return first_tier(scene,
+                         [](const TierConfig& tier) { return tier.to == Recipients::distance; });
+     }},
+    {"aoim",
+     "tier",
+     [](const SceneFile& scene) { return own_group_count(scene.aoim.tiers) > 0; },
+     {many_groups, fixed_groups},
      {one_stream},
-     {}},
+     {},
+     "own_group = true",
+     [](const SceneFile& scene) { return first_tier(scene, &TierConfig::own_group); }},
     {"aoim",
      "scheme",
      [](const SceneFile& scene) { return scene.aoim.scheme == aoim::CellScheme::locales; },
@@ -110,6 +129,17 @@ const std::vector<Mechanism> kMechanisms{
      {},
      {}},
 };
+
+/// "'leaders'", "'tier' with own_group = true".
+std::string name_of(const Mechanism& one) {
+  return fmt::format("'{}'{}{}", one.key, one.value.empty() ? "" : " with ", one.value);
+}
+
+/// Where a file switches it on, for TomlReader::problem_at.
+std::string path_of(const Mechanism& one, const SceneFile& scene) {
+  const std::string path = fmt::format("{}.{}", one.table, one.key);
+  return one.row == nullptr ? path : fmt::format("{}[{}]", path, one.row(scene));
+}
 
 }  // namespace
 
@@ -126,16 +156,16 @@ void check_mechanisms(TomlReader& file, const SceneFile& scene) {
                                 [&](const auto& other) { return gives(other) && is_on(other); }))
           continue;
         const auto giver = std::ranges::find_if(mechanisms(), gives);
-        file.problem_in(one.table, one.key,
-                        fmt::format("'{}' needs {}: set '{}' too, or take '{}' out", one.key,
-                                    words_of(need), giver->key, one.key));
+        file.problem_at(path_of(one, scene),
+                        fmt::format("{} needs {}: set {} too, or take {} out", name_of(one),
+                                    words_of(need), name_of(*giver), name_of(one)));
         continue;
       }
       for (const Mechanism& other : mechanisms()) {
         if (!is_on(other) || !has(other.takes, need)) continue;
-        file.problem_in(one.table, one.key,
-                        fmt::format("'{}' needs {}, which '{}' excludes: take one of the two out",
-                                    one.key, words_of(need), other.key));
+        file.problem_at(path_of(one, scene),
+                        fmt::format("{} needs {}, which {} excludes: take one of the two out",
+                                    name_of(one), words_of(need), name_of(other)));
       }
     }
   }

@@ -4,6 +4,7 @@
 // another. Private to the scene reader.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,6 @@ enum class Condition : unsigned char {
   one_stream,     ///< all who listen to a cell receive the same
   leaders,        ///< cells have leaders
   group_map,      ///< a map says which cell has which group
-  channels,       ///< receivers are distinguished by their distance
 };
 
 /// A mechanism that a scene file can switch on.
@@ -33,6 +33,10 @@ struct Mechanism {
   std::string_view table, key;  ///< where it is switched on
   bool (*is_on)(const SceneFile& scene);
   std::vector<Condition> needs, takes, gives;
+  std::string_view value =
+      {};  ///< with which the key switches it on, where others have the key too
+  /// Which of the tables under the key switches it on, from 0; null where the key has none.
+  std::size_t (*row)(const SceneFile& scene) = nullptr;
 };
 
 /// Each mechanism once.

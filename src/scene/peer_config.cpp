@@ -44,11 +44,6 @@ const BundlePolicy& bundle_policy_of(const NetworkConfig& network,
   return network.bundle;
 }
 
-std::size_t AoimConfig::near_rows() const {
-  if (!near_groups || !awareness.channels) return 0;
-  return aoim::ChannelTable(awareness.table()).near_rows();
-}
-
 double nimbus_of(const std::vector<NimbusClass>& classes, const pdu::EntityType& type) noexcept {
   for (const NimbusClass& one : classes) {
     if (is_of(type, one.type)) return one.nimbus;

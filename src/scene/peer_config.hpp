@@ -11,12 +11,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
-#include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
@@ -28,6 +26,7 @@
 #include "reckon/peer/network/unicast_peers.hpp"
 #include "reckon/peer/scene/coupling_mode.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
+#include "reckon/peer/scene/tier_config.hpp"
 #include "reckon/peer/scene/touch_rule.hpp"
 
 namespace reckon::peer {
@@ -169,16 +168,8 @@ struct OccluderConfig {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< corners [m]
 };
 
-/// Of whom this peer is aware among those whom it hears, and how much of its own it sends to whom.
+/// Of whom this peer is aware among those whom it hears, and how much it can take of them.
 struct AwarenessConfig {
-  /// Updates to those who are far from all who are known to receive them are thinned out. A fact of
-  /// the scene.
-  bool channels = false;
-  std::vector<aoim::Channel> rows;  ///< by distance; empty: aoim::default_channels()
-  /// The rows that hold: `rows`, or those of the default.
-  [[nodiscard]] std::span<const aoim::Channel> table() const noexcept {
-    return rows.empty() ? aoim::default_channels() : std::span<const aoim::Channel>(rows);
-  }
   double budget = 0.0;  ///< [B/s] that this peer can take of updates; 0: any number
   std::string kinds;    ///< wanted, as written; empty: all
   std::uint32_t kinds_wanted = 0xFFFFFFFFU;  ///< bit k: kind k
@@ -221,19 +212,13 @@ struct AoimConfig {
   bool leaders = false;  ///< each cell has a leader, which tells late comers; all peers alike
   /// Cells get groups of the pool from who leads the scene, not by the fixed tile; all peers alike.
   bool hand_out = false;
-  /// What is felt goes by a second group of its cell, which only those near listen to; all peers
-  /// alike.
-  bool contact_groups = false;
-  /// Near rows of the channels are said by groups of their own; all peers alike.
-  bool near_groups = false;
+  Tiers tiers;         ///< all peers alike
   std::string follow;  ///< names of beacons whose cells are listened to; see beacon_names
   AwarenessConfig awareness;
-  /// Near rows that have groups.
-  [[nodiscard]] std::size_t near_rows() const;
-  /// Groups behind the base group: those of the pool, and as many for each near row and for what is
-  /// felt.
-  [[nodiscard]] std::size_t all_groups() const {
-    return pool * (1 + near_rows() + (contact_groups ? 1 : 0));
+  /// Groups behind the base group: those of the pool, and as many for each tier that has groups of
+  /// its own.
+  [[nodiscard]] std::size_t all_groups() const noexcept {
+    return pool * (1 + own_group_count(tiers) + (has_touch_tier(tiers) ? 1 : 0));
   }
 };
 

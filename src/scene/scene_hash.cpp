@@ -152,10 +152,10 @@ void add_cells(Hash& hash, const AoimConfig& aoim) {
   }
 }
 
-/// Whom a row is said to, and how well: its groups follow from the rows.
-void add_near_rows(Hash& hash, const AwarenessConfig& awareness) {
+/// Who receives by a group of its own, and how well: the groups follow from the rows.
+void add_own_groups(Hash& hash, const Tiers& tiers) {
   hash.fact("near_groups", "true");
-  for (const aoim::Channel& row : awareness.table()) {
+  for (const aoim::Channel& row : channels_of(tiers)) {
     hash.fact("farthest", row.farthest);
     hash.fact("kept", row.kept ? "true" : "false");
     hash.fact("coarser", row.coarser);
@@ -182,15 +182,15 @@ std::uint64_t scene_hash(const SceneFile& file) {
   hash.fact("scheme", word_of(file.aoim.scheme));
   add_cells(hash, file.aoim);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
-  if (file.aoim.awareness.channels) hash.fact("channels", "by distance");
+  if (has_distance_tiers(file.aoim.tiers)) hash.fact("channels", "by distance");
   // The usual reading is no fact: scenes that say nothing of it keep their hash.
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
     hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));
   }
   if (file.aoim.leaders) hash.fact("leaders", "true");
   if (file.aoim.hand_out) hash.fact("hand_out", "true");
-  if (file.aoim.contact_groups) hash.fact("contact_groups", "true");
-  if (file.aoim.near_groups) add_near_rows(hash, file.aoim.awareness);
+  if (has_touch_tier(file.aoim.tiers)) hash.fact("contact_groups", "true");
+  if (own_group_count(file.aoim.tiers) > 0) add_own_groups(hash, file.aoim.tiers);
   if (file.network.compression != pdu::CompressedForm::none) {
     hash.fact("compression", word_of(file.network.compression));
   }

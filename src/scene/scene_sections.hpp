@@ -36,6 +36,7 @@ struct TouchModel : deadreckon::ForceModel {
 /// Tables that stand in others.
 [[nodiscard]] std::vector<Row<AoimConfig>> awareness_rows();
 [[nodiscard]] std::vector<Row<AoimConfig>> cell_rows();
+[[nodiscard]] Section<TierConfig> tier_section();
 [[nodiscard]] Section<OriginConfig> origin_section();
 [[nodiscard]] Section<DeadReckoningConfig> dead_reckoning_section();
 
@@ -53,6 +54,8 @@ void check_entity(TomlReader& table, EntityConfig& entity);
 void check_device(TomlReader& table, DeviceConfig& device);
 void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_cells(TomlReader& table, AoimConfig& config);
+/// @param aoim the table that has them
+void check_tiers(TomlReader& aoim, const Tiers& tiers);
 /// What of [aoim] cannot be had with the rest of the file.
 void check_aoim_of(TomlReader& file, const SceneFile& scene);
 

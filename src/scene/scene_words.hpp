@@ -54,6 +54,10 @@ inline constexpr auto kWords<aoim::Body> =
                                      {"full", aoim::Body::full}});
 
 template <>
+inline constexpr auto kWords<Recipients> = std::to_array<Word<Recipients>>(
+    {{"touch", Recipients::touch}, {"distance", Recipients::distance}});
+
+template <>
 inline constexpr auto kWords<Prediction> = std::to_array<Word<Prediction>>(
     {{"as_sent", Prediction::as_sent}, {"adaptive", Prediction::adaptive}});
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/scene/renamed_keys.hpp"
 #include "reckon/peer/scene/units.hpp"
 
 namespace reckon::peer {
@@ -77,6 +78,13 @@ void TomlReader::refuse_unknown_keys() {
   }
   for (const auto& [key, node] : *table_) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
+    const auto renamed = std::ranges::find_if(renamed_keys(), [&, name = key.str()](auto& one) {
+      return one.section == section_ && one.key == name;
+    });
+    if (renamed != renamed_keys().end()) {
+      add(key.source(), renamed->sentence(*table_));
+      continue;
+    }
     const auto nearest = nearest_word(key.str(), known);
     add(key.source(),
         nearest.empty() ? fmt::format("unknown key '{}': {} takes {}", key.str(),
@@ -94,12 +102,12 @@ void TomlReader::problem(std::string_view key, std::string sentence) {
   add(found != table_->end() ? found->second.source() : table_->source(), std::move(sentence));
 }
 
-void TomlReader::problem_in(std::string_view table, std::string_view key, std::string sentence) {
-  const toml::node* node = table_->get(table);
-  const toml::table* inner = node != nullptr ? node->as_table() : nullptr;
-  const toml::node* found = inner != nullptr ? inner->get(key) : nullptr;
-  const toml::node& where = found != nullptr ? *found : node != nullptr ? *node : *table_;
-  add(where.source(), std::move(sentence));
+void TomlReader::problem_at(std::string_view path, std::string sentence) {
+  const toml::node* found = nullptr;
+  for (std::size_t end = path.size(); found == nullptr && end != std::string_view::npos;
+       end = path.substr(0, end).find_last_of(".["))
+    found = table_->at_path(path.substr(0, end)).node();
+  add(found != nullptr ? found->source() : table_->source(), std::move(sentence));
 }
 
 void TomlReader::require(std::string_view key) {

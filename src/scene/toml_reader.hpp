@@ -24,8 +24,9 @@
 
 namespace reckon::peer {
 
-/// A view of one table of a file. Constructing it refuses the unknown keys; each read leaves its
-/// target as it is when the key is absent or bad, and a bad one becomes a problem.
+/// A view of one table of a file. Constructing it refuses the keys that are unknown or renamed;
+/// each read leaves its target as it is when the key is absent or bad, and a bad one becomes a
+/// problem.
 class TomlReader {
  public:
   /// `table` and `problems` outlive the reader; `section` as in scene_keys().
@@ -85,8 +86,8 @@ class TomlReader {
   void require(std::string_view key);
   /// Adds a problem at `key`, or at the table when `key` is absent.
   void problem(std::string_view key, std::string sentence);
-  /// The same at a key of the table `table` in this one; at the table where the key is absent.
-  void problem_in(std::string_view table, std::string_view key, std::string sentence);
+  /// The same at the end of a path such as "aoim.tier[1].kept", or at as much of it as there is.
+  void problem_at(std::string_view path, std::string sentence);
 
  private:
   [[nodiscard]] const SceneKey& spec(std::string_view key) const;

@@ -28,7 +28,7 @@ struct OwnerSettings {
   double teleport_distance = 10.0;  ///< [m] > 0
   /// Motion is rounded to the quanta of the compressed forms, unless there is none.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
-  bool contact_groups = false;  ///< what is felt is sent to those near separately
+  bool touch_tier = false;  ///< who can touch receives what is felt apart
   /// With near groups: the rows of channels that are not kept, the nearest first.
   std::vector<aoim::Channel> rows = {};
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene thins updates out by distance ([aoim] channels), and whom they are aware
+// Whole peers whose scene thins updates out by distance ([[aoim.tier]]), and whom they are aware
 // of.
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ peer::SceneFile country(bool channels) {
   scene.network.interop = false;
   scene.aoim.cell = 500.0;
   scene.aoim.radius = 2000.0;
-  scene.aoim.awareness.channels = channels;
+  if (channels) scene.aoim.tiers = peer::distance_tiers(aoim::default_channels());
   scene.hash = peer::scene_hash(scene);
   return scene;
 }

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whole peers whose scene gives what is felt groups of its own ([aoim] contact_groups).
+// Whole peers whose scene gives what is felt groups of its own ([[aoim.tier]] to = "touch").
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <string>
 
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 
 namespace reckon::test {
@@ -16,10 +17,10 @@ constexpr double kThreshold = 5e-3;  // [m], of this scene; a force is told from
 constexpr double kFastest = 0.2;     // [m/s], of the hands here, and more
 
 // Two hands that meet on a wall, and one 100 m away that hears their cell.
-std::string plaza(bool contact_groups) {
+std::string plaza(bool touch_tier) {
   std::string aoim = "[dead_reckoning]\nposition = \"5 mm\"\n[aoim]\nscheme = \"hexagonal\"\n";
   aoim += "cell = \"50 m\"\nradius = \"150 m\"\npool = 64\n";
-  if (contact_groups) aoim += "contact_groups = true\n";
+  if (touch_tier) aoim += kTouchTier;
   return with(kTwoHandsOnAWall, "[aoim]\npool = 16\n", aoim) +
          "\n[[operator]]\npassive = true\nposition = [100.0, 0.0, 0.05]\n"
          "stiffness = \"150 N/m\"\n";
@@ -33,8 +34,8 @@ struct Hearing {
 // What the third peer hears of ten seconds in which the others touch.
 class Plaza {
  public:
-  explicit Plaza(bool contact_groups, std::uint64_t seed = 1, double loss = 0.0)
-      : scene_(scene_of(plaza(contact_groups))), world_(3, seed) {
+  explicit Plaza(bool touch_tier, std::uint64_t seed = 1, double loss = 0.0)
+      : scene_(scene_of(plaza(touch_tier))), world_(3, seed) {
     peer::ImpairmentLaw law;
     law.loss = loss;
     world_.network().impair(law);
@@ -124,7 +125,7 @@ void expect_the_same_feel(const char* what, const peer::SceneFile& scene) {
   double packets[2];
   for (const bool apart : {false, true}) {
     peer::SceneFile changed = scene;
-    changed.aoim.contact_groups = apart;
+    if (apart) changed.aoim.tiers = {{peer::Recipients::touch, {}, false}};
     changed.hash = peer::scene_hash(changed);
     tools::ExerciseOptions options;
     options.simulated_time = true;

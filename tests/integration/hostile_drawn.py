@@ -37,7 +37,16 @@ def attribute(simulation, sets):
     return dis.HEADER.pack(7, 1, dis.ATTRIBUTE, 1, now_stamp(), dis.HEADER.size + len(body), 0, 0) + body
 
 
-AOIM = ((), ("contact_groups = true",), ("channels = true",), ("channels = true", "near_groups = true"))
+def rows(own_group):
+    """Tiers by distance, those that may have one with a group of their own."""
+    own = ", own_group = true" if own_group else ""
+    return ('tier = [{farthest = "1 m", active = "1 kHz", passive = "1 kHz", octets = 232, kept = true}, '
+            f'{{farthest = "50 m", active = 30, passive = 0.2, octets = 232{own}}}, '
+            f'{{farthest = "200 m", body = "approximate", active = 10, passive = 0.2, octets = 176, coarser = 4{own}}}, '
+            '{body = "rigid", active = 1, passive = 0.2, octets = 144, coarser = 16}]')
+
+
+AOIM = ((), ('tier = [{to = "touch"}]',), (rows(False),), (rows(True),))
 
 
 def guests(draw):

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PDUs of every type, of right length and wrong meaning, beside two hands that hold each other: what
-// the hands' own peers said with other values, and what nobody said. No contact is lost, nobody is
-// moved, hidden or frozen, and the user is told in few lines. RECKON_SOAK=1 tries 1,000 seeds.
+// PDUs of every type, of right length and wrong meaning, beside two hands that hold each other:
+// what the hands' own peers said with other values, and what nobody said. No contact is lost,
+// nobody is moved, hidden or frozen, and the user is told in few lines. RECKON_SOAK=1 tries 1,000
+// seeds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@
 #include "reckon/peer/loops/notice_gate.hpp"
 #include "reckon/tests/pdu/support/random_pdu.hpp"
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 
 namespace reckon::test {
 namespace {
@@ -90,9 +92,18 @@ class OtherMeaning {
   template <typename T>
   T other(T value) {
     if constexpr (std::is_floating_point_v<T>) {
-      constexpr std::array<T, 12> kReals{0,       T(-0.0), T(1e-30), T(1e-3), 1, -1, T(1e3), T(1e9),
-                                         T(-1e30), std::numeric_limits<T>::infinity(),
-                                         std::numeric_limits<T>::quiet_NaN(), T(3e38)};
+      constexpr std::array<T, 12> kReals{0,
+                                         T(-0.0),
+                                         T(1e-30),
+                                         T(1e-3),
+                                         1,
+                                         -1,
+                                         T(1e3),
+                                         T(1e9),
+                                         T(-1e30),
+                                         std::numeric_limits<T>::infinity(),
+                                         std::numeric_limits<T>::quiet_NaN(),
+                                         T(3e38)};
       return one_in(3) ? value * static_cast<T>(1 + 1e-6 * static_cast<double>(random_() % 1000))
                        : kReals[random_() % kReals.size()];
     } else {
@@ -131,20 +142,20 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
   // What the peers know of each other and how they say it.
   peer::SceneFile drawn() {
     struct Ways {
-      const char *aoim, *network;
+      std::string aoim, network;
     };
-    constexpr std::array<Ways, 10> kWays{{{"", ""},
-                                          {"", "compression = \"compact\""},
-                                          {"", "compression = \"delta\""},
-                                          {"", "compression = \"residual\""},
-                                          {"contact_groups = true", ""},
-                                          {"contact_groups = true", "compression = \"delta\""},
-                                          {"leaders = true", ""},
-                                          {"leaders = true\nhand_out = true", ""},
-                                          {"channels = true", ""},
-                                          {"channels = true\nnear_groups = true", ""}}};
-    const Ways& ways = kWays[random_() % kWays.size()];
-    return scene_of(with(with(kPair, "#aoim", ways.aoim), "#network", ways.network));
+    const std::array<Ways, 10> ways{{{"", ""},
+                                     {"", "compression = \"compact\""},
+                                     {"", "compression = \"delta\""},
+                                     {"", "compression = \"residual\""},
+                                     {kTouchTier, ""},
+                                     {kTouchTier, "compression = \"delta\""},
+                                     {"leaders = true", ""},
+                                     {"leaders = true\nhand_out = true", ""},
+                                     {kDistanceTiers, ""},
+                                     {kOwnTiers, ""}}};
+    const Ways& way = ways[random_() % ways.size()];
+    return scene_of(with(with(kPair, "#aoim", way.aoim), "#network", way.network));
   }
 
   [[nodiscard]] double felt(std::size_t link) {

@@ -86,17 +86,16 @@ class Melee {
   /// off by so much more [m], as sharply as anything turns here.
   static constexpr double kSlack = 0.15;
 
-  static peer::SceneFile scene(bool near_groups) {
+  static peer::SceneFile scene(bool own_groups) {
     constexpr double kForever = std::numeric_limits<double>::infinity();
     peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
     scene.network.interop = false;
     scene.aoim.cell = 50.0;
     scene.aoim.radius = kSenses;
-    scene.aoim.awareness.channels = true;
-    scene.aoim.awareness.rows = {{kEnd, aoim::Body::full, 30.0, 30.0, 144.0, false, 1.0},
-                                 {kMiddle, aoim::Body::approximate, 10.0, 10.0, 144.0, false, 4.0},
-                                 {kForever, aoim::Body::rigid, 10.0, 10.0, 144.0, false, 10.0}};
-    scene.aoim.near_groups = near_groups;
+    const aoim::Channel rows[] = {{kEnd, aoim::Body::full, 30.0, 30.0, 144.0, false, 1.0},
+                                  {kMiddle, aoim::Body::approximate, 10.0, 10.0, 144.0, false, 4.0},
+                                  {kForever, aoim::Body::rigid, 10.0, 10.0, 144.0, false, 10.0}};
+    scene.aoim.tiers = peer::distance_tiers(rows, own_groups);
     scene.hash = peer::scene_hash(scene);
     return scene;
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Whole peers whose scene tells those who are near by groups of their own what the others need not
-// know ([aoim] near_groups): nobody is shown worse than the row of the channels says that is so far
-// away, whoever moves, leaps, or loses something.
+// know ([[aoim.tier]] own_group): nobody is shown worse than the row of the channels says that is
+// so far away, whoever moves, leaps, or loses something.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST(NearGroups, SpareACrowdWhatTheFarNeedNotKnowAndShowNobodyWorseThanItsRow) {
 
 TEST(NearGroups, SayTheSameOctetsAsBeforeWhereThereAreNone) {
   peer::SceneFile plain = Melee::scene(false);
-  for (aoim::Channel& row : plain.aoim.awareness.rows) row.coarser = 1.0;
+  for (peer::TierConfig& tier : plain.aoim.tiers) tier.channel.coarser = 1.0;
   plain.hash = peer::scene_hash(plain);
   Melee coarse(Melee::scene(false), crowd(6, 150.0, 2)), fine(plain, crowd(6, 150.0, 2));
   EXPECT_EQ(Melee::scene(false).hash, plain.hash);
@@ -165,8 +165,8 @@ TEST(NearGroups, AreLeftByAReceiverWithoutTheBudget) {
 // Where the near row holds all of the radius nobody is spared anything, and nobody shown worse.
 TEST(NearGroups, ShowAllAsOneStreamDoesWhereTheNearRowHoldsTheRadius) {
   peer::SceneFile wide = Melee::scene(true);
-  wide.aoim.awareness.rows.front().farthest = 250.0;
-  wide.aoim.awareness.rows[1].farthest = 300.0;
+  wide.aoim.tiers.front().channel.farthest = 250.0;
+  wide.aoim.tiers[1].channel.farthest = 300.0;
   wide.hash = peer::scene_hash(wide);
   Melee place(wide, crowd(10, 150.0, 4));
   place.run(4s);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/tests/integration/federates.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 
 namespace reckon::test {
 namespace {
@@ -153,8 +154,9 @@ void expect_as_on_squares(const Watch& seen, Walk& squares, const std::vector<Ve
 TEST(WholePeersOnATree, SeeWhoComesOverBordersOfAnySizeAtOnce) {
   const std::vector<Vector3d> places = {{60, 60, 0}, {700, -700, 0}};
   const std::vector<Vector3d> round = {{150, 60, 0}, {60, -50, 0}, {-50, 60, 0}};
-  for (const char* more : {"", "leaders = true\n", "leaders = true\nhand_out = true\n",
-                           "contact_groups = true\n", "channels = true\n"}) {
+  for (const std::string& more :
+       {std::string(), std::string("leaders = true\n"),
+        std::string("leaders = true\nhand_out = true\n"), kTouchTier, kDistanceTiers}) {
     SCOPED_TRACE(more);
     Walk walk(more + kTree, places, round.back());
     walk.stand(4s);  // groups that are handed out are used 2.5 s later

@@ -16,6 +16,7 @@
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tests/integration/losing_link.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 
 namespace reckon::test {
 namespace {
@@ -158,7 +159,6 @@ const std::string kHexagons = "scheme = \"hexagonal\"\ncell = 60\nradius = 150\n
 const std::string kTree =
     "scheme = \"quadtree\"\nradius = 150\npool = 64\n[aoim.quadtree]\nside = 8000\nleaves = "
     "\"3000 0333\"\n";
-const std::string kNear = "near_groups = true\nchannels = true\n";
 // A hall with a long road to the east, and a store behind its wall in the north.
 const std::string kHouse = R"(scheme = "locales"
 radius = 150
@@ -178,8 +178,8 @@ size = [40, 40, 0]
 
 TEST(Visitors, WhoGoAwaySeeNoMoreWhatStands) {
   for (const std::string& aoim :
-       {kSquares, kHexagons, kTree, kHouse, kNear + kSquares, "leaders = true\n" + kSquares,
-        "leaders = true\nhand_out = true\n" + kSquares, "contact_groups = true\n" + kSquares}) {
+       {kSquares, kHexagons, kTree, kHouse, kOwnTiers + kSquares, "leaders = true\n" + kSquares,
+        "leaders = true\nhand_out = true\n" + kSquares, kTouchTier + kSquares}) {
     SCOPED_TRACE(aoim);
     Visit visit(aoim);
     visit.come({5, 0, 0});
@@ -306,9 +306,9 @@ TEST(Visitors, SeeAllWithinASecondWhicheverDatagramIsLost) {
   for (const Coming& coming :
        {Coming{"starts", kSquares},
         {"arrives", kSquares, true},
-        {"starts, near groups", kNear + kSquares},
-        {"arrives, near groups", kNear + kSquares, true},
-        {"arrives far, near groups", kNear + kSquares, true, 120},
+        {"starts, near groups", kOwnTiers + kSquares},
+        {"arrives, near groups", kOwnTiers + kSquares, true},
+        {"arrives far, near groups", kOwnTiers + kSquares, true, 120},
         {"starts, residual", kSquares + "[network]\ncompression = \"residual\"\n"},
         {"arrives, residual", kSquares + "[network]\ncompression = \"residual\"\n", true}}) {
     std::size_t runs = 0;

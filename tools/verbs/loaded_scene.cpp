@@ -44,14 +44,13 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
         format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
         format_quantity(peer::cells_of(file.aoim).finest(), "m")));
   }
-  if (file.aoim.near_rows() > 0) {
-    const std::span<const aoim::Channel> rows = peer::audience_rows_of(file.aoim);
-    const aoim::Channel& outmost = rows[file.aoim.near_rows() - 1];
-    if (outmost.farthest >= file.aoim.radius)
-      notes.push_back(fmt::format(
-          "the channel up to {} reaches as far as the radius of {}: its near groups spare nobody "
-          "anything; make it the last one, without 'farthest'",
-          format_quantity(outmost.farthest, "m"), format_quantity(file.aoim.radius, "m")));
+  for (const peer::TierConfig& tier : file.aoim.tiers) {
+    if (!tier.own_group || tier.channel.farthest < file.aoim.radius) continue;
+    notes.push_back(fmt::format(
+        "the tier up to {} reaches as far as the radius of {}: a group of its own spares nobody "
+        "anything; make it the last one, without 'farthest'",
+        format_quantity(tier.channel.farthest, "m"), format_quantity(file.aoim.radius, "m")));
+    break;
   }
   return notes;
 }

@@ -47,20 +47,18 @@ void add_group_rows(const peer::SceneFile& file, SettingRows& rows) {
                       "groups, by who leads the scene; a cell without one speaks to "
                       "the base group, which all hear");
   add_beacons(file, rows);
-  if (file.aoim.contact_groups)
+  const std::size_t own_groups = own_group_count(file.aoim.tiers);
+  if (has_touch_tier(file.aoim.tiers))
     rows.emplace_back(
         "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
                             "a hand needs up to {} of them",
                             file.aoim.pool, peer::group_needs(file).within_touch));
-  if (file.aoim.near_rows() > 0)
+  if (own_groups > 0)
     rows.emplace_back(
-        "near",
-        fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
-                    "focus needs up to {} of them",
-                    file.aoim.near_rows() == 1
-                        ? "one row of the channels"
-                        : fmt::format("{} rows of the channels", file.aoim.near_rows()),
-                    file.aoim.near_rows() * file.aoim.pool, peer::group_needs(file).within_rows));
+        "near", fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
+                            "focus needs up to {} of them",
+                            own_groups == 1 ? "one tier" : fmt::format("{} tiers", own_groups),
+                            own_groups * file.aoim.pool, peer::group_needs(file).within_rows));
 }
 
 std::vector<std::string> group_warnings(const peer::SceneFile& file) {

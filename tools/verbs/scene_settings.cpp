@@ -66,23 +66,30 @@ std::string awareness_of(const peer::AwarenessConfig& config) {
   return text;
 }
 
+/// "to 50 m 30 Hz full", "beyond 1 Hz rigid".
+std::string tier_of(const peer::TierConfig& tier, bool own_groups) {
+  if (tier.to == peer::Recipients::touch) return "who can touch";
+  const aoim::Channel& row = tier.channel;
+  const bool ends = std::isfinite(row.farthest);
+  std::string text =
+      fmt::format("{} {} Hz {}", ends ? "to " + format_quantity(row.farthest, "m") : "beyond",
+                  row.active_hz, peer::word_of(row.body));
+  if (own_groups && row.coarser > 1.0) text += fmt::format(" {} x as coarse", row.coarser);
+  return text;
+}
+
 /// "to 1 m 1000 Hz, ..; what is held back is counted (updates_held_back)".
-std::string channels_of(const peer::AoimConfig& aoim) {
-  const peer::AwarenessConfig& config = aoim.awareness;
-  if (!config.channels) return "one: everything to all";
-  const std::span<const aoim::Channel> rows = config.table();
+std::string tiers_of(const peer::AoimConfig& aoim) {
+  const bool own_groups = own_group_count(aoim.tiers) > 0;
   std::string text;
-  for (const aoim::Channel& row : rows) {
-    const bool ends = std::isfinite(row.farthest);
-    text += fmt::format("{}{} {} Hz {}", text.empty() ? "" : ", ",
-                        ends ? "to " + format_quantity(row.farthest, "m") : "beyond", row.active_hz,
-                        peer::word_of(row.body));
-    if (aoim.near_groups && row.coarser > 1.0) text += fmt::format(" {} x as coarse", row.coarser);
-  }
-  text += aoim.near_groups ? "" : " of the nearest receiver";
+  for (const peer::TierConfig& tier : aoim.tiers)
+    text += (text.empty() ? "" : ", ") + tier_of(tier, own_groups);
+  if (!has_distance_tiers(aoim.tiers))
+    return text.empty() ? "one: everything to all" : text + ", then everything to all";
+  text += own_groups ? "" : " of the nearest receiver";
   text += "; what is held back is counted (updates_held_back)";
-  if (config.budget > 0)
-    text += fmt::format("; takes {} a second", format_quantity(config.budget, "B"));
+  if (aoim.awareness.budget > 0)
+    text += fmt::format("; takes {} a second", format_quantity(aoim.awareness.budget, "B"));
   return text;
 }
 
@@ -103,7 +110,7 @@ SettingRows scene_settings(const peer::SceneFile& file) {
       {"cells",
        fmt::format("{}; senses {}", cells_text(file.aoim), format_quantity(file.aoim.radius, "m"))},
       {"of others", awareness_of(file.aoim.awareness)},
-      {"channels", channels_of(file.aoim)},
+      {"tiers", tiers_of(file.aoim)},
       {"groups", groups_text(file)},
       {"by", way_of(file.network)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,

@@ -67,7 +67,7 @@ peer::SceneFile scene(bool ipv6, const LatencyOptions& options) {
   peer::SceneFile scene = peer::parse_scene_file(
       fmt::format(fmt::runtime(kScene), ipv6 ? "ff15::c0:4f00" : "239.192.79.0", port), "latency");
   scene.network.key = options.key;
-  scene.aoim.contact_groups = options.contact_groups;
+  if (options.touch_tier) scene.aoim.tiers = {{peer::Recipients::touch, {}, false}};
   scene.hash = peer::scene_hash(scene);
   return scene;
 }

@@ -20,8 +20,8 @@ struct LatencyOptions {
   std::string iface = "lo";
   std::string key;  ///< key file, of a touch that is sealed; empty: plain
   std::chrono::nanoseconds length = std::chrono::seconds(60);
-  std::uint64_t seed = 1;       ///< of jumps and pauses
-  bool contact_groups = false;  ///< the touch goes by groups of its own
+  std::uint64_t seed = 1;   ///< of jumps and pauses
+  bool touch_tier = false;  ///< the touch goes by groups of its own
   bool json = false;
 };
 

@@ -88,11 +88,9 @@ peer::SceneFile scale_scene(const ScaleSetting& setting, const ScaleDesign& desi
   scene.aoim = scale_cells(setting);
   scene.network.group.port = setting.port;
   scene.network.bundle.hold = pdu::from_seconds(setting.hold);
-  scene.aoim.awareness.channels = design.channels;
   if (design.channels) {
     const ScaleChannels channels = scale_channels(setting);
-    scene.aoim.awareness.rows = channels.rows;
-    scene.aoim.near_groups = channels.near_rows > 0;
+    scene.aoim.tiers = peer::distance_tiers(channels.rows, channels.near_rows > 0);
   }
   if (design.compression) scene.network.compression = scale_compression(setting);
   scene.hash = peer::scene_hash(scene);

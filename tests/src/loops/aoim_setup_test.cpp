@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "reckon/peer/scene/scene_keys.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -16,6 +18,12 @@ namespace {
 /// As a file would say a key's least, most and standard value.
 std::vector<std::string> corners(const SceneKey& key) {
   if (key.kind == KeyKind::boolean) return {"true", "false"};
+  if (key.key == "tier") {
+    std::vector<std::string> tiers;
+    for (const std::string& line : {test::kTouchTier, test::kDistanceTiers, test::kOwnTiers})
+      tiers.push_back(line.substr(line.find('['), line.rfind(']') + 1 - line.find('[')));
+    return tiers;
+  }
   std::vector<std::string> values;
   if (key.kind == KeyKind::choice) {
     for (const std::string_view word : key.words) values.push_back(fmt::format("\"{}\"", word));
@@ -56,11 +64,11 @@ bool excludes_itself(const std::string& text) {
   const bool led = says("leaders = true");
   // What these are made of stands in tables of its own.
   if (says("scheme = \"quadtree\"") || says("scheme = \"locales\"")) return true;
-  const bool apart = says("contact_groups = true");
+  const bool apart = says("\"touch\"") || says("own_group");
   if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
-  if (says("near_groups = true") && !says("channels = true")) return true;
+  if (says("own_group") && says("compression = \"residual\"")) return true;
   return (says("interop = true") && (compressed || led)) ||
-         (led && (compressed || says("channels = true"))) || (says("hand_out = true") && !led);
+         (led && (compressed || says("farthest"))) || (says("hand_out = true") && !led);
 }
 
 TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
@@ -70,7 +78,7 @@ TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
         key.section == "aoim" || key.section == "network" || key.section == "network.bundle";
     const bool measured = key.kind != KeyKind::text && key.kind != KeyKind::texts &&
                           key.kind != KeyKind::table && key.kind != KeyKind::tables;
-    if (ours && measured) keys.push_back(key);
+    if (ours && (measured || key.key == "tier")) keys.push_back(key);
   }
   ASSERT_GE(keys.size(), 11u);
   int taken = 0;
@@ -104,10 +112,11 @@ TEST(AoimSetup, TakesUnevenCellsWithAllThatGoesByCells) {
   const std::string rooms =
       "scheme = \"locales\"\nradius = 20\n[[aoim.locale]]\nname = \"a\"\nsize = [4, 4, 0]\n";
   for (const std::string& cells : {tree, rooms}) {
-    for (const char* more :
-         {"", "leaders = true\n", "leaders = true\nhand_out = true\n", "contact_groups = true\n",
-          "leaders = true\ncontact_groups = true\n", "channels = true\n", "pool = 8\n"}) {
-      const SceneFile scene = parse_scene_file(std::string("[aoim]\n") + more + cells, "x.toml");
+    for (const std::string& more :
+         {std::string(), std::string("leaders = true\n"),
+          std::string("leaders = true\nhand_out = true\n"), test::kTouchTier,
+          "leaders = true\n" + test::kTouchTier, test::kDistanceTiers, std::string("pool = 8\n")}) {
+      const SceneFile scene = parse_scene_file("[aoim]\n" + more + cells, "x.toml");
       EXPECT_NO_THROW(construct(scene)) << more << cells;
       EXPECT_LE(group_needs(scene).within_radius, group_needs(scene).in_use) << more << cells;
     }
@@ -162,7 +171,7 @@ TEST(AoimSetup, HasAsManyContactGroupsAgainWhereTheSceneAsksForThem) {
   EXPECT_EQ(pool_of(scene).size(), 16u);
   EXPECT_EQ(group_needs(scene).within_touch, 0u);
   const std::uint64_t hash = scene_hash(scene);
-  scene.aoim.contact_groups = true;
+  scene.aoim.tiers = {{Recipients::touch, {}, false}};
   EXPECT_EQ(pool_of(scene).size(), 32u);
   EXPECT_EQ(pool_of(scene).base(), last);
   EXPECT_NE(scene_hash(scene), hash) << "all peers have to agree";
@@ -176,62 +185,46 @@ TEST(AoimSetup, HasAsManyGroupsAgainForEachNearRowAndThoseOfContactBehindThem) {
   scene.aoim.pool = 16;
   scene.aoim.cell = 100.0;
   scene.aoim.radius = 300.0;
-  scene.aoim.awareness.channels = true;
+  scene.aoim.tiers = distance_tiers(aoim::default_channels());
   const std::uint64_t hash = scene_hash(scene);
-  scene.aoim.near_groups = true;
+  scene.aoim.tiers = distance_tiers(aoim::default_channels(), true);
   EXPECT_EQ(pool_of(scene).size(), 48u) << "to 50 m and to 200 m";
   EXPECT_NE(scene_hash(scene), hash) << "all peers have to agree";
   const GroupNeeds needs = group_needs(scene);
   EXPECT_GE(needs.within_rows, 6u);
   EXPECT_EQ(audience_rows_of(scene.aoim).size(), 3u) << "but the one that is kept";
-  scene.aoim.contact_groups = true;
+  scene.aoim.tiers.insert(scene.aoim.tiers.begin(), {Recipients::touch, {}, false});
   EXPECT_EQ(pool_of(scene).size(), 64u);
   ASSERT_TRUE(contact_pool_of(scene).has_value());
   EXPECT_EQ(contact_pool_of(scene)->address(0), pool_of(scene).address(48));
   SceneFile other = scene;
-  other.aoim.awareness.rows.assign(aoim::default_channels().begin(),
-                                   aoim::default_channels().end());
-  EXPECT_EQ(scene_hash(other), scene_hash(scene));
-  other.aoim.awareness.rows[1].farthest = 60.0;
+  other.aoim.tiers[2].channel.farthest = 60.0;
   EXPECT_NE(scene_hash(other), scene_hash(scene)) << "who hears what follows from the rows";
 }
 
-TEST(AoimSetup, RefusesNearGroupsWhereThereCanBeNone) {
-  const auto refusal = [](const char* more) -> std::string {
-    try {
-      (void)parse_scene_file(fmt::format("[aoim]\nnear_groups = true\n{}", more), "x.toml");
-    } catch (const SceneFileError& error) {
-      return error.what();
-    }
-    return "";
+TEST(AoimSetup, RefusesTiersWithGroupsOfTheirOwnWhereThereCanBeNone) {
+  const auto refusal = [](const std::string& tiers, const char* more) {
+    return test::refusal("[aoim]\n" + tiers + more);
   };
-  const auto says = [&](const char* more, const char* what) {
-    EXPECT_NE(refusal(more).find(what), std::string::npos) << more << ": " << refusal(more);
+  const auto says = [&](const std::string& tiers, const char* more, const char* what) {
+    EXPECT_NE(refusal(tiers, more).find(what), std::string::npos) << more << refusal(tiers, more);
   };
-  EXPECT_EQ(refusal("channels = true\n"), "");
-  says("", "set 'channels' too, or take 'near_groups' out");
-  says("channels = true\npool = 1\n", "take 4 to 333");
-  says("channels = true\npool = 334\n", "4 to 333");
-  says("channels = true\ncontact_groups = true\n", "4 to 250");
-  says("channels = true\nleaders = true\n", "'leaders'");
-  says("channels = true\n[network]\ncompression = \"residual\"\n", "which 'near_groups' excludes");
-  EXPECT_EQ(refusal("channels = true\n[network]\ncompression = \"delta\"\n"), "");
-  says("channels = true\n[network]\ncompression = \"residual\"\n", "which 'near_groups' excludes");
-  EXPECT_EQ(refusal("channels = true\n[network]\ncompression = \"delta\"\n"), "");
-  says("channels = true\n[network]\ninterop = true\n", "'interop'");
-  says("channels = true\nchannel = [{active = \"1 Hz\", octets = \"144 B\"}]\n",
-       "a row of 'channel' that is not 'kept'");
-  says(
-      "channels = true\nchannel = [{farthest = \"9 m\", active = \"9 Hz\", octets = \"144 B\", "
-      "coarser = 2}, {active = \"1 Hz\", octets = \"144 B\", coarser = 2}]\n",
-      "a 'coarser' of 1");
+  EXPECT_EQ(refusal(test::kOwnTiers, ""), "");
+  says(test::kOwnTiers, "pool = 1\n", "take 4 to 333");
+  says(test::kOwnTiers, "pool = 334\n", "4 to 333");
+  says(test::kAllTiers, "pool = 256\n", "4 to 250");
+  says(test::kOwnTiers, "leaders = true\n", "'leaders'");
+  says(test::kOwnTiers, "[network]\ncompression = \"residual\"\n", "own_group = true excludes");
+  EXPECT_EQ(refusal(test::kOwnTiers, "[network]\ncompression = \"delta\"\n"), "");
+  says(test::kOwnTiers, "[network]\ninterop = true\n", "'interop'");
 }
 
 // What others let their copies be off by is not on the wire.
 TEST(AoimSetup, ShowsRemoteEntitiesNearTheThresholdsOfTheScene) {
   const SceneFile scene = parse_scene_file(
       "[dead_reckoning]\nposition = \"0.25 m\"\nangle = \"0.125 rad\"\n[convergence]\ncurve = "
-      "\"linear\"\n[aoim]\nchannels = true\n[hand]\nradius = \"8 mm\"\n",
+      "\"linear\"\n[aoim]\n" +
+          test::kDistanceTiers + "[hand]\nradius = \"8 mm\"\n",
       "x.toml");
   const RemoteSettings settings = remote_settings(scene);
   EXPECT_EQ(settings.convergence.settings.threshold, 0.25);
@@ -239,21 +232,15 @@ TEST(AoimSetup, ShowsRemoteEntitiesNearTheThresholdsOfTheScene) {
   EXPECT_EQ(settings.convergence.settings.curve, deadreckon::ConvergenceCurve::linear);
   EXPECT_EQ(settings.probe_radius, 0.008);
   EXPECT_TRUE(settings.bodies_in_part);
-  EXPECT_EQ(settings.near_rows, scene.aoim.near_rows());
+  EXPECT_EQ(settings.near_rows, 0u);
 }
 
-TEST(AoimSetup, RefusesContactGroupsWhereThereCanBeNone) {
-  const auto refusal = [](const char* more) -> std::string {
-    try {
-      (void)parse_scene_file(fmt::format("[aoim]\ncontact_groups = true\n{}", more), "x.toml");
-    } catch (const SceneFileError& error) {
-      return error.what();
-    }
-    return "";
+TEST(AoimSetup, RefusesATierToTouchWhereThereCanBeNone) {
+  const auto refusal = [](const char* more) {
+    return test::refusal("[aoim]\n" + test::kTouchTier + more);
   };
   EXPECT_EQ(refusal(""), "");
   EXPECT_EQ(refusal("leaders = true\n"), "");
-  EXPECT_EQ(refusal("channels = true\n"), "");
   EXPECT_NE(refusal("pool = 1\n").find("take 4 to 500"), std::string::npos);
   EXPECT_NE(refusal("pool = 501\n").find("4 to 500"), std::string::npos);
   EXPECT_NE(refusal("leaders = true\nhand_out = true\n").find("'hand_out'"), std::string::npos);

@@ -11,6 +11,7 @@
 
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -38,27 +39,42 @@ TEST(Mechanisms, AreReportedAtTheirKeyWithTheRemedy) {
                 "'hand_out' out"));
 }
 
+TEST(Mechanisms, ThatTiersAreAreReportedAtTheRowThatSwitchesThemOn) {
+  const std::string tiers =
+      "[[aoim.tier]]\nto = \"touch\"\n"
+      "[[aoim.tier]]\nfarthest = 9\nactive = 9\noctets = 144\nown_group = true\n"
+      "[[aoim.tier]]\nactive = 9\noctets = 144\n";
+  EXPECT_THAT(test::refusal("[aoim]\nleaders = true\nhand_out = true\n" + tiers),
+              HasSubstr("x.toml:4:1: 'tier' with to = \"touch\" needs groups that stay those of "
+                        "their cells, which 'hand_out' excludes: take one of the two out\n"
+                        "x.toml:6:1: 'tier' with own_group = true needs groups"));
+  EXPECT_THAT(test::refusal("[aoim]\nleaders = true\n" + tiers),
+              HasSubstr("'leaders' needs Entity States of which nothing is left out, which 'tier' "
+                        "with to = \"distance\" excludes"));
+  EXPECT_THAT(test::refusal(tiers + "[network]\ncompression = \"residual\"\n"),
+              HasSubstr("which 'tier' with own_group = true excludes"));
+}
+
 // Each pair that cannot be had together, and one of each kind that can.
 TEST(Mechanisms, ExcludeOneAnotherWhereOneTakesWhatTheOtherNeeds) {
   const std::string leaders = "leaders = true\n", hand_out = leaders + "hand_out = true\n";
   const std::vector<std::pair<std::string, std::string>> refused{
       {leaders, "[network]\ninterop = true\n"},
       {leaders, "[network]\ncompression = \"delta\"\n"},
-      {leaders + "channels = true\n", ""},
-      {hand_out + "contact_groups = true\n", ""},
+      {leaders + test::kDistanceTiers, ""},
+      {hand_out + test::kTouchTier, ""},
       {"follow = \"gate\"\n", ""},
       {"", "[network]\ninterop = true\ncompression = \"delta\"\n"},
-      {"contact_groups = true\n", "[network]\ninterop = true\n"},
-      {"near_groups = true\n", ""},
-      {"channels = true\nnear_groups = true\n", "[network]\ncompression = \"residual\"\n"},
-      {"channels = true\nnear_groups = true\n", "[network]\ninterop = true\n"}};
+      {test::kTouchTier, "[network]\ninterop = true\n"},
+      {test::kOwnTiers, "[network]\ncompression = \"residual\"\n"},
+      {test::kOwnTiers, "[network]\ninterop = true\n"}};
   for (const auto& [aoim, network] : refused)
     EXPECT_THAT(test::refusal("[aoim]\n" + aoim + network), HasSubstr("needs")) << aoim << network;
   for (const auto& [aoim, network] : std::vector<std::pair<std::string, std::string>>{
            {hand_out + "follow = \"gate\"\n", ""},
-           {leaders + "contact_groups = true\n", ""},
-           {"channels = true\nnear_groups = true\n", "[network]\ncompression = \"delta\"\n"},
-           {"channels = true\n", "[network]\ncompression = \"residual\"\n"}})
+           {leaders + test::kTouchTier, ""},
+           {test::kOwnTiers, "[network]\ncompression = \"delta\"\n"},
+           {test::kDistanceTiers, "[network]\ncompression = \"residual\"\n"}})
     EXPECT_THAT(test::refusal("[aoim]\n" + aoim + network), IsEmpty()) << aoim << network;
 }
 

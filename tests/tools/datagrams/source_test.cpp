@@ -9,6 +9,7 @@
 #include <string>
 
 #include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
@@ -33,7 +34,7 @@ TEST_F(SourceOfAScene, MeansTheGroupsOfItsCellsAndOfWhatIsFelt) {
   EXPECT_TRUE(means_groups(plain));
   EXPECT_EQ(groups_of(plain).size(), 1U + 40U);
   EXPECT_EQ(groups_of(plain).front().text(), "239.192.9.0:3000");
-  SourceChoice felt = scene("[aoim]\npool = 40\ncontact_groups = true\n");
+  SourceChoice felt = scene("[aoim]\npool = 40\n" + reckon::test::kTouchTier);
   EXPECT_EQ(groups_of(felt).size(), 1U + 2U * 40U);
   felt.pool = 4;
   EXPECT_EQ(groups_of(felt).size(), 1U + 4U) << "the flag goes before the scene";

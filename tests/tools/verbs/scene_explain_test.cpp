@@ -12,6 +12,7 @@
 
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/support/tier_rows.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/temporary_scene.hpp"
 
@@ -35,6 +36,23 @@ TEST(SceneExplain, SaysHowManyGroupsTheRadiusNeeds) {
   EXPECT_THAT(result.out, HasSubstr("square, 1 m; senses 3 m"));
   EXPECT_THAT(result.out, ::testing::ContainsRegex("the radius needs up to 4[5-9] of them"));
   EXPECT_THAT(result.out, HasSubstr("[aoim] groups allows 20"));
+}
+
+TEST(SceneExplain, SaysWhoReceivesAnUpdate) {
+  const auto explain = [](const std::string& tiers) {
+    const TemporaryScene scene("[aoim]\npool = 100\nradius = \"90 m\"\n" + tiers);
+    return run_reckon({"scene", "explain", scene.path()}).out;
+  };
+  EXPECT_THAT(explain(""), HasSubstr("one: everything to all"));
+  EXPECT_THAT(explain(test::kTouchTier), HasSubstr("who can touch, then everything to all"));
+  EXPECT_THAT(explain(test::kDistanceTiers),
+              HasSubstr("to 200 m 10 Hz approximate, beyond 1 Hz rigid of the nearest receiver;"));
+  const std::string all = explain(test::kAllTiers);
+  EXPECT_THAT(all, HasSubstr("who can touch, to 1 m 1000 Hz full, to 50 m 30 Hz full, to 200 m "
+                             "10 Hz approximate 4 x as coarse, beyond 1 Hz rigid 16 x as coarse;"));
+  EXPECT_THAT(all, HasSubstr("by 100 more groups, which those alone listen to who can touch"));
+  EXPECT_THAT(all, HasSubstr("2 tiers by 200 more groups"));
+  EXPECT_THAT(all, HasSubstr("the tier up to 200 m reaches as far as the radius of 90 m"));
 }
 
 TEST(SceneExplain, SaysWhatAQuadTreeCosts) {

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[aoim.tier]]: who receives an update, how often and how well.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/scene/scene_sections.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::string_view kTo = "to";
+
+std::string place_of(std::size_t tier, std::string_view key = {}) {
+  return fmt::format("tier[{}]{}{}", tier, key.empty() ? "" : ".", key);
+}
+
+void check_tier(TomlReader& table, TierConfig& tier) {
+  if (tier.to == Recipients::distance) {
+    if (!table.has("farthest")) tier.channel.farthest = std::numeric_limits<double>::infinity();
+    table.require("active");
+    table.require("octets");
+    return;
+  }
+  for (const Row<TierConfig>& row : tier_section().rows) {
+    const std::string& key = row.key().key;
+    if (key != kTo && table.has(key))
+      table.problem(key, fmt::format("'{}' is of a tier by distance: with to = \"touch\" goes no "
+                                     "other key; take it out",
+                                     key));
+  }
+}
+
+void check_touch(TomlReader& aoim, const Tiers& tiers) {
+  bool had_one = false;
+  for (std::size_t i = 0; i < tiers.size(); ++i) {
+    if (tiers[i].to != Recipients::touch) continue;
+    if (had_one)
+      aoim.problem_at(place_of(i, kTo), "there is a tier with to = \"touch\" already: keep one");
+    else if (i > 0)
+      aoim.problem_at(place_of(i, kTo),
+                      "the tier with to = \"touch\" is the inmost: move it before all others");
+    had_one = true;
+  }
+}
+
+/// What is wrong with a row behind this one before it; nothing where both are good.
+std::optional<std::string> refusal_of(std::span<const aoim::Channel> pair) {
+  try {
+    static_cast<void>(aoim::ChannelTable(pair));
+    return std::nullopt;
+  } catch (const std::invalid_argument& error) {
+    const std::string_view what = error.what();  // "channel 1: why"
+    return std::string(what.substr(what.find(": ") + 2));
+  }
+}
+
+void check_distances(TomlReader& aoim, const Tiers& tiers) {
+  std::vector<aoim::Channel> pair;
+  for (std::size_t i = 0; i < tiers.size(); ++i) {
+    if (tiers[i].to != Recipients::distance) continue;
+    if (pair.size() == 2) pair.erase(pair.begin());
+    pair.push_back(tiers[i].channel);
+    const auto why = refusal_of(pair);
+    if (why) return aoim.problem_at(place_of(i), fmt::format("'tier': {}", *why));
+  }
+}
+
+void check_own_groups(TomlReader& aoim, const Tiers& tiers) {
+  bool is_nearest = true;
+  for (std::size_t i = 0; i < tiers.size() && own_group_count(tiers) > 0; ++i) {
+    if (tiers[i].to != Recipients::distance) continue;
+    const std::string why = own_group_refusal(tiers, i);
+    if (!why.empty()) {
+      if (tiers[i].own_group)
+        aoim.problem_at(place_of(i, "own_group"),
+                        fmt::format("'own_group': {}: take it out here", why));
+      continue;
+    }
+    if (!tiers[i].own_group)
+      aoim.problem_at(place_of(i, "own_group"),
+                      "'own_group' holds for all tiers by distance that are neither 'kept' nor the "
+                      "last, or for none: write own_group = true here too, or take it out of the "
+                      "others");
+    if (is_nearest && tiers[i].channel.coarser > 1.0)
+      aoim.problem_at(place_of(i, "coarser"),
+                      "'own_group' needs the thresholds of the scene in the nearest tier: a "
+                      "'coarser' of 1");
+    is_nearest = false;
+  }
+}
+
+}  // namespace
+
+Section<TierConfig> tier_section() {
+  using aoim::Channel;
+  const auto of = [](auto member) { return in(&TierConfig::channel, member); };
+  return {{
+              {"to", &TierConfig::to,
+               "who receives: touch: who can touch the entity: what is felt goes by a group of its "
+               "own of each cell, which those alone listen to, and which is read first; the first "
+               "row alone, without other keys. distance: who is up to `farthest` away"},
+              {"own_group", &TierConfig::own_group,
+               "a group of its own of each cell, which those alone listen to who are so near; for "
+               "all rows that are neither `kept` nor the last, or for none"},
+              {"farthest", of(&Channel::farthest), within("m", 0, kWorld),
+               "to receivers up to here; when absent, to all beyond the row before"},
+              {"body", of(&Channel::body),
+               "rigid: position and orientation; approximate: articulated parts, too; full: what "
+               "hands feel, too. Of what is new or abrupt and at heartbeats all is sent"},
+              {"active", of(&Channel::active_hz), within("Hz", 0, 1000),
+               "most updates a second of one that moves"},
+              {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000), "of one that stands"},
+              {"octets", of(&Channel::octets), within("B", 1, kMaxDatagram),
+               "that an update counts against `budget`"},
+              {"kept", of(&Channel::kept), "whatever the budget"},
+              {"coarser", of(&Channel::coarser), within("", 1, 1e6),
+               "with `own_group`: how many times as wide the thresholds of place and turn are to "
+               "receivers so far away; no less than in the row before"},
+          },
+          check_tier};
+}
+
+void check_tiers(TomlReader& aoim, const Tiers& tiers) {
+  check_touch(aoim, tiers);
+  check_distances(aoim, tiers);
+  check_own_groups(aoim, tiers);
+}
+
+}  // namespace reckon::peer
