@@ -169,7 +169,7 @@ def main(folder):
     write(seeds / "leading", leading_seeds(own))
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/aoim_section.cpp",
-                                     "src/scene/network_section.cpp", "src/scene/object_section.cpp",
+                                     "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/object_section.cpp",
                                      "src/scene/scene_words.hpp",
                                      "src/scene/device_section.cpp", "src/scene/entity_section.cpp",
                                      "deadreckon/sending/send_rules.hpp", "deadreckon/motion/convergence.hpp"])):
