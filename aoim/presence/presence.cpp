@@ -23,29 +23,13 @@ bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexce
 
 }  // namespace
 
-std::optional<PresenceEvent::Dropped> PresenceEvent::dropped() const noexcept {
-  switch (kind) {
-    case PresenceEventKind::restarted:
-      return Dropped{peer(), former_epoch};
-    case PresenceEventKind::renamed:
-      return Dropped{former, announced.epoch};
-    case PresenceEventKind::departed:
-    case PresenceEventKind::timed_out:
-    case PresenceEventKind::scene_mismatch:
-      return Dropped{peer(), announced.epoch};
-    default:
-      return std::nullopt;
-  }
-}
-
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
-    : config_(config), own_(own), chain_(config.one_way, config.secret), peers_(config.capacity) {
-  if (config.heartbeat.count() <= 0 || config.missed < 1) {
-    throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
-  }
-  if (config.most_listed < 1 || config.part < 2) {
-    throw std::invalid_argument("presence: lists must have room for one, parts of them for two");
-  }
+    : config_(config),
+      own_(own),
+      chain_(config.one_way, config.secret),
+      peers_(config.capacity),
+      events_(4 * config.capacity + 16) {
+  config.check();
   if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
   own_.flags = static_cast<std::uint16_t>(
       own_.flags & ~unsigned{pdu::kPresenceLeaving | pdu::kPresenceEstablished});
@@ -54,8 +38,6 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
   list_.reserve(config.capacity);
   outgoing_.reserve(8);
   farewells_.reserve(8);
-  events_.reserve(4 * config.capacity + 16);
-  taken_.reserve(4 * config.capacity + 16);
 }
 
 void Presence::start(nanoseconds now) {
@@ -68,10 +50,6 @@ void Presence::stop() {
   if (!running_) return;
   running_ = false;
   farewells_.push_back(own_);
-}
-
-nanoseconds Presence::patience() const noexcept {
-  return config_.missed * config_.heartbeat + config_.minimum_gap;
 }
 
 // There is room for it.
@@ -94,19 +72,6 @@ bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
   return key(heard) == key(own_);
 }
 
-void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
-  PresenceEvent event;
-  event.kind = kind;
-  event.announced = about;
-  events_.push_back(event);
-}
-
-void Presence::tell(PresenceEventKind kind, const Peer& about) {
-  tell(kind, about.announced);
-  events_.back().source = about.source;
-  events_.back().heard_for = about.last_heard - about.known_since;
-}
-
 // Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
 void Presence::wake(nanoseconds now) {
   const nanoseconds last = awake_.value_or(now);
@@ -122,9 +87,8 @@ void Presence::wake(nanoseconds now) {
     later(claimant.last_heard);
   }
   // The others have dropped us, and one may have taken our id.
-  if (slept > patience()) claimed_ = now;
-  tell(PresenceEventKind::slept, own_);
-  events_.back().slept = slept;
+  if (slept > config_.patience()) claimed_ = now;
+  events_.report(PresenceEventKind::slept, own_).slept = slept;
   insist(now);
 }
 
@@ -186,7 +150,8 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
   peer.announced = heard;
   peer.joined = joined;
   peer.source = from;
-  if (changes) tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
+  if (changes)
+    events_.report(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
   watch(peer);
 }
 
@@ -197,7 +162,7 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   const Peer before = moved;
   peers_.erase(index);
   if (is_taken(heard.simulation)) {
-    if (moved.joined) tell(PresenceEventKind::departed, before);
+    if (moved.joined) events_.report(PresenceEventKind::departed, before);
     claim(heard, now, from);
     fill_free_ids(now);
     return;
@@ -209,8 +174,7 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   append(moved);
   forget_claimant(heard.epoch);
   if (moved.joined) {
-    tell(PresenceEventKind::renamed, moved);
-    events_.back().former = before.id();
+    events_.report(PresenceEventKind::renamed, moved).former = before.id();
   }
   announce_soon(now);
   fill_free_ids(now);
@@ -229,7 +193,8 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
     peer.back_since = now;
   }
   append(peer);
-  tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
+  events_.report(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch,
+                 peer);
   announce_soon(now);
 }
 
@@ -246,8 +211,9 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   peer.tip = claimant.tip;
   peers_.replace(index, peer);
   watch(peer);
-  tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, peer);
-  events_.back().former_epoch = over;
+  events_
+      .report(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, peer)
+      .former_epoch = over;
   announce_soon(now);
 }
 
@@ -259,13 +225,13 @@ void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
 void Presence::remove(std::size_t index, PresenceEventKind why) {
   const bool may_return = why == PresenceEventKind::timed_out && peers_[index].tip.is_chained();
   if (may_return && awake_) bury(peers_[index], *awake_, false);
-  tell(why, peers_[index]);
+  events_.report(why, peers_[index]);
   peers_.erase(index);
 }
 
 // When this one is to be reported as quiet, or is lost, if it says nothing more.
 nanoseconds Presence::silence_due(const Peer& peer) const noexcept {
-  const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
+  const nanoseconds bound = peer.quiet || !peer.joined ? config_.patience() : config_.quiet;
   return peer.last_heard + bound + nanoseconds(1);
 }
 
@@ -281,11 +247,11 @@ void Presence::watch_silence(nanoseconds now) {
   for (std::size_t i = peers_.size(); i-- > 0;) {
     Peer& peer = peers_[i];
     const nanoseconds silence = now - peer.last_heard;
-    if (silence > patience()) {
+    if (silence > config_.patience()) {
       remove(i, PresenceEventKind::timed_out);
     } else if (peer.joined && peer.quiet != (silence > config_.quiet)) {
       peer.quiet = !peer.quiet;
-      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer);
+      events_.report(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer);
     }
   }
   silent_at_ = heard_since_ = nanoseconds::max();
@@ -324,12 +290,6 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   }
   counts_.announced += outgoing_.size();
   return outgoing_;
-}
-
-std::span<const PresenceEvent> Presence::take_events() {
-  taken_.clear();
-  std::swap(taken_, events_);
-  return taken_;
 }
 
 Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) const noexcept {

@@ -17,116 +17,13 @@
 #include "reckon/aoim/presence/former_lives.hpp"
 #include "reckon/aoim/presence/life_chain.hpp"
 #include "reckon/aoim/presence/peer_table.hpp"
+#include "reckon/aoim/presence/presence_config.hpp"
+#include "reckon/aoim/presence/presence_event.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 
 namespace reckon::aoim {
-
-/// Tunables of the presence protocol; all times > 0.
-struct PresenceConfig {
-  std::chrono::nanoseconds heartbeat = std::chrono::seconds(1);
-  /// Announcements missed in a row after which a peer is lost; default 6. At 20 % loss three in a
-  /// row go missing every two minutes, six every four hours.
-  int missed = 6;
-  /// Least time between two announcements of ours, so that many newcomers cause no storm; default
-  /// 100 ms. It is also the slack that the last missed announcement is given.
-  std::chrono::nanoseconds minimum_gap = std::chrono::milliseconds(100);
-  /// After a start or a newcomer we announce ourselves again after `brisk_gap`, twice that and so
-  /// on up to half a heartbeat, until all whom we hear list us, for the time `brisk` at most: at 20
-  /// % loss everybody knows everybody within 2 s, and without loss nothing is said twice. In a
-  /// dispute, or with a new id of ours, every `brisk_gap` for all of that time.
-  std::chrono::nanoseconds brisk_gap = std::chrono::milliseconds(150);
-  std::chrono::nanoseconds brisk = std::chrono::milliseconds(1500);
-  /// A new epoch under a live id is a restart when the old life says nothing for so long; where the
-  /// old life itself has just begun, as in a race for the id, for `race_wait`.
-  std::chrono::nanoseconds restart_wait = std::chrono::milliseconds(500);
-  std::chrono::nanoseconds race_wait = std::chrono::milliseconds(800);
-  /// Who has lost its id listens for so long before it draws another, so as to know which are free.
-  std::chrono::nanoseconds listen = std::chrono::milliseconds(100);
-  /// Who has held its id for so long gives way to no newcomer.
-  std::chrono::nanoseconds established = std::chrono::seconds(2);
-  /// Two that are both established, as after a partition, ask their witnesses after so long; after
-  /// half of it where all of them have spoken.
-  std::chrono::nanoseconds dispute = std::chrono::milliseconds(2500);
-  /// A peer that proves itself from another address speaks from there when its old one has said
-  /// nothing for so long since; from the one before at once.
-  std::chrono::nanoseconds still = std::chrono::milliseconds(200);
-  /// A life that has offered no proof and is over may come back from another address after so long.
-  std::chrono::nanoseconds pin = std::chrono::seconds(3);
-  /// One that proves itself takes its id back from who came meanwhile, if it was silent for no
-  /// longer.
-  std::chrono::nanoseconds take_back = std::chrono::seconds(30);
-  /// How lives prove that they are the same as before; null: they do not, and keep their address.
-  OneWay one_way = nullptr;
-  ChainLink secret{};  ///< of this life, drawn at random
-  /// Silence after which a peer is reported as quiet.
-  std::chrono::nanoseconds quiet = std::chrono::milliseconds(2500);
-  /// Peers heard within this time are in our list of those whom we hear.
-  std::chrono::nanoseconds listed = std::chrono::milliseconds(1750);
-  /// Peers remembered; default 1,024. Further ones are counted and not joined, unless one can go
-  /// that announced itself once and said nothing since, or never said whom it hears.
-  std::size_t capacity = 1024;
-  /// Peers believed of one address and port, that is of one process; default 64, what a replayed
-  /// exercise may have. Of one address: half of `capacity`.
-  std::size_t per_source = 64;
-  /// Claims to the id of another that are looked into at a time; default 256. Further claimants are
-  /// heard when they announce themselves again.
-  std::size_t claims = 256;
-  /// Peers that one list tells; default 256. Who hears more tells them in turns of `part`, default
-  /// 192, at least 2: the list, an announcement and what else goes with it fit one datagram.
-  std::size_t most_listed = 256, part = 192;
-};
-
-/// What happened to a peer.
-enum class PresenceEventKind : std::uint8_t {
-  newcomer,          ///< same scene: joined. We introduce our entities to it now
-  restarted,         ///< same id, new epoch: drop what its former life left behind, introduce
-  renamed,           ///< it gave up the id `former`: drop the entities of that id, introduce
-  moved,             ///< it speaks from `source` now, no more from `other`, and has proved itself
-  departed,          ///< said good-bye, or lost its id: drop its entities
-  timed_out,         ///< silent for six heartbeats: drop its entities
-  scene_mismatch,    ///< another scene or cell grid: reported once per life, not joined; drop its
-                     ///< entities
-  identity_changed,  ///< we lost a dispute: `announced` is ours with the new id, `former` the old
-                     ///< id
-  settled,      ///< we hold our id, and all who hear us believe it now: introduce. Not reported
-                ///< beyond the area-of-interest manager, see is_settled()
-  heard_late,   ///< it hears us, but did not when we introduced our entities: introduce again.
-                ///< Not reported beyond the area-of-interest manager
-  disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
-                ///< from `other`; the holder speaks from `source`, none where that is this
-                ///< peer. Once per claimant
-  impostor,     ///< something in its name came from `other`, not from `source`; not believed.
-                ///< Once per life
-  crowd,        ///< `source` speaks for more peers than one may: the rest are not believed.
-                ///< Once per source
-  quiet,        ///< not heard for 2.5 s
-  unheard,      ///< it says that it does not hear us
-  heard_again,  ///< after quiet or unheard: both hear each other
-  slept,        ///< this peer itself stood still for `slept`: nobody else is to blame
-};
-
-struct PresenceEvent {
-  PresenceEventKind kind = PresenceEventKind::newcomer;
-  pdu::Presence announced;  ///< last heard of the peer; of slept and settled: our own
-  PeerId former;            ///< identity_changed and renamed only
-  /// restarted only: epoch of the life that is over.
-  std::uint32_t former_epoch = 0;
-  SourceAddress source{};  ///< where the peer speaks from, if it is another's; see above
-  SourceAddress other{};   ///< of disputed, impostor and moved
-  std::chrono::nanoseconds slept{0};
-  std::chrono::nanoseconds heard_for{0};  ///< from its first word to its last one so far
-
-  [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
-
-  struct Dropped {
-    PeerId name;              ///< of its entities
-    std::uint32_t epoch = 0;  ///< of the life that announced them
-  };
-  /// Whose entities are not to be shown any more after this event; none after most.
-  [[nodiscard]] std::optional<Dropped> dropped() const noexcept;
-};
 
 /// Those whom we hear, or a part of them.
 struct HeardList {
@@ -209,7 +106,7 @@ class Presence {
   void take_scene_peer() noexcept;
 
   /// Events since the last call, oldest first; the span is good until the next call.
-  [[nodiscard]] std::span<const PresenceEvent> take_events();
+  [[nodiscard]] std::span<const PresenceEvent> take_events() { return events_.take(); }
 
   /// Whether the next step at `now` announces us.
   [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
@@ -268,7 +165,6 @@ class Presence {
   };
 
   // presence.cpp: who comes and goes
-  [[nodiscard]] Nanoseconds patience() const noexcept;
   [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
   void wake(Nanoseconds now);
   void append(const Peer& peer);
@@ -287,8 +183,6 @@ class Presence {
   void remove(std::size_t index, PresenceEventKind why);
   void watch_silence(Nanoseconds now);
   void settle(Nanoseconds now);
-  void tell(PresenceEventKind kind, const pdu::Presence& about);
-  void tell(PresenceEventKind kind, const Peer& about);
 
   // presence_proof.cpp: who is the same as before
   [[nodiscard]] Opening judge(const LifeTip& tip, const pdu::Presence& heard, Nanoseconds now,
@@ -311,7 +205,6 @@ class Presence {
   void read_list(Hearing& hearing, const pdu::PeersHeard& list, Nanoseconds now) noexcept;
   void note_listing(Peer& peer, Nanoseconds now);
   [[nodiscard]] HeardList next_part();
-  [[nodiscard]] Nanoseconds round() const noexcept;
 
   // presence_room.cpp: how many are believed of whom
   [[nodiscard]] bool is_crowd(const SourceAddress& from);
@@ -371,7 +264,7 @@ class Presence {
   std::vector<SourceAddress> crowds_;  // reported, oldest first
   std::vector<std::uint32_t> list_;
   std::vector<pdu::Presence> outgoing_, farewells_;
-  std::vector<PresenceEvent> events_, taken_;
+  PresenceEvents events_;
   PresenceCounts counts_;
 };
 

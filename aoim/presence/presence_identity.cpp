@@ -148,7 +148,7 @@ bool Presence::settle_claims(nanoseconds now) {
   bool risen_any = false;
   for (std::size_t i = claimants_.size(); i-- > 0;) {
     Claimant& claimant = claimants_[i];
-    if (now - claimant.last_heard > patience()) {
+    if (now - claimant.last_heard > config_.patience()) {
       claimants_.erase(claimants_.begin() + static_cast<std::ptrdiff_t>(i));
       continue;
     }
@@ -165,9 +165,9 @@ bool Presence::settle_claims(nanoseconds now) {
     const bool still = now - claimant.last_heard < kLongDispute;
     if (claimant.reported || !still || now - claimant.since <= kLongDispute) continue;
     claimant.reported = true;
-    tell(PresenceEventKind::disputed, claimant.announced);
-    events_.back().other = claimant.source;
-    if (!ours) events_.back().source = peers_[holder].source;
+    PresenceEvent& event = events_.report(PresenceEventKind::disputed, claimant.announced);
+    event.other = claimant.source;
+    if (!ours) event.source = peers_[holder].source;
   }
   return fill_free_ids(now) || risen_any;
 }
@@ -226,7 +226,7 @@ void Presence::look_at_own_id(nanoseconds now) {
   }
   if (!settled_told_ && !yield_at_ && now - claimed_ >= kBelieved) {
     settled_told_ = true;
-    tell(PresenceEventKind::settled, own_);
+    events_.report(PresenceEventKind::settled, own_);
   }
 }
 
@@ -235,7 +235,7 @@ void Presence::look_at_own_id(nanoseconds now) {
 // evicts nobody whom others hear.
 bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const noexcept {
   const nanoseconds lasts = now - rival.since;
-  const nanoseconds all_told = config_.dispute + round();
+  const nanoseconds all_told = config_.dispute + config_.list_round(peers_.size());
   const nanoseconds least = yields_ > kMostYields    ? 2 * all_told
                             : yields_ == kMostYields ? all_told
                                                      : all_told / 2;
@@ -247,7 +247,7 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
   });
   if (any_is_back) return false;
   const std::uint32_t theirs = rival.announced.epoch;
-  const nanoseconds since = now - kRecentList - round();
+  const nanoseconds since = now - kRecentList - config_.list_round(peers_.size());
   const auto names_us = [since](const Hearing& hears) { return hears.us_at > since && hears.us; };
   const auto names_rival = [since, theirs](const Hearing& hears) {
     return hears.rival_at > since && hears.rival == theirs;
@@ -301,8 +301,7 @@ void Presence::take_next_id(nanoseconds now) {
   claimed_ = now;
   settled_told_ = false;
   last_.reset();  // nobody has heard this id: no gap to keep
-  tell(PresenceEventKind::identity_changed, own_);
-  events_.back().former = former;
+  events_.report(PresenceEventKind::identity_changed, own_).former = former;
   insist(now);
   fill_free_ids(now);
 }
@@ -345,7 +344,7 @@ nanoseconds Presence::next_identity_step() const noexcept {
   if (yield_at_) next = *yield_at_;
   if (running_ && !settled_told_ && !yield_at_) next = std::min(next, claimed_ + kBelieved);
   for (const Claimant& claimant : claimants_) {
-    next = std::min(next, claimant.last_heard + patience() + nanoseconds(1));
+    next = std::min(next, claimant.last_heard + config_.patience() + nanoseconds(1));
     const std::size_t holder = peers_.find(claimant.announced.simulation);
     if (claimant.announced.simulation == own_.simulation) {
       next = std::min(next, std::max(next_verdict_, claimant.since + config_.dispute / 2));

@@ -75,15 +75,15 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
   }
 
   // Both have to have had the time to hear each other.
-  const nanoseconds acquainted =
-      std::max(peer.first_heard, claimed_) + config_.established + round();
+  const nanoseconds acquainted = std::max(peer.first_heard, claimed_) + config_.established +
+                                 config_.list_round(peers_.size());
   if (peer.hears.us && peer.unheard) {
     peer.unheard = false;
-    tell(PresenceEventKind::heard_again, peer);
+    events_.report(PresenceEventKind::heard_again, peer);
   } else if (!peer.hears.us && peer.hears.us_at == now && !peer.unheard && running_ &&
              now > acquainted) {
     peer.unheard = true;
-    tell(PresenceEventKind::unheard, peer);
+    events_.report(PresenceEventKind::unheard, peer);
   }
 }
 
@@ -92,21 +92,15 @@ void Presence::note_listing(Peer& peer, nanoseconds now) {
   Hearing& hears = peer.hears;
   if (!running_ || hears.us_at != now) return;
   if (hears.us) {
-    if (std::exchange(hears.missed_us, false)) tell(PresenceEventKind::heard_late, peer);
+    if (std::exchange(hears.missed_us, false)) events_.report(PresenceEventKind::heard_late, peer);
     hears.us_listed = now;
   } else if (hears.us_listed > nanoseconds::min()) {
-    hears.missed_us = hears.missed_us || now - hears.us_listed > patience() + round();
+    hears.missed_us = hears.missed_us || now - hears.us_listed >
+                                             config_.patience() + config_.list_round(peers_.size());
   } else {
     const bool greeted = last_ && *last_ >= peer.first_heard && now - *last_ > kUnderWay;
     hears.missed_us = hears.missed_us || greeted;
   }
-}
-
-// How much longer than a heartbeat it takes somebody who hears as many as we to tell of all.
-nanoseconds Presence::round() const noexcept {
-  if (peers_.size() <= config_.most_listed) return nanoseconds(0);
-  const std::size_t parts = (peers_.size() + config_.part - 2) / (config_.part - 1);
-  return static_cast<std::int64_t>(parts - 1) * config_.heartbeat;
 }
 
 // Those that follow the last part, which begins with the last of it, so that nobody who is not

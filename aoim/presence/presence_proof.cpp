@@ -56,8 +56,7 @@ void Presence::move(Peer& peer, const SourceAddress& to) {
   peer.source = to;
   peer.impostor_told = false;
   peer.suspect = {};
-  tell(PresenceEventKind::moved, peer);
-  events_.back().other = peer.former_source;
+  events_.report(PresenceEventKind::moved, peer).other = peer.former_source;
 }
 
 void Presence::settle_moves(nanoseconds now) {
@@ -100,8 +99,7 @@ void Presence::tell_impostor(Peer& peer, SourceAddress from) {
   peer.suspect = {};
   if (peer.impostor_told || from == peer.source) return;
   peer.impostor_told = true;
-  tell(PresenceEventKind::impostor, peer);
-  events_.back().other = from;
+  events_.report(PresenceEventKind::impostor, peer).other = from;
 }
 
 // A life that was taken for over comes back where it was, and who came meanwhile has its id.

@@ -35,8 +35,7 @@ bool Presence::is_crowd(const SourceAddress& from) {
   if (reported) return true;
   if (crowds_.size() == kCrowds) crowds_.erase(crowds_.begin());
   crowds_.push_back(from);
-  tell(PresenceEventKind::crowd, own_);
-  events_.back().source = from;
+  events_.report(PresenceEventKind::crowd, own_).source = from;
   return true;
 }
 
