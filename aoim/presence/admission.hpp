@@ -28,8 +28,8 @@ class Admission {
   /// Whether this source speaks for as many peers as one may: no further one is believed. Counted,
   /// and reported once for each source, as long as it is remembered. @param own our announcement
   [[nodiscard]] bool is_crowd(const SourceAddress& from, const pdu::Presence& own);
-  /// The row that goes for a newcomer; nothing where each may stay. Of those that announced
-  /// themselves once and said nothing since, or never said whom they hear, the one that came first.
+  /// The row that goes for a newcomer; nothing where each may stay. It is the first that came of
+  /// those that announced themselves once and were silent since, or have never sent a list.
   [[nodiscard]] std::optional<std::size_t> stale_row(std::chrono::nanoseconds now) noexcept;
 
   /// Announcements refused for too many of one source.

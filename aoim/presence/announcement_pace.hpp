@@ -28,7 +28,7 @@ class AnnouncementPace {
   /// Somebody may not know us: at once, and again for a while, since announcements are lost.
   void announce_soon(std::chrono::nanoseconds now) noexcept;
   /// Others hear us and may believe another of us: every `brisk_gap` for the time `brisk`, since no
-  /// list says when that is over.
+  /// list reports when that is over.
   void insist(std::chrono::nanoseconds now) noexcept;
   /// The next one leaves at `time` at the latest, if that is far enough from the last one.
   void announce_by(std::chrono::nanoseconds time) noexcept;

@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// What a life that is over said last may arrive so late.
+// The last announcement of a life that is over may arrive so late.
 constexpr std::chrono::milliseconds kStraggler{200};
 // A claim that is not settled after this is reported.
 constexpr std::chrono::milliseconds kLongDispute{1000};
@@ -23,7 +23,7 @@ bool precedes(const pdu::Presence& one, const pdu::Presence& other) noexcept {
   return std::tie(one.started, one.epoch) < std::tie(other.started, other.epoch);
 }
 
-bool says_established(const pdu::Presence& heard) noexcept {
+bool announces_established(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceEstablished) != 0;
 }
 
@@ -75,7 +75,7 @@ void Claims::note_slept(nanoseconds slept, nanoseconds now) noexcept {
   }
 }
 
-// When the claimant is believed a restart if the holder says nothing more.
+// When the claimant is believed a restart if the holder stays silent.
 nanoseconds Claims::restart_at(const Claimant& claimant, const Peer& holder) const noexcept {
   if (claimant.last_heard < holder.last_heard) return nanoseconds::max();  // its turn to speak
   // A process that starts anew does so on its host; one elsewhere waits for longer.
@@ -85,7 +85,7 @@ nanoseconds Claims::restart_at(const Claimant& claimant, const Peer& holder) con
   if (is_elsewhere) return std::max(claimant.since, holder.last_heard + kElsewhere);
   const bool lives = holder.last_heard > claimant.since + kStraggler;
   // Nor is one that has held its id for long a new life: two halves of a network have met.
-  if (says_established(claimant.announced)) {
+  if (announces_established(claimant.announced)) {
     return std::max(claimant.since + config_.restart_wait, holder.last_heard + config_.quiet);
   }
   if (lives) return holder.last_heard + config_.quiet;
@@ -120,7 +120,7 @@ std::optional<Claimant> Claims::settle(std::size_t index, PeerId own, nanosecond
 std::optional<Claimant> Claims::take_free(PeerId own, nanoseconds now) {
   const Claimant* best = nullptr;
   const auto rank = [](const Claimant& c) {
-    return std::tuple(!says_established(c.announced), c.announced.started, c.epoch());
+    return std::tuple(!announces_established(c.announced), c.announced.started, c.epoch());
   };
   for (const Claimant& claimant : claimants_) {
     // Who has been silent since its claim waits for its next word.

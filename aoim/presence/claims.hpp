@@ -21,8 +21,8 @@ namespace reckon::aoim {
 /// Of two that claim an id anew: a total order that both compute alike and that no restart turns
 /// round. Who started first keeps it; of two in the same second, the lower epoch.
 [[nodiscard]] bool precedes(const pdu::Presence& one, const pdu::Presence& other) noexcept;
-/// Whether it says that it has held its id for long.
-[[nodiscard]] bool says_established(const pdu::Presence& heard) noexcept;
+/// Whether it announces that it has held its id for long.
+[[nodiscard]] bool announces_established(const pdu::Presence& heard) noexcept;
 
 /// A peer that announces itself under an id that another holds, or we do.
 struct Claimant {

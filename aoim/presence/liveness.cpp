@@ -27,7 +27,7 @@ void Liveness::note_heard(Peer& peer, nanoseconds now) noexcept {
   look_ = look_ || peer.quiet;
 }
 
-// When this one is to be reported as quiet, or is lost, if it says nothing more.
+// When this one is to be reported as quiet, or is lost, if it stays silent.
 nanoseconds Liveness::silence_due(const Peer& peer) const noexcept {
   const nanoseconds bound = peer.quiet || !peer.joined ? config_.patience() : config_.quiet;
   return peer.last_heard + bound + nanoseconds(1);

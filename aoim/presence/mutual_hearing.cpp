@@ -21,7 +21,7 @@ void MutualHearing::read(Peer& peer, const pdu::PeersHeard& list, nanoseconds no
   report_change(peer, now);
 }
 
-// A part says nothing of those below its first and above its last.
+// A part covers nobody below its first and above its last.
 void MutualHearing::read(Hearing& hearing, const pdu::PeersHeard& list,
                          nanoseconds now) const noexcept {
   const auto epochs = pdu::records_of<pdu::PeerEpoch>(list.epochs);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether we and the others hear each other, as their lists of peers heard say.
+// Whether we and the others hear each other, as their lists of peers heard report.
 #pragma once
 
 #include <chrono>
@@ -39,7 +39,7 @@ class MutualHearing {
   /// The list of a joined peer. Reports that it hears us late, does not hear us, or hears us again.
   void read(Peer& peer, const pdu::PeersHeard& list, std::chrono::nanoseconds now) const;
 
-  /// Whether all whom we hear say that they hear us, and nobody names one whom we do not hear.
+  /// Whether all whom we hear list us, and nobody lists one whom we do not hear.
   [[nodiscard]] bool is_complete() const noexcept;
 
  private:

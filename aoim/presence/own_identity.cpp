@@ -61,7 +61,7 @@ bool OwnIdentity::is_established(nanoseconds now) const noexcept {
 }
 
 void OwnIdentity::settle_with(const Claimant& rival, nanoseconds now) noexcept {
-  const bool mine = is_established(now), theirs = says_established(rival.announced);
+  const bool mine = is_established(now), theirs = announces_established(rival.announced);
   if (mine && theirs) return;  // witnesses are asked later
   if (mine || (!theirs && precedes(own_, rival.announced))) return pace_.insist(now);
   if (!yield_at_) yield_at_ = now + config_.listen;

@@ -14,7 +14,7 @@ bool is_leaving(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceLeaving) != 0;
 }
 
-// Whether `heard` was said before `known` and came after it. A clock set back by more is believed.
+// Whether `heard` was sent before `known` and came after it. A clock set back by more is believed.
 bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
   constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
   return heard.send_time < known.send_time && known.send_time - heard.send_time < kLongestDelay;

@@ -5,7 +5,7 @@
 // once and not joined. Who claims an id that another holds waits until it is plain whether the
 // other still lives; two that live settle it between themselves.
 //
-//   ProofJudge, SourcePins     is it the peer that it says it is?
+//   ProofJudge, SourcePins     is it the peer that it claims to be?
 //   FormerLives                is its life over?
 //   Claims, Admission          may it have a row?
 //   Liveness                   who is silent?
@@ -49,7 +49,7 @@ enum class Standing : std::uint8_t {
   own,          ///< ourselves
   member,       ///< same scene, present life
   other_scene,  ///< reported and not joined
-  former_life,  ///< a later life of that peer has been heard since, or it said good-bye
+  former_life,  ///< a later life of that peer has been heard since, or it announced that it leaves
   impostor,     ///< it speaks in the name of a peer that speaks from elsewhere
 };
 
@@ -85,8 +85,8 @@ class Presence {
   void receive(const pdu::PeersHeard& list, std::chrono::nanoseconds now,
                const SourceAddress& from = {});
 
-  /// Any datagram of a member shows that it lives: announcements lost in a row say nothing while
-  /// its updates arrive. Unknown epochs are ignored. Ask standing() about its source first.
+  /// Any datagram of a member shows that it lives: lost announcements do not count while its
+  /// updates arrive. Unknown epochs are ignored. Ask standing() about its source first.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
   /// Where we send from. Where that is elsewhere than at the last call we announce ourselves at
   /// once and some times more, so that others take the proof soon.
@@ -107,10 +107,10 @@ class Presence {
       std::chrono::nanoseconds now,
       std::chrono::nanoseconds last_sent = std::chrono::nanoseconds::min());
 
-  /// Says from the next announcement on that distances count so many times as long to us, 1 ..
+  /// Announces from the next time on that distances count so many times as long to us, 1 ..
   /// 2^15; rounded up to a sixteenth of an octave.
   void set_stretch(double stretch) noexcept { own_.set_stretch(stretch); }
-  /// What the peer of this epoch says of that; 1 where it is not known.
+  /// What the peer of this epoch announces of that; 1 where it is not known.
   [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept {
     return peers_.stretch_of(epoch);
   }

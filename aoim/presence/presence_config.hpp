@@ -21,11 +21,11 @@ struct PresenceConfig {
   std::chrono::nanoseconds minimum_gap = std::chrono::milliseconds(100);
   /// After a start or a newcomer we announce ourselves again after `brisk_gap`, twice that and so
   /// on up to half a heartbeat, until all whom we hear list us, for the time `brisk` at most: at 20
-  /// % loss everybody knows everybody within 2 s, and without loss nothing is said twice. In a
+  /// % loss everybody knows everybody within 2 s, and without loss nothing is sent twice. In a
   /// dispute, or with a new id of ours, every `brisk_gap` for all of that time.
   std::chrono::nanoseconds brisk_gap = std::chrono::milliseconds(150);
   std::chrono::nanoseconds brisk = std::chrono::milliseconds(1500);
-  /// A new epoch under a live id is a restart when the old life says nothing for so long; where the
+  /// A new epoch under a live id is a restart when the old life is silent for so long; where the
   /// old life itself has just begun, as in a race for the id, for `race_wait`.
   std::chrono::nanoseconds restart_wait = std::chrono::milliseconds(500);
   std::chrono::nanoseconds race_wait = std::chrono::milliseconds(800);
@@ -36,7 +36,7 @@ struct PresenceConfig {
   /// Two that are both established, as after a partition, ask their witnesses after so long; after
   /// half of it where all of them have spoken.
   std::chrono::nanoseconds dispute = std::chrono::milliseconds(2500);
-  /// A peer that proves itself from another address speaks from there when its old one has said
+  /// A peer that proves itself from another address speaks from there when its old one has sent
   /// nothing for so long since; from the one before at once.
   std::chrono::nanoseconds still = std::chrono::milliseconds(200);
   /// A life that has offered no proof and is over may come back from another address after so long.
@@ -52,7 +52,7 @@ struct PresenceConfig {
   /// Peers heard within this time are in our list of those whom we hear.
   std::chrono::nanoseconds listed = std::chrono::milliseconds(1750);
   /// Peers remembered; default 1,024. Further ones are counted and not joined, unless one can go
-  /// that announced itself once and said nothing since, or never said whom it hears.
+  /// that announced itself once and was silent since, or has never sent a list.
   std::size_t capacity = 1024;
   /// Peers believed of one address and port, that is of one process; default 64, what a replayed
   /// exercise may have. Of one address: half of `capacity`.
@@ -60,7 +60,7 @@ struct PresenceConfig {
   /// Claims to the id of another that are looked into at a time; default 256. Further claimants are
   /// heard when they announce themselves again.
   std::size_t claims = 256;
-  /// Peers that one list tells; default 256. Who hears more tells them in turns of `part`, default
+  /// Peers of one list; default 256. Who hears more sends them in turns of `part`, default
   /// 192, at least 2: the list, an announcement and what else goes with it fit one datagram.
   std::size_t most_listed = 256, part = 192;
 

@@ -23,7 +23,7 @@ enum class PresenceEventKind : std::uint8_t {
   restarted,         ///< same id, new epoch: drop what its former life left behind, introduce
   renamed,           ///< it gave up the id `former`: drop the entities of that id, introduce
   moved,             ///< it speaks from `source` now, no more from `other`, and has proved itself
-  departed,          ///< said good-bye, or lost its id: drop its entities
+  departed,          ///< announced that it leaves, or lost its id: drop its entities
   timed_out,         ///< silent for six heartbeats: drop its entities
   scene_mismatch,    ///< another scene or cell grid: reported once per life, not joined; drop its
                      ///< entities
@@ -41,7 +41,7 @@ enum class PresenceEventKind : std::uint8_t {
   crowd,        ///< `source` speaks for more peers than one may: the rest are not believed.
                 ///< Once per source
   quiet,        ///< not heard for 2.5 s
-  unheard,      ///< it says that it does not hear us
+  unheard,      ///< its list reports that it does not hear us
   heard_again,  ///< after quiet or unheard: both hear each other
   slept,        ///< this peer itself stood still for `slept`: nobody else is to blame
 };

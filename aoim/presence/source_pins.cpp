@@ -14,8 +14,8 @@ constexpr std::chrono::milliseconds kProvesItself{500};
 
 }  // namespace
 
-// Who repeats what it hears has it only after its owner has said it: the owner is heard at its
-// place, too, but where its own words were lost.
+// A repeated announcement has been sent by its owner before: the owner has been heard from its own
+// source, unless its datagram was lost.
 bool SourcePins::may_move(Peer& peer, const pdu::Presence& heard, nanoseconds now,
                           const SourceAddress& from) {
   if (from.port == 0) return false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Each peer is pinned to the source that it speaks from. Here a peer that has moved is told apart
-// from one that only speaks in its name.
+// Each peer is pinned to the source that it speaks from. Here a peer that has moved is
+// distinguished from one that only speaks in its name.
 #pragma once
 
 #include <chrono>

@@ -35,7 +35,7 @@ bool WitnessCount::is_won_by(const Claimant& rival, const pdu::Presence& own, in
   const nanoseconds round = config_.list_round(peers_.size());
   const nanoseconds all_listed = config_.dispute + round;
   const nanoseconds least = excess > 0 ? 2 * all_listed : excess == 0 ? all_listed : all_listed / 2;
-  if (!says_established(rival.announced) || lasts < least) return false;
+  if (!announces_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
   // Who was cut off from us, maybe with the rival, has to hear us before it lists whom it hears.
   const bool any_is_back = std::ranges::any_of(peers_, [&](const Peer& peer) {

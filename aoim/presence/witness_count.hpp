@@ -30,7 +30,7 @@ class WitnessCount {
   [[nodiscard]] std::chrono::nanoseconds next_step(PeerId own) const noexcept;
 
  private:
-  // How many say that they hear a peer: from how many addresses, and how many at all.
+  // How many list a peer: from how many addresses, and how many at all.
   struct Support {
     std::size_t addresses = 0, peers = 0;
     auto operator<=>(const Support&) const = default;
