@@ -17,7 +17,7 @@ from pathlib import Path
 
 FOLDERS = ["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "bench"]
 MOST = 400
-LARGER = {"src/UdpMulticast": 592, "src/RemoteEntities": 519}
+LARGER = {}
 OUTSIDE = re.compile(r"^(?![ \t}/#])[^;={]*?\b([A-Z]\w*)(?:<[^>]*>)?::(?:\w+::)*~?(?:\w+|operator\W+)\([^;]*$", re.M)
 CLASS = re.compile(r"^(?:template <.*>\n)?(?:class|struct) (\w+)\b[^;{]*\{", re.M)
 INSIDE = re.compile(r"^  (?! )[^;={}#/]*\)[^;={}]*\{\n", re.M)
