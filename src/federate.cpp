@@ -59,11 +59,12 @@ SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude)
   return scene;
 }
 
-struct Federate::State {
+// The joined peer, what the program has declared, and what it is called back by.
+struct Federate::Participation {
   // Over a link of its own.
-  explicit State(const FederateOptions& given) : joined(checked(given), &side) { begin(); }
+  explicit Participation(const FederateOptions& given) : joined(checked(given), &side) { begin(); }
   // Over a link of the caller's.
-  State(const FederateOptions& given, Link& link, const Clock& time, std::uint32_t epoch)
+  Participation(const FederateOptions& given, Link& link, const Clock& time, std::uint32_t epoch)
       : joined(checked(given), link, time, epoch, &side) {
     begin();
   }
@@ -135,16 +136,17 @@ struct Federate::State {
   bool resigned = false;
 };
 
-Federate::Federate(const FederateOptions& options) : state_(std::make_unique<State>(options)) {}
+Federate::Federate(const FederateOptions& options)
+    : participation_(std::make_unique<Participation>(options)) {}
 
 Federate::Federate(const FederateOptions& options, Link& link, const Clock& clock,
                    std::uint32_t epoch)
-    : state_(std::make_unique<State>(options, link, clock, epoch)) {}
+    : participation_(std::make_unique<Participation>(options, link, clock, epoch)) {}
 
 Federate::~Federate() { resign(); }
 
 void Federate::resign() {
-  State& s = *state_;
+  Participation& s = *participation_;
   if (s.resigned) return;
   s.resigned = true;
   s.joined.stop_loops();
@@ -161,29 +163,33 @@ void Federate::resign() {
 // What we say and what we want to hear
 // -----------------------------------------------------------------
 
-void Federate::publish(const EntityClass& entities) { state_->published.push_back(entities); }
+void Federate::publish(const EntityClass& entities) {
+  participation_->published.push_back(entities);
+}
 
-void Federate::subscribe(const EntityClass& entities) { state_->subscribed.push_back(entities); }
+void Federate::subscribe(const EntityClass& entities) {
+  participation_->subscribed.push_back(entities);
+}
 
 void Federate::publish_interaction(pdu::PduType type) {
-  state_->published_interactions.push_back(type);
+  participation_->published_interactions.push_back(type);
 }
 
 void Federate::subscribe_interaction(pdu::PduType type, HearOctets callback) {
-  state_->interactions[type] = std::move(callback);
-  state_->side.listen_for(type);
+  participation_->interactions[type] = std::move(callback);
+  participation_->side.listen_for(type);
 }
 
 void Federate::on_discover(std::function<void(const RemoteObject&)> callback) {
-  state_->discovered = std::move(callback);
+  participation_->discovered = std::move(callback);
 }
 
 void Federate::on_reflect(std::function<void(const RemoteObject&)> callback) {
-  state_->reflected = std::move(callback);
+  participation_->reflected = std::move(callback);
 }
 
 void Federate::on_remove(std::function<void(const pdu::EntityId&)> callback) {
-  state_->removed = std::move(callback);
+  participation_->removed = std::move(callback);
 }
 
 // Our entities
@@ -191,7 +197,7 @@ void Federate::on_remove(std::function<void(const pdu::EntityId&)> callback) {
 
 ObjectHandle Federate::register_object(const EntityDescription& description,
                                        const EntityTruth& truth) {
-  State& s = *state_;
+  Participation& s = *participation_;
   const bool published =
       std::any_of(s.published.begin(), s.published.end(),
                   [&](const EntityClass& entities) { return entities.contains(description.type); });
@@ -211,44 +217,47 @@ ObjectHandle Federate::register_object(const EntityDescription& description,
 }
 
 void Federate::update_attributes(ObjectHandle object, const EntityTruth& truth) {
-  state_->check(object, false);
-  state_->wishes().moved.push_back({object.number, truth});
+  participation_->check(object, false);
+  participation_->wishes().moved.push_back({object.number, truth});
 }
 
 void Federate::update_appearance(ObjectHandle object, std::uint32_t appearance) {
-  state_->check(object, true);
-  state_->wishes().appearances.push_back({object.number, appearance});
+  participation_->check(object, true);
+  participation_->wishes().appearances.push_back({object.number, appearance});
 }
 
 void Federate::update_parts(ObjectHandle object, const deadreckon::PartState& parts) {
-  state_->check(object, true);
-  state_->wishes().parts.push_back({object.number, parts});
+  participation_->check(object, true);
+  participation_->wishes().parts.push_back({object.number, parts});
 }
 
 void Federate::delete_object(ObjectHandle object) {
-  state_->check(object, false);
-  state_->alive[object.number] = false;
-  state_->wishes().removed.push_back(object.number);
-  state_->numbers.give_back(object.number);
+  participation_->check(object, false);
+  participation_->alive[object.number] = false;
+  participation_->wishes().removed.push_back(object.number);
+  participation_->numbers.give_back(object.number);
 }
 
 pdu::EntityId Federate::id_of(ObjectHandle object) const noexcept {
-  pdu::EntityId id = state_->simulation;
+  pdu::EntityId id = participation_->simulation;
   id.entity = object.number;
   return id;
 }
 
 ObjectHandle Federate::hand(std::size_t index) const noexcept {
-  return {static_cast<EntityNumber>(index < state_->options().devices.size() ? index + 1 : 0)};
+  return {
+      static_cast<EntityNumber>(index < participation_->options().devices.size() ? index + 1 : 0)};
 }
 
 // The entities of others
 // --------------------------------------------------------------------------------
 
-std::span<const RemoteCopy> Federate::rows() const noexcept { return state_->objects.rows(); }
+std::span<const RemoteCopy> Federate::rows() const noexcept {
+  return participation_->objects.rows();
+}
 
 std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
-  const RemoteCopy* copy = state_->objects.find(id);
+  const RemoteCopy* copy = participation_->objects.find(id);
   return copy == nullptr ? std::nullopt : std::optional(RemoteObject(*copy));
 }
 
@@ -257,36 +266,39 @@ std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
 
 void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
                            const std::optional<Eigen::Vector3d>& place) {
-  const auto& published = state_->published_interactions;
+  const auto& published = participation_->published_interactions;
   if (std::find(published.begin(), published.end(), type) == published.end())
     throw std::logic_error("PDU type " + std::to_string(static_cast<int>(type)) +
                            " is not published: call publish<pdu::Type>() before");
-  Wishes& wishes = state_->wishes();
+  Wishes& wishes = participation_->wishes();
   std::optional<aoim::Position> at;
   if (place) at = to_position(*place);
   wishes.said.push_back({wishes.octets.size(), octets.size(), at});
   wishes.octets.insert(wishes.octets.end(), octets.begin(), octets.end());
 }
 
-std::uint64_t Federate::dropped_interactions() const noexcept { return state_->dropped; }
+std::uint64_t Federate::dropped_interactions() const noexcept { return participation_->dropped; }
 
 std::uint8_t Federate::exercise() const noexcept {
-  return state_->options().scene.network.exercise;
+  return participation_->options().scene.network.exercise;
 }
 
 // Time and place
 // ----------------------------------------------------------------------------------------
 
-nanoseconds Federate::now() const noexcept { return state_->joined.clock().now(); }
+nanoseconds Federate::now() const noexcept { return participation_->joined.clock().now(); }
 
 nanoseconds Federate::utc() const noexcept {
-  return state_->heard_news ? now() + state_->utc_ahead : state_->joined.clock().utc_now();
+  return participation_->heard_news ? now() + participation_->utc_ahead
+                                    : participation_->joined.clock().utc_now();
 }
 
-nanoseconds Federate::exercise_time() const noexcept { return state_->exercise_clock.at(utc()); }
+nanoseconds Federate::exercise_time() const noexcept {
+  return participation_->exercise_clock.at(utc());
+}
 
 const deadreckon::LocalFrame& Federate::frame() const noexcept {
-  return state_->joined.peer().frame();
+  return participation_->joined.peer().frame();
 }
 
 EntityTruth Federate::place(double latitude, double longitude, double height,
@@ -305,7 +317,7 @@ EntityTruth Federate::place(double latitude, double longitude, double height,
 // -----------------------------------------------------------------------------------------------
 
 void Federate::step() {
-  State& s = *state_;
+  Participation& s = *participation_;
   if (s.resigned) return;
   s.post();
   if (s.options().loops == FederateLoops::in_step) s.joined.pass();
@@ -321,7 +333,7 @@ void Federate::step() {
 }
 
 void Federate::call_back(News& news) {
-  State& s = *state_;
+  Participation& s = *participation_;
   for (const pdu::EntityId& id : news.removed) {
     if (s.objects.erase(id) && s.removed) s.removed(id);
   }
@@ -340,7 +352,7 @@ void Federate::call_back(News& news) {
   }
 }
 
-JoinedPeer& Federate::joined() noexcept { return state_->joined; }
+JoinedPeer& Federate::joined() noexcept { return participation_->joined; }
 Peer& Federate::peer() noexcept { return joined().peer(); }
 
 }  // namespace reckon::peer

@@ -192,7 +192,7 @@ class Federate {
   [[nodiscard]] Peer& peer() noexcept;
 
  private:
-  struct State;
+  struct Participation;
   void publish_interaction(pdu::PduType type);
   void subscribe_interaction(
       pdu::PduType type,
@@ -203,7 +203,7 @@ class Federate {
   [[nodiscard]] std::span<const RemoteCopy> rows() const noexcept;
   void call_back(News& news);
 
-  std::unique_ptr<State> state_;
+  std::unique_ptr<Participation> participation_;
 };
 
 }  // namespace reckon::peer

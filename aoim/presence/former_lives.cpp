@@ -5,6 +5,12 @@
 #include <algorithm>
 
 namespace reckon::aoim {
+namespace {
+
+// A life that was taken for over and speaks after this is alive.
+constexpr std::chrono::milliseconds kRevival{1000};
+
+}  // namespace
 
 FormerLife* FormerLives::find(std::uint32_t epoch) noexcept {
   const auto life = std::ranges::find(lives_, epoch, &FormerLife::epoch);
@@ -13,6 +19,24 @@ FormerLife* FormerLives::find(std::uint32_t epoch) noexcept {
 
 bool FormerLives::contains(std::uint32_t epoch) const noexcept {
   return std::ranges::find(lives_, epoch, &FormerLife::epoch) != lives_.end();
+}
+
+bool FormerLives::is_over(const pdu::Presence& heard, std::chrono::nanoseconds now,
+                          const SourceAddress& from, ProofJudge& proofs,
+                          std::chrono::nanoseconds pin) noexcept {
+  FormerLife* life = find(heard.epoch);
+  if (life == nullptr) return false;
+  if (life->tip.is_chained()) {
+    if (proofs.judge(life->tip, heard, now, false) != Opening::newer) return true;
+    life->tip = LifeTip(heard, now);  // remembered as one that came back
+    return false;
+  }
+  const bool from_elsewhere =
+      life->source.port != 0 && life->source != from && now - life->since <= pin;
+  const bool is_straggler = heard.simulation == life->id && now - life->since <= kRevival;
+  if (from_elsewhere || is_straggler) return true;
+  take(heard.epoch);
+  return false;
 }
 
 void FormerLives::add(const FormerLife& life) {

@@ -12,6 +12,7 @@
 
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/aoim/presence/life_chain.hpp"
+#include "reckon/aoim/presence/proof_judge.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 
 namespace reckon::aoim {
@@ -37,6 +38,12 @@ class FormerLives {
   /// Null where this life is not known to be over; good until the next call.
   [[nodiscard]] FormerLife* find(std::uint32_t epoch) noexcept;
   [[nodiscard]] bool contains(std::uint32_t epoch) const noexcept;
+  /// Whether the life that announces itself is over. Who proves itself lives, and who offers no
+  /// proof where it speaks long after, or under another id; one from elsewhere is believed after
+  /// `pin`.
+  [[nodiscard]] bool is_over(const pdu::Presence& heard, std::chrono::nanoseconds now,
+                             const SourceAddress& from, ProofJudge& proofs,
+                             std::chrono::nanoseconds pin) noexcept;
   /// This one is over, too.
   void add(const FormerLife& life);
   /// It is forgotten. @return what was known of it

@@ -3,6 +3,7 @@
 #include "reckon/aoim/presence/peer_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reckon::aoim {
 
@@ -14,6 +15,36 @@ PeerTable::PeerTable(std::size_t capacity) : places_(capacity) {
 
 std::size_t PeerTable::find(PeerId id) const noexcept {
   return static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), id) - ids_.begin());
+}
+
+std::optional<std::uint32_t> PeerTable::epoch_of(PeerId id) const noexcept {
+  const std::size_t known = find(id);
+  if (known == size() || !peers_[known].joined) return {};
+  return epochs_[known];
+}
+
+std::optional<PeerId> PeerTable::id_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == size() || !peers_[known].joined) return {};
+  return peers_[known].id();
+}
+
+std::optional<SourceAddress> PeerTable::source_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == size()) return {};
+  return peers_[known].source;
+}
+
+std::chrono::nanoseconds PeerTable::heard_for(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == size()) return std::chrono::nanoseconds(0);
+  return peers_[known].last_heard - peers_[known].known_since;
+}
+
+double PeerTable::stretch_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == size()) return 1.0;
+  return std::exp2((peers_[known].announced.flags >> 8) / 16.0);
 }
 
 void PeerTable::append(const Peer& peer) {

@@ -54,10 +54,10 @@ struct Peer {
   SourceAddress suspect;                 ///< port 0: nobody; spoke in its name from elsewhere ..
   std::chrono::nanoseconds suspected{};  ///< .. since
   LifeTip tip;
-  bool confirmed = false;      ///< heard more than once
-  bool impostor_told = false;  ///< of this life
-  bool quiet = false;          ///< reported as such
-  bool unheard = false;        ///< reported as such
+  bool confirmed = false;          ///< heard more than once
+  bool impostor_reported = false;  ///< of this life
+  bool quiet = false;              ///< reported as such
+  bool unheard = false;            ///< reported as such
   Hearing hears;
 
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
@@ -72,11 +72,26 @@ class PeerTable {
 
   /// Index of who holds this id; size() where nobody does. Linear.
   [[nodiscard]] std::size_t find(PeerId id) const noexcept;
+  /// Whether anybody holds this id. Linear.
+  [[nodiscard]] bool contains(PeerId id) const noexcept { return find(id) < size(); }
   /// Index of this life; size() where it has no row.
   [[nodiscard]] std::size_t find_epoch(std::uint32_t epoch) const noexcept {
     const std::uint32_t place = places_.find(epoch);
     return place == EpochIndex::kNone ? peers_.size() : place;
   }
+
+  /// Epoch of the joined peer that holds this id; nothing where there is none. Linear.
+  [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept;
+  /// The id that the joined peer of this epoch holds; nothing where there is none.
+  [[nodiscard]] std::optional<PeerId> id_of(std::uint32_t epoch) const noexcept;
+  /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
+  /// epoch is not known.
+  [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept;
+  /// For how long the peer of this epoch has been heard, from its first word to its last one; 0
+  /// where it is not known.
+  [[nodiscard]] std::chrono::nanoseconds heard_for(std::uint32_t epoch) const noexcept;
+  /// How many times as long distances count to the peer of this epoch; 1 where it is not known.
+  [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept;
 
   /// One more row, at the end; neither its id nor its life has one.
   void append(const Peer& peer);

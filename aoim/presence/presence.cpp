@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <tuple>
 
 namespace reckon::aoim {
 namespace {
@@ -15,7 +14,7 @@ bool is_leaving(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceLeaving) != 0;
 }
 
-// Whether `heard` was said before `known` and came after it. A clock set back by more is believed.
+// Whether `heard` was sent before `known` and came after it. A clock set back by more is believed.
 bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
   constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
   return heard.send_time < known.send_time && known.send_time - heard.send_time < kLongestDelay;
@@ -23,142 +22,79 @@ bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexce
 
 }  // namespace
 
-std::optional<PresenceEvent::Dropped> PresenceEvent::dropped() const noexcept {
-  switch (kind) {
-    case PresenceEventKind::restarted:
-      return Dropped{peer(), former_epoch};
-    case PresenceEventKind::renamed:
-      return Dropped{former, announced.epoch};
-    case PresenceEventKind::departed:
-    case PresenceEventKind::timed_out:
-    case PresenceEventKind::scene_mismatch:
-      return Dropped{peer(), announced.epoch};
-    default:
-      return std::nullopt;
-  }
-}
-
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
-    : config_(config), own_(own), chain_(config.one_way, config.secret), peers_(config.capacity) {
-  if (config.heartbeat.count() <= 0 || config.missed < 1) {
-    throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
-  }
-  if (config.most_listed < 1 || config.part < 2) {
-    throw std::invalid_argument("presence: lists must have room for one, parts of them for two");
-  }
+    : config_(config),
+      peers_(config.capacity),
+      events_(4 * config.capacity + 16),
+      chain_(config.one_way, config.secret),
+      proofs_(config.one_way),
+      liveness_(config_, peers_, events_),
+      pins_(config_, events_),
+      claims_(config_, peers_, events_),
+      admission_(config_, peers_, claims_, events_),
+      pace_(config_),
+      own_(config_, own, peers_, claims_, pace_, events_),
+      hearing_(config_, peers_, claims_, former_, own_, pace_, events_),
+      lists_(config_, peers_) {
+  config.check();
   if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
-  own_.flags = static_cast<std::uint16_t>(
-      own_.flags & ~unsigned{pdu::kPresenceLeaving | pdu::kPresenceEstablished});
-  claimants_.reserve(config.claims);
-  crowds_.reserve(kCrowds);
-  list_.reserve(config.capacity);
   outgoing_.reserve(8);
   farewells_.reserve(8);
-  events_.reserve(4 * config.capacity + 16);
-  taken_.reserve(4 * config.capacity + 16);
 }
 
 void Presence::start(nanoseconds now) {
-  running_ = true;
-  claimed_ = now;
-  announce_soon(now);
+  own_.hold_from(now);
+  pace_.start(now);
 }
 
 void Presence::stop() {
-  if (!running_) return;
-  running_ = false;
-  farewells_.push_back(own_);
+  if (!pace_.is_running()) return;
+  pace_.stop();
+  farewells_.push_back(own());
 }
 
-nanoseconds Presence::patience() const noexcept {
-  return config_.missed * config_.heartbeat + config_.minimum_gap;
-}
-
-// There is room for it.
-void Presence::append(const Peer& peer) {
-  peers_.append(peer);
-  watch(peer);
-}
-
-void Presence::note_heard(Peer& peer, nanoseconds now) noexcept {
-  if (now - peer.last_heard > config_.quiet) peer.back_since = now;
-  peer.last_heard = std::max(peer.last_heard, now);
-  peer.confirmed = true;
-  look_ = look_ || peer.quiet;
-}
-
-bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
-  const auto key = [](const pdu::Presence& one) {
-    return std::tie(one.scene_hash, one.cell_scheme, one.cell_size, one.pool_size, one.port);
-  };
-  return key(heard) == key(own_);
-}
-
-void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
-  PresenceEvent event;
-  event.kind = kind;
-  event.announced = about;
-  events_.push_back(event);
-}
-
-void Presence::tell(PresenceEventKind kind, const Peer& about) {
-  tell(kind, about.announced);
-  events_.back().source = about.source;
-  events_.back().heard_for = about.last_heard - about.known_since;
-}
-
-// Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
+// The others have dropped us after so long, and one may have taken our id.
 void Presence::wake(nanoseconds now) {
-  const nanoseconds last = awake_.value_or(now);
-  awake_ = std::max(last, now);
-  const nanoseconds slept = now - last;
-  if (!running_ || slept <= config_.heartbeat + config_.minimum_gap) return;
-  // What lay in the socket meanwhile has been heard just now.
-  const auto later = [&](nanoseconds& time) { time = std::min(time + slept, now); };
-  for (Peer& peer : peers_) later(peer.last_heard);
-  look_ = true;
-  for (Claimant& claimant : claimants_) {
-    later(claimant.since);
-    later(claimant.last_heard);
-  }
-  // The others have dropped us, and one may have taken our id.
-  if (slept > patience()) claimed_ = now;
-  tell(PresenceEventKind::slept, own_);
-  events_.back().slept = slept;
-  insist(now);
+  const nanoseconds slept = liveness_.wake(now);
+  if (!pace_.is_running() || slept <= config_.heartbeat + config_.minimum_gap) return;
+  liveness_.note_slept(slept, now);
+  claims_.note_slept(slept, now);
+  if (slept > config_.patience()) own_.hold_from(now);
+  events_.report(PresenceEventKind::slept, own()).slept = slept;
+  pace_.insist(now);
 }
 
 void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
-  if (heard.header.exercise_id != own_.header.exercise_id || heard.epoch == 0) return;
-  if (heard.epoch == own_.epoch) return;  // our echo, maybe under an id given up
+  if (heard.header.exercise_id != own().header.exercise_id || heard.epoch == 0) return;
+  if (heard.epoch == own_.epoch()) return;  // our echo, maybe under an id given up
   wake(now);
   ++counts_.heard;
   const std::size_t known = peers_.find_epoch(heard.epoch);
   if (known < peers_.size()) return hear_known(known, heard, now, from);
   if (takes_back(heard, now, from)) return;
-  if (is_over(heard, now, from)) {
+  if (former_.is_over(heard, now, from, proofs_, config_.pin)) {
     ++counts_.former_life;
     return;
   }
   if (!is_leaving(heard)) return claim(heard, now, from);
-  const Claimant* claimant = find_claimant(heard.epoch);
-  if (claimant != nullptr && may_speak(claimant->source, from)) forget_claimant(heard.epoch);
+  const Claimant* claimant = claims_.find(heard.epoch);
+  if (claimant != nullptr && may_speak(claimant->source, from)) claims_.forget(heard.epoch);
 }
 
 void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
                           const SourceAddress& from) {
   Peer& peer = peers_[index];
   const bool at_home = may_speak(peer.source, from);
-  const Opening opening = judge(peer.tip, heard, now, at_home);
-  if (at_home && opening == Opening::known) return note_heard(peer, now);  // a copy, or overtaken
+  const Opening opening = proofs_.judge(peer.tip, heard, now, at_home);
+  // A copy, or overtaken.
+  if (at_home && opening == Opening::known) return liveness_.note_heard(peer, now);
   const bool is_refused = opening == Opening::wrong || opening == Opening::known;
   const bool proves = opening == Opening::newer;
-  if (is_refused || (!at_home && !may_move(peer, heard, now, from))) {
+  if (is_refused || (!at_home && !pins_.may_move(peer, heard, now, from))) {
     if (proves) return;  // it may have moved
-    ++counts_.impostors;
-    return note_impostor(heard.epoch, from, now);
+    return pins_.refuse(peer, from, now);
   }
-  if (!at_home) move(peer, from);
+  if (!at_home) pins_.move(peer, from);
   believe(index, heard, now, from);
 }
 
@@ -180,14 +116,16 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
     if (is_overtaken(heard, peer.announced)) return;
     return rename(index, heard, now, from);
   }
-  const bool joined = shares_scene(heard);
+  const bool joined = own_.shares_scene(heard);
   const bool changes = joined != peer.joined;
-  note_heard(peer, now);
+  liveness_.note_heard(peer, now);
   peer.announced = heard;
   peer.joined = joined;
   peer.source = from;
-  if (changes) tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
-  watch(peer);
+  if (changes) {
+    events_.report(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
+  }
+  liveness_.watch(peer);
 }
 
 // It has lost its id to another, or found it taken; its life goes on.
@@ -196,24 +134,44 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   Peer moved = peers_[index];
   const Peer before = moved;
   peers_.erase(index);
-  if (is_taken(heard.simulation)) {
-    if (moved.joined) tell(PresenceEventKind::departed, before);
+  if (own_.is_taken(heard.simulation)) {
+    if (moved.joined) events_.report(PresenceEventKind::departed, before);
     claim(heard, now, from);
     fill_free_ids(now);
     return;
   }
   moved.announced = heard;
   moved.last_heard = now;
-  moved.joined = shares_scene(heard);
+  moved.joined = own_.shares_scene(heard);
   moved.source = from;
   append(moved);
-  forget_claimant(heard.epoch);
-  if (moved.joined) {
-    tell(PresenceEventKind::renamed, moved);
-    events_.back().former = before.id();
-  }
-  announce_soon(now);
+  claims_.forget(heard.epoch);
+  if (moved.joined) events_.report(PresenceEventKind::renamed, moved).former = before.id();
+  pace_.announce_soon(now);
   fill_free_ids(now);
+}
+
+// A peer that is not in the table announces itself.
+void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+  Claimant* claimant = claims_.find(heard.epoch);
+  if (claimant != nullptr && !may_speak(claimant->source, from)) return pins_.refuse();
+  if (!own_.is_taken(heard.simulation)) {
+    claims_.forget(heard.epoch);
+    return welcome(heard, now, from);
+  }
+  if (claimant == nullptr) {
+    if (admission_.is_crowd(from, own())) return;
+    if (claims_.is_full()) {
+      ++counts_.table_full;
+      return;
+    }
+    claimant = &claims_.add({heard, now, now, from, {}, {}});
+    pace_.insist(now);
+  }
+  claimant->hear(heard, now, from);
+  if (heard.simulation != id()) return;
+  ++counts_.conflicts;
+  own_.settle_with(*claimant, now);
 }
 
 void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
@@ -221,7 +179,7 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   Peer peer;
   peer.announced = heard;
   peer.first_heard = peer.last_heard = peer.known_since = now;
-  peer.joined = shares_scene(heard);
+  peer.joined = own_.shares_scene(heard);
   peer.source = from;
   peer.tip = LifeTip(heard, now);
   if (const auto before = former_.take(heard.epoch)) {
@@ -229,8 +187,9 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
     peer.back_since = now;
   }
   append(peer);
-  tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
-  announce_soon(now);
+  events_.report(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch,
+                 peer);
+  pace_.announce_soon(now);
 }
 
 void Presence::begin_life(std::size_t index, const Claimant& claimant, nanoseconds now) {
@@ -240,15 +199,52 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   peer.announced = claimant.announced;
   peer.first_heard = peer.known_since = claimant.since;
   peer.last_heard = claimant.last_heard;
-  peer.joined = shares_scene(claimant.announced);
+  peer.joined = own_.shares_scene(claimant.announced);
   peer.source = claimant.source;
   peer.hears = claimant.hears;
   peer.tip = claimant.tip;
   peers_.replace(index, peer);
-  watch(peer);
-  tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, peer);
-  events_.back().former_epoch = over;
-  announce_soon(now);
+  liveness_.watch(peer);
+  const auto kind = peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch;
+  events_.report(kind, peer).former_epoch = over;
+  pace_.announce_soon(now);
+}
+
+// A life that was taken for over comes back where it was, and who came meanwhile has its id.
+bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+  const FormerLife* life = former_.find(heard.epoch);
+  if (life == nullptr || life->said_goodbye || life->id != heard.simulation) return false;
+  if (from.port == 0 || from != life->source || now - life->last_heard > config_.take_back)
+    return false;
+  const std::size_t holder = peers_.find(life->id);
+  if (holder == peers_.size()) return false;
+  const bool came_later = peers_[holder].known_since > life->known_since;
+  if (!came_later || peers_[holder].source.octets == from.octets) return false;
+  if (proofs_.judge(life->tip, heard, now, true) != Opening::newer) return false;
+  // Who came lives, and looks for another id.
+  const Peer loser = peers_[holder];
+  remove(holder, PresenceEventKind::departed);
+  if (!claims_.is_full())
+    claims_.add({loser.announced, now, loser.last_heard, loser.source, loser.hears, loser.tip});
+  welcome(heard, now, from);
+  return true;
+}
+
+bool Presence::make_room(nanoseconds now, const SourceAddress& from) {
+  if (admission_.is_crowd(from, own())) return false;
+  if (peers_.size() < config_.capacity) return true;
+  if (const auto stale = admission_.stale_row(now)) {
+    remove(*stale, PresenceEventKind::timed_out);
+    return true;
+  }
+  ++counts_.table_full;
+  return false;
+}
+
+// There is room for it.
+void Presence::append(const Peer& peer) {
+  peers_.append(peer);
+  liveness_.watch(peer);
 }
 
 void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
@@ -258,44 +254,84 @@ void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
 
 void Presence::remove(std::size_t index, PresenceEventKind why) {
   const bool may_return = why == PresenceEventKind::timed_out && peers_[index].tip.is_chained();
-  if (may_return && awake_) bury(peers_[index], *awake_, false);
-  tell(why, peers_[index]);
+  const auto awake = liveness_.awake();
+  if (may_return && awake) bury(peers_[index], *awake, false);
+  events_.report(why, peers_[index]);
   peers_.erase(index);
 }
 
-// When this one is to be reported as quiet, or is lost, if it says nothing more.
-nanoseconds Presence::silence_due(const Peer& peer) const noexcept {
-  const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
-  return peer.last_heard + bound + nanoseconds(1);
-}
-
-void Presence::watch(const Peer& peer) noexcept {
-  silent_at_ = std::min(silent_at_, silence_due(peer));
-  if (peer.joined) heard_since_ = std::min(heard_since_, peer.last_heard);
-  look_ = look_ || peer.quiet;
-}
-
-// All are looked at when the first of them may have been silent for long, not in each step.
-void Presence::watch_silence(nanoseconds now) {
-  if (!look_ && now < silent_at_) return;
-  for (std::size_t i = peers_.size(); i-- > 0;) {
-    Peer& peer = peers_[i];
-    const nanoseconds silence = now - peer.last_heard;
-    if (silence > patience()) {
-      remove(i, PresenceEventKind::timed_out);
-    } else if (peer.joined && peer.quiet != (silence > config_.quiet)) {
-      peer.quiet = !peer.quiet;
-      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer);
-    }
+void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const SourceAddress& from) {
+  if (list.header.exercise_id != own().header.exercise_id) return;
+  if (Claimant* claimant = claims_.find(list.epoch)) {
+    if (may_speak(claimant->source, from)) hearing_.read(*claimant, list, now);
+    return;
   }
-  silent_at_ = heard_since_ = nanoseconds::max();
-  for (const Peer& peer : peers_) watch(peer);
-  look_ = false;
+  const std::size_t known = peers_.find_epoch(list.epoch);
+  if (known == peers_.size() || !peers_[known].joined) return;
+  Peer& peer = peers_[known];
+  if (!may_speak(peer.source, from)) return pins_.refuse(peer, from, now);
+  hearing_.read(peer, list, now);
+  if (pace_.is_repeating() && hearing_.is_complete()) pace_.end_repetition();
+}
+
+void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from, nanoseconds now) {
+  const std::size_t known = peers_.find_epoch(epoch);
+  if (known < peers_.size()) pins_.note_impostor(peers_[known], from, now);
+}
+
+void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::size_t known = peers_.find_epoch(epoch);
+  if (known == peers_.size()) return;
+  liveness_.note_heard(peers_[known], now);
+}
+
+void Presence::settle_moves(nanoseconds now) {
+  if (!pins_.begin_settling(now)) return;
+  for (std::size_t i = peers_.size(); i-- > 0;) {
+    if (const auto moved = pins_.settle(peers_[i], now))
+      believe(i, moved->announced, now, moved->to);
+  }
+}
+
+void Presence::settle_silence(nanoseconds now) {
+  if (!liveness_.is_due(now)) return;
+  for (std::size_t i = peers_.size(); i-- > 0;) {
+    if (liveness_.is_lost(peers_[i], now)) remove(i, PresenceEventKind::timed_out);
+  }
+  liveness_.watch_all();
+}
+
+bool Presence::settle_claims(nanoseconds now) {
+  bool risen_any = false;
+  for (std::size_t i = claims_.size(); i-- > 0;) {
+    const auto risen = claims_.settle(i, id(), now);
+    if (!risen) continue;
+    begin_life(peers_.find(risen->id()), *risen, now);
+    risen_any = true;
+  }
+  return fill_free_ids(now) || risen_any;
+}
+
+// An id that its holder gave up goes to the best of those that claim it.
+bool Presence::fill_free_ids(nanoseconds now) {
+  bool any = false;
+  while (const auto risen = claims_.take_free(id(), now)) {
+    any = true;
+    welcome(risen->announced, now, risen->source);
+    const std::size_t place = peers_.find_epoch(risen->epoch());
+    if (place == peers_.size()) continue;  // no room
+    // It may have been silent since its claim.
+    peers_[place].hears = risen->hears;
+    peers_[place].tip = risen->tip;
+    peers_[place].last_heard = risen->last_heard;
+    liveness_.watch(peers_[place]);
+  }
+  return any;
 }
 
 // Who rises may be silent already, and who rises may fall to another.
 void Presence::settle(nanoseconds now) {
-  do watch_silence(now);
+  do settle_silence(now);
   while (settle_claims(now));
 }
 
@@ -303,9 +339,10 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   wake(now);
   settle_moves(now);
   settle(now);
-  const PeerId before = id();
-  look_at_own_id(now);
-  if (id() != before) settle(now);  // who else claims the number that we gave up
+  if (own_.step(now)) {
+    fill_free_ids(now);
+    settle(now);  // who else claims the number that we gave up
+  }
   std::swap(outgoing_, farewells_);
   farewells_.clear();
   for (pdu::Presence& farewell : outgoing_) {
@@ -314,26 +351,21 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   }
 
   if (is_due(now)) {
-    own_.flags = static_cast<std::uint16_t>(own_.flags & ~unsigned{pdu::kPresenceEstablished});
-    if (is_established(now)) own_.flags |= pdu::kPresenceEstablished;
-    outgoing_.push_back(own_);
+    outgoing_.push_back(own_.announce(now));
     chain_.sign(outgoing_.back());
-    last_ = now;
-    if (next_cause_ != Cause::heartbeat) next_list_ = now;
-    schedule_next(now);
+    if (pace_.note_announced(now, hearing_.is_complete())) lists_.send_now(now);
   }
   counts_.announced += outgoing_.size();
   return outgoing_;
 }
 
-std::span<const PresenceEvent> Presence::take_events() {
-  taken_.clear();
-  std::swap(taken_, events_);
-  return taken_;
+std::optional<HeardList> Presence::take_list(nanoseconds now, nanoseconds last_sent) {
+  if (!pace_.is_running()) return {};
+  return lists_.take(now, last_sent, pace_.last(), own_.is_yielding() ? now : pace_.next());
 }
 
 Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) const noexcept {
-  if (epoch == own_.epoch) return Standing::own;
+  if (epoch == own_.epoch()) return Standing::own;
   const std::size_t known = peers_.find_epoch(epoch);
   if (known < peers_.size()) {
     const Peer& peer = peers_[known];
@@ -343,42 +375,21 @@ Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) cons
   return former_.contains(epoch) ? Standing::former_life : Standing::unknown;
 }
 
-std::optional<std::uint32_t> Presence::epoch_of(PeerId id) const noexcept {
-  const std::size_t known = peers_.find(id);
-  if (known == peers_.size() || !peers_[known].joined) return {};
-  return peers_.epoch(known);
-}
-
-std::optional<PeerId> Presence::id_of(std::uint32_t epoch) const noexcept {
-  const std::size_t known = peers_.find_epoch(epoch);
-  if (known == peers_.size() || !peers_[known].joined) return {};
-  return peers_[known].id();
-}
-
-std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noexcept {
-  const std::size_t known = peers_.find_epoch(epoch);
-  if (known == peers_.size()) return {};
-  return peers_[known].source;
-}
-
-nanoseconds Presence::heard_for(std::uint32_t epoch) const noexcept {
-  const std::size_t known = peers_.find_epoch(epoch);
-  if (known == peers_.size()) return nanoseconds(0);
-  return peers_[known].last_heard - peers_[known].known_since;
-}
-
-void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
-  const std::size_t known = peers_.find_epoch(epoch);
-  if (known == peers_.size()) return;
-  note_heard(peers_[known], now);
+PresenceCounts Presence::counts() const noexcept {
+  PresenceCounts sum = counts_;
+  sum.crowd = admission_.refused();
+  sum.impostors = pins_.refused();
+  return sum;
 }
 
 nanoseconds Presence::next_step() const noexcept {
   if (!farewells_.empty()) return nanoseconds::min();
   nanoseconds next = nanoseconds::max();
-  if (running_ && !yield_at_) next = next_;
-  if (running_) next = std::min(next, next_list_);
-  return std::min({next, silent_at_, next_move_, next_identity_step()});
+  if (pace_.is_running()) next = lists_.next_step();
+  if (pace_.is_running() && !own_.is_yielding()) next = std::min(next, pace_.next());
+  const nanoseconds looked = liveness_.awake().value_or(nanoseconds::min());
+  return std::min({next, liveness_.next_step(), pins_.next_step(), own_.next_step(),
+                   claims_.next_step(id(), looked)});
 }
 
 }  // namespace reckon::aoim

@@ -46,6 +46,9 @@ class CouplingEnd {
   [[nodiscard]] virtual CouplingSample sample() noexcept = 0;
   /// Work that changes of the world did on what is touched [J]; 0 where the end renders no world.
   [[nodiscard]] virtual double world_work() const noexcept { return 0.0; }
+  /// What its port was lent and has not paid back [J], see haptics::exchange_energy(); 0 where
+  /// nothing is lent.
+  [[nodiscard]] virtual double loan() const noexcept { return 0.0; }
 
  protected:
   CouplingEnd() = default;

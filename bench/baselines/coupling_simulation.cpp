@@ -108,6 +108,7 @@ void CouplingPeer::step() {
   position_ = own.position;
   speed_ = own.velocity;
   if (device_ != nullptr) port_energy_ = device_->port_work() + device_->damping_loss();
+  loan_ = end_->loan();
   force_ = end_->step(own, link_.receive(number_));
   if (device_ != nullptr)
     device_->write(Eigen::Vector3d(force_, 0, 0), pdu::from_seconds(number_ * period_));
@@ -171,6 +172,7 @@ class Measures {
     outcome_.least_port[0] = std::min(outcome_.least_port[0], first.port_energy());
     outcome_.least_port[1] = std::min(outcome_.least_port[1], second.port_energy());
     outcome_.least_sum = std::min(outcome_.least_sum, sum);
+    outcome_.most_loan = std::max(outcome_.most_loan, first.loan() + second.loan());
   }
 
   void note_motion(std::uint32_t number, const CouplingPeer& first) {

@@ -62,8 +62,8 @@ struct CouplingTrace {
   bool operator==(const CouplingTrace&) const = default;
 };
 
-/// What came of it. Energy of a port: work that the force took from the hand, and the device's
-/// friction: a passive environment keeps it >= 0.
+/// What came of it. Energy of a port: work that the force took from the hand, the device's
+/// friction, and what the port was lent and still owes: a passive environment keeps it >= 0.
 struct CouplingOutcome {
   std::array<double, 2> least_port{};  ///< [J], of each hand; the second is 0 with a server
   /// [J], least of all ports together, with the work that the world itself did where it is rendered
@@ -72,6 +72,7 @@ struct CouplingOutcome {
   /// [J], the verdict on the run: with a server that of the hand, whatever the world did, with two
   /// hands the sum. A run made energy where this is below -1e-9.
   double least_energy = 0.0;
+  double most_loan = 0.0;   ///< [J], most that the ports owed together
   double peak_force = 0.0;  ///< [N], of both hands
   /// Of the first hand in the last third: what does not settle under a push cycles.
   double rms_speed = 0.0;  ///< [m/s]
@@ -114,8 +115,9 @@ class CouplingPeer {
   [[nodiscard]] double position() const noexcept { return position_; }  ///< [m], at the sample
   [[nodiscard]] double speed() const noexcept { return speed_; }        ///< [m/s], likewise
   [[nodiscard]] double force() const noexcept { return force_; }        ///< [N], held since
-  /// Work taken from the hand and friction up to the sample [J].
-  [[nodiscard]] double port_energy() const noexcept { return port_energy_; }
+  /// Work taken from the hand, friction, and what is owed, up to the sample [J].
+  [[nodiscard]] double port_energy() const noexcept { return port_energy_ + loan_; }
+  [[nodiscard]] double loan() const noexcept { return loan_; }  ///< [J], of it what is owed
   [[nodiscard]] double world_work() const noexcept { return end_->world_work(); }
 
  private:
@@ -127,7 +129,7 @@ class CouplingPeer {
   std::unique_ptr<haptics::SimulatedDevice> device_;  // null: a server
   std::unique_ptr<CouplingEnd> end_;
   std::uint32_t number_ = 0;
-  double position_ = 0.0, speed_ = 0.0, force_ = 0.0, port_energy_ = 0.0;
+  double position_ = 0.0, speed_ = 0.0, force_ = 0.0, port_energy_ = 0.0, loan_ = 0.0;
 };
 
 /// Deterministic, shares nothing with other calls: any thread, some 10 ms for 12 s.

@@ -80,6 +80,7 @@ double ReckonEnd::step(const OwnMotion& own, std::span<const CouplingSample> arr
   handle_.move(own.position, own.velocity);
   servo_.step(time_of(own.number));
   servo_.snapshots().update();
+  loan_ = servo_.snapshots().read().loan;
   return handle_.force();
 }
 

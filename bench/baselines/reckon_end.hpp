@@ -38,6 +38,7 @@ class ReckonEnd final : public CouplingEnd {
 
   double step(const OwnMotion& own, std::span<const CouplingSample> arrived) noexcept override;
   [[nodiscard]] CouplingSample sample() noexcept override;
+  [[nodiscard]] double loan() const noexcept override { return loan_; }
 
  private:
   void take(const CouplingSample& sample) noexcept;
@@ -48,6 +49,7 @@ class ReckonEnd final : public CouplingEnd {
   haptics::ServoLoop servo_;
   haptics::ContactSet set_;
   std::uint32_t number_ = 0;
+  double loan_ = 0.0;
 };
 
 }  // namespace reckon::bench

@@ -24,15 +24,15 @@ void ContactSpring::reset(const Eigen::Vector3d& probe) noexcept {
 
 void ContactSpring::release() noexcept {
   theta_.gain = 0.0;
-  state_ = evaluate(theta_, Eigen::Vector3d::Zero(), false, 0.0);
+  contact_ = evaluate(theta_, Eigen::Vector3d::Zero(), false, 0.0);
 }
 
 // Projecting the bristle on the present tangent plane and cutting it at the friction limit only
 // ever lower the energy.
-ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
-                                             const Eigen::Vector3d& bristle, bool slipping,
-                                             double fall) const noexcept {
-  State s;
+ContactSpring::ContactState ContactSpring::evaluate(const ContactParameters& theta,
+                                                    const Eigen::Vector3d& bristle, bool slipping,
+                                                    double fall) const noexcept {
+  ContactState s;
   s.geometry = haptics::geometry(theta, probe_);
   const SpringLoad load = normal_load(theta, s.geometry.depth);
   s.normal_force = s.geometry.slope * load.force;
@@ -60,8 +60,8 @@ ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
 void ContactSpring::settle(const Eigen::Vector3d& probe, double dt) noexcept {
   const Eigen::Vector3d dx = probe - probe_;
   probe_ = probe;
-  state_ = evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal),
-                    state_.slipping, kBreakAway * dt);
+  contact_ = evaluate(theta_, contact_.bristle + tangential(dx, contact_.geometry.normal),
+                      contact_.slipping, kBreakAway * dt);
 }
 
 void ContactSpring::move(const ContactParameters& target) noexcept {
@@ -71,28 +71,28 @@ void ContactSpring::move(const ContactParameters& target) noexcept {
     release();
     return;
   }
-  const Eigen::Vector3d bristle = state_.bristle - (target.point - theta_.point);
-  state_ = evaluate(target, bristle, state_.slipping, 0.0);
+  const Eigen::Vector3d bristle = contact_.bristle - (target.point - theta_.point);
+  contact_ = evaluate(target, bristle, contact_.slipping, 0.0);
   theta_ = target;
 }
 
 double ContactSpring::pull() const noexcept {
-  return bristle_stiffness(theta_) * state_.bristle.norm();
+  return bristle_stiffness(theta_) * contact_.bristle.norm();
 }
 
 // Depth is concave in the probe's place with a slope of at most 1 along the normal at the start,
 // the normal spring convex and rising: its share is K n n^T for any length of dx. The bristle has
 // the rest of dx, whatever becomes of it.
 Eigen::Matrix3d ContactSpring::slope() const noexcept {
-  if (!(state_.energy > 0)) return Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d& n = state_.geometry.normal;
+  if (!(contact_.energy > 0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d& n = contact_.geometry.normal;
   const double along = slope_bound(theta_);
   const double across = theta_.static_friction > 0 ? bristle_stiffness(theta_) : 0.0;
   return across * Eigen::Matrix3d::Identity() + (along - across) * n * n.transpose();
 }
 
 double ContactSpring::greatest_slope() const noexcept {
-  if (!(state_.energy > 0)) return 0.0;
+  if (!(contact_.energy > 0)) return 0.0;
   const double across = theta_.static_friction > 0 ? bristle_stiffness(theta_) : 0.0;
   return std::max(slope_bound(theta_), across);
 }

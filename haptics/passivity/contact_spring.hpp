@@ -28,9 +28,9 @@ class ContactSpring {
   void move(const ContactParameters& target) noexcept;
 
   /// On the probe [N]: spring and bristle.
-  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return state_.force; }
+  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return contact_.force; }
   /// S [J] >= 0.
-  [[nodiscard]] double stored() const noexcept { return state_.energy; }
+  [[nodiscard]] double stored() const noexcept { return contact_.energy; }
   /// Upper bound H of the curvature of S over any motion [N/m]: S(x + dx) <= S(x) - F.dx +
   /// dx.H dx / 2. Zero where nothing is stored: nothing is booked there.
   [[nodiscard]] Eigen::Matrix3d slope() const noexcept;
@@ -38,15 +38,15 @@ class ContactSpring {
   [[nodiscard]] double greatest_slope() const noexcept;
 
   [[nodiscard]] const ContactParameters& parameters() const noexcept { return theta_; }
-  [[nodiscard]] const ContactGeometry& geometry() const noexcept { return state_.geometry; }
+  [[nodiscard]] const ContactGeometry& geometry() const noexcept { return contact_.geometry; }
   /// Of the spring along the normal alone [N].
-  [[nodiscard]] double normal_force() const noexcept { return state_.normal_force; }
+  [[nodiscard]] double normal_force() const noexcept { return contact_.normal_force; }
   [[nodiscard]] const Eigen::Vector3d& probe() const noexcept { return probe_; }
-  [[nodiscard]] bool slipping() const noexcept { return state_.slipping; }
+  [[nodiscard]] bool slipping() const noexcept { return contact_.slipping; }
 
  private:
   // Everything that follows from theta, the probe and the bristle.
-  struct State {
+  struct ContactState {
     ContactGeometry geometry;
     double normal_force = 0.0;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();  // with the bristle's
@@ -55,12 +55,13 @@ class ContactSpring {
     bool slipping = false;
   };
   // @param fall [N], most by which a bristle that slips may pull less than it does now
-  [[nodiscard]] State evaluate(const ContactParameters& theta, const Eigen::Vector3d& bristle,
-                               bool slipping, double fall) const noexcept;
+  [[nodiscard]] ContactState evaluate(const ContactParameters& theta,
+                                      const Eigen::Vector3d& bristle, bool slipping,
+                                      double fall) const noexcept;
   [[nodiscard]] double pull() const noexcept;  // of the bristle [N]
 
   ContactParameters theta_;
-  State state_;
+  ContactState contact_;
   Eigen::Vector3d probe_ = Eigen::Vector3d::Zero();
 };
 

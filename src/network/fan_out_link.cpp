@@ -28,8 +28,9 @@ SaidInFront said_in_front(std::span<const std::byte> datagram, const GroupPool& 
   return {place, place == 0 ? pool.base() : pool.address(place - 1), behind};
 }
 
-struct FanOutLink::State {
-  State(Link& wrapped, const GroupPool& groups, const FanOutOptions& asked)
+// The inner link, to whom each datagram goes by it, and which groups are joined.
+struct FanOutLink::UnicastGroups {
+  UnicastGroups(Link& wrapped, const GroupPool& groups, const FanOutOptions& asked)
       : inner(wrapped), pool(groups), options(asked), joined(groups.size() + 1) {
     std::erase(options.peers, inner.local_endpoint());
     octets.resize(kAtOnce * kSlot);
@@ -43,7 +44,7 @@ struct FanOutLink::State {
   [[nodiscard]] std::span<const std::byte> framed(std::size_t slot,
                                                   const OutgoingDatagram& datagram) noexcept;
   [[nodiscard]] bool unwrap(Datagram& datagram) noexcept;
-  void tell_out(const OutgoingDatagram& datagram, bool goes) noexcept;
+  void note_out(const OutgoingDatagram& datagram, bool goes) noexcept;
 
   Link& inner;
   GroupPool pool;
@@ -55,8 +56,8 @@ struct FanOutLink::State {
 };
 
 // What goes on the wire; nothing where it is too long.
-std::span<const std::byte> FanOutLink::State::framed(std::size_t slot,
-                                                     const OutgoingDatagram& datagram) noexcept {
+std::span<const std::byte> FanOutLink::UnicastGroups::framed(
+    std::size_t slot, const OutgoingDatagram& datagram) noexcept {
   if (options.plain) return datagram.bytes;
   if (datagram.bytes.size() > kMaxDatagram) return {};
   pdu::UnicastFrame front;
@@ -70,7 +71,7 @@ std::span<const std::byte> FanOutLink::State::framed(std::size_t slot,
 }
 
 // Takes off what is in front; false where it is for others. What has nothing in front is plain DIS.
-bool FanOutLink::State::unwrap(Datagram& datagram) noexcept {
+bool FanOutLink::UnicastGroups::unwrap(Datagram& datagram) noexcept {
   const SaidInFront said = said_in_front(datagram.bytes, pool);
   datagram.bytes = said.bytes;
   if (said.place) datagram.group = said.group;
@@ -83,7 +84,7 @@ bool FanOutLink::State::unwrap(Datagram& datagram) noexcept {
 }
 
 // How many of it the inner link is given, which tells what becomes of each.
-void FanOutLink::State::tell_out(const OutgoingDatagram& datagram, bool goes) noexcept {
+void FanOutLink::UnicastGroups::note_out(const OutgoingDatagram& datagram, bool goes) noexcept {
   if (options.tap == nullptr) return;
   const std::size_t peers = options.peers.size();
   if (goes && peers == 1) return;
@@ -96,7 +97,7 @@ void FanOutLink::State::tell_out(const OutgoingDatagram& datagram, bool goes) no
 }
 
 FanOutLink::FanOutLink(Link& inner, const GroupPool& pool, const FanOutOptions& options)
-    : state_(std::make_unique<State>(inner, pool, options)) {}
+    : groups_(std::make_unique<UnicastGroups>(inner, pool, options)) {}
 
 FanOutLink::~FanOutLink() = default;
 
@@ -107,7 +108,7 @@ bool FanOutLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) no
 
 // Address by address, so that what goes to one is a run.
 SentBatch FanOutLink::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
-  State& s = *state_;
+  UnicastGroups& s = *groups_;
   SentBatch sent;
   const std::size_t peers = s.options.peers.size();
   for (; !batch.empty(); batch = batch.subspan(std::min(batch.size(), kAtOnce))) {
@@ -117,7 +118,7 @@ SentBatch FanOutLink::send_batch(std::span<const OutgoingDatagram> batch) noexce
     for (std::size_t i = 0; i < part.size(); ++i) {
       framed[i] = s.framed(i, part[i]);
       octets += part[i].bytes.size();
-      s.tell_out(part[i], !framed[i].empty());
+      s.note_out(part[i], !framed[i].empty());
     }
     s.copies.clear();
     for (const IpEndpoint& peer : s.options.peers) {
@@ -135,50 +136,50 @@ SentBatch FanOutLink::send_batch(std::span<const OutgoingDatagram> batch) noexce
 
 std::size_t FanOutLink::receive(std::span<Datagram> out) noexcept {
   for (;;) {
-    const std::size_t came = state_->inner.receive(out);
+    const std::size_t came = groups_->inner.receive(out);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < came; ++i) {
-      if (state_->unwrap(out[i])) out[kept++] = out[i];
+      if (groups_->unwrap(out[i])) out[kept++] = out[i];
     }
     if (kept > 0 || came < out.size()) return kept;
   }
 }
 
 std::error_code FanOutLink::join(const GroupAddress& group) noexcept {
-  if (!state_->joined[state_->place_of(group)].exchange(true)) state_->joins.add();
+  if (!groups_->joined[groups_->place_of(group)].exchange(true)) groups_->joins.add();
   return {};
 }
 
 void FanOutLink::leave(const GroupAddress& group) noexcept {
-  if (state_->joined[state_->place_of(group)].exchange(false)) state_->leaves.add();
+  if (groups_->joined[groups_->place_of(group)].exchange(false)) groups_->leaves.add();
 }
 
 bool FanOutLink::wait(std::chrono::nanoseconds timeout) noexcept {
-  return state_->inner.wait(timeout);
+  return groups_->inner.wait(timeout);
 }
 
-void FanOutLink::wake() noexcept { state_->inner.wake(); }
+void FanOutLink::wake() noexcept { groups_->inner.wake(); }
 
-IpEndpoint FanOutLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
+IpEndpoint FanOutLink::local_endpoint() const noexcept { return groups_->inner.local_endpoint(); }
 
 std::size_t FanOutLink::max_payload() const noexcept {
-  const std::size_t most = state_->inner.max_payload();
-  return state_->options.plain ? most : most - std::min(most, pdu::kUnicastFrameSize);
+  const std::size_t most = groups_->inner.max_payload();
+  return groups_->options.plain ? most : most - std::min(most, pdu::kUnicastFrameSize);
 }
 
 LinkStatistics FanOutLink::statistics() const noexcept {
-  LinkStatistics out = state_->inner.statistics();
-  out.joins = state_->joins.value();
-  out.leaves = state_->leaves.value();
+  LinkStatistics out = groups_->inner.statistics();
+  out.joins = groups_->joins.value();
+  out.leaves = groups_->leaves.value();
   return out;
 }
 
-bool FanOutLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
+bool FanOutLink::take_event(LinkEvent& event) noexcept { return groups_->inner.take_event(event); }
 
-void FanOutLink::settle() noexcept { state_->inner.settle(); }
+void FanOutLink::settle() noexcept { groups_->inner.settle(); }
 
-std::uint64_t FanOutLink::not_listened() const noexcept { return state_->not_listened.value(); }
+std::uint64_t FanOutLink::not_listened() const noexcept { return groups_->not_listened.value(); }
 
-std::size_t FanOutLink::peers() const noexcept { return state_->options.peers.size(); }
+std::size_t FanOutLink::peers() const noexcept { return groups_->options.peers.size(); }
 
 }  // namespace reckon::peer

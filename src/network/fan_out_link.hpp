@@ -67,8 +67,8 @@ class FanOutLink final : public Link {
   [[nodiscard]] std::size_t peers() const noexcept;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct UnicastGroups;
+  std::unique_ptr<UnicastGroups> groups_;
 };
 
 }  // namespace reckon::peer

@@ -27,8 +27,9 @@ struct Sender {
 
 }  // namespace
 
-struct ImpairedLink::State {
-  State(Link& wrapped, const ImpairedLinkOptions& options, const Clock& steady)
+// The inner link, the law of the damage, and what is delayed by it.
+struct ImpairedLink::Emulator {
+  Emulator(Link& wrapped, const ImpairedLinkOptions& options, const Clock& steady)
       : inner(wrapped),
         clock(steady),
         start(options.start),
@@ -41,7 +42,7 @@ struct ImpairedLink::State {
 
   Sender& sender_of(const IpEndpoint& endpoint) noexcept;
   void take_in(const Datagram& datagram) noexcept;
-  void tell(DatagramFate fate, const Datagram& datagram) const noexcept {
+  void note(DatagramFate fate, const Datagram& datagram) const noexcept {
     if (tap != nullptr) tap->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
   }
 
@@ -58,7 +59,7 @@ struct ImpairedLink::State {
   Counter delivered, delivered_bytes, lost, duplicated, overflows, truncated;
 };
 
-Sender& ImpairedLink::State::sender_of(const IpEndpoint& endpoint) noexcept {
+Sender& ImpairedLink::Emulator::sender_of(const IpEndpoint& endpoint) noexcept {
   for (Sender& sender : senders) {
     if (sender.endpoint == endpoint) return sender;
   }
@@ -66,41 +67,41 @@ Sender& ImpairedLink::State::sender_of(const IpEndpoint& endpoint) noexcept {
   return senders.emplace_back(Sender{endpoint, numbered_by_appearance++, 0});
 }
 
-void ImpairedLink::State::take_in(const Datagram& datagram) noexcept {
+void ImpairedLink::Emulator::take_in(const Datagram& datagram) noexcept {
   Sender& sender = sender_of(datagram.sender);
   const Fate fate =
       impairment.decide(sender.number, sender.next_sequence++, datagram.received - start);
-  if (fate.copies == 0) return tell(DatagramFate::lost_by_law, datagram), lost.add();
+  if (fate.copies == 0) return note(DatagramFate::lost_by_law, datagram), lost.add();
   if (datagram.bytes.size() > queue.max_bytes())
-    return tell(DatagramFate::queue_overflow, datagram), truncated.add();
-  if (fate.copies == 2) tell(DatagramFate::copied_by_law, datagram), duplicated.add();
+    return note(DatagramFate::queue_overflow, datagram), truncated.add();
+  if (fate.copies == 2) note(DatagramFate::copied_by_law, datagram), duplicated.add();
   for (std::size_t copy = 0; copy < fate.copies; ++copy) {
     const nanoseconds due = datagram.received + fate.delay[copy];
     if (queue.push(due, datagram.group, datagram.sender, datagram.bytes)) continue;
-    tell(DatagramFate::queue_overflow, datagram);
+    note(DatagramFate::queue_overflow, datagram);
     overflows.add();
   }
 }
 
 ImpairedLink::ImpairedLink(Link& inner, const ImpairedLinkOptions& options, const Clock& clock)
-    : state_(std::make_unique<State>(inner, options, clock)) {}
+    : emulator_(std::make_unique<Emulator>(inner, options, clock)) {}
 
 ImpairedLink::~ImpairedLink() = default;
 
 void ImpairedLink::number_sender(const IpEndpoint& sender, std::uint64_t number) {
-  state_->sender_of(sender).number = number;
+  emulator_->sender_of(sender).number = number;
 }
 
 bool ImpairedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
-  return state_->inner.send(to, bytes);
+  return emulator_->inner.send(to, bytes);
 }
 
 SentBatch ImpairedLink::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
-  return state_->inner.send_batch(batch);
+  return emulator_->inner.send_batch(batch);
 }
 
 std::size_t ImpairedLink::receive(std::span<Datagram> out) noexcept {
-  State& s = *state_;
+  Emulator& s = *emulator_;
   s.queue.release();
   for (int i = 0; i < kBatchesPerReceive; ++i) {
     const std::size_t count = s.inner.receive(s.batch);
@@ -114,14 +115,14 @@ std::size_t ImpairedLink::receive(std::span<Datagram> out) noexcept {
 }
 
 std::error_code ImpairedLink::join(const GroupAddress& group) noexcept {
-  return state_->inner.join(group);
+  return emulator_->inner.join(group);
 }
 
-void ImpairedLink::leave(const GroupAddress& group) noexcept { state_->inner.leave(group); }
+void ImpairedLink::leave(const GroupAddress& group) noexcept { emulator_->inner.leave(group); }
 
 // Waits no longer than until the next held datagram is due.
 bool ImpairedLink::wait(nanoseconds timeout) noexcept {
-  State& s = *state_;
+  Emulator& s = *emulator_;
   const nanoseconds due = s.queue.next_due();
   const nanoseconds now = s.clock.now();
   const nanoseconds until_due =
@@ -130,36 +131,40 @@ bool ImpairedLink::wait(nanoseconds timeout) noexcept {
   return readable || due <= s.clock.now();
 }
 
-void ImpairedLink::wake() noexcept { state_->inner.wake(); }
+void ImpairedLink::wake() noexcept { emulator_->inner.wake(); }
 
-IpEndpoint ImpairedLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
-
-std::size_t ImpairedLink::max_payload() const noexcept {
-  return std::min(state_->inner.max_payload(), state_->queue.max_bytes());
+IpEndpoint ImpairedLink::local_endpoint() const noexcept {
+  return emulator_->inner.local_endpoint();
 }
 
-bool ImpairedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
+std::size_t ImpairedLink::max_payload() const noexcept {
+  return std::min(emulator_->inner.max_payload(), emulator_->queue.max_bytes());
+}
+
+bool ImpairedLink::take_event(LinkEvent& event) noexcept {
+  return emulator_->inner.take_event(event);
+}
 
 void ImpairedLink::settle() noexcept {
-  State& s = *state_;
+  Emulator& s = *emulator_;
   s.inner.settle();
   if (s.tap == nullptr) return;
   for (std::size_t count = 1; count > 0;) {
     s.queue.release();
     count = s.queue.pop_due(nanoseconds::max(), s.batch);
     for (const Datagram& datagram : std::span(s.batch).first(count))
-      s.tell(DatagramFate::unread, datagram);
+      s.note(DatagramFate::unread, datagram);
   }
 }
 
 LinkStatistics ImpairedLink::statistics() const noexcept {
-  LinkStatistics out = state_->inner.statistics();
-  out.received = state_->delivered.value();
-  out.received_bytes = state_->delivered_bytes.value();
-  out.lost_by_law += state_->lost.value();
-  out.duplicated_by_law += state_->duplicated.value();
-  out.queue_overflows += state_->overflows.value();
-  out.truncated += state_->truncated.value();
+  LinkStatistics out = emulator_->inner.statistics();
+  out.received = emulator_->delivered.value();
+  out.received_bytes = emulator_->delivered_bytes.value();
+  out.lost_by_law += emulator_->lost.value();
+  out.duplicated_by_law += emulator_->duplicated.value();
+  out.queue_overflows += emulator_->overflows.value();
+  out.truncated += emulator_->truncated.value();
   return out;
 }
 

@@ -56,8 +56,8 @@ class ImpairedLink final : public Link {
   void settle() noexcept override;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Emulator;
+  std::unique_ptr<Emulator> emulator_;
 };
 
 }  // namespace reckon::peer

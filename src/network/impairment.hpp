@@ -39,6 +39,12 @@ struct ImpairmentLaw {
   [[nodiscard]] std::string problem() const;
 };
 
+/// A law and the seed of what it draws.
+struct ImpairmentConfig {
+  ImpairmentLaw law;       ///< all defaults together are a perfect network
+  std::uint64_t seed = 1;  ///< equal seeds give equal damage
+};
+
 /// What happens to one datagram: how many copies arrive (0, 1, 2) and how much later each.
 struct Fate {
   enum class Loss : std::uint8_t { none, random, burst, outage };

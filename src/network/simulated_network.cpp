@@ -22,7 +22,7 @@ constexpr std::uint16_t kPort = 3000;
 // One link of the hub.
 class SimulatedNetwork::Port final : public Link {
  public:
-  Port(State& network, std::size_t number, const SimulatedNetworkOptions& options);
+  Port(Hub& hub, std::size_t number, const SimulatedNetworkOptions& options);
 
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
@@ -41,7 +41,7 @@ class SimulatedNetwork::Port final : public Link {
   [[nodiscard]] const DelayQueue& queue() const noexcept { return queue_; }
 
  private:
-  State& network_;
+  Hub& hub_;
   std::size_t number_;
   IpEndpoint endpoint_;
   DelayQueue queue_;
@@ -58,14 +58,15 @@ class SimulatedNetwork::Port final : public Link {
   LinkStatistics statistics_;
 };
 
-struct SimulatedNetwork::State {
+// All links of the network, and what each hears of each.
+struct SimulatedNetwork::Hub {
   // What one link hears of another.
   struct Direction {
     Impairment impairment;
     std::uint64_t next_sequence{0};
   };
 
-  State(const SimulatedNetworkOptions& asked, const Clock& steady);
+  Hub(const SimulatedNetworkOptions& asked, const Clock& steady);
   void distribute(std::size_t sender, const IpEndpoint& to,
                   std::span<const std::byte> bytes) noexcept;
   Direction& direction(std::size_t sender, std::size_t receiver) noexcept {
@@ -79,7 +80,7 @@ struct SimulatedNetwork::State {
   std::vector<Direction> directions;
 };
 
-SimulatedNetwork::State::State(const SimulatedNetworkOptions& asked, const Clock& steady)
+SimulatedNetwork::Hub::Hub(const SimulatedNetworkOptions& asked, const Clock& steady)
     : options(asked), clock(steady), start(steady.now()) {
   for (std::size_t i = 0; i < asked.links; ++i) {
     ports.push_back(std::make_unique<Port>(*this, i, asked));
@@ -87,8 +88,8 @@ SimulatedNetwork::State::State(const SimulatedNetworkOptions& asked, const Clock
   directions.resize(asked.links * asked.links, Direction{Impairment({}, 0)});
 }
 
-void SimulatedNetwork::State::distribute(std::size_t sender, const IpEndpoint& to,
-                                         std::span<const std::byte> bytes) noexcept {
+void SimulatedNetwork::Hub::distribute(std::size_t sender, const IpEndpoint& to,
+                                       std::span<const std::byte> bytes) noexcept {
   const nanoseconds now = clock.now();
   for (std::size_t receiver = 0; receiver < ports.size(); ++receiver) {
     if (receiver == sender && !options.deliver_own) continue;
@@ -99,9 +100,8 @@ void SimulatedNetwork::State::distribute(std::size_t sender, const IpEndpoint& t
   }
 }
 
-SimulatedNetwork::Port::Port(State& network, std::size_t number,
-                             const SimulatedNetworkOptions& options)
-    : network_(network),
+SimulatedNetwork::Port::Port(Hub& hub, std::size_t number, const SimulatedNetworkOptions& options)
+    : hub_(hub),
       number_(number),
       endpoint_(IpEndpoint::v4(kFirstAddress + static_cast<std::uint32_t>(number), kPort)),
       queue_(options.datagrams_in_flight, options.max_payload),
@@ -117,7 +117,7 @@ bool SimulatedNetwork::Port::send(const IpEndpoint& to, std::span<const std::byt
   }
   ++statistics_.sent;
   statistics_.sent_bytes += bytes.size();
-  network_.distribute(number_, to, bytes);
+  hub_.distribute(number_, to, bytes);
   return true;
 }
 
@@ -145,7 +145,7 @@ void SimulatedNetwork::Port::take_in(const Port& sender, const Fate& fate, const
 
 std::size_t SimulatedNetwork::Port::receive(std::span<Datagram> out) noexcept {
   queue_.release();
-  const nanoseconds now = network_.clock.now();
+  const nanoseconds now = hub_.clock.now();
   std::size_t count = 0;
   while (const std::size_t came = queue_.pop_due(now, out.subspan(count))) {
     const auto first = out.begin() + static_cast<std::ptrdiff_t>(count);
@@ -174,7 +174,7 @@ std::error_code SimulatedNetwork::Port::join(const GroupAddress& group) noexcept
     ++statistics_.join_errors;
     return std::make_error_code(std::errc::value_too_large);
   }
-  groups_.insert(place, {group, network_.clock.now() + network_.options.join_delay});
+  groups_.insert(place, {group, hub_.clock.now() + hub_.options.join_delay});
   ++statistics_.joins;
   return {};
 }
@@ -188,52 +188,52 @@ void SimulatedNetwork::Port::leave(const GroupAddress& group) noexcept {
 
 bool SimulatedNetwork::Port::wait(nanoseconds) noexcept {
   const bool woken = woken_.exchange(false, std::memory_order_relaxed);
-  return woken || queue_.next_due() <= network_.clock.now();
+  return woken || queue_.next_due() <= hub_.clock.now();
 }
 
 std::size_t SimulatedNetwork::Port::max_payload() const noexcept {
-  return network_.options.max_payload;
+  return hub_.options.max_payload;
 }
 
 SimulatedNetwork::SimulatedNetwork(const SimulatedNetworkOptions& options, const Clock& clock)
-    : state_(std::make_unique<State>(options, clock)) {}
+    : hub_(std::make_unique<Hub>(options, clock)) {}
 
 SimulatedNetwork::~SimulatedNetwork() = default;
 
 Link& SimulatedNetwork::link(std::size_t index) noexcept {
-  assert(index < state_->ports.size());
-  return *state_->ports[index];
+  assert(index < hub_->ports.size());
+  return *hub_->ports[index];
 }
 
 void SimulatedNetwork::impair(const ImpairmentLaw& law) {
-  for (std::size_t sender = 0; sender < state_->ports.size(); ++sender) {
-    for (std::size_t receiver = 0; receiver < state_->ports.size(); ++receiver) {
+  for (std::size_t sender = 0; sender < hub_->ports.size(); ++sender) {
+    for (std::size_t receiver = 0; receiver < hub_->ports.size(); ++receiver) {
       impair(sender, receiver, law);
     }
   }
 }
 
 void SimulatedNetwork::impair(std::size_t sender, std::size_t receiver, const ImpairmentLaw& law) {
-  assert(sender < state_->ports.size() && receiver < state_->ports.size());
-  const std::uint64_t seed = direction_seed(state_->options.seed, receiver);
-  state_->direction(sender, receiver).impairment = Impairment(law, seed);
+  assert(sender < hub_->ports.size() && receiver < hub_->ports.size());
+  const std::uint64_t seed = direction_seed(hub_->options.seed, receiver);
+  hub_->direction(sender, receiver).impairment = Impairment(law, seed);
 }
 
 std::size_t SimulatedNetwork::in_flight() const noexcept {
   std::size_t sum = 0;
-  for (const auto& port : state_->ports) sum += port->queue().size();
+  for (const auto& port : hub_->ports) sum += port->queue().size();
   return sum;
 }
 
 std::uint64_t SimulatedNetwork::arrived_after_leaving() const noexcept {
   std::uint64_t sum = 0;
-  for (const auto& port : state_->ports) sum += port->arrived_after_leaving();
+  for (const auto& port : hub_->ports) sum += port->arrived_after_leaving();
   return sum;
 }
 
 nanoseconds SimulatedNetwork::next_arrival() const noexcept {
   nanoseconds first = nanoseconds::max();
-  for (const auto& port : state_->ports) first = std::min(first, port->queue().next_due());
+  for (const auto& port : hub_->ports) first = std::min(first, port->queue().next_due());
   return first;
 }
 

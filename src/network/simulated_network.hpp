@@ -54,8 +54,8 @@ class SimulatedNetwork {
 
  private:
   class Port;
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Hub;
+  std::unique_ptr<Hub> hub_;
 };
 
 }  // namespace reckon::peer

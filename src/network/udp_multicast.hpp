@@ -104,8 +104,8 @@ class UdpMulticast final : public Link {
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Sockets;
+  std::unique_ptr<Sockets> sockets_;
 };
 
 }  // namespace reckon::peer

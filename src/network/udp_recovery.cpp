@@ -1,23 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a UdpMulticast lives on when its interface goes, comes back, or is another one by that name.
-#include <unistd.h>
+#include "reckon/peer/network/udp_recovery.hpp"
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <system_error>
 #include <utility>
-
-#include "reckon/peer/network/udp_multicast_state.hpp"
+#include <vector>
 
 namespace reckon::peer {
 namespace {
 
 using std::chrono::nanoseconds;
 
-// So often the host is looked at while something is amiss, or where the kernel tells nothing.
+// So often the host is looked at while something is amiss, or where the kernel gives no notice.
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(500);
 // An interface that was chosen by rule may be replaced by another after so long.
 constexpr nanoseconds kChooseAnother = std::chrono::seconds(5);
@@ -26,176 +24,152 @@ constexpr nanoseconds kAddressTried = std::chrono::seconds(3);
 
 }  // namespace
 
-// Called while the reading thread has nothing to read. Looking costs some 0.2 ms, and allocates.
-void UdpMulticast::State::recover() noexcept {
-  const nanoseconds now = clock.now();
-  const bool has_news = host_changed || away || hindered;
+UdpRecovery::UdpRecovery(const Surroundings& link, const NetworkInterface& used)
+    : link_(link), used_(used), refusal_reported_(link.sender.segment_refusal() != 0) {}
+
+void UdpRecovery::recover() noexcept {
+  const nanoseconds now = link_.clock.now();
+  const bool has_news = link_.ready.host_changed() || away_ || hindered_;
   try {
-    const bool looks_by_itself = away || hindered || !unjoined.empty() || !told_by_kernel;
-    if (host_changed || (looks_by_itself && now >= next_look)) {
-      host_changed = false;
-      next_look = now + kLookEvery;
+    const bool looks_by_itself =
+        away_ || hindered_ || link_.sockets.missing() > 0 || !link_.ready.has_host_notices();
+    if (link_.ready.host_changed() || (looks_by_itself && now >= next_look_)) {
+      link_.ready.clear_host_change();
+      next_look_ = now + kLookEvery;
       look_at_host(now);
-      retry_groups();
-      if (std::exchange(hindered, false)) {
-        tell("interface " + used.name + " can be looked at again");
+      join_missing();
+      if (std::exchange(hindered_, false)) {
+        report("interface " + used_.name + " can be looked at again");
       }
     }
-    if (!away) look_for_echo(now);
-    tell_of_offload();
+    if (!away_) look_for_echo(now);
+    report_offload();
   } catch (const std::exception& failure) {
-    next_look = now + kLookEvery;  // no descriptor or no memory for now: looked at again
-    if (has_news) tell_hindrance(failure.what());  // else refused groups are reported as such
+    next_look_ = now + kLookEvery;  // no descriptor or no memory for now: looked at again
+    if (has_news) report_hindrance(failure.what());  // else refused groups are reported as such
   }
 }
 
 // Sending goes on without it: whoever sends in bulk should know what it costs.
-void UdpMulticast::State::tell_of_offload() {
-  const int why = segment_refusal.load(std::memory_order_relaxed);
-  if (why == 0 || segment_told) return;
-  segment_told = true;
-  tell("the kernel does not cut runs of datagrams on " + used.name + " (UDP_SEGMENT: " +
-       std::generic_category().message(why) + "); each is sent by itself from now on");
+void UdpRecovery::report_offload() {
+  const int why = link_.sender.segment_refusal();
+  if (why == 0 || refusal_reported_) return;
+  refusal_reported_ = true;
+  report("the kernel does not cut runs of datagrams on " + used_.name + " (UDP_SEGMENT: " +
+         std::generic_category().message(why) + "); each is sent by itself from now on");
 }
 
 // Once, until a look has gone through. Without an allocation: memory may be what is missing.
-void UdpMulticast::State::tell_hindrance(const char* what) noexcept {
-  if (std::exchange(hindered, true)) return;
+void UdpRecovery::report_hindrance(const char* what) noexcept {
+  if (std::exchange(hindered_, true)) return;
   std::array<char, sizeof(LinkEvent::text)> text{};
   std::snprintf(
       text.data(), text.size(),
       "interface %s cannot be looked at: %s; tried again every 0.5 s. For open files raise "
       "ulimit -n",
-      used.name.c_str(), what);
-  tell(text.data());
+      used_.name.c_str(), what);
+  report(text.data());
 }
 
-void UdpMulticast::State::look_at_host(nanoseconds now) {
+void UdpRecovery::look_at_host(nanoseconds now) {
   const std::vector<NetworkInterface> all = list_interfaces();
-  InterfaceStanding standing = find_again(all, options.interface, used, options.ipv6);
+  InterfaceStanding standing = find_again(all, link_.options.interface, used_, link_.options.ipv6);
   if (standing.interface) return follow(*standing.interface);
-  if (!away) lose(standing, now);
-  if (!options.interface.empty() || now - away_since < kChooseAnother) return;
+  if (!away_) lose(standing, now);
+  if (!link_.options.interface.empty() || now - away_since_ < kChooseAnother) return;
   const auto usable = [&](const NetworkInterface& candidate) {
-    return rate(candidate, options.ipv6).usable && (!candidate.loopback || used.loopback);
+    return rate(candidate, link_.options.ipv6).usable && (!candidate.loopback || used_.loopback);
   };
   if (std::any_of(all.begin(), all.end(), usable)) {
-    follow(choose_interface(all, {}, options.ipv6).interface);
+    follow(choose_interface(all, {}, link_.options.ipv6).interface);
   }
 }
 
-void UdpMulticast::State::lose(const InterfaceStanding& standing, nanoseconds now) {
-  away = true;
-  away_since = now;
-  counts.interface_losses.add();
-  tell("interface " + used.name + ' ' + std::string(standing.why_not) +
-       ": nothing is sent or heard until that is mended; see ip link and ip addr");
+void UdpRecovery::lose(const InterfaceStanding& standing, nanoseconds now) {
+  away_ = true;
+  away_since_ = now;
+  link_.counts.interface_losses.add();
+  report("interface " + used_.name + ' ' + std::string(standing.why_not) +
+         ": nothing is sent or heard until that is mended; see ip link and ip addr");
 }
 
 // The interface carries us: as before, or under another index or address.
-void UdpMulticast::State::follow(const NetworkInterface& found) {
-  const IpEndpoint address = found.address(options.ipv6).value();
-  IpEndpoint before = local;
+void UdpRecovery::follow(const NetworkInterface& found) {
+  const IpEndpoint address = found.address(link_.options.ipv6).value();
+  IpEndpoint before = link_.local.value();
   before.port = 0;
-  const bool is_other = found.index != used.index || address != before;
-  if (!away && !is_other) {
-    used = found;
+  const bool is_other = found.index != used_.index || address != before;
+  if (!away_ && !is_other) {
+    used_ = found;
     return;
   }
-  const std::string name = used.name;
-  used = found;
-  socket_options.interface_index = found.index;
-  interface_index.store(found.index, std::memory_order_relaxed);
-  const std::uint16_t port = local.port;
+  const std::string name = used_.name;
+  used_ = found;
+  link_.sockets.set_interface(found.index);
+  link_.sender.set_interface(found.index);
+  const std::uint16_t port = link_.local.value().port;
   if (const std::error_code error = reopen_sender(address)) {
-    if (!away) away_since = clock.now();
-    away = true;  // as while IPv6 still tries whether the address is free
-    if (clock.now() - away_since < kAddressTried) return;
+    if (!away_) away_since_ = link_.clock.now();
+    away_ = true;  // as while IPv6 still tries whether the address is free
+    if (link_.clock.now() - away_since_ < kAddressTried) return;
     throw std::system_error(error, "no socket on " + address.address_text());
   }
-  away = false;
-  rejoin();
+  away_ = false;
+  link_.sockets.rejoin();
   std::string sentence =
-      "interface " + used.name + (name == used.name ? "" : " in place of " + name);
-  sentence += is_other ? ", now index " + std::to_string(used.index) + " with " +
-                             local.address_text() + ", carries us again"
+      "interface " + used_.name + (name == used_.name ? "" : " in place of " + name);
+  sentence += is_other ? ", now index " + std::to_string(used_.index) + " with " +
+                             link_.local.value().address_text() + ", carries us again"
                        : " carries us again";
-  if (local.port != port) {
+  if (link_.local.value().port != port) {
     sentence += "; port " + std::to_string(port) + " is taken, ours is " +
-                std::to_string(local.port) + " now";
+                std::to_string(link_.local.value().port) + " now";
   }
-  tell(sentence + "; " + groups_text());
+  report(sentence + "; " + groups_text());
 }
 
-// The new socket takes the number of the old one, so that the writing thread never sees none. One
-// that is bound to the same address only learns the new index.
-std::error_code UdpMulticast::State::reopen_sender(const IpEndpoint& address) {
+// A socket that is bound to the same address only learns the new index.
+std::error_code UdpRecovery::reopen_sender(const IpEndpoint& address) {
   IpEndpoint bound = address;
-  bound.port = local.port;
-  if (bound == local && !is_link_local(bound)) {
-    return set_outgoing_interface(slots[0].socket, socket_options);
+  bound.port = link_.local.value().port;
+  if (bound == link_.local.value() && !is_link_local(bound)) {
+    return link_.sockets.renew_outgoing_interface();
   }
-  std::error_code error;
-  asio::ip::udp::socket socket = open_sender(context, socket_options, bound, error);
-  if (error == std::errc::address_in_use) {
-    bound.port = 0;
-    socket = open_sender(context, socket_options, bound, error);
-  }
-  if (error) return error;
-  if (dup2(socket.native_handle(), slots[0].socket.native_handle()) < 0 || !watch(0)) {
-    return {errno, std::generic_category()};
-  }
-  slots[0].drops_seen = 0;
-  if (options.offload) segment_refusal = segment_error(slots[0].socket);
-  segment_told = segment_refusal != 0;
-  take_local_endpoint();
+  if (const std::error_code error = link_.sockets.reopen_unicast(bound)) return error;
+  if (link_.options.offload) link_.sender.set_segment_refusal(link_.sockets.segment_error());
+  refusal_reported_ = link_.sender.segment_refusal() != 0;
   return {};
 }
 
-// A membership belongs to an interface, not to its name: all are made anew.
-void UdpMulticast::State::rejoin() {
-  counts.recoveries.add();
-  for (std::size_t i = 1; i < slots.size(); ++i) {
-    if (!slots[i].socket.is_open()) continue;
-    close(slots[i]);
-    unjoined.push_back(slots[i].group);
-  }
-  event_count = next_event = 0;
-  retry_groups();
-  echo.restart();
+void UdpRecovery::join_missing() {
+  if (!away_) link_.sockets.join_missing();
 }
 
-void UdpMulticast::State::retry_groups() {
-  if (away) return;
-  std::erase_if(unjoined, [this](const GroupAddress& group) { return !open(group); });
-}
-
-std::string UdpMulticast::State::groups_text() const {
-  const auto joined = std::count_if(slots.begin() + 1, slots.end(),
-                                    [](const Slot& slot) { return slot.socket.is_open(); });
-  std::string text = std::to_string(joined) + " groups joined again";
-  if (!unjoined.empty()) text += ", " + std::to_string(unjoined.size()) + " not yet";
+std::string UdpRecovery::groups_text() const {
+  std::string text = std::to_string(link_.sockets.joined()) + " groups joined again";
+  const std::size_t missing = link_.sockets.missing();
+  if (missing > 0) text += ", " + std::to_string(missing) + " not yet";
   return text;
 }
 
-void UdpMulticast::State::look_for_echo(nanoseconds now) {
-  const EchoWatch::Turn turn = echo.look(now);
+void UdpRecovery::look_for_echo(nanoseconds now) {
+  const EchoWatch::Turn turn = link_.echo.look(now);
   if (turn == EchoWatch::Turn::none) return;
-  const std::string group = echo.group().text();
+  const std::string group = link_.echo.group().text();
   if (turn == EchoWatch::Turn::heard)
-    return tell("own datagrams come back from " + group + " again");
-  rejoin();
-  tell("own datagrams do not come back from " + group + " on " + used.name +
-       ", so others are not heard either: does a firewall drop them? nft list ruleset; " +
-       groups_text() + "; without multicast: reckon peer --to ADDRESSES");
+    return report("own datagrams come back from " + group + " again");
+  link_.sockets.rejoin();
+  report("own datagrams do not come back from " + group + " on " + used_.name +
+         ", so others are not heard either: does a firewall drop them? nft list ruleset; " +
+         groups_text() + "; without multicast: reckon peer --to ADDRESSES");
 }
 
-void UdpMulticast::State::tell(std::string_view sentence) noexcept {
-  LinkEvent* event = link_events.claim();
+void UdpRecovery::report(std::string_view sentence) noexcept {
+  LinkEvent* event = events_.claim();
   if (event == nullptr) return;  // whoever asks lags by 32 of them
   event->text = {};
   sentence.copy(event->text.data(), event->text.size() - 1);
-  link_events.publish();
+  events_.publish();
 }
 
 }  // namespace reckon::peer

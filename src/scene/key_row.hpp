@@ -189,6 +189,13 @@ class Row {
     return row;
   }
 
+  /// The same key where a percentage of another one, a time of the same section, is good too.
+  [[nodiscard]] Row or_share_of(std::string_view key) const {
+    Row row = *this;
+    row.key_.share_of = key;
+    return row;
+  }
+
   /// Leaves `out` as it is when the key is absent or bad; a bad one becomes a problem.
   void read(TomlReader& table, S& out) const {
     if (read_ && table.has(key_.key)) read_(table, out);

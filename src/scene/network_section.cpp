@@ -185,8 +185,9 @@ Section<ImpairmentConfig> impairment_section() {
   return {
       {
           {"delay", law(&Law::delay), within("s", 0, 10), "one way"},
-          {"jitter", law(&Law::jitter), within("s", 0, 10),
-           "delay varies uniformly by so much either way"},
+          Row<ImpairmentConfig>("jitter", law(&Law::jitter), within("s", 0, 10),
+                                "delay varies uniformly by so much either way")
+              .or_share_of("delay"),
           {"loss", law(&Law::loss), within("", 0, 1), "share of datagrams lost, each for itself"},
           {"burst_loss", law(&Law::burst_loss), within("", 0, 0.999),
            "share of datagrams lost in bursts"},

@@ -275,10 +275,4 @@ struct CouplingConfig {
   CouplingMode mode = CouplingMode::reckon;
 };
 
-/// Seeded damage to what this peer hears.
-struct ImpairmentConfig {
-  ImpairmentLaw law;       ///< all defaults together are a perfect network
-  std::uint64_t seed = 1;  ///< equal seeds give equal damage
-};
-
 }  // namespace reckon::peer

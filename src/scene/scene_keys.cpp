@@ -103,7 +103,10 @@ std::string section_name(std::string_view section) {
 std::string describe_kind(const SceneKey& key) {
   switch (key.kind) {
     case KeyKind::number:
-      return key.unit.empty() ? "number" : fmt::format("number [{}]", key.unit);
+      if (key.unit.empty()) return "number";
+      return fmt::format(
+          "number [{}]{}", key.unit,
+          key.share_of.empty() ? "" : fmt::format(", or share of `{}`", key.share_of));
     case KeyKind::integer:
       return "whole number";
     case KeyKind::boolean:

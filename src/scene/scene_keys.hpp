@@ -35,6 +35,8 @@ struct SceneKey {
   std::string standard;  ///< what holds when the key is absent, as written in a file; may be empty
   std::string sentence;  ///< what it means
   std::vector<std::string_view> words = {};  ///< choice: one of them
+  /// Another key of the section, a time, of which this one may be a share: "40 %". Empty: none.
+  std::string_view share_of = {};
 };
 
 /// The list, with the parameters of all effects in it; made once.

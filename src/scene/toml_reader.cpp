@@ -12,9 +12,10 @@
 #include <system_error>
 #include <utility>
 
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/jitter_text.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/renamed_keys.hpp"
-#include "reckon/peer/scene/units.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -140,9 +141,20 @@ std::optional<double> TomlReader::in_range(double value, const toml::node& node,
   return std::nullopt;
 }
 
+Quantity TomlReader::parse(const std::string& text, const SceneKey& spec) const {
+  if (spec.share_of.empty()) return parse_quantity(text, spec.unit);
+  // A bad value of the other key is reported where that key is read.
+  std::vector<SceneProblem> reported;
+  std::chrono::nanoseconds whole{0};
+  TomlReader(*table_, section_, folder_, reported).read(spec.share_of, whole);
+  if (!reported.empty()) return {};
+  const JitterText jitter = read_jitter(text, whole, fmt::format("{} = \"80 ms\"", spec.share_of));
+  return {pdu::to_seconds(jitter.jitter), jitter.error};
+}
+
 std::optional<double> TomlReader::quantity(const toml::node& node, const SceneKey& spec) {
   if (const auto* text = node.as_string()) {
-    const Quantity parsed = parse_quantity(text->get(), spec.unit);
+    const Quantity parsed = parse(text->get(), spec);
     if (parsed.good()) return in_range(parsed.value, node, spec);
     add(node.source(), fmt::format("'{}': {}", spec.key, parsed.error));
     return std::nullopt;

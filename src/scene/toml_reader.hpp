@@ -21,6 +21,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/peer/scene/units.hpp"
 
 namespace reckon::peer {
 
@@ -100,6 +101,8 @@ class TomlReader {
   [[nodiscard]] std::optional<std::string_view> choice(std::string_view key);
   [[nodiscard]] TomlReader inside(const toml::table& table, std::string_view key);
   [[nodiscard]] std::optional<double> quantity(const toml::node& node, const SceneKey& spec);
+  /// What the text of a number says.
+  [[nodiscard]] Quantity parse(const std::string& text, const SceneKey& spec) const;
   [[nodiscard]] std::optional<double> in_range(double value, const toml::node& node,
                                                const SceneKey& spec);
   void wrong_type(const toml::node& node, const SceneKey& spec);

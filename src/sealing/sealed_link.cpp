@@ -78,8 +78,9 @@ GroupAddress sealed_group(GroupAddress base) {
   return base;
 }
 
-struct SealedLink::State {
-  State(Link& wrapped, SealedLinkOptions asked, const Clock& steady)
+// One boot in a sealed exercise: what it seals with, whom it trusts, and what waits for trust.
+struct SealedLink::Session {
+  Session(Link& wrapped, SealedLinkOptions asked, const Clock& steady)
       : inner(wrapped),
         clock(steady),
         options(std::move(asked)),
@@ -145,14 +146,14 @@ struct SealedLink::State {
   std::uint64_t dropped = 0;               // trusted senders so far
 };
 
-void SealedLink::State::follow_time(nanoseconds now) noexcept {
+void SealedLink::Session::follow_time(nanoseconds now) noexcept {
   if (options.key.epochs.size() > 1) opener.follow_time(now, clock.utc_now());
   epoch.store(opener.epoch(), std::memory_order_relaxed);
   next_look = now + kLookAtTime;
 }
 
 // Nobody can do anything about a random source that fails; the next look asks it again.
-void SealedLink::State::begin_anew(nanoseconds now) noexcept {
+void SealedLink::Session::begin_anew(nanoseconds now) noexcept {
   std::uint64_t nonce = 0;
   if (!options.random(std::as_writable_bytes(std::span(&nonce, 1)))) return;
   const std::uint64_t seen = options.instance();
@@ -167,13 +168,13 @@ void SealedLink::State::begin_anew(nanoseconds now) noexcept {
   begun = now;
 }
 
-void SealedLink::State::look_at_self(nanoseconds now) noexcept {
+void SealedLink::Session::look_at_self(nanoseconds now) noexcept {
   const nanoseconds leap = clock.utc_now() - now - utc_ahead;
   if (options.instance() != instance || std::chrono::abs(leap) > kMostLeap) return begin_anew(now);
   utc_ahead += leap;
 }
 
-void SealedLink::State::tend(nanoseconds now) noexcept {
+void SealedLink::Session::tend(nanoseconds now) noexcept {
   if (now >= next_look) {
     look_at_self(now);
     follow_time(now);
@@ -183,9 +184,9 @@ void SealedLink::State::tend(nanoseconds now) noexcept {
   if (now >= greeter.next()) greet(now);
 }
 
-bool SealedLink::State::send(SealingStream stream, const IpEndpoint& to,
-                             std::span<const std::byte> bytes, std::span<std::byte> room,
-                             nanoseconds now) noexcept {
+bool SealedLink::Session::send(SealingStream stream, const IpEndpoint& to,
+                               std::span<const std::byte> bytes, std::span<std::byte> room,
+                               nanoseconds now) noexcept {
   const bool is_said = stream == SealingStream::datagrams;
   const std::lock_guard lock(sending);
   const auto datagram =
@@ -200,7 +201,7 @@ bool SealedLink::State::send(SealingStream stream, const IpEndpoint& to,
   return inner.send(to, datagram);
 }
 
-void SealedLink::State::greet(nanoseconds now) noexcept {
+void SealedLink::Session::greet(nanoseconds now) noexcept {
   std::array<std::byte, Greeter::kLongest> octets;
   const std::size_t most = std::min(octets.size(), inner.max_payload() - kEnvelope);
   const auto said = greeter.write(opener.senders(), std::span(octets).first(most), now);
@@ -209,7 +210,7 @@ void SealedLink::State::greet(nanoseconds now) noexcept {
   counts->hellos_out.add();
 }
 
-std::size_t SealedLink::State::take_released(std::span<Datagram> out, std::size_t at) noexcept {
+std::size_t SealedLink::Session::take_released(std::span<Datagram> out, std::size_t at) noexcept {
   for (; at < out.size() && at < kInnerBatch && held.take(out[at], room(at)); ++at)
     note(DatagramTap::Loop::read, DatagramFate::arrived, out[at].group, out[at].bytes);
   return at;
@@ -217,15 +218,15 @@ std::size_t SealedLink::State::take_released(std::span<Datagram> out, std::size_
 
 // One that is trusted may have lost its place to the newcomer, and what was taken of it is
 // forgotten.
-void SealedLink::State::meet(nanoseconds now) noexcept {
+void SealedLink::Session::meet(nanoseconds now) noexcept {
   if (opener.senders().trusted_dropped() != dropped) begun = now;
   dropped = opener.senders().trusted_dropped();
   greeter.meet(opener.senders(), now);
 }
 
 // Whether `out` is to be handed up.
-bool SealedLink::State::take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
-                                Datagram& out) noexcept {
+bool SealedLink::Session::take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
+                                  Datagram& out) noexcept {
   const auto tell = [&](DatagramFate fate) {
     note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
   };
@@ -253,8 +254,8 @@ bool SealedLink::State::take_in(const Datagram& datagram, nanoseconds now, std::
   return true;
 }
 
-void SealedLink::State::take_hello(const OpenedDatagram& opened, nanoseconds received,
-                                   nanoseconds now) noexcept {
+void SealedLink::Session::take_hello(const OpenedDatagram& opened, nanoseconds received,
+                                     nanoseconds now) noexcept {
   const SealedSender& sender = *opened.sender;
   const bool before = sender.trusted;
   if (!greeter.hear(opened, received, now)) return;
@@ -265,8 +266,8 @@ void SealedLink::State::take_hello(const OpenedDatagram& opened, nanoseconds rec
 }
 
 // Of who has not answered for long nothing is kept: a recording never will.
-void SealedLink::State::hold(const OpenedDatagram& opened, const Datagram& datagram,
-                             nanoseconds since, nanoseconds now) noexcept {
+void SealedLink::Session::hold(const OpenedDatagram& opened, const Datagram& datagram,
+                               nanoseconds since, nanoseconds now) noexcept {
   SealedSender& sender = *opened.sender;
   const bool is_held =
       now - sender.since <= kHeldFor && held.push(sender, opened.header, datagram, since);
@@ -276,30 +277,30 @@ void SealedLink::State::hold(const OpenedDatagram& opened, const Datagram& datag
 SealedLink::SealedLink(Link& inner, SealedLinkOptions options, const Clock& clock) {
   if (inner.max_payload() < kEnvelope + Greeter::kShortest)
     throw std::invalid_argument("the network's payload has no room for an envelope");
-  state_ = std::make_unique<State>(inner, std::move(options), clock);
+  session_ = std::make_unique<Session>(inner, std::move(options), clock);
 }
 
 SealedLink::~SealedLink() = default;
 
 void SealedLink::count_in(Counters& counters) {
-  state_->counts = std::make_unique<Counts>(counters);
+  session_->counts = std::make_unique<Counts>(counters);
 }
 
 std::vector<std::string> SealedLink::take_news() {
   std::vector<std::string> lines;
   SealingNews news;
-  while (state_->watch.news().pop(news)) lines.push_back(news.text());
+  while (session_->watch.news().pop(news)) lines.push_back(news.text());
   return lines;
 }
 
 bool SealedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
-  State& s = *state_;
-  return s.send(SealingStream::datagrams, to, bytes, std::span(s.sealed.get(), State::kSealedRoom),
-                s.clock.now());
+  Session& s = *session_;
+  return s.send(SealingStream::datagrams, to, bytes,
+                std::span(s.sealed.get(), Session::kSealedRoom), s.clock.now());
 }
 
 std::size_t SealedLink::receive(std::span<Datagram> out) noexcept {
-  State& s = *state_;
+  Session& s = *session_;
   const nanoseconds now = s.clock.now();
   s.tend(now);
   out = out.first(std::min(out.size(), kInnerBatch));
@@ -315,15 +316,15 @@ std::size_t SealedLink::receive(std::span<Datagram> out) noexcept {
 }
 
 std::error_code SealedLink::join(const GroupAddress& group) noexcept {
-  state_->joins.note(group, state_->clock.now());
-  return state_->inner.join(group);
+  session_->joins.note(group, session_->clock.now());
+  return session_->inner.join(group);
 }
 
-void SealedLink::leave(const GroupAddress& group) noexcept { state_->inner.leave(group); }
+void SealedLink::leave(const GroupAddress& group) noexcept { session_->inner.leave(group); }
 
 // No longer than until it is time to greet.
 bool SealedLink::wait(nanoseconds timeout) noexcept {
-  State& s = *state_;
+  Session& s = *session_;
   if (s.held.has_released()) return true;
   const nanoseconds next = s.greeter.next();
   const nanoseconds now = s.clock.now();
@@ -331,18 +332,18 @@ bool SealedLink::wait(nanoseconds timeout) noexcept {
   return s.inner.wait(std::min(timeout, until)) || next <= s.clock.now();
 }
 
-void SealedLink::wake() noexcept { state_->inner.wake(); }
+void SealedLink::wake() noexcept { session_->inner.wake(); }
 
-bool SealedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
+bool SealedLink::take_event(LinkEvent& event) noexcept { return session_->inner.take_event(event); }
 
-void SealedLink::settle() noexcept { state_->inner.settle(); }
+void SealedLink::settle() noexcept { session_->inner.settle(); }
 
-IpEndpoint SealedLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
+IpEndpoint SealedLink::local_endpoint() const noexcept { return session_->inner.local_endpoint(); }
 
 std::size_t SealedLink::max_payload() const noexcept {
-  return state_->inner.max_payload() - kEnvelope;
+  return session_->inner.max_payload() - kEnvelope;
 }
 
-LinkStatistics SealedLink::statistics() const noexcept { return state_->inner.statistics(); }
+LinkStatistics SealedLink::statistics() const noexcept { return session_->inner.statistics(); }
 
 }  // namespace reckon::peer

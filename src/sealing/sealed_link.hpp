@@ -74,8 +74,8 @@ class SealedLink final : public Link {
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Session;
+  std::unique_ptr<Session> session_;
 };
 
 }  // namespace reckon::peer

@@ -11,65 +11,32 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
-#include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
-#include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/peer/world/arrival.hpp"
 #include "reckon/peer/world/change_list.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
-#include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/due_column.hpp"
+#include "reckon/peer/world/entity_ownership.hpp"
+#include "reckon/peer/world/force_model_intake.hpp"
 #include "reckon/peer/world/held_states.hpp"
 #include "reckon/peer/world/near_search.hpp"
 #include "reckon/peer/world/outside_entities.hpp"
+#include "reckon/peer/world/remote_counters.hpp"
+#include "reckon/peer/world/remote_motion.hpp"
 #include "reckon/peer/world/remote_parts.hpp"
-#include "reckon/peer/world/row_column.hpp"
+#include "reckon/peer/world/remote_settings.hpp"
+#include "reckon/peer/world/row_admission.hpp"
 #include "reckon/peer/world/row_owners.hpp"
 #include "reckon/peer/world/sight_watch.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
 
-/// In whose name somebody speaks, as far as we know.
-enum class Voice : std::uint8_t {
-  owner,    ///< in his own: the entity, or its site and application, is his
-  nobody,   ///< in that of an entity which nobody has that we hear
-  refused,  ///< in another's
-};
-
 /// How entities of a peer went.
 enum class Gone : std::uint8_t { left, silent };
-
-/// How remote entities are read and shown, and how many.
-struct RemoteSettings {
-  double probe_radius = 0.02;  ///< [m] of our own hand, for the force innovation; >= 0
-  ConvergenceConfig convergence;
-  deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
-  /// Most entities, 1 .. 2^24. Room is reserved for all, memory is touched as they come: some 900
-  /// octets each, 1,500 in scenes of adaptive prediction.
-  std::size_t capacity = 100'000;
-  /// What is kept of the entities of plain DIS programs, which nobody vouches for, takes no more
-  /// [octets].
-  std::size_t strangers_memory = std::size_t{32} << 20;
-  double contact_reach = kContactReach;  ///< [m], >= 0, within which find_near() finds
-  bool record_changes = false;           ///< for take_changes()
-  /// An update without articulated parts says nothing of them, for owners leave them out.
-  bool bodies_in_part = false;
-  std::vector<NimbusClass> nimbus = {};  ///< by type; the first that fits holds
-  std::size_t near_rows = 0;             ///< of channels, that have groups
-  TouchRule touch = {};                  ///< whose force models are taken
-  /// [s] for which a force model is believed at most without an update, whatever it says.
-  double longest_validity = 65.0;
-};
-
-/// Who has a force model and may not touch.
-struct Untouchable {
-  pdu::EntityId id;
-  aoim::SourceAddress from;
-};
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
 /// construction. An update of a known entity costs some 0.3 us.
@@ -94,7 +61,9 @@ class RemoteEntities {
   /// In whose name somebody speaks who says something that is no state: by the rule of states, the
   /// owner where one of `ids` is his. What is refused is counted in `disputed_in` and reported. An
   /// entity number that no entity has stands for its site and application. Some 20 ns each.
-  [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept;
+  [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept {
+    return ownership_.hear(ids, arrival);
+  }
   /// Something that is to be believed came from there: its rows are not given to others.
   void heard(const aoim::SourceAddress& from, std::chrono::nanoseconds now) noexcept {
     owners_.heard(from, now);
@@ -175,25 +144,31 @@ class RemoteEntities {
   [[nodiscard]] std::size_t with_parts() const noexcept { return parts_.in_use(); }
   /// Who spoke for entities of others, see Disputes::take_news.
   [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
-    return disputes_.take_news(now);
+    return ownership_.take_dispute(now);
   }
   /// What is kept of guests' entities, shown or not, may take so much now [octets]; a bound, of
   /// which 0.7 to 0.9 are used.
-  [[nodiscard]] std::size_t strangers_octets() const noexcept {
-    return owners_.guests() * row_octets_ + outside_.guests() * kOutsideOctets;
-  }
+  [[nodiscard]] std::size_t strangers_octets() const noexcept { return admission_.guests_octets(); }
   /// Rows that made room for others', and whose the last of them was.
-  [[nodiscard]] std::uint64_t evicted() const noexcept { return evicted_.value(); }
+  [[nodiscard]] std::uint64_t evicted() const noexcept { return admission_.evicted(); }
   /// Entities of plain DIS programs for which there was no room, and who said the last of them:
   /// nobody has more.
-  [[nodiscard]] std::uint64_t strangers_refused() const noexcept { return strangers_full_.value(); }
-  [[nodiscard]] const aoim::SourceAddress& last_stranger() const noexcept { return last_stranger_; }
-  [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
+  [[nodiscard]] std::uint64_t strangers_refused() const noexcept { return admission_.refused(); }
+  [[nodiscard]] const aoim::SourceAddress& last_stranger() const noexcept {
+    return admission_.last_refused();
+  }
+  [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept {
+    return admission_.last_evicted();
+  }
   /// Whose force model was the last to be refused.
-  [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
+  [[nodiscard]] const pdu::EntityId& last_refused() const noexcept {
+    return models_.last_refused();
+  }
   /// Force models of those whom `touch` of the scene leaves out, and whose the last of them was.
-  [[nodiscard]] std::uint64_t untouchable() const noexcept { return untouchables_.value(); }
-  [[nodiscard]] const Untouchable& last_untouchable() const noexcept { return last_untouchable_; }
+  [[nodiscard]] std::uint64_t untouchable() const noexcept { return models_.untouchable(); }
+  [[nodiscard]] const Untouchable& last_untouchable() const noexcept {
+    return models_.last_untouchable();
+  }
   /// Where the owner of a row of rows() speaks from.
   [[nodiscard]] const aoim::SourceAddress& owner(const RemoteEntity& row) const noexcept {
     return owners_.owner(table_.place_of(row));
@@ -203,25 +178,10 @@ class RemoteEntities {
 
   /// Innovations: how far each update was from what had been predicted for the same instant, as
   /// pose [m] and as force on our hand [N]. What a listener can know of its errors. Any thread.
-  [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return pose_jumps_; }
-  [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
+  [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return motion_.pose_jumps(); }
+  [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return motion_.force_jumps(); }
 
  private:
-  /// A state being taken, with when it came and our hand then.
-  struct StateInHand {
-    const pdu::EntityState& pdu;
-    const deadreckon::KinematicState& state;
-    const Arrival& at;
-    const haptics::ServoSnapshot& servo;
-  };
-
-  [[nodiscard]] Voice voice_of(const pdu::EntityId& id, const Arrival& arrival,
-                               const RemoteEntity* row, aoim::SourceAddress& owner) const noexcept;
-  [[nodiscard]] bool may_speak(const pdu::EntityId& id, const Arrival& arrival,
-                               const RemoteEntity* row) noexcept;
-  [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept;
-  void refuse(const pdu::EntityId& id, const Arrival& arrival,
-              const aoim::SourceAddress& owner) noexcept;
   RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
@@ -229,81 +189,42 @@ class RemoteEntities {
   void keep_outside(const RemoteEntity& row) noexcept;
   void note_sight(const RemoteEntity& row, aoim::InterestVerdict verdict,
                   const deadreckon::KinematicState& state, std::chrono::nanoseconds now) noexcept;
-  void note_held(const RemoteEntity& row, const StateInHand& heard, std::chrono::nanoseconds time,
+  void note_held(const RemoteEntity& row, const HeardState& heard, std::chrono::nanoseconds time,
                  bool newest) noexcept;
   void go_back(std::size_t place, const HeldState& held, std::chrono::nanoseconds now) noexcept;
   void enter(const OutsideEntity& entity, std::chrono::nanoseconds owner_heard) noexcept;
   void note_taken(RemoteEntity& row, const Inbound& update) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
-  [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;
-  [[nodiscard]] bool make_guest_room(const Arrival& arrival) noexcept;
   void keep_outside(const OutsideEntity& entity) noexcept;
-  bool note_repeat(RemoteEntity& row, const Inbound& update, const StateInHand& heard) noexcept;
+  bool note_repeat(RemoteEntity& row, const Inbound& update, const HeardState& heard) noexcept;
   void take_parts(RemoteEntity& row, const pdu::EntityState& state, std::chrono::nanoseconds now,
                   bool abrupt) noexcept;
-  bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
-  void note_state(RemoteEntity& row, const StateInHand& heard,
-                  std::chrono::nanoseconds time) noexcept;
-  /// `expected`: what the update before said of this one's instant.
-  void note_history(RemoteEntity& row, const deadreckon::Pose& expected, bool abrupt) noexcept;
-  [[nodiscard]] bool is_teleport(const deadreckon::Pose& shown,
-                                 const deadreckon::Pose& expected) const noexcept;
-  void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
-                 const haptics::ServoSnapshot& servo) noexcept;
-  void take_model(RemoteEntity& row, const Inbound& update) noexcept;
-  [[nodiscard]] bool may_touch(const RemoteEntity& row) noexcept;
+  bool refresh(RemoteEntity& row, const HeardState& heard) noexcept;
+  void take_model(RemoteEntity& row, const pdu::HapticRecord& model) noexcept;
   void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   static void let_go(RemoteEntity& row) noexcept;
-  [[nodiscard]] bool is_adaptive() const noexcept {
-    return settings_.convergence.prediction == Prediction::adaptive;
-  }
   void drop(std::size_t place, Counter& why) noexcept;
-
-  // Of one entity outside: its row, instants, owner and place in the index.
-  static constexpr std::size_t kOutsideOctets = sizeof(OutsideEntity) + 192;
 
   const deadreckon::LocalFrame& frame_;
   aoim::AreaOfInterestManager& aoim_;
   RemoteSettings settings_;
-  std::size_t row_octets_;  // of one shown
+  RemoteParts parts_;
+  RemoteCounters counts_;
   StateTable table_;
   // Beside it, row by row.
   RowOwners owners_;
-  RowColumn<SenderClock> clocks_;                // from their timestamps to our time
-  RowColumn<deadreckon::AdaptiveOrder> orders_;  // in scenes of adaptive prediction
-  HeldStates held_;                              // in scenes of near groups
+  RemoteMotion motion_;
+  HeldStates held_;  // in scenes of near groups
   DueColumn time_outs_;
   SightWatch sight_;
   NearSearch near_;
   ChangeList changes_;
   OutsideEntities outside_;
-  RemoteParts parts_;
+  EntityOwnership ownership_;
+  RowAdmission admission_;
+  ForceModelIntake models_;
   std::chrono::nanoseconds first_heard_{-1};
-  pdu::EntityId last_refused_;
-  Untouchable last_untouchable_;
-  aoim::SourceAddress last_evicted_, last_stranger_;
-  Disputes disputes_;
-  ErrorHistogram pose_jumps_;
-  ErrorHistogram force_jumps_;
-
-  Counter& accepted_;
-  Counter& refused_values_;
-  Counter& refused_models_;
-  Counter& untouchables_;
-  Counter& reserved_;
-  Counter& stale_;
-  Counter& repeats_;
-  Counter& sender_leaps_;
-  Counter& not_interesting_;
-  Counter& entered_;
-  Counter& table_full_;
-  Counter& strangers_full_;
-  Counter& evicted_;
-  Counter& disputed_;
-  Counter& timed_out_;
-  Counter& left_;
-  Counter& snaps_;
 };
 
 }  // namespace reckon::peer

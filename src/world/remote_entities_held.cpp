@@ -77,10 +77,10 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
 }
 
 void RemoteEntities::keep_outside(const OutsideEntity& entity) noexcept {
-  outside_.keep(entity, strangers_octets() + kOutsideOctets <= settings_.strangers_memory);
+  outside_.keep(entity, admission_.has_room_outside());
 }
 
-void RemoteEntities::note_held(const RemoteEntity& row, const StateInHand& heard, nanoseconds time,
+void RemoteEntities::note_held(const RemoteEntity& row, const HeardState& heard, nanoseconds time,
                                bool newest) noexcept {
   if (!held_.is_on()) return;
   const aoim::TierTable& tiers = aoim_.tiers();
@@ -101,13 +101,7 @@ void RemoteEntities::leave_groups(std::span<const aoim::GroupIndex> groups,
 // Without a jump, as with any update.
 void RemoteEntities::go_back(std::size_t place, const HeldState& held, nanoseconds now) noexcept {
   RemoteEntity& row = table_.rows()[place];
-  const deadreckon::Pose shown = row.shown(now);
-  row.state = held.state;
-  row.state_time = held.time;
-  row.timestamp = held.timestamp;
-  if (is_adaptive()) note_history(row, shown, true);
-  row.convergence.restart(settings_.convergence.settings, shown, row.expected(now),
-                          pdu::to_seconds(now));
+  motion_.go_back(row, place, held, now);
   ++row.version;
   near_.note_update(place);
   changes_.updated(place);

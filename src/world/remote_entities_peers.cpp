@@ -3,7 +3,6 @@
 // What becomes of the entities of peers that go, fall silent and are heard again.
 #include <algorithm>
 
-#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
 namespace reckon::peer {
@@ -11,7 +10,7 @@ namespace reckon::peer {
 using std::chrono::nanoseconds;
 
 void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
-  Counter& why = how == Gone::silent ? timed_out_ : left_;
+  Counter& why = how == Gone::silent ? counts_.timed_out : counts_.left;
   // Erasing moves the last row into the hole, so look at the same place again.
   for (std::size_t i = 0; i < table_.rows().size();) {
     if (table_.rows()[i].id.simulation() == id) {
@@ -67,15 +66,7 @@ void RemoteEntities::doubt_row(std::size_t place, nanoseconds now) noexcept {
 }
 
 void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
-  RemoteEntity& row = table_.rows()[place];
-  const deadreckon::Pose shown = row.shown(now);
-  row.doubted_at = RemoteEntity::kTrusted;
-  const deadreckon::Pose expected = row.expected(now);
-  row.convergence.restart(settings_.convergence.settings, shown, expected, pdu::to_seconds(now));
-  if (is_teleport(shown, expected)) {
-    row.convergence.snap();
-    snaps_.add();
-  }
+  motion_.resume(table_.rows()[place], now);
   near_.note_update(place);
   changes_.updated(place);
 }
@@ -84,7 +75,7 @@ void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
   for (std::size_t i = 0; i < table_.rows().size();) {
     const RemoteEntity& row = table_.rows()[i];
     if (row.id.simulation() == id && row.epoch != epoch) {
-      drop(i, left_);
+      drop(i, counts_.left);
     } else {
       ++i;
     }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "reckon/peer/scene/jitter_text.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -43,7 +44,7 @@ struct Key {
 using Law = peer::ImpairmentLaw;
 constexpr std::array kKeys{
     Key{"delay", &Law::delay, nullptr},
-    Key{"jitter", &Law::jitter, nullptr},
+    Key{"jitter", nullptr, nullptr},  // a time or a share of the delay: read after all others
     Key{"loss", nullptr, &Law::loss},
     Key{"burst", nullptr, &Law::burst_loss},
     Key{"burst_length", nullptr, &Law::burst_length},
@@ -61,7 +62,8 @@ constexpr std::array kKeys{
                                fmt::join(names, ", ")));
 }
 
-void take_word(std::string_view word, Law& law) {
+/// Reads a word into `law`, or notes the one of jitter.
+void take_word(std::string_view word, Law& law, std::optional<std::string_view>& jitter) {
   const std::size_t equals = word.find('=');
   const std::string_view name = word.substr(0, equals);
   const std::string_view value = equals == word.npos ? "" : word.substr(equals + 1);
@@ -69,7 +71,9 @@ void take_word(std::string_view word, Law& law) {
       std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& k) { return k.name == name; });
   if (key == kKeys.end()) refuse_key(name);
 
-  if (key->time != nullptr) {
+  if (name == "jitter") {
+    jitter = value;
+  } else if (key->time != nullptr) {
     const auto time = parse_duration(value);
     if (!time)
       throw UsageError(
@@ -84,16 +88,24 @@ void take_word(std::string_view word, Law& law) {
   }
 }
 
+std::chrono::nanoseconds jitter_of(std::string_view text, std::chrono::nanoseconds delay) {
+  const peer::JitterText jitter = peer::read_jitter(text, delay, "delay=80ms");
+  if (!jitter.good()) throw UsageError(fmt::format("--impair jitter: {}", jitter.error));
+  return jitter.jitter;
+}
+
 }  // namespace
 
 peer::ImpairmentLaw parse_impairment(std::string_view text) {
   Law law;
+  std::optional<std::string_view> jitter;
   constexpr std::string_view kGaps = " ,\t";
   for (std::size_t at = text.find_first_not_of(kGaps); at != text.npos;) {
     const std::size_t end = std::min(text.find_first_of(kGaps, at), text.size());
-    take_word(text.substr(at, end - at), law);
+    take_word(text.substr(at, end - at), law, jitter);
     at = text.find_first_not_of(kGaps, end);
   }
+  if (jitter) law.jitter = jitter_of(*jitter, law.delay);
   if (const std::string problem = law.problem(); !problem.empty()) {
     throw UsageError("--impair: " + problem);
   }

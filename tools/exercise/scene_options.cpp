@@ -18,7 +18,7 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
               "recorded hand trace (CSV) that the hands follow, fitted to the object");
   line.option("--impair", options.impair,
               "damage to the network, e.g. 'delay=200ms jitter=100ms loss=20% reorder=5% "
-              "duplicate=5%'");
+              "duplicate=5%'; jitter is a time, or a share of the delay as in 40%");
   line.option("--seed", options.seed, "seed of the damage");
   line.option("--iface", options.iface, "network interface by name, address or index");
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");

@@ -111,8 +111,8 @@ bool can_draw(int descriptor) {
 
 }  // namespace
 
-struct TerminalScreen::State {
-  explicit State(SCREEN* opened, bool wants_colour)
+struct TerminalScreen::Terminal {
+  explicit Terminal(SCREEN* opened, bool wants_colour)
       : screen(opened),
         colour(wants_colour && has_colors()),
         guard(give_back, FirstRequest::leaves_it, false) {}
@@ -134,18 +134,19 @@ std::unique_ptr<TerminalScreen> TerminalScreen::open(std::FILE* out, bool colour
   if (screen == nullptr) return nullptr;
   shared.farewell =
       capability("sgr0") + capability("rmkx") + capability("cnorm") + capability("rmcup");
-  auto state = std::make_unique<State>(screen, colour);
-  return std::unique_ptr<TerminalScreen>(new TerminalScreen(std::move(state)));
+  auto terminal = std::make_unique<Terminal>(screen, colour);
+  return std::unique_ptr<TerminalScreen>(new TerminalScreen(std::move(terminal)));
 }
 
-TerminalScreen::TerminalScreen(std::unique_ptr<State> state) : state_(std::move(state)) {
-  set_term(state_->screen);
+TerminalScreen::TerminalScreen(std::unique_ptr<Terminal> terminal)
+    : terminal_(std::move(terminal)) {
+  set_term(terminal_->screen);
   cbreak();
   noecho();
   keypad(stdscr, TRUE);
   nodelay(stdscr, TRUE);
   curs_set(0);
-  if (!state_->colour) return;
+  if (!terminal_->colour) return;
   start_color();
   use_default_colors();
   init_pair(kBadColour, COLOR_RED, -1);
@@ -153,7 +154,7 @@ TerminalScreen::TerminalScreen(std::unique_ptr<State> state) : state_(std::move(
 
 TerminalScreen::~TerminalScreen() {
   endwin();
-  delscreen(state_->screen);
+  delscreen(terminal_->screen);
 }
 
 ScreenSize TerminalScreen::size() const {
@@ -172,7 +173,7 @@ void TerminalScreen::show(std::span<const ScreenLine> lines) {
   werase(stdscr);
   const ScreenSize room = size();
   for (std::size_t i = 0; i < lines.size() && i < room.rows; ++i) {
-    wattrset(stdscr, static_cast<int>(attributes_of(lines[i].style, state_->colour)));
+    wattrset(stdscr, static_cast<int>(attributes_of(lines[i].style, terminal_->colour)));
     mvwaddnstr(stdscr, static_cast<int>(i), 0, lines[i].text.data(),
                static_cast<int>(lines[i].text.size()));
   }

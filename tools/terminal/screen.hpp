@@ -31,9 +31,9 @@ class TerminalScreen {
   void show(std::span<const ScreenLine> lines);
 
  private:
-  struct State;
-  explicit TerminalScreen(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  struct Terminal;
+  explicit TerminalScreen(std::unique_ptr<Terminal> terminal);
+  std::unique_ptr<Terminal> terminal_;
 };
 
 }  // namespace reckon::tools

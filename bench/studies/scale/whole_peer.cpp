@@ -108,9 +108,11 @@ void WholeSamples::add(const WholeSamples& other) {
   discovery.insert(discovery.end(), other.discovery.begin(), other.discovery.end());
 }
 
-struct WholePeer::State {
-  State(const ScaleSetting& given, std::size_t number, peer::Link& link, const peer::Clock& clock,
-        nanoseconds start, std::uint32_t epoch, AttendanceLaw law)
+// The federate, what it owns and what the study measures of it.
+struct WholePeer::MeasuredFederate {
+  MeasuredFederate(const ScaleSetting& given, std::size_t number, peer::Link& link,
+                   const peer::Clock& clock, nanoseconds start, std::uint32_t epoch,
+                   AttendanceLaw law)
       : setting(given),
         begin(start),
         owned(owned_by(given, number)),
@@ -218,12 +220,12 @@ struct WholePeer::State {
 WholePeer::WholePeer(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
                      const peer::Clock& clock, nanoseconds begin, std::uint32_t epoch,
                      AttendanceLaw attendance)
-    : state_(std::make_unique<State>(setting, peer, link, clock, begin, epoch,
-                                     std::move(attendance))) {}
+    : measured_(std::make_unique<MeasuredFederate>(setting, peer, link, clock, begin, epoch,
+                                                   std::move(attendance))) {}
 WholePeer::~WholePeer() = default;
 
 void WholePeer::step(double time, Crowd& crowd) {
-  State& s = *state_;
+  MeasuredFederate& s = *measured_;
   const double begun = thread_cpu();
   if (s.handles.empty()) s.register_all(time, crowd);
   for (std::size_t i = 0; i < s.handles.size(); ++i)
@@ -238,13 +240,13 @@ void WholePeer::step(double time, Crowd& crowd) {
 }
 
 void WholePeer::look(double time, Crowd& crowd) {
-  State& s = *state_;
+  MeasuredFederate& s = *measured_;
   for (std::uint32_t e = 0; e < s.owners.size(); ++e)
     if (e < s.owned.first || e >= s.owned.end) s.look_at(e, time, crowd);
 }
 
 void WholePeer::begin_counting(double time) {
-  State& s = *state_;
+  MeasuredFederate& s = *measured_;
   s.before = s.sums();
   s.cpu_before = s.cpu;
   s.counting_since = time;
@@ -253,7 +255,7 @@ void WholePeer::begin_counting(double time) {
 }
 
 WholeCounts WholePeer::counts(double time) {
-  State& s = *state_;
+  MeasuredFederate& s = *measured_;
   WholeCounts counts = s.counts;
   const WholeCounts now = s.sums();
   for (std::uint64_t WholeCounts::*sum :
@@ -271,6 +273,6 @@ WholeCounts WholePeer::counts(double time) {
   return counts;
 }
 
-const WholeSamples& WholePeer::samples() const noexcept { return state_->samples; }
+const WholeSamples& WholePeer::samples() const noexcept { return measured_->samples; }
 
 }  // namespace reckon::bench

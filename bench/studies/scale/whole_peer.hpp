@@ -112,8 +112,8 @@ class WholePeer {
   [[nodiscard]] const WholeSamples& samples() const noexcept;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct MeasuredFederate;
+  std::unique_ptr<MeasuredFederate> measured_;
 };
 
 }  // namespace reckon::bench

@@ -86,8 +86,9 @@ struct Witnesses::Witness {
   }
 };
 
-struct Witnesses::State {
-  std::vector<Witness> all;
+// The witnesses, and what they have observed since counting began.
+struct Witnesses::Observations {
+  std::vector<Witness> witnesses;
   std::vector<std::uint32_t> of_peer;
   /// By entity, bits of the witnesses that may care, number modulo 64.
   std::vector<std::uint64_t> near;
@@ -100,15 +101,15 @@ struct Witnesses::State {
 
 Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
                      std::span<const aoim::Channel> near)
-    : state_(std::make_unique<State>()) {
-  for (const aoim::Channel& row : near) state_->ends.push_back(row.farthest);
-  state_->radius = setting.radius;
-  state_->of_peer.assign(owned.size(), std::numeric_limits<std::uint32_t>::max());
+    : observations_(std::make_unique<Observations>()) {
+  for (const aoim::Channel& row : near) observations_->ends.push_back(row.farthest);
+  observations_->radius = setting.radius;
+  observations_->of_peer.assign(owned.size(), std::numeric_limits<std::uint32_t>::max());
   const std::size_t count = std::min(setting.witnesses, owned.size());
   for (std::size_t i = 0; i < count; ++i) {
     const auto peer = static_cast<std::uint32_t>(i * owned.size() / count);
-    state_->of_peer[peer] = static_cast<std::uint32_t>(i);
-    state_->all.push_back(
+    observations_->of_peer[peer] = static_cast<std::uint32_t>(i);
+    observations_->witnesses.push_back(
         {peer,
          owned[peer],
          peer::Impairment(setting.network, peer::direction_seed(setting.seed, peer)),
@@ -116,44 +117,45 @@ Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> ow
          std::vector<double>(setting.grid.pool * (1 + near.size()) + 1, kNever),
          {},
          {}});
-    state_->all.back().heard_from[0] = 0;
+    observations_->witnesses.back().heard_from[0] = 0;
   }
-  state_->near.assign(setting.crowd.entities, 0);
+  observations_->near.assign(setting.crowd.entities, 0);
   begin_counting();
 }
 
 Witnesses::~Witnesses() = default;
 
-std::size_t Witnesses::size() const noexcept { return state_->all.size(); }
+std::size_t Witnesses::size() const noexcept { return observations_->witnesses.size(); }
 
 void Witnesses::begin_counting() {
-  state_->wanted = state_->missed = state_->lost = state_->looks = state_->unseen = 0;
-  state_->pose = std::make_unique<peer::ErrorHistogram>();
-  state_->discovery = std::make_unique<peer::DurationHistogram>();
+  observations_->wanted = observations_->missed = observations_->lost = observations_->looks =
+      observations_->unseen = 0;
+  observations_->pose = std::make_unique<peer::ErrorHistogram>();
+  observations_->discovery = std::make_unique<peer::DurationHistogram>();
 }
 
 std::size_t Witnesses::witness_of(std::uint32_t peer) const noexcept {
-  return std::min<std::size_t>(state_->of_peer[peer], size());
+  return std::min<std::size_t>(observations_->of_peer[peer], size());
 }
 
 void Witnesses::join(std::size_t witness, aoim::GroupIndex group, double from) {
-  state_->all[witness].heard_from[group.value] = from;
+  observations_->witnesses[witness].heard_from[group.value] = from;
 }
 
 void Witnesses::leave(std::size_t witness, aoim::GroupIndex group, std::size_t pool) {
-  state_->all[witness].heard_from[group.value] = kNever;
-  if (pool > 0) state_->all[witness].leave(group, pool - 1);
+  observations_->witnesses[witness].heard_from[group.value] = kNever;
+  if (pool > 0) observations_->witnesses[witness].leave(group, pool - 1);
 }
 
 void Witnesses::set_foci(std::size_t witness, std::span<const aoim::Focus> foci) {
-  state_->all[witness].interest.set_foci(foci);
+  observations_->witnesses[witness].interest.set_foci(foci);
 }
 
 void Witnesses::gather(double time, const Crowd& crowd, double reach,
                        const std::function<HeardBefore(std::uint32_t)>& heard) {
-  std::ranges::fill(state_->near, 0);
+  std::ranges::fill(observations_->near, 0);
   for (std::size_t w = 0; w < size(); ++w) {
-    Witness& witness = state_->all[w];
+    Witness& witness = observations_->witnesses[w];
     for (auto& [entity, known] : witness.known) known.near = false;
     aoim::Position least{kNever, kNever, 0}, most{-kNever, -kNever, 0};
     for (std::uint32_t i = witness.owned.first; i < witness.owned.end; ++i) {
@@ -161,7 +163,7 @@ void Witnesses::gather(double time, const Crowd& crowd, double reach,
       least = {std::min(least.x, place.x), std::min(least.y, place.y), 0};
       most = {std::max(most.x, place.x), std::max(most.y, place.y), 0};
     }
-    const double wide = state_->radius + reach;
+    const double wide = observations_->radius + reach;
     for (std::uint32_t i = 0; i < crowd.size(); ++i) {
       const aoim::Position& place = crowd.position(i);
       if (place.x < least.x - wide || place.x > most.x + wide || place.y < least.y - wide ||
@@ -170,10 +172,10 @@ void Witnesses::gather(double time, const Crowd& crowd, double reach,
         continue;
       const auto [row, is_new] = witness.known.try_emplace(i);
       row->second.near = true;
-      state_->near[i] |= std::uint64_t{1} << (w % 64);
+      observations_->near[i] |= std::uint64_t{1} << (w % 64);
       if (!is_new) continue;
       const HeardBefore before = heard(i);
-      row->second.behind.resize(state_->ends.size());
+      row->second.behind.resize(observations_->ends.size());
       if (witness.heard_from[before.group.value] > time) continue;
       static_cast<Witness::Told&>(row->second) = {before.state, time, before.group};
       std::ranges::fill(row->second.behind, static_cast<const Witness::Told&>(row->second));
@@ -183,69 +185,72 @@ void Witnesses::gather(double time, const Crowd& crowd, double reach,
   }
 }
 
-bool Witnesses::is_near(std::uint32_t entity) const noexcept { return state_->near[entity] != 0; }
+bool Witnesses::is_near(std::uint32_t entity) const noexcept {
+  return observations_->near[entity] != 0;
+}
 
 void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState& state,
                      const Crowd& crowd) {
   for (std::size_t w = 0; w < size(); ++w) {
-    if ((state_->near[update.entity] >> (w % 64) & 1) == 0) continue;
-    Witness& witness = state_->all[w];
+    if ((observations_->near[update.entity] >> (w % 64) & 1) == 0) continue;
+    Witness& witness = observations_->witnesses[w];
     if (witness.peer == update.sender || !witness.known.contains(update.entity)) continue;
-    const double reach =
-        update.pool > 0 ? std::min(state_->radius, state_->ends[update.pool - 1]) : state_->radius;
+    const double reach = update.pool > 0
+                             ? std::min(observations_->radius, observations_->ends[update.pool - 1])
+                             : observations_->radius;
     const bool wanted = witness.is_inside(crowd.position(update.entity), crowd, reach);
-    state_->wanted += wanted;
+    observations_->wanted += wanted;
     // Lost or late as its datagram is.
     const peer::Fate fate =
         witness.network.decide(update.sender, update.datagram, pdu::from_seconds(update.left));
     const double arrives = update.left + pdu::to_seconds(fate.delay[0]);
     if (arrives < witness.heard_from[update.group.value]) {
-      state_->missed += wanted;
+      observations_->missed += wanted;
       continue;
     }
     if (fate.copies == 0) {
-      state_->lost += wanted;
+      observations_->lost += wanted;
       continue;
     }
-    const std::size_t row = update.pool > 0 ? update.pool - 1 : state_->ends.size();
+    const std::size_t row = update.pool > 0 ? update.pool - 1 : observations_->ends.size();
     witness.under_way.push_back(
         {arrives, update.time, update.entity, row, {state, update.time, update.group}});
   }
 }
 
 void Witnesses::look(double time, Crowd& crowd) {
-  for (Witness& witness : state_->all) {
+  for (Witness& witness : observations_->witnesses) {
     witness.take(time);
     for (auto& [entity, known] : witness.known) {
       const auto shown = witness.show(known, time);
-      if (!witness.is_inside(crowd.position(entity), crowd, state_->radius)) {
+      if (!witness.is_inside(crowd.position(entity), crowd, observations_->radius)) {
         known.inside = kNever;
         continue;
       }
       if (known.inside == kNever) known.inside = time;
-      ++state_->looks;
+      ++observations_->looks;
       if (!shown) {
-        ++state_->unseen;
+        ++observations_->unseen;
         continue;
       }
       if (known.inside != kTold) {
-        state_->discovery->add(pdu::from_seconds(time - known.inside));
+        observations_->discovery->add(pdu::from_seconds(time - known.inside));
         known.inside = kTold;
       }
-      state_->pose->add((*shown - crowd.motion(entity).position).norm());
+      observations_->pose->add((*shown - crowd.motion(entity).position).norm());
     }
   }
 }
 
 void Witnesses::report(ScaleCounts& counts) const {
   counts.witnesses = size();
-  counts.wanted = state_->wanted;
-  counts.missed = state_->missed;
-  counts.lost = state_->lost;
-  counts.looks = state_->looks;
-  counts.unseen = state_->unseen;
-  counts.pose = state_->pose->spread();
-  counts.discovery = peer::percentiles(*state_->discovery);
+  counts.wanted = observations_->wanted;
+  counts.missed = observations_->missed;
+  counts.lost = observations_->lost;
+  counts.looks = observations_->looks;
+  counts.unseen = observations_->unseen;
+  counts.pose = observations_->pose->spread();
+  counts.discovery = peer::percentiles(*observations_->discovery);
 }
 
 }  // namespace reckon::bench

@@ -78,8 +78,8 @@ class Witnesses {
 
  private:
   struct Witness;
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Observations;
+  std::unique_ptr<Observations> observations_;
 };
 
 }  // namespace reckon::bench

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "reckon/bench/baselines/coupling_simulation.hpp"
+#include "reckon/haptics/contact/energy_exchange.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -27,7 +28,7 @@ bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
 
 struct Cells {
   int runs = 0, made = 0, beyond = 0;  // beyond: at a share of the limit above 0.9
-  double least = 0, peak = 0, kept = 0, fastest = 0;
+  double least = 0, peak = 0, kept = 0, fastest = 0, loan = 0;
   [[nodiscard]] double failed() const { return static_cast<double>(made) / runs; }
 };
 
@@ -46,6 +47,7 @@ void note(Cells& cells, const CouplingOutcome& outcome, double share, bool push)
   if (outcome.made_energy()) ++cells.made;
   cells.least = std::min(cells.least, outcome.least_energy);
   cells.kept += outcome.stiffness_kept;
+  cells.loan = std::max(cells.loan, outcome.most_loan);
   if (share > 0.9) return;
   cells.peak = std::max(cells.peak, outcome.peak_force);
   if (push) cells.fastest = std::max(cells.fastest, outcome.rms_speed);
@@ -111,8 +113,11 @@ TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
     EXPECT_EQ(cells.made, 0) << name_of(environment);
     EXPECT_LE(cells.peak, 15.0) << name_of(environment);
   }
-  const Cells hands = run({peer::CouplingMode::reckon, Counterpart::hand});
+  // What is lost in one draw and not in another decides whether a hand has to borrow.
+  const Cells hands =
+      run({peer::CouplingMode::reckon, Counterpart::hand, EnvironmentKind::linear, 5});
   EXPECT_EQ(hands.made, 0);
+  EXPECT_LE(hands.loan, 2 * haptics::kGreatestHandLoan);
   EXPECT_LE(hands.peak, 25.0);
 }
 

@@ -199,7 +199,7 @@ TEST(ConstraintPlanes, SolutionEqualsAnIndependentMethod) {
     std::vector<ConstraintPlane> planes;
     ConstraintPlanes solver;
     for (std::size_t k = 0; k < count; ++k) {
-      ConstraintPlane plane;
+      ConstraintPlane plane{};
       plane.normal = (random_point(random, 1.0) + Vector3d(0.0, 0.0, 1.5)).normalized();
       plane.level = 0.1 * random_point(random, 1.0).x();
       planes.push_back(plane);

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/presence/proof_judge.hpp"
+
+#include <algorithm>
+
+namespace reckon::aoim {
+namespace {
+
+// Calls of the function a second that wrong proofs from elsewhere may cost; those that are but a
+// little ahead are looked at beyond that, too.
+constexpr std::uint32_t kMostWrongSteps = 4096, kAlways = 4;
+
+}  // namespace
+
+Opening ProofJudge::judge(const LifeTip& tip, const pdu::Presence& heard,
+                          std::chrono::nanoseconds now, bool at_home) noexcept {
+  if (now - wrong_since_ >= std::chrono::seconds(1)) {
+    wrong_since_ = now;
+    wrong_steps_ = 0;
+  }
+  const bool is_tired = !at_home && wrong_steps_ >= kMostWrongSteps;
+  const std::uint32_t most = is_tired ? kAlways : tip.farthest(now);
+  const Opening opening = tip.judge(heard, one_way_, most);
+  if (opening == Opening::wrong) wrong_steps_ += std::min(most, kChainLength);
+  return opening;
+}
+
+}  // namespace reckon::aoim

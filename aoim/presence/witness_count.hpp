@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// After a partition two have held one id for long. Whom more of the others hear keeps it.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+#include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/claims.hpp"
+#include "reckon/aoim/presence/peer_table.hpp"
+#include "reckon/aoim/presence/presence_config.hpp"
+
+namespace reckon::aoim {
+
+/// Counts the witnesses of disputes about our id: those whose lists name us, and the rival. One
+/// thread; allocates nothing.
+class WitnessCount {
+ public:
+  /// @param config, peers, claims outlive this
+  WitnessCount(const PresenceConfig& config, const PeerTable& peers, const Claims& claims) noexcept
+      : config_(config), peers_(peers), claims_(claims) {}
+
+  /// Whether we lose our id to a rival; looked at four times a second at most, false between.
+  /// @param own our announcement  @param excess ids that we have lost in a row beyond those after
+  /// which a dispute lasts longer; negative: fewer
+  [[nodiscard]] bool is_against(const pdu::Presence& own, int excess,
+                                std::chrono::nanoseconds now) noexcept;
+  /// When a dispute about our id is to be looked at; duration max where there is none.
+  [[nodiscard]] std::chrono::nanoseconds next_step(PeerId own) const noexcept;
+
+ private:
+  // How many list a peer: from how many addresses, and how many at all.
+  struct Support {
+    std::size_t addresses = 0, peers = 0;
+    auto operator<=>(const Support&) const = default;
+  };
+  [[nodiscard]] bool is_won_by(const Claimant& rival, const pdu::Presence& own, int excess,
+                               std::chrono::nanoseconds now) const noexcept;
+  template <typename Names>
+  [[nodiscard]] Support support(const Names& names) const noexcept;
+
+  const PresenceConfig& config_;
+  const PeerTable& peers_;
+  const Claims& claims_;
+  std::chrono::nanoseconds next_{0};  // when witnesses are counted again
+};
+
+}  // namespace reckon::aoim

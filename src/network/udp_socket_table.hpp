@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The open sockets of a UdpMulticast: that of unicast, and one of each group that is joined.
+// Private to the network.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/echo_watch.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/peer/network/link_counters.hpp"
+#include "reckon/peer/network/link_tap.hpp"
+#include "reckon/peer/network/local_endpoint.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/network/udp_readiness.hpp"
+#include "reckon/peer/network/udp_receiver.hpp"
+#include "reckon/peer/network/udp_slot.hpp"
+#include "reckon/peer/network/udp_socket.hpp"
+
+namespace reckon::peer {
+
+/// Slots by number, which is the one that UdpReadiness gives. Slot 0 sends and takes unicast, the
+/// others are of groups, open or free. The reading thread's; joining and leaving may allocate.
+class UdpSocketTable {
+ public:
+  /// What it needs of the link, which outlives this.
+  struct Surroundings {
+    const UdpMulticastOptions& options;
+    const Clock& clock;
+    UdpReadiness& ready;
+    UdpReceiver& receiver;  ///< reads what waits in a socket that is closed
+    LocalEndpoint& local;
+    LinkTap& tap;
+    EchoWatch& echo;
+    LinkCounters& counts;
+  };
+
+  /// Opens the unicast socket. @throws std::system_error with the value and the remedy
+  UdpSocketTable(const Surroundings& link, const NetworkInterface& interface);
+
+  [[nodiscard]] UdpSlot& operator[](std::size_t number) noexcept { return slots_[number]; }
+  [[nodiscard]] std::span<UdpSlot> slots() noexcept { return slots_; }
+
+  /// See Link::join and Link::leave.
+  std::error_code join(const GroupAddress& group) noexcept;
+  void leave(const GroupAddress& group) noexcept;
+
+  /// All groups are left and joined again: a membership belongs to an interface, not to its name.
+  void rejoin();
+  /// Joins what rejoin() could not, as far as it can be by now.
+  void join_missing();
+  /// Groups that are joined, and those that were and could not be joined again.
+  [[nodiscard]] std::size_t joined() const noexcept;
+  [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
+
+  /// All are opened on this interface from now on.
+  void set_interface(unsigned index) noexcept { options_.interface_index = index; }
+  /// The unicast socket learns the index of the interface.
+  [[nodiscard]] std::error_code renew_outgoing_interface();
+  /// The unicast socket is another one, bound to this endpoint, or to another port where that is
+  /// taken. It takes the number of the old one, so that the writing thread never sees none.
+  [[nodiscard]] std::error_code reopen_unicast(const IpEndpoint& endpoint);
+
+  /// Whether the kernel hands runs of datagrams over as one.
+  [[nodiscard]] bool coalesces() const noexcept { return options_.coalesce; }
+  /// 0 where the kernel knows how to cut a run, else its errno.
+  [[nodiscard]] int segment_error() noexcept;
+  /// SO_RCVBUF of the unicast socket [octets], in the unit in which it is asked for.
+  [[nodiscard]] std::size_t receive_buffer();
+  /// IP_MTU towards that group [octets], 0 where the kernel does not know.
+  [[nodiscard]] std::size_t mtu(const GroupAddress& group);
+
+ private:
+  [[nodiscard]] bool watch(std::size_t number) noexcept;
+  [[nodiscard]] UdpSlot* find(const GroupAddress& group) noexcept;
+  std::error_code open(const GroupAddress& group) noexcept;
+  std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
+  void close(UdpSlot& slot) noexcept;
+  void take_local_endpoint();
+  [[nodiscard]] bool reads_first(const GroupAddress& group) const noexcept;
+
+  Surroundings link_;
+  UdpSocketOptions options_;
+  asio::io_context context_{1};  // owns the sockets; its own loop never runs, see docs/transport.md
+  std::vector<UdpSlot> slots_;
+  std::vector<GroupAddress> missing_;  // lost with the interface and not back yet
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who may speak for an entity, and who did without being its owner.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/disputes.hpp"
+#include "reckon/peer/world/outside_entities.hpp"
+#include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// In whose name somebody speaks, as far as we know.
+enum class Voice : std::uint8_t {
+  owner,    ///< in his own: the entity, or its site and application, is his
+  nobody,   ///< in that of an entity which nobody has that we hear
+  refused,  ///< in another's
+};
+
+/// The rule of ownership, see RemoteEntities, over the rows and their owners. It changes none of
+/// them: what it keeps are the disputes. One thread; no allocation.
+class EntityOwnership {
+ public:
+  /// References outlive this. @param refused counts what was said in another's name
+  EntityOwnership(aoim::AreaOfInterestManager& aoim, const StateTable& table,
+                  const RowOwners& owners, const OutsideEntities& outside, Counter& refused)
+      : aoim_(aoim), table_(table), owners_(owners), outside_(outside), refused_(refused) {}
+
+  /// Whether this came from the life and the sender that made the row. Asked at each update.
+  [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
+    return row.epoch == arrival.epoch && is_sender(row, arrival);
+  }
+  /// Whether it came from where the owner of the row speaks from.
+  [[nodiscard]] bool is_sender(const RemoteEntity& row, const Arrival& arrival) const noexcept {
+    return same(owners_.owner(table_.place_of(row)), arrival.from);
+  }
+  /// Whether a state of this entity may be taken; else it is counted as a dispute.
+  /// @param row of the entity; null where it has none
+  [[nodiscard]] bool may_speak(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row) noexcept;
+  /// See RemoteEntities::hear.
+  [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept;
+  /// Who spoke for entities of others, see Disputes::take_news.
+  [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
+    return disputes_.take_news(now);
+  }
+
+ private:
+  // As ==, without a call.
+  [[nodiscard]] static bool same(const aoim::SourceAddress& a,
+                                 const aoim::SourceAddress& b) noexcept {
+    if ((a.boot | b.boot) != 0) return a.boot == b.boot;
+    using Words = std::array<std::uint64_t, 2>;
+    static_assert(sizeof a.octets == sizeof(Words));
+    const auto left = std::bit_cast<Words>(a.octets), right = std::bit_cast<Words>(b.octets);
+    return ((left[0] ^ right[0]) | (left[1] ^ right[1])) == 0 && a.port == b.port;
+  }
+  [[nodiscard]] Voice voice_of(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row, aoim::SourceAddress& owner) const noexcept;
+  void refuse(const pdu::EntityId& id, const Arrival& arrival,
+              const aoim::SourceAddress& owner) noexcept;
+
+  aoim::AreaOfInterestManager& aoim_;
+  const StateTable& table_;
+  const RowOwners& owners_;
+  const OutsideEntities& outside_;
+  Counter& refused_;
+  Disputes disputes_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/force_model_intake.hpp"
+
+#include <algorithm>
+
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/haptics/passivity/contact_potential.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::peer {
+
+bool ForceModelIntake::take(RemoteEntity& row, std::size_t place,
+                            const pdu::HapticRecord& record) noexcept {
+  deadreckon::ForceModel model;
+  row.model_refused = deadreckon::from_wire(record, model) != deadreckon::ConversionError::none ||
+                      !haptics::is_usable(haptics::parameters(model, {}, settings_.probe_radius));
+  if (row.model_refused) {
+    last_refused_ = row.id;
+    counts_.refused_models.add();
+    return false;
+  }
+  if (!may_touch(row, place)) return false;
+  model.validity = std::min(model.validity, settings_.longest_validity);
+  row.model = model;
+  row.haptic = true;
+  row.party = owners_.party(place);
+  // Its owner may be silent for as long as it lets the force be believed.
+  row.timeout = std::max(deadreckon::timeout(deadreckon::kHapticHeartbeat), model.validity);
+  row.valid_until = row.last_heard + pdu::from_seconds(model.validity);
+  return true;
+}
+
+// The rule of ownership has seen to it that a row with an epoch is of the peer of its number.
+bool ForceModelIntake::may_touch(const RemoteEntity& row, std::size_t place) noexcept {
+  if (settings_.touch.allows(row.id.simulation(), row.epoch != 0)) return true;
+  last_untouchable_ = {row.id, owners_.owner(place)};
+  counts_.untouchables.add();
+  return false;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which force models of remote entities are taken: by their values, and by who may touch.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/aoim/presence/source_address.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/remote_counters.hpp"
+#include "reckon/peer/world/remote_settings.hpp"
+#include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// Who has a force model and may not touch.
+struct Untouchable {
+  pdu::EntityId id;
+  aoim::SourceAddress from;
+};
+
+/// One thread; no allocation.
+class ForceModelIntake {
+ public:
+  /// References outlive this.
+  ForceModelIntake(const RemoteSettings& settings, const RowOwners& owners,
+                   const RemoteCounters& counts)
+      : settings_(settings), owners_(owners), counts_(counts) {}
+
+  /// Gives the row at `place` the model that came with its last update; false, and the row keeps
+  /// the one it had, where that is refused, which is counted.
+  bool take(RemoteEntity& row, std::size_t place, const pdu::HapticRecord& record) noexcept;
+
+  /// Whose was the last to be refused for its values.
+  [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
+  /// How many came of those who may not touch, and whose the last of them was.
+  [[nodiscard]] std::uint64_t untouchable() const noexcept { return counts_.untouchables.value(); }
+  [[nodiscard]] const Untouchable& last_untouchable() const noexcept { return last_untouchable_; }
+
+ private:
+  [[nodiscard]] bool may_touch(const RemoteEntity& row, std::size_t place) noexcept;
+
+  const RemoteSettings& settings_;
+  const RowOwners& owners_;
+  const RemoteCounters& counts_;
+  pdu::EntityId last_refused_;
+  Untouchable last_untouchable_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What is counted of remote entities, by the names under which watchers find it.
+#pragma once
+
+#include "reckon/peer/counters/counters.hpp"
+
+namespace reckon::peer {
+
+/// The counters of RemoteEntities. Made at set-up; `counters` outlives them.
+struct RemoteCounters {
+  explicit RemoteCounters(Counters& counters)
+      : accepted(counters.make("updates_in", "updates of remote entities accepted")),
+        refused_values(counters.make("values_refused", "updates with impossible values")),
+        refused_models(counters.make("models_refused", "force models with impossible values")),
+        untouchables(counters.make("touch_refused", "force models of who may not touch")),
+        reserved(counters.make("reserved_ids_in",
+                               "updates of IDs that no entity can have, such as 0:0:0 and 65535")),
+        stale(counters.make("stale_in", "updates older than what was known, dropped")),
+        repeats(counters.make("repeats_in", "updates that said again what was known")),
+        sender_leaps(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
+        not_interesting(counters.make("not_interesting", "entities outside the radius")),
+        entered(counters.make("entered", "entities that came within the radius between updates")),
+        table_full(counters.make("table_full", "entities without room in the state table")),
+        strangers_full(counters.make(
+            "strangers_full", "entities of plain DIS programs without room in their memory")),
+        evicted(counters.make("rows_evicted", "entities dropped for others, of who has too many")),
+        disputed(counters.make("disputed_in", "updates refused, for another owns their entity")),
+        timed_out(counters.make("timed_out", "entities dropped after silence")),
+        left(counters.make("left", "entities that said good-bye or went out of sight")),
+        snaps(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
+
+  Counter& accepted;
+  Counter& refused_values;
+  Counter& refused_models;
+  Counter& untouchables;
+  Counter& reserved;
+  Counter& stale;
+  Counter& repeats;
+  Counter& sender_leaps;
+  Counter& not_interesting;
+  Counter& entered;
+  Counter& table_full;
+  Counter& strangers_full;
+  Counter& evicted;
+  Counter& disputed;
+  Counter& timed_out;
+  Counter& left;
+  Counter& snaps;
+};
+
+}  // namespace reckon::peer

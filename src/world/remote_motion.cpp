@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/remote_motion.hpp"
+
+#include <algorithm>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// What updates of this model say to an extrapolator.
+deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
+  const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
+  if (terms.acceleration) return deadreckon::SentRates::acceleration;
+  return terms.velocity ? deadreckon::SentRates::velocity : deadreckon::SentRates::position;
+}
+
+}  // namespace
+
+RemoteMotion::RemoteMotion(const RemoteSettings& settings, const RemoteCounters& counts)
+    : settings_(settings),
+      counts_(counts),
+      is_adaptive_(settings.is_adaptive()),
+      clocks_(settings.capacity),
+      orders_(is_adaptive_ ? settings.capacity : 0) {}
+
+void RemoteMotion::add(RemoteEntity& row) {
+  clocks_.push();
+  if (is_adaptive_) row.order = &orders_.push();
+}
+
+void RemoteMotion::erase(std::size_t place, std::span<RemoteEntity> rows) noexcept {
+  clocks_.erase(place);
+  if (!is_adaptive_) return;
+  orders_.erase(place);
+  if (place < rows.size()) rows[place].order = &orders_[place];
+}
+
+RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
+                                         const HeardState& heard) noexcept {
+  const auto& [pdu, state, at, servo] = heard;
+  const bool known = row.updates > 0;
+  SenderClock& clock = clocks_[place];
+  const auto time =
+      clock.local_time(pdu.header.timestamp, at.arrival, at.utc - (at.now - at.arrival), at.clock);
+  if (!time) {
+    counts_.stale.add();
+    return Outcome::stale;
+  }
+  if (clock.has_leapt()) counts_.sender_leaps.add();
+
+  const deadreckon::Pose before = row.predicted(at.now);
+  const deadreckon::Pose shown = row.shown(before, at.now);
+  const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  const bool halted = known && frozen != row.frozen;
+  const bool other_model = known && state.algorithm != row.state.algorithm;
+  const deadreckon::Pose expected = is_adaptive_ ? row.predicted(*time) : deadreckon::Pose();
+  note_state(row, heard, *time);
+  const deadreckon::Pose after = row.predicted(at.now);
+  const bool abrupt = halted || (known && is_teleport(shown, after));
+  if (is_adaptive_) note_history(row, place, expected, abrupt || other_model);
+  if (known) {
+    note_jump(row, before, after, servo);
+    row.convergence.restart(settings_.convergence.settings, shown, row.expected(after, at.now),
+                            pdu::to_seconds(at.now));
+  }
+  if (abrupt) snap(row);
+  return abrupt ? Outcome::abrupt : Outcome::smooth;
+}
+
+void RemoteMotion::snap(RemoteEntity& row) noexcept {
+  row.convergence.snap();
+  counts_.snaps.add();
+}
+
+void RemoteMotion::note_state(RemoteEntity& row, const HeardState& heard,
+                              nanoseconds time) noexcept {
+  const pdu::EntityState& pdu = heard.pdu;
+  row.state = heard.state;
+  row.state_time = time;
+  row.timestamp = pdu.header.timestamp;
+  row.last_heard = heard.at.arrival;
+  row.doubted_at = row.felt_until = RemoteEntity::kTrusted;
+  row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  row.type = pdu.entity_type;
+  row.force_id = pdu.force_id;
+  row.appearance = pdu.appearance;
+  row.capabilities = pdu.capabilities;
+  row.strokes = row.epoch != 0 && row.haptic && row.type.kind == pdu::EntityKind::life_form &&
+                deadreckon::drm_terms(row.state.algorithm).acceleration &&
+                !row.state.acceleration.isZero(0);
+  std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
+  if (!row.haptic)
+    row.timeout = deadreckon::timeout(
+        deadreckon::nominal_heartbeat(row.type, deadreckon::stands_still(row.state)));
+}
+
+bool RemoteMotion::is_teleport(const deadreckon::Pose& shown,
+                               const deadreckon::Pose& expected) const noexcept {
+  const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
+  const double angle = deadreckon::angle_between(expected.orientation, shown.orientation);
+  return !((expected.position - shown.position).norm() <= settings.teleport_distance) ||
+         !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
+}
+
+// Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
+// instants a better knowledge of the sender's clock has turned back.
+void RemoteMotion::note_history(RemoteEntity& row, std::size_t place,
+                                const deadreckon::Pose& expected, bool abrupt) noexcept {
+  const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));
+  deadreckon::AdaptiveOrder& order = orders_[place];
+  if (!abrupt && row.updates > 0 && order.add(sample, expected)) return;
+  deadreckon::AdaptiveSettings settings;
+  settings.sent = sent_rates(row.state.algorithm);
+  order = deadreckon::AdaptiveOrder(settings);
+  static_cast<void>(order.add(sample));
+}
+
+void RemoteMotion::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
+                             const deadreckon::Pose& after,
+                             const haptics::ServoSnapshot& servo) noexcept {
+  row.jump_m = (after.position - before.position).norm();
+  pose_jumps_.add(row.jump_m);
+  if (!row.haptic) return;
+  const deadreckon::ProbeState probe{servo.device, servo.device_velocity, settings_.probe_radius};
+  const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
+  const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);
+  if (!old_force.isZero() || !new_force.isZero()) force_jumps_.add((new_force - old_force).norm());
+}
+
+void RemoteMotion::go_back(RemoteEntity& row, std::size_t place, const HeldState& held,
+                           nanoseconds now) noexcept {
+  const deadreckon::Pose shown = row.shown(now);
+  row.state = held.state;
+  row.state_time = held.time;
+  row.timestamp = held.timestamp;
+  if (is_adaptive_) note_history(row, place, shown, true);
+  row.convergence.restart(settings_.convergence.settings, shown, row.expected(now),
+                          pdu::to_seconds(now));
+}
+
+void RemoteMotion::resume(RemoteEntity& row, nanoseconds now) noexcept {
+  const deadreckon::Pose shown = row.shown(now);
+  row.doubted_at = RemoteEntity::kTrusted;
+  const deadreckon::Pose expected = row.expected(now);
+  row.convergence.restart(settings_.convergence.settings, shown, expected, pdu::to_seconds(now));
+  if (is_teleport(shown, expected)) snap(row);
+}
+
+}  // namespace reckon::peer

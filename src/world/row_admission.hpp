@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who gets a row of the state table where room is short, and whose row makes it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/aoim/presence/source_address.hpp"
+#include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/outside_entities.hpp"
+#include "reckon/peer/world/remote_counters.hpp"
+#include "reckon/peer/world/remote_settings.hpp"
+#include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// Two bounds: the capacity of the table, and the memory of guests, which are plain DIS programs
+/// that nobody vouches for. One thread; no allocation.
+class RowAdmission {
+ public:
+  /// References outlive this. Of the settings strangers_memory is used, and what sizes a row.
+  RowAdmission(const RemoteSettings& settings, const StateTable& table, RowOwners& owners,
+               OutsideEntities& outside, const RemoteCounters& counts);
+
+  /// Makes room for a row more of this sender, who owns it from then on; calls drop(place) for each
+  /// row that goes for it, which counts it as evicted. False, and no row, where there is no room,
+  /// which is counted.
+  template <typename Drop>
+  [[nodiscard]] bool admit(const Arrival& arrival, Drop&& drop) noexcept {
+    const bool guest = arrival.epoch == 0;
+    if (guest && !make_guest_room(arrival, drop)) {
+      counts_.strangers_full.add();
+      last_stranger_ = arrival.from;
+      return false;
+    }
+    if (!make_room(arrival, drop) || !owners_.push(arrival.from, guest, arrival.now)) {
+      counts_.table_full.add();
+      return false;
+    }
+    return true;
+  }
+  /// Whether one more entity of a guest may be kept outside.
+  [[nodiscard]] bool has_room_outside() const noexcept {
+    return guests_octets() + kOutsideOctets <= settings_.strangers_memory;
+  }
+  /// What is kept of guests' entities, shown or not, may take so much now [octets].
+  [[nodiscard]] std::size_t guests_octets() const noexcept {
+    return owners_.guests() * row_octets_ + outside_.guests() * kOutsideOctets;
+  }
+
+  /// Rows that made room for others', and whose the last of them was.
+  [[nodiscard]] std::uint64_t evicted() const noexcept { return counts_.evicted.value(); }
+  [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
+  /// Entities of guests for which there was no room, and who said the last of them.
+  [[nodiscard]] std::uint64_t refused() const noexcept { return counts_.strangers_full.value(); }
+  [[nodiscard]] const aoim::SourceAddress& last_refused() const noexcept { return last_stranger_; }
+
+ private:
+  // Of one entity outside: its row, instants, owner and place in the index.
+  static constexpr std::size_t kOutsideOctets = sizeof(OutsideEntity) + 192;
+
+  // Guests share what strangers may have. What is shown makes room of what is not, up to half of
+  // it; then a row of the host with the most makes it.
+  template <typename Drop>
+  [[nodiscard]] bool make_guest_room(const Arrival& arrival, Drop&& drop) noexcept {
+    const std::size_t most = settings_.strangers_memory;
+    while (guests_octets() + row_octets_ > most) {
+      const bool has_half = (owners_.guests() + 1) * row_octets_ > most / 2;
+      if (!has_half && outside_.give_up_guest()) continue;
+      const auto place = owners_.guest_to_give_up(arrival.from);
+      if (!place) return false;
+      evict(*place, drop);
+    }
+    return true;
+  }
+  // In a full table, a row of who has too many makes it.
+  template <typename Drop>
+  [[nodiscard]] bool make_room(const Arrival& arrival, Drop&& drop) noexcept {
+    if (table_.rows().size() < table_.capacity()) return true;
+    const auto place = owners_.row_to_give_up(arrival.from, arrival.epoch == 0);
+    if (!place) return false;
+    evict(*place, drop);
+    return true;
+  }
+  template <typename Drop>
+  void evict(std::size_t place, Drop&& drop) noexcept {
+    last_evicted_ = owners_.owner(place);
+    drop(place);
+  }
+
+  const RemoteSettings& settings_;
+  const StateTable& table_;
+  RowOwners& owners_;
+  OutsideEntities& outside_;
+  const RemoteCounters& counts_;
+  std::size_t row_octets_;  // of one shown
+  aoim::SourceAddress last_evicted_, last_stranger_;
+};
+
+}  // namespace reckon::peer
