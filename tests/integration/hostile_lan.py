@@ -335,7 +335,7 @@ def forge(setup, wanted):
         groups = contact.groups()
         begin, sent = time.monotonic(), 0
         while sent < wanted:
-            seconds = (wanted - sent) / FORGED_PER_S
+            seconds = max((wanted - sent) / FORGED_PER_S, 0.1)  # a shorter flood may be over before it sends
             flood = bed.run(MALLORY, [setup.flood, testbed.Testbed.address(MALLORY), BASE_GROUP, str(PORT + 1),
                                       str(FORGED_PER_S), str(seconds), str(recording)])
             flood.wait(seconds + 20)
