@@ -104,30 +104,31 @@ void check_own_groups(TomlReader& aoim, const Tiers& tiers) {
 Section<TierConfig> tier_section() {
   using aoim::Channel;
   const auto of = [](auto member) { return in(&TierConfig::channel, member); };
-  return {{
-              {"to", &TierConfig::to,
-               "who receives: touch: who can touch the entity: what is felt goes by a group of its "
-               "own of each cell, which those alone listen to, and which is read first; the first "
-               "row alone, without other keys. distance: who is up to `farthest` away"},
-              {"own_group", &TierConfig::own_group,
-               "a group of its own of each cell, which those alone listen to who are so near; for "
-               "all rows that are neither `kept` nor the last, or for none"},
-              {"farthest", of(&Channel::farthest), within("m", 0, kWorld),
-               "to receivers up to here; when absent, to all beyond the row before"},
-              {"body", of(&Channel::body),
-               "rigid: position and orientation; approximate: articulated parts, too; full: what "
-               "hands feel, too. Of what is new or abrupt and at heartbeats all is sent"},
-              {"active", of(&Channel::active_hz), within("Hz", 0, 1000),
-               "most updates a second of one that moves"},
-              {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000), "of one that stands"},
-              {"octets", of(&Channel::octets), within("B", 1, kMaxDatagram),
-               "that an update counts against `budget`"},
-              {"kept", of(&Channel::kept), "whatever the budget"},
-              {"coarser", of(&Channel::coarser), within("", 1, 1e6),
-               "with `own_group`: how many times as wide the thresholds of place and turn are to "
-               "receivers so far away; no less than in the row before"},
-          },
-          check_tier};
+  return {
+      {
+          {"to", &TierConfig::to,
+           "distance: peers up to `farthest` away. touch: peers that can touch the entity; they "
+           "receive what is felt by a group of each cell that only they join, and read it first. "
+           "touch is the first row and takes no other key"},
+          {"own_group", &TierConfig::own_group,
+           "each cell has a multicast group for this row, which only peers so near join; for all "
+           "rows that are neither `kept` nor the last, or for none"},
+          {"farthest", of(&Channel::farthest), within("m", 0, kWorld),
+           "to receivers up to here; when absent, to all beyond the row before"},
+          {"body", of(&Channel::body),
+           "rigid: position and orientation; approximate: articulated parts, too; full: what "
+           "hands feel, too. Of what is new or abrupt and at heartbeats all is sent"},
+          {"active", of(&Channel::active_hz), within("Hz", 0, 1000),
+           "most updates a second of one that moves"},
+          {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000), "of one that stands"},
+          {"octets", of(&Channel::octets), within("B", 1, kMaxDatagram),
+           "that an update counts against `budget`"},
+          {"kept", of(&Channel::kept), "whatever the budget"},
+          {"coarser", of(&Channel::coarser), within("", 1, 1e6),
+           "with `own_group`: how many times as wide the thresholds of place and turn are to "
+           "receivers so far away; no less than in the row before"},
+      },
+      check_tier};
 }
 
 void check_tiers(TomlReader& aoim, const Tiers& tiers) {
