@@ -16,9 +16,9 @@
 #include <optional>
 
 #include "reckon/bench/micro/movers.hpp"
+#include "reckon/bench/micro/octet_difference.hpp"
 #include "reckon/deadreckon/residual/residual_state.hpp"
 #include "reckon/pdu/compression/compact_state.hpp"
-#include "reckon/pdu/compression/delta_state.hpp"
 
 namespace {
 
@@ -90,7 +90,7 @@ struct DeltaEnd {
 
   void note(const pdu::EntityState& state) {
     (void)pdu::encode(state, key);
-    check = pdu::key_check(key);
+    check = bench::key_check(key);
   }
 };
 
@@ -111,7 +111,7 @@ Ends delta(const Data& data) {
             std::array<std::byte, kPlain> plain;
             (void)pdu::encode(sent.state, plain);
             out[0] = std::byte{2};
-            return 1 + pdu::encode_delta(end.key, end.check, plain, out.subspan(1));
+            return 1 + bench::encode_delta(end.key, end.check, plain, out.subspan(1));
           },
           [receiver](std::size_t entity, std::span<const std::byte> body, std::uint32_t timestamp,
                      pdu::EntityState& out) {
@@ -124,8 +124,8 @@ Ends delta(const Data& data) {
               return good;
             }
             std::array<std::byte, kPlain> plain;
-            return end.check == pdu::key_of_delta(body) &&
-                   pdu::decode_delta(end.key, body, plain) &&
+            return end.check == bench::key_of_delta(body) &&
+                   bench::decode_delta(end.key, body, plain) &&
                    pdu::decode(plain, out) == pdu::DecodeError::none;
           },
           [receiver](std::size_t entity, const pdu::EntityState& state) {
@@ -371,7 +371,7 @@ const bool kRegistered = [] {
   static const std::vector<Data> kData = all_data();
   constexpr std::array<std::pair<const char*, MakeEnds>, 5> kForms = {{{"none", none},
                                                                        {"compact", compact},
-                                                                       {"delta", delta},
+                                                                       {"octets that differ", delta},
                                                                        {"residual", residual},
                                                                        {"dictionary", dictionary}}};
   for (const auto& [form, make] : kForms) {

@@ -32,7 +32,7 @@ std::string_view listed(SisoTable table, Enumeration value) {
 constexpr auto kForceModels =
     list("None", "Plane", "Sphere", "Field", "Spring-damper region", "Modal");
 constexpr auto kCellSchemes = list("None", "Square", "Hexagonal", "Quad-Tree", "Locales");
-constexpr auto kCompressedForms = list("None", "Compact", "Delta", "Residual");
+constexpr auto kCompressedForms = list("None", "Compact", "Reserved", "Residual");
 constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign", "Join Near");
 
 }  // namespace

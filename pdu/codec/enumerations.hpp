@@ -231,7 +231,7 @@ enum class CellScheme : std::uint8_t {
 };
 
 /// How a Compressed States PDU holds Entity States (ours).
-enum class CompressedForm : std::uint8_t { none = 0, compact = 1, delta = 2, residual = 3 };
+enum class CompressedForm : std::uint8_t { none = 0, compact = 1, residual = 3 };
 
 /// What a CellMembership PDU says (ours).
 enum class MembershipAction : std::uint8_t {

@@ -4,7 +4,6 @@
 // carry the update, else plain. Part of the sending half of the model loop.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -12,14 +11,13 @@
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/deadreckon/residual/residual_state.hpp"
-#include "reckon/pdu/compression/delta_state.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 
 namespace reckon::peer {
 
 /// One entity of ours. One thread; no allocation.
 ///
-/// A key is what later updates lean on: a plain Entity State, or one of the compact form. One goes
+/// The residual form depends on a key: a plain Entity State, or one of the compact form. One goes
 /// out first, again after 1, 4 and 16 updates, then each 32 updates or 10 s, when the entity has
 /// changed its group, and when anything besides its motion has changed or somebody is new, from
 /// which the gaps begin anew.
@@ -30,8 +28,8 @@ class StateCompressor {
   /// What an update is written as.
   struct Made {
     std::size_t size = 0;  ///< octets as pdu::store_compressed() writes them; 0: send it plain
-    bool is_key = false;   ///< it may not wait, nor be replaced by what leans on it
-    bool leans = false;    ///< whoever lacks the key cannot read it
+    bool is_key = false;   ///< it may not wait, nor be replaced by what depends on it
+    bool leans = false;    ///< a receiver without the key cannot read it
   };
   static constexpr std::size_t kRoom = pdu::kCompressedHeadSize + pdu::kMostCompressedBody;
 
@@ -41,20 +39,17 @@ class StateCompressor {
                               std::chrono::nanoseconds now,
                               std::span<std::byte, kRoom> out) noexcept;
 
-  /// The same for those who hear the group of a cell and a near group of it: no key, so that all
-  /// who hear the one lean on the same. Returns its octets; 0 where there is no key that they know,
-  /// or it has parts: then all receive the whole state.
-  /// @param group of the cell
-  [[nodiscard]] std::size_t compress_near(const pdu::EntityState& state, aoim::GroupIndex group,
-                                          std::chrono::nanoseconds now,
-                                          std::span<std::byte, kRoom> out) noexcept;
+  /// The same for those who receive a group of a tier beside that of the cell: the compact form,
+  /// which depends on nothing. Returns its octets; 0 where it has parts, and in the residual form,
+  /// whose keys the cell's group carries: then all receive the whole state.
+  [[nodiscard]] std::size_t compress_near(const pdu::EntityState& state,
+                                          std::span<std::byte, kRoom> out) const noexcept;
 
   [[nodiscard]] pdu::CompressedForm form() const noexcept { return form_; }
 
  private:
   [[nodiscard]] bool is_key_due(aoim::GroupIndex group,
                                 std::chrono::nanoseconds now) const noexcept;
-  std::size_t lean_on_key(const pdu::EntityState& state, std::span<std::byte> body) noexcept;
   void note_key(const pdu::EntityState& state, aoim::GroupIndex group,
                 std::chrono::nanoseconds now) noexcept;
 
@@ -63,8 +58,6 @@ class StateCompressor {
   std::chrono::nanoseconds keyed_{0};
   unsigned since_ = 0, gap_ = 0;  // updates since the last key, and until the next
   deadreckon::ResidualEncoder residual_;
-  std::array<std::byte, 144> key_{};  // of the delta form
-  std::uint16_t key_check_ = 0;
 };
 
 }  // namespace reckon::peer

@@ -12,10 +12,8 @@ namespace {
 constexpr std::size_t kNone = ~std::size_t{0};
 constexpr std::size_t kFewKeys = 64;  // for which no memory is given back
 
-// Without the last one.
 template <typename T>
 void move_last_to(std::vector<T>& rows, std::size_t place) {
-  if (rows.empty()) return;  // of the form that the scene does not have
   rows[place] = rows.back();
   rows.pop_back();
 }
@@ -31,14 +29,7 @@ using pdu::CompressedForm;
 
 void StateRestorer::note_plain(const pdu::EntityState& state, const KeySpeaker& speaker) {
   if (!leans() || !speaker.owns(state.entity_id.simulation())) return;
-  const std::size_t place = place_for(state.entity_id.key(), speaker);
-  if (!is_delta()) return residuals_[place].note_plain(state);
-  pdu::EntityState bare = state;
-  bare.header.pdu_status = 0;  // the sender's bundle may have set what an Attribute PDU wants
-  bare.variable_parameters = {};
-  DeltaKey& known = deltas_[place];
-  if (pdu::encode(bare, known.octets) == 0) return;
-  known.check = pdu::key_check(known.octets);
+  residuals_[place_for(state.entity_id.key(), speaker)].note_plain(state);
 }
 
 // Of the entity in this life of its owner; nothing of a former one is left in it.
@@ -62,11 +53,7 @@ std::size_t StateRestorer::place_for(std::uint64_t key, const KeySpeaker& speake
 void StateRestorer::add(std::uint64_t key, const KeySpeaker& speaker) {
   places_[key] = known_.size();
   known_.push_back({key, speaker.epoch, speaker.from, speaker.from});
-  if (is_delta()) {
-    deltas_.emplace_back();
-  } else {
-    residuals_.emplace_back();
-  }
+  residuals_.emplace_back();
   ++counts_[speaker.from.octets];
 }
 
@@ -86,7 +73,6 @@ void StateRestorer::erase(std::size_t place) {
   places_.erase(known_[place].key);
   if (place + 1 < known_.size()) places_[known_.back().key] = place;
   move_last_to(known_, place);
-  move_last_to(deltas_, place);
   move_last_to(residuals_, place);
 }
 
@@ -95,7 +81,6 @@ void StateRestorer::forget(std::uint32_t epoch) {
     if (known_[place - 1].epoch == epoch) erase(place - 1);
   }
   give_back_memory(known_);
-  give_back_memory(deltas_);
   give_back_memory(residuals_);
 }
 
@@ -134,26 +119,15 @@ RestoreVerdict StateRestorer::lean_on_key(const pdu::CompressedStates& states,
   const pdu::EntityId id{states.simulation.site, states.simulation.application, state.entity};
   const std::size_t place = find(id, speaker);
   if (place == kNone) return RestoreVerdict::awaits_key;
-  if (!is_delta()) {
-    switch (residuals_[place].decode(state.body, states.header.timestamp, out)) {
-      case deadreckon::ResidualVerdict::good:
-        return RestoreVerdict::good;
-      case deadreckon::ResidualVerdict::no_key:
-        return RestoreVerdict::awaits_key;
-      case deadreckon::ResidualVerdict::malformed:
-        break;
-    }
-    return RestoreVerdict::malformed;
+  switch (residuals_[place].decode(state.body, states.header.timestamp, out)) {
+    case deadreckon::ResidualVerdict::good:
+      return RestoreVerdict::good;
+    case deadreckon::ResidualVerdict::no_key:
+      return RestoreVerdict::awaits_key;
+    case deadreckon::ResidualVerdict::malformed:
+      break;
   }
-  const DeltaKey& key = deltas_[place];
-  if (pdu::key_of_delta(state.body) != key.check) return RestoreVerdict::awaits_key;
-  std::array<std::byte, 144> plain;
-  pdu::EntityState restored;
-  const bool good = pdu::decode_delta(key.octets, state.body, plain) &&
-                    pdu::decode(plain, restored) == pdu::DecodeError::none &&
-                    restored.entity_id == id && restored.variable_parameters.empty();
-  if (good) out = restored;
-  return good ? RestoreVerdict::good : RestoreVerdict::malformed;
+  return RestoreVerdict::malformed;
 }
 
 }  // namespace reckon::peer

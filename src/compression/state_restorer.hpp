@@ -13,7 +13,6 @@
 
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/deadreckon/residual/residual_state.hpp"
-#include "reckon/pdu/compression/delta_state.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 
 namespace reckon::peer {
@@ -38,10 +37,10 @@ enum class RestoreVerdict : std::uint8_t {
   not_theirs,  ///< it leans on keys of an entity that is not its speaker's
 };
 
-/// All entities of others. One thread, never throws; allocates where a new entity comes, 0.3 KiB
-/// each in scenes of the delta form and 0.6 KiB in those of residuals, up to `capacity` of them:
-/// then one of the host (address) with the most is forgotten and awaits a key, so that who invents
-/// entities takes no other's.
+/// All entities of others. One thread, never throws; allocates where a new entity comes, 0.6 KiB
+/// each in scenes of the residual form, up to `capacity` of them: then one of the host (address)
+/// with the most is forgotten and awaits a key, so that a host that invents entities displaces none
+/// of another.
 ///
 /// Keys are kept by entity, life and address: what anybody else says of the entity is none, however
 /// its octets were chosen. A life that goes on from another address takes its keys along; one that
@@ -73,10 +72,6 @@ class StateRestorer {
     std::uint32_t epoch = 0;
     aoim::SourceAddress home, from;  // of the first key in this life, and of the last
   };
-  struct DeltaKey {
-    std::array<std::byte, 144> octets{};
-    std::uint16_t check = 0;
-  };
   [[nodiscard]] std::size_t place_for(std::uint64_t key, const KeySpeaker& speaker);
   [[nodiscard]] std::size_t find(const pdu::EntityId& id, const KeySpeaker& speaker) const noexcept;
   [[nodiscard]] RestoreVerdict lean_on_key(const pdu::CompressedStates& states,
@@ -86,18 +81,13 @@ class StateRestorer {
   void add(std::uint64_t key, const KeySpeaker& speaker);
   void make_room();
   void erase(std::size_t place);
-  [[nodiscard]] bool is_delta() const noexcept { return form_ == pdu::CompressedForm::delta; }
-  [[nodiscard]] bool leans() const noexcept {
-    return is_delta() || form_ == pdu::CompressedForm::residual;
-  }
+  [[nodiscard]] bool leans() const noexcept { return form_ == pdu::CompressedForm::residual; }
 
   pdu::CompressedForm form_;
   std::size_t capacity_;
   std::unordered_map<std::uint64_t, std::size_t> places_;  // by the entity's key
   std::vector<Known> known_;
-  // Beside it, of the form that the scene has.
-  std::vector<DeltaKey> deltas_;
-  std::vector<deadreckon::ResidualDecoder> residuals_;
+  std::vector<deadreckon::ResidualDecoder> residuals_;     // beside it
   std::map<Host, std::size_t> counts_;  // of known_, by the host of `home`
   std::size_t cursor_ = 0;              // in known_: where the next to be forgotten is looked for
 };

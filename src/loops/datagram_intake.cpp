@@ -23,7 +23,7 @@ constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
 
 // Forms in which a state may be a key, which others are read by.
 bool leans_on_states(pdu::CompressedForm form) {
-  return form == pdu::CompressedForm::delta || form == pdu::CompressedForm::residual;
+  return form == pdu::CompressedForm::residual;
 }
 
 // By aoim::IncomingVerdict.

@@ -227,7 +227,7 @@ std::size_t EntitySender::tell_felt(const aoim::Position& position,
   return pdu::wire_size(update_.state) + records.size();
 }
 
-// Where it cannot lean on what all know, it is sent to all with the next pass, and to nobody now.
+// A state that has no compact form is sent to all with the next pass, and to nobody now.
 std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& position,
                                    std::span<const std::byte> records,
                                    const aoim::BundleTerms& terms, std::size_t audience,
@@ -241,8 +241,7 @@ std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& po
     return pdu::wire_size(update_.state) + records.size();
   }
   std::array<std::byte, StateCompressor::kRoom> octets;
-  const std::size_t size =
-      compressor->compress_near(update_.state, aoim_.route(position), now, octets);
+  const std::size_t size = compressor->compress_near(update_.state, octets);
   if (size == 0) {
     entity.event();
     entity.look_again(now);

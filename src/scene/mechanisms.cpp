@@ -54,8 +54,7 @@ const std::vector<Mechanism> kMechanisms{
     {"network",
      "compression",
      [](const SceneFile& scene) {
-       return scene.network.compression != pdu::CompressedForm::none &&
-              scene.network.compression != pdu::CompressedForm::residual;
+       return scene.network.compression == pdu::CompressedForm::compact;
      },
      {own_datagrams},
      {plain_states},

@@ -164,8 +164,7 @@ Section<NetworkConfig> network_section() {
            "30,000 of them"},
           {"compression", &NetworkConfig::compression,
            "of Entity States, the same for all peers: compact: rounded and short, each complete; "
-           "delta: what differs from a key; residual: what cannot be predicted from the last "
-           "ones"},
+           "residual: what cannot be predicted from the last ones"},
           {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
       },
       check_network};

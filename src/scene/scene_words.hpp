@@ -100,7 +100,6 @@ template <>
 inline constexpr auto kWords<pdu::CompressedForm> =
     std::to_array<Word<pdu::CompressedForm>>({{"none", pdu::CompressedForm::none},
                                               {"compact", pdu::CompressedForm::compact},
-                                              {"delta", pdu::CompressedForm::delta},
                                               {"residual", pdu::CompressedForm::residual}});
 
 template <>

@@ -15,7 +15,6 @@
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/compression/compact_state.hpp"
-#include "reckon/pdu/compression/delta_state.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
@@ -61,7 +60,6 @@ class Liar {
  public:
   enum class Lie {
     key,          ///< a plain state, 60 m off
-    chosen_key,   ///< the same, with the check of the key that the owner leans on
     compact_key,  ///< the same as a compact state
     leaning,      ///< what the owner said last that leans on a key, said again as one's own
   };
@@ -87,7 +85,6 @@ class Liar {
       forged.header.timestamp = pdu::to_dis_timestamp(utc, true);
       forged.location.x += 60.0;
       ASSERT_TRUE(pdu::quantise(forged, {}));
-      if (what == Lie::chosen_key) choose_check(forged, checks_[truck]);
       say(what == Lie::compact_key ? compact(forged) : octets_of(forged));
     }
   }
@@ -107,7 +104,6 @@ class Liar {
       pdu::CompressedStateReader reader(states);
       for (pdu::CompressedState one; reader.next(one);) {
         if (one.form == CompressedForm::compact) continue;
-        checks_[one.entity] = pdu::key_of_delta(one.body);
         leaning_.assign(bytes.begin(), bytes.end());
       }
     }
@@ -117,20 +113,8 @@ class Liar {
     EXPECT_EQ(pdu::encode(state, octets), octets.size());
     return octets;
   }
-  // All octets are his to choose, and capabilities mean nothing to who shows a truck.
-  static void choose_check(pdu::EntityState& state, std::uint16_t check) {
-    Octets octets = octets_of(state);
-    std::byte* capabilities = octets.data() + octets.size() - sizeof(state.capabilities);
-    for (std::uint32_t i = 0; i < 1U << 20; ++i) {
-      pdu::store_big_endian(capabilities, i);
-      if (pdu::key_check(octets) != check) continue;
-      state.capabilities = i;
-      return;
-    }
-    ADD_FAILURE() << "no state has the check " << check;
-  }
   static Octets compact(const pdu::EntityState& state) {
-    std::array<std::byte, pdu::kMostDelta> body;
+    std::array<std::byte, pdu::kMostCompact> body;
     std::array<std::byte, pdu::kCompressedHeadSize + pdu::kMostCompressedBody> one;
     const std::size_t size = pdu::encode_compact(state, {}, body);
     pdu::CompressedStates states;
@@ -155,7 +139,6 @@ class Liar {
   peer::Link& link_;
   peer::SceneFile scene_;
   std::map<std::uint16_t, pdu::EntityState> states_;
-  std::map<std::uint16_t, std::uint16_t> checks_;  // of the key that the owner leans on
   Octets leaning_;
 };
 
@@ -285,9 +268,7 @@ TEST_P(CompressedExercise, LosesLittleMoreThanPlainOneWhereATenthIsLost) {
   EXPECT_EQ(country[1].size(), kTrucks);
   EXPECT_GT(country.count(1, "compressed_in"), 50U);
   EXPECT_EQ(country.count(1, "malformed_in"), 0U);
-  // A lost key of the delta form costs what leans on it.
-  const double more = GetParam() == CompressedForm::delta ? 0.3 : 0.03;
-  EXPECT_LE(share_above(errors, kMost), share_above(plain, kMost) + more);
+  EXPECT_LE(share_above(errors, kMost), share_above(plain, kMost) + 0.03);
 }
 
 // An update of its own that leans on a key does not count as what a newcomer is told.
@@ -329,10 +310,10 @@ TEST_P(CompressedExercise, IsAnotherSceneForWhoDoesNotCompress) {
   EXPECT_TRUE(country.is_told(1, "runs another scene"));
 }
 
-// Once and ten times a second: poison, a key with the owner's own check, compact keys, echoes.
+// Once and ten times a second: poison, compact keys, echoes.
 TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
   for (const Liar::Lie lie :
-       {Liar::Lie::key, Liar::Lie::chosen_key, Liar::Lie::compact_key, Liar::Lie::leaning}) {
+       {Liar::Lie::key, Liar::Lie::compact_key, Liar::Lie::leaning}) {
     for (const nanoseconds period : {nanoseconds(1s), nanoseconds(100ms)}) {
       Country country(0.0);
       country.join(GetParam());
@@ -359,8 +340,7 @@ TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, CompressedExercise,
-                         ::testing::Values(CompressedForm::compact, CompressedForm::delta,
-                                           CompressedForm::residual));
+                         ::testing::Values(CompressedForm::compact, CompressedForm::residual));
 
 }  // namespace
 }  // namespace reckon::test

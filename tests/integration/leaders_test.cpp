@@ -281,7 +281,7 @@ TEST(Leaders, AreRefusedWhereTheyCannotBeHad) {
     return std::string();
   };
   EXPECT_NE(problem("[network]\ninterop = true\n").find("'interop'"), std::string::npos);
-  EXPECT_NE(problem("[network]\ncompression = \"delta\"\n").find("'compression'"),
+  EXPECT_NE(problem("[network]\ncompression = \"compact\"\n").find("'compression'"),
             std::string::npos);
 }
 

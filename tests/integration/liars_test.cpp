@@ -144,12 +144,11 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
     struct Ways {
       std::string aoim, network;
     };
-    const std::array<Ways, 10> ways{{{"", ""},
+    const std::array<Ways, 9> ways{{{"", ""},
                                      {"", "compression = \"compact\""},
-                                     {"", "compression = \"delta\""},
                                      {"", "compression = \"residual\""},
                                      {kTouchTier, ""},
-                                     {kTouchTier, "compression = \"delta\""},
+                                     {kTouchTier, "compression = \"residual\""},
                                      {"leaders = true", ""},
                                      {"leaders = true\nhand_out = true", ""},
                                      {kDistanceTiers, ""},

@@ -159,7 +159,7 @@ struct ListenerObserver {
 ///   for (const HeardEntity& entity : listener.entities()) draw(entity.pose_at(now));
 ///
 /// Any octets will do. Places of entities and models are dense, from 0; forget_*() moves the last
-/// one to the place that became free. One thread. Compressed States are restored: of the delta and
+/// one to the place that became free. One thread. Compressed States are restored: of the
 /// residual form from each entity's first key on that comes after the first of them; of more than
 /// 4,096 compressed entities the oldest await a key. Allocates as entities come, within bounds,
 /// never for known ones. Some 0.1 us a state by `pace`; `sweeps` costs some ns more for each

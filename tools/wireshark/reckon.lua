@@ -751,7 +751,7 @@ local OWN = {
     { "simulation_address.site", 12, 2, "u16" },
     { "simulation_address.application", 14, 2, "u16" },
     { "form", 16, 1, "u8", {
-      [0] = "None", [1] = "Compact", [2] = "Delta", [3] = "Residual", } },
+      [0] = "None", [1] = "Compact", [2] = "Reserved", [3] = "Residual", } },
     { "layout", 17, 1, "u8" },
     { "number_of_states", 18, 2, "u16" },
   } },

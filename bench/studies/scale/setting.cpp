@@ -79,7 +79,7 @@ ScaleChannels scale_channels(const ScaleSetting& setting) {
 
 pdu::CompressedForm scale_compression(const ScaleSetting& setting) {
   return scale_channels(setting).near_rows == 0 ? pdu::CompressedForm::residual
-                                                : pdu::CompressedForm::delta;
+                                                : pdu::CompressedForm::compact;
 }
 
 OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The compact and the delta form: every field comes back exactly or within half a quantum, or the
+// The compact form: every field comes back exactly or within half a quantum, or the
 // form declines; any octets may come.
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 
 #include "reckon/pdu/compression/bit_stream.hpp"
 #include "reckon/pdu/compression/compact_state.hpp"
-#include "reckon/pdu/compression/delta_state.hpp"
 
 namespace reckon::pdu {
 namespace {
@@ -222,49 +221,6 @@ TEST(CompactState, ReadsAnyOctetsWithoutHarm) {
     taken += decode_compact(front(body, size), 0, {}, out) ? 1 : 0;
   }
   EXPECT_GT(taken, 0u);
-}
-
-TEST(DeltaState, GivesBackEveryOctetOfAnyTwoPdus) {
-  Random random(6);
-  for (int round = 0; round < 50'000; ++round) {
-    std::vector<std::byte> key(1 + random() % kMostDelta), pdu;
-    for (std::byte& octet : key) octet = static_cast<std::byte>(random());
-    pdu = key;
-    for (std::size_t i = random() % 40; i > 0; --i) {
-      pdu[random() % pdu.size()] = static_cast<std::byte>(random());
-    }
-    std::array<std::byte, 256> body;
-    const std::size_t size = encode_delta(key, key_check(key), pdu, body);
-    ASSERT_LE(size, pdu.size());
-    if (size == 0) continue;
-    std::vector<std::byte> back(key.size());
-    EXPECT_EQ(key_of_delta(front(body, size)), key_check(key));
-    ASSERT_TRUE(decode_delta(key, front(body, size), back));
-    EXPECT_EQ(back, pdu);
-    EXPECT_FALSE(decode_delta(key, front(body, size - 1), back)) << "one octet short";
-  }
-}
-
-TEST(DeltaState, DeclinesAnotherLengthAndWhatSavesNothing) {
-  const std::vector<std::byte> key(144), longer(160), other(144, std::byte{1});
-  std::array<std::byte, 256> body;
-  EXPECT_EQ(encode_delta(key, 0, longer, body), 0u);
-  EXPECT_EQ(encode_delta(key, 0, other, body), 0u);
-  EXPECT_EQ(encode_delta(key, 0, key, body), 5u) << "nothing has changed";
-  EXPECT_EQ(encode_delta(key, 0, key, front(body, 4)), 0u);
-}
-
-TEST(DeltaState, AnotherKeyHasAnotherCheckButForOneInSomeTenThousand) {
-  Random random(7);
-  std::vector<std::byte> key(144);
-  const std::uint16_t check = key_check(key);
-  int same = 0;
-  for (int round = 0; round < 100'000; ++round) {
-    std::vector<std::byte> other = key;
-    other[random() % other.size()] ^= static_cast<std::byte>(1 + random() % 255);
-    same += key_check(other) == check ? 1 : 0;
-  }
-  EXPECT_LT(same, 10);
 }
 
 TEST(TimestampNear, IsTheOneFromOneAndAHalfSecondsBeforeToAFifthBehind) {

@@ -132,8 +132,7 @@ TEST_P(StateCompression, WhatArrivesIsWhatWasSentWhateverIsLost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, StateCompression,
-                         ::testing::Values(CompressedForm::compact, CompressedForm::delta,
-                                           CompressedForm::residual));
+                         ::testing::Values(CompressedForm::compact, CompressedForm::residual));
 
 TEST(StateCompressor, SendsKeysOftenAtFirstAndThenNowAndThen) {
   StateCompressor compressor(CompressedForm::residual);
@@ -150,39 +149,9 @@ TEST(StateCompressor, SendsKeysOftenAtFirstAndThenNowAndThen) {
   EXPECT_TRUE(crossed.is_key);
 }
 
-// How long a receiver does without the state of an entity that is sent so often, at worst, where
-// one datagram is lost [s].
-double longest_without(CompressedForm form, milliseconds period) {
-  double longest = 0.0;
-  for (int lost = 60; lost < 120; ++lost) {
-    Line line(form);
-    nanoseconds now = std::chrono::seconds(1), last = now;
-    for (int i = 0; i < 200; ++i, now += period) {
-      line.send(1, now);
-      if (line.pass(now, i == lost).contains(1)) {
-        longest = std::max(longest, std::chrono::duration<double>(now - last).count());
-        last = now;
-      }
-    }
-  }
-  return longest;
-}
-
-TEST(StateCompressor, ALostKeyOfTheDeltaFormIsMadeUpForSoon) {
-  std::printf("  delta form, one lost: %.1f s at 10 updates/s, %.1f s at 1, %.1f s at 0.1\n",
-              longest_without(CompressedForm::delta, milliseconds(100)),
-              longest_without(CompressedForm::delta, milliseconds(1000)),
-              longest_without(CompressedForm::delta, milliseconds(10000)));
-  EXPECT_LE(longest_without(CompressedForm::delta, milliseconds(100)), 0.51);
-  EXPECT_LE(longest_without(CompressedForm::delta, milliseconds(1000)), 3.01);
-  EXPECT_LE(longest_without(CompressedForm::delta, milliseconds(10000)), 20.01)
-      << "as without compression";
-}
-
 /// Owners and one receiver without datagrams between them.
 struct Keys {
-  explicit Keys(CompressedForm asked, std::size_t capacity = 100)
-      : form(asked), restorer(asked, capacity) {}
+  explicit Keys(std::size_t capacity = 100) : restorer(kForm, capacity) {}
 
   /// Its first keys, which the receiver hears from `speaker`.
   void tell(std::uint16_t entity, const KeySpeaker& speaker, nanoseconds now) {
@@ -190,7 +159,7 @@ struct Keys {
     state.entity_id.site = speaker.simulation.site;
     state.entity_id.application = speaker.simulation.application;
     compressors.erase(state.entity_id);
-    auto& compressor = compressors.try_emplace(state.entity_id, form).first->second;
+    auto& compressor = compressors.try_emplace(state.entity_id, kForm).first->second;
     std::array<std::byte, StateCompressor::kRoom> octets;
     static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
     static_cast<void>(compressor.compress(state, kGroup, false, now, octets));  // a key, too
@@ -208,7 +177,7 @@ struct Keys {
     pdu::CompressedStates pdu;
     pdu.header.timestamp = state.header.timestamp;
     pdu.simulation = owner.simulation;
-    pdu.form = form;
+    pdu.form = kForm;
     pdu.number_of_states = 1;
     pdu.states.bytes = std::span(octets.data(), made.size);
     pdu::CompressedStateReader reader(pdu);
@@ -222,26 +191,23 @@ struct Keys {
     return verdict;
   }
 
-  CompressedForm form;
+  static constexpr CompressedForm kForm = CompressedForm::residual;
   StateRestorer restorer;
   std::map<pdu::EntityId, StateCompressor> compressors;
 };
 
-class OwnedKeys : public ::testing::TestWithParam<CompressedForm> {
- protected:
-  static constexpr nanoseconds kStart = std::chrono::seconds(10);
-  static constexpr nanoseconds kNext = kStart + milliseconds(200);
-};
+constexpr nanoseconds kStart = std::chrono::seconds(10);
+constexpr nanoseconds kNext = kStart + milliseconds(200);
 
-TEST_P(OwnedKeys, ForgetTheFirstWhereThereIsNoRoom) {
-  Keys keys(GetParam(), 2);
+TEST(OwnedKeys, ForgetTheFirstWhereThereIsNoRoom) {
+  Keys keys(2);
   for (std::uint16_t entity = 1; entity <= 3; ++entity) keys.tell(entity, kOwner, kStart);
   EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext), RestoreVerdict::awaits_key);
   EXPECT_EQ(keys.lean(2, kOwner, kOwner, kNext), RestoreVerdict::good);
   EXPECT_EQ(keys.lean(3, kOwner, kOwner, kNext), RestoreVerdict::good);
 }
 
-TEST_P(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
+TEST(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
   const KeySpeaker others[] = {
       {},                         // no peer
       {{9, 9}, 88, at_host(2)},   // another peer
@@ -249,7 +215,7 @@ TEST_P(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
       {kSender, 0, kOwner.from},  // a plain program at its host
   };
   for (const KeySpeaker& other : others) {
-    Keys keys(GetParam());
+    Keys keys;
     keys.tell(1, kOwner, kStart);
     pdu::EntityState forged = state_of(1, kStart + milliseconds(100));
     forged.location.x += 60.0;
@@ -260,8 +226,8 @@ TEST_P(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
   }
 }
 
-TEST_P(OwnedKeys, EndWithTheLifeThatSaidThem) {
-  Keys keys(GetParam());
+TEST(OwnedKeys, EndWithTheLifeThatSaidThem) {
+  Keys keys;
   KeySpeaker reborn = kOwner;
   reborn.epoch = 78;
   keys.tell(1, kOwner, kStart);
@@ -275,8 +241,8 @@ TEST_P(OwnedKeys, EndWithTheLifeThatSaidThem) {
   EXPECT_EQ(keys.lean(1, reborn, reborn, kNext + milliseconds(300)), RestoreVerdict::awaits_key);
 }
 
-TEST_P(OwnedKeys, GoAlongToANewAddressAndAreNewAfterOneComesBack) {
-  Keys keys(GetParam());
+TEST(OwnedKeys, GoAlongToANewAddressAndAreNewAfterOneComesBack) {
+  Keys keys;
   KeySpeaker moved = kOwner;
   moved.from = at_host(3);
   keys.tell(1, kOwner, kStart);
@@ -288,8 +254,8 @@ TEST_P(OwnedKeys, GoAlongToANewAddressAndAreNewAfterOneComesBack) {
   EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext + milliseconds(400)), RestoreVerdict::good);
 }
 
-TEST_P(OwnedKeys, OfOthersAreNotTakenByAHostThatInventsEntities) {
-  Keys keys(GetParam(), 100);
+TEST(OwnedKeys, OfOthersAreNotTakenByAHostThatInventsEntities) {
+  Keys keys(100);
   for (std::uint16_t entity = 1; entity <= 20; ++entity) keys.tell(entity, kOwner, kStart);
   for (std::uint16_t life = 0; life < 4; ++life) {  // by other names, from other ports
     const auto port = static_cast<std::uint16_t>(4000 + life);
@@ -300,9 +266,6 @@ TEST_P(OwnedKeys, OfOthersAreNotTakenByAHostThatInventsEntities) {
   for (std::uint16_t entity = 1; entity <= 20; ++entity)
     EXPECT_EQ(keys.lean(entity, kOwner, kOwner, kNext), RestoreVerdict::good) << entity;
 }
-
-INSTANTIATE_TEST_SUITE_P(Forms, OwnedKeys,
-                         ::testing::Values(CompressedForm::delta, CompressedForm::residual));
 
 }  // namespace
 }  // namespace reckon::peer

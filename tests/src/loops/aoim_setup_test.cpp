@@ -215,7 +215,7 @@ TEST(AoimSetup, RefusesTiersWithGroupsOfTheirOwnWhereThereCanBeNone) {
   says(test::kAllTiers, "pool = 256\n", "4 to 250");
   says(test::kOwnTiers, "leaders = true\n", "'leaders'");
   says(test::kOwnTiers, "[network]\ncompression = \"residual\"\n", "own_group = true excludes");
-  EXPECT_EQ(refusal(test::kOwnTiers, "[network]\ncompression = \"delta\"\n"), "");
+  EXPECT_EQ(refusal(test::kOwnTiers, "[network]\ncompression = \"compact\"\n"), "");
   says(test::kOwnTiers, "[network]\ninterop = true\n", "'interop'");
 }
 

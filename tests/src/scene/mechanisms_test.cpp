@@ -60,11 +60,11 @@ TEST(Mechanisms, ExcludeOneAnotherWhereOneTakesWhatTheOtherNeeds) {
   const std::string leaders = "leaders = true\n", hand_out = leaders + "hand_out = true\n";
   const std::vector<std::pair<std::string, std::string>> refused{
       {leaders, "[network]\ninterop = true\n"},
-      {leaders, "[network]\ncompression = \"delta\"\n"},
+      {leaders, "[network]\ncompression = \"compact\"\n"},
       {leaders + test::kDistanceTiers, ""},
       {hand_out + test::kTouchTier, ""},
       {"follow = \"gate\"\n", ""},
-      {"", "[network]\ninterop = true\ncompression = \"delta\"\n"},
+      {"", "[network]\ninterop = true\ncompression = \"compact\"\n"},
       {test::kTouchTier, "[network]\ninterop = true\n"},
       {test::kOwnTiers, "[network]\ncompression = \"residual\"\n"},
       {test::kOwnTiers, "[network]\ninterop = true\n"}};
@@ -73,7 +73,7 @@ TEST(Mechanisms, ExcludeOneAnotherWhereOneTakesWhatTheOtherNeeds) {
   for (const auto& [aoim, network] : std::vector<std::pair<std::string, std::string>>{
            {hand_out + "follow = \"gate\"\n", ""},
            {leaders + test::kTouchTier, ""},
-           {test::kOwnTiers, "[network]\ncompression = \"delta\"\n"},
+           {test::kOwnTiers, "[network]\ncompression = \"compact\"\n"},
            {test::kDistanceTiers, "[network]\ncompression = \"residual\"\n"}})
     EXPECT_THAT(test::refusal("[aoim]\n" + aoim + network), IsEmpty()) << aoim << network;
 }

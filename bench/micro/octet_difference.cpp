@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/pdu/compression/delta_state.hpp"
+#include "reckon/bench/micro/octet_difference.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "reckon/pdu/codec/byte_order.hpp"
 
-namespace reckon::pdu {
+namespace reckon::bench {
 namespace {
 
 constexpr std::size_t kCheckSize = 2;
@@ -47,7 +47,7 @@ std::size_t encode_delta(std::span<const std::byte> key, std::uint16_t check,
   if (key.size() != pdu.size() || pdu.size() > kMostDelta || out.size() < head) return 0;
   const std::size_t most = std::min(out.size(), pdu.size());
   std::fill_n(out.begin(), head, std::byte{0});
-  store_big_endian(out.data(), check);
+  pdu::store_big_endian(out.data(), check);
   std::size_t size = head;
   for (std::size_t group = 0; group < groups; ++group) {
     const unsigned map = difference(key, pdu, 8 * group);
@@ -63,7 +63,7 @@ std::size_t encode_delta(std::span<const std::byte> key, std::uint16_t check,
 }
 
 std::uint16_t key_of_delta(std::span<const std::byte> body) noexcept {
-  return body.size() < kCheckSize ? std::uint16_t{0} : load_big_endian<std::uint16_t>(body.data());
+  return body.size() < kCheckSize ? std::uint16_t{0} : pdu::load_big_endian<std::uint16_t>(body.data());
 }
 
 bool decode_delta(std::span<const std::byte> key, std::span<const std::byte> body,
@@ -86,4 +86,4 @@ bool decode_delta(std::span<const std::byte> key, std::span<const std::byte> bod
   return at == body.size();
 }
 
-}  // namespace reckon::pdu
+}  // namespace reckon::bench

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The delta form: the octets of a PDU that differ from those of an earlier one of the same entity,
-// its key, whatever they mean. Exact. Who lacks that key cannot read it and knows so.
+// The octets of a PDU that differ from those of an earlier one of the same entity, its key,
+// whatever they mean: what a compression that knows no fields comes to, for comparison with the
+// forms of the product. Exact. A receiver without the key cannot read it and knows that.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace reckon::pdu {
+namespace reckon::bench {
 
 /// Octets of a PDU that can be a key, or have one.
 inline constexpr std::size_t kMostDelta = 208;
@@ -32,4 +33,4 @@ inline constexpr std::size_t kMostDelta = 208;
 [[nodiscard]] bool decode_delta(std::span<const std::byte> key, std::span<const std::byte> body,
                                 std::span<std::byte> out) noexcept;
 
-}  // namespace reckon::pdu
+}  // namespace reckon::bench
