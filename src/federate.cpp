@@ -9,8 +9,10 @@
 
 #include "reckon/peer/federation/exercise_clock.hpp"
 #include "reckon/peer/federation/loop_side.hpp"
+#include "reckon/peer/federation/remote_objects.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -42,12 +44,12 @@ void check_marking(const std::string& marking) {
 
 // Numbers of hands and of the scene's entities.
 std::size_t given_already(const FederateOptions& options) {
-  return options.devices.size() + entities_of(options.scene, options.scene_peer).size();
+  return options.devices.size() + entities_of(*options.scene, options.scene_peer).size();
 }
 
 }  // namespace
 
-SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude) {
+SceneHolder dis_exercise(std::uint8_t exercise, double latitude, double longitude) {
   constexpr double kFar = 1e8;  // [m], beyond satellites on the other side
   SceneFile scene;
   scene.name = "DIS exercise " + std::to_string(exercise);
@@ -252,8 +254,10 @@ ObjectHandle Federate::hand(std::size_t index) const noexcept {
 // The entities of others
 // --------------------------------------------------------------------------------
 
-std::span<const RemoteCopy> Federate::rows() const noexcept {
-  return participation_->objects.rows();
+std::size_t Federate::size() const noexcept { return participation_->objects.rows().size(); }
+
+RemoteObject Federate::object_at(std::size_t index) const noexcept {
+  return RemoteObject(participation_->objects.rows()[index]);
 }
 
 std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
@@ -280,7 +284,7 @@ void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
 std::uint64_t Federate::dropped_interactions() const noexcept { return participation_->dropped; }
 
 std::uint8_t Federate::exercise() const noexcept {
-  return participation_->options().scene.network.exercise;
+  return participation_->options().scene->network.exercise;
 }
 
 // Time and place
@@ -299,6 +303,10 @@ nanoseconds Federate::exercise_time() const noexcept {
 
 const deadreckon::LocalFrame& Federate::frame() const noexcept {
   return participation_->joined.peer().frame();
+}
+
+Eigen::Vector3d Federate::scene_position(const Eigen::Vector3d& world) const noexcept {
+  return frame().scene_from_world(world);
 }
 
 EntityTruth Federate::place(double latitude, double longitude, double height,

@@ -17,14 +17,17 @@
 #include <string>
 #include <vector>
 
-#include "reckon/deadreckon/motion/articulation.hpp"
-#include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
-#include "reckon/peer/federation/remote_objects.hpp"
+#include "reckon/peer/federation/remote_object.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
+
+namespace reckon::deadreckon {
+class LocalFrame;
+struct PartState;
+}  // namespace reckon::deadreckon
 
 namespace reckon::peer {
 
@@ -36,8 +39,8 @@ struct News;
 
 /// A scene for plain DIS: every entity within 1,000 km of `latitude`, `longitude` [rad] is seen,
 /// all is said to one multicast group, and no peer need know Reckon.
-[[nodiscard]] SceneFile dis_exercise(std::uint8_t exercise, double latitude = 0.0,
-                                     double longitude = 0.0);
+[[nodiscard]] SceneHolder dis_exercise(std::uint8_t exercise, double latitude = 0.0,
+                                       double longitude = 0.0);
 
 /// An entity that a federate has registered.
 struct ObjectHandle {
@@ -123,7 +126,8 @@ class Federate {
   void update_attributes(ObjectHandle object, const EntityTruth& truth);
   /// Appearance as on the wire; sent at once where it is another.
   void update_appearance(ObjectHandle object, std::uint32_t appearance);
-  /// Articulated parts; sent where others are wrong about them.
+  /// Articulated parts (deadreckon/motion/articulation.hpp); sent where others are wrong about
+  /// them.
   void update_parts(ObjectHandle object, const deadreckon::PartState& parts);
   /// Its last Entity State has the deactivated bit.
   void delete_object(ObjectHandle object);
@@ -139,9 +143,9 @@ class Federate {
   /// Calls visit(RemoteObject) for all.
   template <typename Visit>
   void for_each(Visit&& visit) const {
-    for (const RemoteCopy& copy : rows()) visit(RemoteObject(copy));
+    for (std::size_t i = 0; i < size(); ++i) visit(object_at(i));
   }
-  [[nodiscard]] std::size_t size() const noexcept { return rows().size(); }
+  [[nodiscard]] std::size_t size() const noexcept;
 
   // Interactions ----------------------------------------------------------------------------------
 
@@ -154,7 +158,7 @@ class Federate {
     std::optional<Eigen::Vector3d> place;
     if constexpr (requires { message.location_in_world_coordinates; }) {
       const auto& at = message.location_in_world_coordinates;
-      place = frame().scene_from_world({at.x, at.y, at.z});
+      place = scene_position({at.x, at.y, at.z});
     }
     std::vector<std::byte> octets(pdu::wire_size(message));
     octets.resize(pdu::encode(message, octets));
@@ -172,7 +176,7 @@ class Federate {
   [[nodiscard]] std::chrono::nanoseconds utc() const noexcept;
   /// Simulation time since 1970 by Start/Resume and Stop/Freeze for us or all; UTC before.
   [[nodiscard]] std::chrono::nanoseconds exercise_time() const noexcept;
-  /// Between the scene and the earth.
+  /// Between the scene and the earth (deadreckon/motion/geocentric.hpp).
   [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept;
   /// Standing at a geodetic place [rad, rad, m over the ellipsoid], with a heading [rad] clockwise
   /// from north.
@@ -200,7 +204,8 @@ class Federate {
   void send_octets(pdu::PduType type, std::span<const std::byte> octets,
                    const std::optional<Eigen::Vector3d>& place);
   [[nodiscard]] std::uint8_t exercise() const noexcept;
-  [[nodiscard]] std::span<const RemoteCopy> rows() const noexcept;
+  [[nodiscard]] RemoteObject object_at(std::size_t index) const noexcept;
+  [[nodiscard]] Eigen::Vector3d scene_position(const Eigen::Vector3d& world) const noexcept;
   void call_back(News& news);
 
   std::unique_ptr<Participation> participation_;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reckon/peer/network/unicast_peers.hpp"
-#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/scene_holder.hpp"
 #include "reckon/peer/world/peer_device.hpp"
 
 namespace reckon::peer {
@@ -30,8 +30,9 @@ enum class FederateLoops : std::uint8_t {
 struct FederateOptions {
   std::string name = "federate";  ///< of the peer, and marking of its first hand
   /// The world: origin, cells and radius of interest, groups, impairment. load_scene_file() reads
-  /// one; a scene of defaults has a radius of 2 m, see dis_exercise() for vehicles.
-  SceneFile scene;
+  /// one (scene_file.hpp); a scene of defaults has a radius of 2 m, see dis_exercise() for
+  /// vehicles.
+  SceneHolder scene;
   std::string interface;  ///< name, address or index; empty: the scene's, else chosen by rule
   FederateLoops loops = FederateLoops::in_step;
   /// Which of the scene's [[entity]] tables are ours: those with this `peer`; 0: none. They move by

@@ -14,12 +14,13 @@
 #include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::peer {
 namespace {
 
 LanLinkOptions lan_options(const FederateOptions& options) {
-  const SceneFile& scene = options.scene;
+  const SceneFile& scene = *options.scene;
   LanLinkOptions lan;
   lan.udp.interface = options.interface.empty() ? scene.network.iface : options.interface;
   lan.udp.ipv6 = scene.network.group.is_v6;
@@ -69,7 +70,7 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
 
 // The link that the peer talks to: `link` itself, or sealed around it.
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
-  NetworkConfig& network = options_.scene.network;
+  NetworkConfig& network = options_.scene->network;
   if (network.key.empty()) {
     if (network.touch.wants_key())
       throw std::invalid_argument("'touch' of the scene is members, which only a key can prove");
@@ -85,7 +86,7 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   sealing.application = options_.application;
   sealing.places.exercise = network.exercise;
   const bool is_listed = lan_ && !(options_.peers.empty() && network.peers.empty());
-  if (is_listed) sealing.places.listed = pool_of(options_.scene);
+  if (is_listed) sealing.places.listed = pool_of(*options_.scene);
   sealing.tap = options_.tap;
   sealed_ = std::make_unique<SealedLink>(link, std::move(sealing), *clock_);
   return *sealed_;
@@ -105,16 +106,16 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   Link& way = sealed(link, own.site);
   std::unique_ptr<RollCall> roll;
   if (options_.deal) {
-    if (lan_ && !options_.scene.network.interop) roll = call_roll(way, own);
+    if (lan_ && !options_.scene->network.interop) roll = call_roll(way, own);
     if (!roll) options_.scene_peer = 1;
     if (roll) own.application = roll->id().application;
     options_.devices = options_.deal(options_.scene_peer);
   }
   own.scene_peer = static_cast<std::uint8_t>(std::min<std::uint32_t>(options_.scene_peer, 254));
-  own.entities = entities_of(options_.scene, options_.scene_peer);
+  own.entities = entities_of(*options_.scene, options_.scene_peer);
   own.record_shown = options_.record_shown;
   own.record_changes = guest != nullptr;
-  peer_ = std::make_unique<Peer>(options_.scene, own, way, options_.devices);
+  peer_ = std::make_unique<Peer>(*options_.scene, own, way, options_.devices);
   if (sealed_) sealed_->count_in(peer_->counters());
   peer_->model().receive(guest);
   begun_ = clock_->now();
@@ -128,7 +129,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
 }
 
 std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& own) {
-  const SceneFile& scene = options_.scene;
+  const SceneFile& scene = *options_.scene;
   const deadreckon::LocalFrame frame(scene.origin.latitude, scene.origin.longitude,
                                      scene.origin.height);
   const GroupPool pool = pool_of(scene);

@@ -20,6 +20,7 @@
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/support/town_traffic.hpp"
 
 namespace reckon::peer {
@@ -52,7 +53,7 @@ EntityTruth drive(std::uint32_t index, nanoseconds now) {
 class Owner {
  public:
   explicit Owner(std::uint32_t count)
-      : scene_(dis_exercise(1)),
+      : scene_(*dis_exercise(1)),
         clock_(std::chrono::seconds(1), std::chrono::hours(1)),
         network_(two_links(), clock_),
         peer_(scene_, {}, network_.link(0), {}) {

@@ -22,9 +22,7 @@ constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken
 constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
 
 // Forms in which a state may be a key, which others are read by.
-bool leans_on_states(pdu::CompressedForm form) {
-  return form == pdu::CompressedForm::residual;
-}
+bool leans_on_states(pdu::CompressedForm form) { return form == pdu::CompressedForm::residual; }
 
 // By aoim::IncomingVerdict.
 constexpr std::array<DatagramFate, aoim::kIncomingVerdicts> kFateOfVerdict{
@@ -91,6 +89,7 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
   const bool backlog = count >= kBacklog && !leans_on_states(scene_.network.compression);
   if (backlog) overtaken_.look(admitted);
   for (std::size_t i = 0; i < count; ++i) {
+    reading.handler.take_datagram(admitted[i].octets);
     const std::uint64_t overtaken = backlog ? overtaken_.of(i) : 0;
     if (backlog && overtaken_.is_whole(i)) {
       decoder_.leave_out(static_cast<std::size_t>(std::popcount(overtaken)),

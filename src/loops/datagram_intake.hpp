@@ -24,6 +24,9 @@ namespace reckon::peer {
 class UpdateHandler {
  public:
   virtual ~UpdateHandler() = default;
+  /// By the thread of read(), of each datagram of this exercise, before what is in it. @param
+  /// octets good until the call returns
+  virtual void take_datagram(std::span<const std::byte> octets) noexcept = 0;
   /// By the thread of read(). @param update good until the call returns
   virtual void take_update(const Inbound& update, const Arrival& arrival) noexcept = 0;
 };

@@ -110,7 +110,6 @@ void ModelLoop::look_around() noexcept {
   subscriber_.subscribe(pass_.now, touch_.near(), watches_.notices());
   remote_.look_shown(pass_.now);
   remote_.look_outside(pass_.now);
-  watches_.fit_channels(remote_, aoim_, pass_.now);
 }
 
 bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
@@ -232,6 +231,7 @@ bool ModelLoop::consider_other(OwnedEntity& entity, EntityNumber number) noexcep
 
 void ModelLoop::emit(bool everything) noexcept {
   const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
+    watches_.hooks().sent(octets);
     outlet_.push(group, octets);
   };
   pdu::TimeExchange exchange;
@@ -268,6 +268,10 @@ void ModelLoop::publish_view() noexcept {
 
 // In
 // ------------------------------------------------------------------------------------
+
+void ModelLoop::take_datagram(std::span<const std::byte> octets) noexcept {
+  watches_.hooks().received(octets);
+}
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind == Inbound::Kind::claim) {

@@ -114,6 +114,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
 
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drop_stale(Nanoseconds now) noexcept;
+  void take_datagram(std::span<const std::byte> octets) noexcept override;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept override;
   void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
   void claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept override;

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/network/link.hpp"
-
 namespace reckon::peer {
+
+struct IpEndpoint;
 
 /// Most addresses of a list: each datagram is sent so many times.
 inline constexpr std::size_t kMostUnicastPeers = 256;

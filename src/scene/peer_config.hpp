@@ -17,7 +17,6 @@
 #include "reckon/aoim/cells/cell_grid.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
-#include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
@@ -25,6 +24,7 @@
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/unicast_peers.hpp"
 #include "reckon/peer/scene/coupling_mode.hpp"
+#include "reckon/peer/scene/dead_reckoning_config.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
 #include "reckon/peer/scene/tier_config.hpp"
 #include "reckon/peer/scene/touch_rule.hpp"
@@ -77,19 +77,6 @@ struct OperatorConfig {
   std::chrono::nanoseconds start{0};                          ///< rests until then, >= 0
   double stiffness = 300.0;                                   ///< [N/m] of the grip, >= 0
   double damping = 3.0;                                       ///< [N s/m] of the grip, >= 0
-};
-
-/// How far a remote copy may be off before an update is sent.
-struct DeadReckoningConfig {
-  /// None: the one that needs the fewest updates, as the motion goes (deadreckon::ModelChoice).
-  std::optional<pdu::DeadReckoningAlgorithm> algorithm;
-  /// [m], [rad], [N], each > 0; raising one sends less and shows more of that error.
-  deadreckon::Thresholds thresholds = {0.0005, 0.05235987755982989, 0.05};
-  /// Row of kSendRules: how an error of position is held against the threshold.
-  const deadreckon::SendRule* rule = &deadreckon::kDefaultSendRule;
-  /// What peers mean by the acceleration of RVB; all peers of a scene have to agree.
-  deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
-  std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);  ///< time-out is 2.4 of these
 };
 
 /// Which way something is turned, as DIS means it. [rad]

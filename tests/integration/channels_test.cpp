@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
@@ -26,7 +27,7 @@ constexpr double kThreshold = 0.01;            // [m]
 constexpr double kFarError = 1.1 * kSpeed * kSpeed * kSpeed / (6 * kTurn * kTurn);
 
 peer::SceneFile country(bool channels) {
-  peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
+  peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
   scene.network.interop = false;
   scene.aoim.cell = 500.0;
   scene.aoim.radius = 2000.0;

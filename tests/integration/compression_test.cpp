@@ -18,6 +18,7 @@
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
@@ -36,7 +37,7 @@ constexpr double kRounding = 0.02;  // [m]
 constexpr double kMost = 1.3;  // [m]
 
 peer::SceneFile country(CompressedForm form) {
-  peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
+  peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
   scene.network.interop = false;
   scene.network.compression = form;
   scene.aoim.cell = 500.0;
@@ -312,8 +313,7 @@ TEST_P(CompressedExercise, IsAnotherSceneForWhoDoesNotCompress) {
 
 // Once and ten times a second: poison, compact keys, echoes.
 TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
-  for (const Liar::Lie lie :
-       {Liar::Lie::key, Liar::Lie::compact_key, Liar::Lie::leaning}) {
+  for (const Liar::Lie lie : {Liar::Lie::key, Liar::Lie::compact_key, Liar::Lie::leaning}) {
     for (const nanoseconds period : {nanoseconds(1s), nanoseconds(100ms)}) {
       Country country(0.0);
       country.join(GetParam());

@@ -17,6 +17,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/support/town_traffic.hpp"
 
 namespace {
@@ -39,7 +40,7 @@ peer::FederateOptions options(const char* interface) {
   peer::FederateOptions options;
   options.name = "CROWD";
   options.scene = peer::dis_exercise(1);
-  options.scene.network.interop = false;
+  options.scene->network.interop = false;
   options.interface = interface;
   options.loops = peer::FederateLoops::threads;
   return options;

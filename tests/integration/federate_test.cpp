@@ -17,6 +17,7 @@
 #include "reckon/pdu/warfare/fire.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::test {
 namespace {
@@ -45,7 +46,7 @@ peer::EntityDescription truck() {
 
 // A world for vehicles in which peers know Reckon.
 peer::SceneFile country() {
-  peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
+  peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
   scene.network.interop = false;
   scene.aoim.cell = 500.0;
   scene.aoim.radius = 2000.0;
@@ -106,7 +107,7 @@ peer::EntityTruth on_circle(nanoseconds now) {
 class Federates : public testing::TestWithParam<bool> {
  protected:
   [[nodiscard]] static peer::SceneFile scene() {
-    return GetParam() ? peer::dis_exercise(1, 0.82, 0.145) : country();
+    return GetParam() ? *peer::dis_exercise(1, 0.82, 0.145) : country();
   }
 };
 INSTANTIATE_TEST_SUITE_P(PlainDisAndCells, Federates, testing::Bool());
@@ -272,7 +273,7 @@ TEST(FederateTime, FollowsTheOrdersOfThoseWhomTheSceneAllows) {
 TEST(FederateThreads, SeeHearAndLeave) {
   FederateOptions options;
   options.scene = country();
-  options.scene.network.exercise = 77;
+  options.scene->network.exercise = 77;
   options.interface = "lo";
   options.loops = peer::FederateLoops::threads;
   auto one = std::make_unique<Federate>(options);

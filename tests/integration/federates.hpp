@@ -13,7 +13,9 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::test {
 

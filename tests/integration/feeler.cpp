@@ -14,6 +14,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
@@ -43,7 +44,7 @@ int run(char** words) {
   options.name = words[4];
   options.application = static_cast<std::uint16_t>(number);
   options.loops = peer::FederateLoops::threads;
-  const tools::SimulatedHands hands = tools::make_simulated_hands(options.scene, number);
+  const tools::SimulatedHands hands = tools::make_simulated_hands(*options.scene, number);
   options.devices = hands.wired;
   peer::JoinedPeer joined(options);
   joined.run();

@@ -18,6 +18,7 @@
 #include "reckon/pdu/warfare/detonation.hpp"
 #include "reckon/pdu/warfare/fire.hpp"
 #include "reckon/peer/loops/address_text.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
@@ -31,7 +32,7 @@ class ForgedInteractions : public ::testing::TestWithParam<bool> {
  protected:
   static constexpr std::size_t kStranger = 3;
 
-  ForgedInteractions() : scene_(peer::dis_exercise(1, 0.82, 0.145)), world_(4, {}) {
+  ForgedInteractions() : scene_(*peer::dis_exercise(1, 0.82, 0.145)), world_(4, {}) {
     scene_.network.interop = GetParam();
     scene_.hash = peer::scene_hash(scene_);
     hear<pdu::Fire>(world_.join(scene_));

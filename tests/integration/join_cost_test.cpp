@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::test {
 namespace {

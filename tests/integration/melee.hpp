@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
@@ -88,7 +89,7 @@ class Melee {
 
   static peer::SceneFile scene(bool own_groups) {
     constexpr double kForever = std::numeric_limits<double>::infinity();
-    peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
+    peer::SceneFile scene = *peer::dis_exercise(1, 0.82, 0.145);
     scene.network.interop = false;
     scene.aoim.cell = 50.0;
     scene.aoim.radius = kSenses;

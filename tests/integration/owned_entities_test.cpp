@@ -11,6 +11,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
@@ -254,7 +255,7 @@ TEST(OwnedEntities, AreFrozenOneByOne) {
 }
 
 TEST(OwnedEntities, TenThousandAreShownByAnotherWithinTwoSeconds) {
-  peer::SceneFile scene = peer::dis_exercise(1);
+  peer::SceneFile scene = *peer::dis_exercise(1);
   scene.network.interop = false;
   scene.aoim.cell = 2000.0;
   scene.aoim.radius = 20'000.0;

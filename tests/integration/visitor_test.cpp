@@ -14,7 +14,9 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/losing_link.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
 

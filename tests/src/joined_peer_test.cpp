@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/manual_link.hpp"
 #include "reckon/tests/src/support/udp_on_loopback.hpp"
 
@@ -52,7 +53,7 @@ class CountingHand final : public haptics::HapticDevice {
 FederateOptions on_loopback(std::uint8_t group) {
   FederateOptions options;
   options.scene = dis_exercise(1);
-  options.scene.network.group = test::group(group);
+  options.scene->network.group = test::group(group);
   options.interface = "lo";
   return options;
 }

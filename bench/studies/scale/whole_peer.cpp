@@ -12,6 +12,7 @@
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/link.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/tracked_entities.hpp"
 
 namespace reckon::bench {

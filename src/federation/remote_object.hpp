@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a program sees of one entity of others.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+
+#include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::peer {
+
+class RemoteCopy;
+struct RemoteEntity;
+
+/// One entity of others, scene frame S. Good until the program's next step().
+class RemoteObject {
+ public:
+  explicit RemoteObject(const RemoteCopy& copy) noexcept;
+
+  [[nodiscard]] const pdu::EntityId& id() const noexcept;
+  [[nodiscard]] const pdu::EntityType& type() const noexcept;
+  [[nodiscard]] std::string_view marking() const noexcept;
+  [[nodiscard]] pdu::ForceId force_id() const noexcept;
+  /// Appearance and capabilities as on the wire.
+  [[nodiscard]] std::uint32_t appearance() const noexcept;
+  [[nodiscard]] std::uint32_t capabilities() const noexcept;
+  [[nodiscard]] bool is_frozen() const noexcept;
+
+  /// Pose and velocity to show at `now` (steady time), converged. About 100 ns.
+  [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
+  /// Since its last update was received.
+  [[nodiscard]] std::chrono::nanoseconds age(std::chrono::nanoseconds now) const noexcept;
+  /// What hands feel of it, body axes; nullptr for what is not felt.
+  [[nodiscard]] const deadreckon::ForceModel* force_model() const noexcept;
+  /// Updates received so far.
+  [[nodiscard]] std::uint64_t updates() const noexcept;
+
+ private:
+  const RemoteCopy* copy_;
+  const RemoteEntity* row_;
+};
+
+}  // namespace reckon::peer

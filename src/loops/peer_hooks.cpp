@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/peer_hooks.hpp"
+
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/channel_keeper.hpp"
+#include "reckon/peer/loops/limit_watch.hpp"
+#include "reckon/peer/loops/link_watch.hpp"
+
+namespace reckon::peer {
+namespace {
+
+bool always(const SceneFile&) { return true; }
+
+// Keeps the channels within what this peer can take.
+PeerHooks channels(const ModelWiring& wiring) {
+  const auto keeper = std::make_shared<ChannelKeeper>(wiring.scene.aoim.awareness);
+  return {.look = [keeper](const WatchedPeer& peer) {
+    keeper->look(peer.remote, peer.aoim, peer.now, peer.notices);
+  }};
+}
+
+PeerHooks known_sources(const ModelWiring& wiring) {
+  const auto known = std::make_shared<KnownSourcesPublisher>(wiring.known);
+  return {.look = [known](const WatchedPeer& peer) { known->publish(peer.aoim.presence()); }};
+}
+
+PeerHooks limits(const ModelWiring& wiring) {
+  const auto watch = std::make_shared<LimitWatch>(wiring.capacity, wiring.counters);
+  return {.look = [watch](const WatchedPeer& peer) {
+    watch->look(peer.unfelt, peer.crowder, peer.remote.last_refused(), peer.now, peer.notices);
+  }};
+}
+
+PeerHooks link(const ModelWiring& wiring) {
+  const auto watch = std::make_shared<LinkWatch>(wiring.link, wiring.pool.base(), wiring.counters);
+  return {.look = [watch](const WatchedPeer& peer) {
+    watch->look(peer.now, peer.notices);
+    peer.aoim.note_own_source(source_of(watch->own_endpoint(), 0), peer.now);
+  }};
+}
+
+constexpr std::array<HookRow, 4> kRows{{
+    {"channels", always, channels},
+    {"known sources", always, known_sources},
+    {"limits", always, limits},
+    {"link", always, link},
+}};
+
+template <typename Hook>
+void add(std::vector<Hook>& hooks, Hook& hook) {
+  if (hook) hooks.push_back(std::move(hook));
+}
+
+}  // namespace
+
+std::span<const HookRow> hook_rows() { return kRows; }
+
+HookList::HookList(const ModelWiring& wiring) {
+  for (const HookRow& row : hook_rows()) {
+    if (!row.is_on(wiring.scene)) continue;
+    PeerHooks hooks = row.make(wiring);
+    add(look_, hooks.look);
+    add(sent_, hooks.sent);
+    add(received_, hooks.received);
+  }
+}
+
+}  // namespace reckon::peer
