@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/peer_hooks.hpp"
 
-#include <array>
 #include <memory>
 #include <utility>
 
@@ -44,12 +43,19 @@ PeerHooks link(const ModelWiring& wiring) {
   }};
 }
 
-constexpr std::array<HookRow, 4> kRows{{
-    {"channels", always, channels},
-    {"known sources", always, known_sources},
-    {"limits", always, limits},
-    {"link", always, link},
-}};
+struct HookRow {
+  bool (*is_on)(const SceneFile& scene);
+  PeerHooks (*make)(const ModelWiring& wiring);
+};
+
+// THE list, in the order in which they are called.
+// clang-format off
+constexpr HookRow kRows[]{
+    {always, channels},
+    {always, known_sources},
+    {always, limits},
+    {always, link}};
+// clang-format on
 
 template <typename Hook>
 void add(std::vector<Hook>& hooks, Hook& hook) {
@@ -58,10 +64,8 @@ void add(std::vector<Hook>& hooks, Hook& hook) {
 
 }  // namespace
 
-std::span<const HookRow> hook_rows() { return kRows; }
-
 HookList::HookList(const ModelWiring& wiring) {
-  for (const HookRow& row : hook_rows()) {
+  for (const HookRow& row : kRows) {
     if (!row.is_on(wiring.scene)) continue;
     PeerHooks hooks = row.make(wiring);
     add(look_, hooks.look);

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of mechanisms that watch a peer: each a row, called where it has a hook. A new one is a
-// file and a row of peer_hooks.cpp.
+// Mechanisms that watch a peer, called where they have a hook. A new one is a file and a row of THE
+// list in peer_hooks.cpp.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -39,16 +38,6 @@ struct PeerHooks {
   /// Each datagram of this exercise that was received.
   std::function<void(std::span<const std::byte>)> received = nullptr;
 };
-
-/// One row of the list.
-struct HookRow {
-  std::string_view name;
-  bool (*is_on)(const SceneFile& scene);
-  PeerHooks (*make)(const ModelWiring& wiring);
-};
-
-/// In the order in which they are called.
-[[nodiscard]] std::span<const HookRow> hook_rows();
 
 /// The hooks of the rows that a scene has switched on. One thread; allocates at construction alone.
 class HookList {
