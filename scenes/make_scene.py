@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the shipped scenes' mesh, hand traces and tracks: touchstone.obj, hand_trace.csv, hand_trace_2.csv,
-wall_trace.csv, tip_track.csv, truck_track.csv.
+"""Writes the shipped scenes' mesh, hand traces and tracks: touchstone.obj, meeting_1.csv, meeting_2.csv,
+hand_trace.csv, hand_trace_2.csv, wall_trace.csv, tip_track.csv, truck_track.csv.
 
     make_scene.py [FOLDER]        default: the folder of this script
 
@@ -238,6 +238,47 @@ def second_hand(scale):
     return hand
 
 
+MEETING_LOOP_S = 20.0
+# [m] that the held points of two hands press past the touch of their 10 mm balls: 2 N, by two grips of 300 N/m in
+# series with 500 N/m between the hands.
+PRESSED = 0.0175
+
+
+def meeting_hand(scale, side):
+    """One of two hands (side -1 or 1) that press each other, stroke the stone, and press again over it."""
+    apart = 0.025
+    place = (side * (0.010 + apart) / scale, -0.110)
+    home = (math.hypot(*place), math.atan2(place[1], place[0]), 0.030)
+    hand = Trace(scale, home)
+    closer = -side * (apart + PRESSED / 2.0)
+    hand.wait_until(0.4)
+    hand.shift(1.6, closer, 0.0, 0.0)
+    hand.wait_until(3.4)
+    hand.shift(2.0, -0.012, 0.0, 0.0)  # the second pushes the first
+    hand.shift(1.6, 0.012, 0.0, 0.0)
+    hand.shift(1.0, -closer, 0.0, 0.0)
+    def fly(seconds, x, y, z):
+        """Straight to a place [m] after scaling."""
+        at = hand.position(hand.place)
+        hand.shift(seconds, x - at[0], y - at[1], z - at[2])
+
+    # The dome, each on its side.
+    begin, end = (200.0, 235.0) if side < 0 else (340.0, 305.0)
+    fly(1.4, side * 0.035, -0.020, 0.075)
+    hand.move_to(0.8, dome, 0.035, begin, -0.006)
+    hand.on(0.6, dome, 0.035, 0.035, (begin, begin), (-0.006, 0.009))
+    hand.on(3.0, dome, 0.035, 0.042, (begin, end), (0.009, 0.009))
+    hand.on(0.6, dome, 0.042, 0.042, (end, end), (0.009, -0.015))
+    # Over it, they meet again.
+    fly(1.4, side * (0.010 + apart), 0.0, 0.080)
+    hand.shift(1.2, closer, 0.0, 0.0)
+    hand.wait_until(17.0)
+    hand.shift(1.0, -closer, 0.0, 0.0)
+    fly(1.8, *hand.position(hand.home))
+    hand.wait_until(MEETING_LOOP_S)
+    return hand
+
+
 def wall_hand():
     """Presses 3 mm into the plane z = 0 and draws a lying eight on it."""
     hand = Trace(1.0, (0.0, 0.0, 0.05))
@@ -298,6 +339,8 @@ def main():
             out.write("v " + " ".join(f"{scale * x + 0.0:.7f}" for x in v) + "\n")
         for t in triangles:
             out.write("f " + " ".join(str(i + 1) for i in t) + "\n")
+    meeting_hand(scale, -1).write(folder / "meeting_1.csv")
+    meeting_hand(scale, 1).write(folder / "meeting_2.csv")
     first_hand(scale).write(folder / "hand_trace.csv")
     second_hand(scale).write(folder / "hand_trace_2.csv")
     wall_hand().write(folder / "wall_trace.csv")

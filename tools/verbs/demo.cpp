@@ -58,7 +58,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
                    "reckon demo --simulated-time --for 10min");
   line.word("SCENE", options.scene.scene, false,
-            "scene file; default: two_hands.toml as installed");
+            "scene file; default: meeting.toml as installed");
   line.option("--peers", options.peers, "how many peers, 1 to 64");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
@@ -250,7 +250,7 @@ void check_flags(const DemoOptions& options) {
 
 int run(const DemoOptions& options, const Console& console) {
   check_flags(options);
-  peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
+  peer::SceneFile scene = load_scene(options.scene, "meeting.toml", options.peers);
   if (!scene.network.peers.empty())
     fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
                counted(scene.network.peers.size(), "peer"));
