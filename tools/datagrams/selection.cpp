@@ -88,7 +88,8 @@ CaptureSelection::EntityPattern CaptureSelection::parse_entity(const std::string
   }
   if (!good)
     throw UsageError(fmt::format(
-        "--entity {}: write site:application:entity, each 0 to 65535 or *, as in 1:2:*", text));
+        "--entity {}: write site:application:entity, each 0 to 65535 or *, for example 1:2:*",
+        text));
   return pattern;
 }
 

@@ -257,7 +257,7 @@ TEST_F(SceneFolder, SaysWhichFileIsMissing) {
   } catch (const SceneFileError& error) {
     EXPECT_EQ(std::string(error.what()),
               (folder_ / "none.toml").string() +
-                  ": there is no such file; name a scene file, as in scenes/two_hands.toml");
+                  ": there is no such file; name a scene file, for example scenes/two_hands.toml");
   }
   EXPECT_THROW((void)load_scene_file(folder_), SceneFileError);
 }
