@@ -215,7 +215,7 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {object("sphere = 1\n") + object("sphere = 2\n"), "another object 'a'"},
       {"object = 3\n", "it wants tables"},
       {"[[operator]]\n", "what moves the hand is missing"},
-      {"[[operator]]\npassive = false\n", "say true"},
+      {"[[operator]]\npassive = false\n", "write true"},
       {"[[operator]]\ntrace = \"nobody.csv\"\n", "cannot read"},
       {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of auto static fpw"},
       {"[dead_reckoning]\nposition = 0\n", "it must be"},
