@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What of the AOIM layer can be set, and what a peer announces of it.
+// Settings of the AOIM layer, and the part of them that a peer announces.
 #pragma once
 
 #include <chrono>
@@ -23,70 +23,67 @@
 
 namespace reckon::aoim {
 
-/// Everything that can be set. The aggregator's sender, epoch, pool and exercise are taken from the
+/// Settings of the AOIM layer. The aggregator gets sender, epoch, pool and exercise from the
 /// announcement and the grid.
 struct AreaOfInterestConfig {
-  /// Equal cells; of other cells, its pool alone counts.
+  /// Equal cells. With other cells only its pool is used.
   GridConfig grid;
-  /// Other cells than equal ones, of at most as many groups as the pool has, or kMaximumPool where
-  /// groups are handed out. All peers of a scene must have the same.
+  /// Cells of other kinds, with at most as many groups as the pool, or kMaximumPool if leaders hand
+  /// out groups. Equal for all peers of a scene.
   std::optional<CellPartition> cells;
   SubscriptionConfig subscription;
   InterestConfig interest;
   AggregatorConfig aggregator;
   PresenceConfig presence;
   IntroductionConfig introduction;
-  /// Leaders of cells, off by default. All peers of a scene must have the same.
+  /// Leaders of cells, off by default. Equal for all peers of a scene.
   LeaderConfig leader;
-  /// Tags of beacons whose cells we listen to, wherever they are; see beacon_tag. Where groups are
-  /// handed out alone.
+  /// Tags of the beacons that this peer follows: it joins their cells, wherever they are. See
+  /// beacon_tag. Only if leaders hand out groups.
   std::vector<std::uint32_t> follow;
-  /// Where the location of an Entity State lies in S [m], for leaders that hand out groups; none:
-  /// it is in S.
+  /// Converts the location of an Entity State to S [m], for leaders that hand out groups. Empty:
+  /// the location is already in S.
   std::function<Position(const pdu::WorldCoordinates&)> locate;
-  /// What is sent by distance to those who receive it; empty: everything to all. See
-  /// ReceiverChannels.
+  /// Recipient tiers by distance; empty: all receivers get everything. See ReceiverChannels.
   std::vector<Channel> channels;
-  /// How far entities sense [m], >= 0: what a focus has beyond it, it has for each near row.
+  /// How far entities sense [m], >= 0. The part of a focus radius beyond it is added to each near
+  /// row.
   double radius = 0.0;
-  /// The largest nimbus of any entity [m], >= 0: cells are joined so much farther.
+  /// Largest nimbus of any entity [m], >= 0. Cells are joined this much farther away.
   double farthest_nimbus = 0.0;
-  /// Each cell has a second group, for what is felt in it: the pool's numbers again, behind all
-  /// others. Off by default; all peers of a scene must have the same. Not with `interop`, groups
-  /// handed out, a pool of 1, or more than kMaximumPool groups in all.
+  /// Each cell has a contact group for updates of felt entities. The pool's numbers are repeated
+  /// after all other groups. Off by default; equal for all peers of a scene. Excludes `interop`,
+  /// groups that leaders hand out, a pool of 1, and more than kMaximumPool groups in all.
   bool contact_groups = false;
-  /// Each cell has a group for each near row of `channels`, too: the pool's numbers again, behind
-  /// it. Off by default; all peers of a scene must have the same, with the same rows. As
-  /// contact_groups, and not without a near row, with leaders, or where the nearest row has other
-  /// thresholds than the scene.
+  /// Each cell has a group for each near row of `channels`. The pool's numbers are repeated for
+  /// each. Off by default; equal for all peers of a scene, with equal rows. Needs a near row whose
+  /// thresholds are those of the scene. Excludes leaders and what contact_groups excludes.
   bool near_groups = false;
-  /// (sender, group) pairs whose loss is counted; see SequenceTracker.
+  /// Most (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
-  /// Plain DIS: everything goes to the base group, without presence and trailers.
+  /// Plain DIS: all PDUs go to the base group, without presence and trailers.
   bool interop = false;
-  /// An entity in another cell than its last Entity State was sent to is sent again after this at
-  /// the earliest, so that one that trembles on a border does not flood; default 100 ms.
+  /// Shortest time before an entity that has entered another cell is sent there. It keeps an entity
+  /// on a border between cells from flooding. Default 100 ms.
   std::chrono::nanoseconds crossing_gap = std::chrono::milliseconds(100);
 };
 
-/// The cells. Where groups are handed out, they have as many numbers as there can be.
-/// @throws std::invalid_argument for cells that the pool or plain DIS cannot have
+/// The cells. If leaders hand out groups, the cells have kMaximumPool numbers.
+/// @throws std::invalid_argument for cells that do not fit the pool or plain DIS
 [[nodiscard]] CellPartition cells_of(const AreaOfInterestConfig& config);
 
-/// Who receives what. @throws std::invalid_argument as ChannelTable does
+/// The recipient tiers. @throws std::invalid_argument as ChannelTable does
 [[nodiscard]] TierTable tiers_of(const AreaOfInterestConfig& config);
 
-/// Groups behind the base group with these settings: those of the cells, of near rows, of what is
-/// felt.
+/// Number of groups after the base group: those of cells, of near rows, and contact groups.
 [[nodiscard]] std::size_t all_groups(const AreaOfInterestConfig& config);
 
-/// What a peer announces of itself, with the cells and groups that `config` says.
+/// The announcement of a peer, with the cells and groups of `config`.
 [[nodiscard]] pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config);
 
-// The configurations of the manager's parts, completed
-// ---------------------------------------------
+// Complete configurations of the manager's parts -------------------------------------------------
 
-/// @throws std::invalid_argument where contact or near groups are asked for that cannot be
+/// @throws std::invalid_argument for contact or near groups that the other settings exclude
 [[nodiscard]] AggregatorConfig aggregator_of(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own);
 [[nodiscard]] InterestConfig interest_of(const AreaOfInterestConfig& config,

@@ -42,116 +42,115 @@ namespace reckon::aoim {
 /// The AOIM layer of one peer.
 class AreaOfInterestManager {
  public:
-  /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the
+  /// `own`: our identity (see Presence); cell scheme, cell size and pool are filled in from the
   /// cells.
-  /// @throws std::invalid_argument as its parts do, for contact groups where there can be none, and
-  /// for more cells than groups.
+  /// @throws std::invalid_argument as its parts do, for contact groups that the settings exclude,
+  /// and for more cells than groups.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
   AreaOfInterestManager(const AreaOfInterestManager&) = delete;
   AreaOfInterestManager& operator=(const AreaOfInterestManager&) = delete;
 
-  /// Begins to announce ourselves at the next step. Call listen first, so that the groups are
-  /// joined when the others introduce their entities.
+  /// Announces this peer from the next step on. Call listen() first, so that the groups are joined
+  /// when other peers introduce their entities.
   void start(std::chrono::nanoseconds now);
-  /// The next step says good-bye.
+  /// The next step announces the end of this peer.
   void stop();
   /// UTC since 1970 = now + offset; see Aggregator::set_utc_offset.
   void set_utc_offset(std::chrono::nanoseconds offset, bool synchronised) noexcept;
 
   // 1 route ---------------------------------------------------------------------------------------
 
-  /// Group of what happens at this point [m, S]; where groups are handed out, as of the last step.
+  /// Group for this position [m, S]. If leaders hand out groups, as of the last step.
   [[nodiscard]] GroupIndex route(const Position& position) const noexcept;
 
-  /// Who receives what: the tiers of the scene.
+  /// The recipient tiers of the scene.
   [[nodiscard]] const TierTable& tiers() const noexcept { return tiers_; }
 
-  /// Queues an update for the group of this tier at that position [m, S]; for kEverybody, e.g.
-  /// Stop/Freeze, the position does not count. Refused for a tier that the scene has not, in which
-  /// nobody listens either. A compressed form has to be decoded by who listens
-  /// to the tier. See Aggregator::add. Leaders keep plain states of the cell's tier alone.
+  /// Queues an update for the group of this tier at that position [m, S]. For kEverybody, for
+  /// example Stop/Freeze, the position is ignored. Refused for a tier that the scene does not have.
+  /// The receivers of the tier must be able to decode a compressed form. Leaders keep only plain
+  /// states of the cell's tier. See Aggregator::add.
   AddResult send(std::size_t tier, const UpdatePayload& update, const Position& position,
                  const BundleTerms& terms);
 
-  /// What a tier received last of an entity.
+  /// The last update of an entity to a tier.
   struct LastSent {
     std::chrono::nanoseconds at{};  ///< far in the past if never
-    GroupIndex group;               ///< of the tier; that of the cell alone counts
+    GroupIndex group;               ///< of the tier; used only for the cell's tier
   };
-  /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent to the
-  /// tier now, because somebody who has begun to listen to it may not know it, or because it has
-  /// entered another cell than the group its last one went to? Of the cell's tier, `last` is that
-  /// of an update that tells a newcomer everything.
+  /// Whether this entity's Entity State must be sent to the tier now, besides thresholds and
+  /// heartbeat. True if a newcomer of the tier may lack it, or if the entity has entered a cell
+  /// with another group than that of its last update. For the cell's tier, `last` is the last
+  /// complete update.
   [[nodiscard]] bool must_send(std::size_t tier, const pdu::EntityId& entity,
                                const Position& position, const LastSent& last,
                                std::chrono::nanoseconds now) const noexcept;
 
-  /// When our entities are introduced to newcomers.
+  /// Introductions of our entities to newcomers.
   [[nodiscard]] Introductions& introductions() noexcept { return introductions_; }
   [[nodiscard]] const Introductions& introductions() const noexcept { return introductions_; }
-  /// Where those are who receive what we send; null where it is not thinned out by that.
+  /// Positions of the receivers; null if tiers do not depend on distance.
   [[nodiscard]] ReceiverChannels* receivers() noexcept { return channels_ ? &*channels_ : nullptr; }
-  /// How far distances count to us: what we announce from now on; see ChannelTable::fit.
+  /// Factor of distances to this peer, which it announces from now on; see ChannelTable::fit.
   void set_stretch(double stretch) noexcept {
     subscriptions_.set_stretch(stretch);
     presence_.set_stretch(stretch);
   }
-  /// Where this peer sends from; once that has changed others are to know soon.
+  /// The address from which this peer sends. A change is announced soon.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept {
     presence_.note_own_source(source, now);
   }
 
   // 2 subscribe -----------------------------------------------------------------------------------
 
-  /// Tells where this peer listens to a tier now; call it for each tier, the cell's first, every
-  /// step or whenever a focus has moved. Join and leave what the answer lists; it lives until the
-  /// next call. The base group is to be joined always.
+  /// Sets the foci of this peer for a tier. Call it for each tier, the cell's first, every step or
+  /// whenever a focus has moved. Returns the groups to join and to leave, valid until the next
+  /// call. The base group must always be joined.
   ///   cell        foci of what our entities sense
-  ///   near row    the same foci: the row ends as our stretch has it (set_stretch), so that over
-  ///               its budget a peer leaves the far ones
-  ///   what is felt  where something of ours can be felt, and from how far away; a group is kept
-  ///               until its cell is beyond twice the reach, and for as long as any other
+  ///   near row    the same foci; set_stretch() shortens the row, so that a peer over its budget
+  ///               leaves the distant cells
+  ///   touch       positions of our entities that can be felt, with their reach; a group is kept
+  ///               until its cell is beyond twice the reach, and at least as long as any other
   SubscriptionChange listen(std::size_t tier, std::span<const Focus> foci,
                             std::chrono::nanoseconds now);
 
   // 3 filter --------------------------------------------------------------------------------------
 
-  /// Judges a datagram that arrived on `group`, counts losses, and consumes the control PDUs in it
-  /// (presence, membership). Never throws; any octets may come. About 50 ns outside the base group.
-  /// @param from what it says it comes from
-  /// @param came when it arrived, where it has waited since: a map of groups is as old as that
+  /// Judges a datagram that arrived on `group`, counts losses, and consumes its control PDUs
+  /// (presence, membership). Never throws, for any octets. About 50 ns outside the base group.
+  /// @param from its source address
+  /// @param came its arrival time, which may be earlier than now; a group map has this age
   Incoming receive(GroupIndex group, std::span<const std::byte> datagram,
                    std::chrono::nanoseconds now, const SourceAddress& from = {},
                    std::optional<std::chrono::nanoseconds> came = {});
 
-  /// Which remote entities are of interest, and what was judged.
+  /// Decides which remote entities are of interest, and counts the decisions.
   [[nodiscard]] Sight& sight() noexcept { return sight_; }
   [[nodiscard]] const Sight& sight() const noexcept { return sight_; }
-  /// Our part in leading; null where cells have no leaders.
+  /// This peer's part in leading cells; null if cells have no leaders.
   [[nodiscard]] Leading* leading() noexcept { return leading_ ? &*leading_ : nullptr; }
   [[nodiscard]] const Leading* leading() const noexcept { return leading_ ? &*leading_ : nullptr; }
 
   // 4 aggregate -----------------------------------------------------------------------------------
 
-  /// Emits what is due: announcements, memberships, bundles. `sink` gets (GroupIndex,
+  /// Emits due announcements, memberships and bundles. `sink` gets (GroupIndex,
   /// std::span<const std::byte>) and must not call the manager.
   void step(std::chrono::nanoseconds now, DatagramSink sink);
-  /// Emits what is queued and not yet due, too: after the step that follows stop, or to throw it
-  /// away.
+  /// Also emits queued PDUs that are not due. Call it after the last step, or to clear the queue.
   void flush(std::chrono::nanoseconds now, DatagramSink sink) { aggregator_.flush_all(now, sink); }
-  /// When step has to be called next at the latest; duration max where nothing is pending.
+  /// Deadline of the next step(); nanoseconds::max() if nothing is pending.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
-  // Who is here, and what happened ----------------------------------------------------------------
+  // Presence and events ---------------------------------------------------------------------------
 
-  /// Events since the last call, to be asked for every step; good until the next call. The manager
-  /// has drawn its own conclusions (introductions, counts, our new id) already.
+  /// Events since the last call; call it every step. Valid until the next call. The manager has
+  /// already applied them to itself (introductions, counts, our new ID).
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 
   [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
   [[nodiscard]] const CellPartition& cells() const noexcept { return cells_; }
-  /// Which cells and groups we listen to. Of cells: where groups are handed out, each has a number
-  /// of its own here, else that of its group.
+  /// The joined cells and groups. A cell has the number of its group. If leaders hand out groups,
+  /// each cell has its own number.
   [[nodiscard]] const TierSubscriptions& subscriptions() const noexcept { return subscriptions_; }
   [[nodiscard]] const Aggregator& aggregator() const noexcept { return aggregator_; }
   [[nodiscard]] const SequenceTracker& sequences() const noexcept { return sequences_; }
@@ -195,7 +194,7 @@ class AreaOfInterestManager {
   std::optional<Leading> leading_;
   std::optional<ReceiverChannels> channels_;
   bool started_ = false;
-  bool introduce_ = false;  ///< with our next announcement: somebody is new
+  bool introduce_ = false;  ///< at our next announcement, for a newcomer
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step

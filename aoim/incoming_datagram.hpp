@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the AOIM layer says of a datagram that has come.
+// The verdict of the AOIM layer on a received datagram.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,23 @@ namespace reckon::aoim {
 
 /// What to do with an incoming datagram.
 enum class IncomingVerdict : std::uint8_t {
-  use,             ///< from a member: same scene, present life
+  use,             ///< from a member: same scene, present epoch
   plain,           ///< without trailer: plain DIS from a guest, use it
   own,             ///< our own, looped back
-  not_joined,      ///< a group that is left already or was never joined
-  other_scene,     ///< the sender was reported and not joined
-  former_life,     ///< of a life of the sender that is over
+  not_joined,      ///< of a group that was left or never joined
+  other_scene,     ///< of a peer with another scene, which was reported and not joined
+  former_life,     ///< of a former epoch of the sender
   duplicate,       ///< received before
-  too_old,         ///< so late that it may be a duplicate
+  too_old,         ///< so stale that it may be a duplicate
   other_exercise,  ///< its trailer or a Presence in it is of another DIS exercise
-  impostor,        ///< its trailer names a peer that speaks from another address
-  /// Of a sender that has not announced itself: it may run another scene. Once it has, its entities
-  /// are introduced to us.
+  impostor,        ///< its trailer names a peer that has another address
+  /// Of a sender that has not announced itself and may have another scene. After its announcement
+  /// it introduces its entities to us.
   stranger,
 };
 inline constexpr std::size_t kIncomingVerdicts = 11;
 
-/// True where the datagram's PDUs are to be used.
+/// Whether the datagram's PDUs are to be used.
 [[nodiscard]] constexpr bool is_usable(IncomingVerdict verdict) noexcept {
   return verdict == IncomingVerdict::use || verdict == IncomingVerdict::plain;
 }
@@ -41,15 +41,15 @@ struct Incoming {
   IncomingVerdict verdict = IncomingVerdict::plain;
   /// Valid unless the verdict is `plain`: sequence, epoch and send time of the sender.
   pdu::DatagramTrailer trailer;
-  /// Of a known peer's in a group that we hear: what its number says.
+  /// What the sequence number shows, for a datagram of a known peer in a joined group.
   std::optional<SequenceVerdict> sequence;
 };
 
-/// The last octets of a datagram, where they are a trailer. Any octets may come.
+/// The trailer at the end of a datagram, if there is one. Accepts any octets.
 [[nodiscard]] std::optional<pdu::DatagramTrailer> trailer_of(
     std::span<const std::byte> datagram) noexcept;
 
-/// Whether a Presence in it is of another DIS exercise than this one. Any octets may come.
+/// Whether it has a Presence of another DIS exercise. Accepts any octets.
 [[nodiscard]] bool announces_another_exercise(std::span<const std::byte> datagram,
                                               std::uint8_t exercise) noexcept;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Drives the AOIM layer for whoever owns entities and shows those of others: in which order it is
-// asked, and what follows from its answers.
+// Drives the AOIM layer for an owner of entities: calls it in the right order and applies its
+// events.
 #pragma once
 
 #include <chrono>
@@ -11,23 +11,22 @@
 
 namespace reckon::aoim {
 
-/// What a participant has to do with its entities. Called within Participant::deliver(); must not
-/// throw.
+/// Reactions of a participant to events. Participant::deliver() calls them; they must not throw.
 class ParticipantHandler {
  public:
   virtual ~ParticipantHandler() = default;
-  /// Entities under this name belong to this life of a peer from now on.
+  /// Entities with this site and application belong to this epoch of a peer from now on.
   virtual void claim(const PeerId& name, std::uint32_t epoch) noexcept = 0;
-  /// The entities of this life are not to be shown any more.
-  /// @param silent it was not heard for too long; else it has left, or lost its name
+  /// The entities of this epoch are no longer shown.
+  /// @param silent true after a time-out; false if it has left or lost its identity
   virtual void drop(const PresenceEvent::Dropped& life, bool silent) noexcept = 0;
-  /// Our own name is this one now: our entities are renamed.
+  /// Our identity has changed to this one: our entities get new IDs.
   virtual void rename(const PeerId& own) noexcept = 0;
-  /// A leader has relayed an Entity State of a cell that we have come late to. It counts as if its
-  /// owner had sent it then.
+  /// A leader has relayed an Entity State of a cell in which we are a newcomer. It counts as if its
+  /// owner had sent it at its original time.
   /// @param from the address of its owner
   virtual void receive(const RelayedState& state, const SourceAddress& from) noexcept = 0;
-  /// Each event, after what follows from it.
+  /// Called for each event after the specific function.
   virtual void report(const PresenceEvent& event) noexcept = 0;
 };
 
@@ -42,12 +41,12 @@ class Participant {
   [[nodiscard]] AreaOfInterestManager& manager() noexcept { return manager_; }
   [[nodiscard]] const AreaOfInterestManager& manager() const noexcept { return manager_; }
 
-  /// Passes on who came and who went, then what leaders have relayed. To be called after datagrams
-  /// were received, and after each step.
+  /// Delivers arrivals and departures of peers, then relayed states. Call it after datagrams were
+  /// received and after each step.
   void deliver(std::chrono::nanoseconds now) noexcept;
 
-  /// Listens to what these foci sense, in the cells and in the near rows. To be called before
-  /// start, and whenever a focus has moved.
+  /// Subscribes to the cells and near rows that these foci sense. Call it before start(), and
+  /// whenever a focus has moved.
   /// @param follow gets (std::size_t tier, const SubscriptionChange&): groups to join and to leave
   template <typename Follow>
   void listen(std::span<const Focus> foci, std::chrono::nanoseconds now, Follow&& follow) {
@@ -58,8 +57,8 @@ class Participant {
     }
   }
 
-  /// A step, and all that is queued besides, due or not: for who leaves. The good-bye is among it
-  /// once the manager was stopped.
+  /// A step that also sends queued PDUs that are not due. For peers that leave: after stop() it
+  /// sends the announcement of the end.
   void drain(std::chrono::nanoseconds now, DatagramSink sink);
 
  private:

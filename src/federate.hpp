@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The way into an exercise for a program: HLA's words over DIS packets. A federate owns entities
-// and says where they truly are, as often as it likes; what is sent, when and to whom is the
-// library's business. It sees the entities of others at any instant, and hears and says
-// interactions.
+// The interface of the library: HLA's terms over DIS packets. A program states where its entities
+// truly are, as often as it likes. The library decides what is sent, when and to whom. The program
+// reads the entities of others at any instant, and sends and receives interactions.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,8 +36,8 @@ class Link;
 class Peer;
 struct News;
 
-/// A scene for plain DIS: every entity within 1,000 km of `latitude`, `longitude` [rad] is seen,
-/// all is said to one multicast group, and no peer need know Reckon.
+/// A scene for plain DIS: every entity within 1,000 km of `latitude`, `longitude` [rad] is shown,
+/// all PDUs go to one multicast group, and other DIS programs can take part.
 [[nodiscard]] SceneHolder dis_exercise(std::uint8_t exercise, double latitude = 0.0,
                                        double longitude = 0.0);
 
@@ -58,25 +57,27 @@ struct ObjectHandle {
 ///   0.145)); federate.subscribe<pdu::Fire>([](const pdu::Fire& fire) { ... }); for (;;)
 ///   federate.update_attributes(handle, where_it_is()), federate.step(), sleep();
 ///
-/// All functions by one thread, the program's; callbacks run inside step() on that thread, and may
-/// call anything but step() and resign(). Frame S (east, north, up at the scene's origin), SI.
+/// One thread of the program calls all functions. Callbacks run inside step() on that thread. They
+/// may call any function except step() and resign(). Frame S (east, north, up at the scene's
+/// origin), SI units.
 class Federate {
  public:
   /// Joins over UDP multicast. @throws SceneFileError, std::invalid_argument, std::runtime_error or
   /// std::system_error with the value and the remedy.
   explicit Federate(const FederateOptions& options);
-  /// The same over a link and a clock of the caller's, which outlive it: tests, simulated time.
-  /// @param epoch names this life; never 0, never the same twice
+  /// The same with a link and a clock of the caller, for tests and simulated time. Both must
+  /// outlive the federate. @param epoch identifies this run of the peer: not 0, and different for
+  /// each run
   Federate(const FederateOptions& options, Link& link, const Clock& clock, std::uint32_t epoch);
   ~Federate();
   Federate(const Federate&) = delete;
   Federate& operator=(const Federate&) = delete;
 
-  /// Leaves: what was said before goes out, every entity of ours says that it goes, then the peer.
-  /// Nothing may follow but questions.
+  /// Leaves the exercise: sends pending PDUs, deactivates all own entities, and announces the end
+  /// of the peer. After that only const functions may be called.
   void resign();
 
-  // What we say and what we want to hear ----------------------------------------------------------
+  // Publish and subscribe -------------------------------------------------------------------------
 
   /// Entities of this class may be registered.
   void publish(const EntityClass& entities);
@@ -85,12 +86,12 @@ class Federate {
   void publish() {
     publish_interaction(T::kPduType);
   }
-  /// Entities of this class are discovered, reflected and removed; no others are, nor any before.
+  /// Entities of this class are discovered, reflected and removed from now on, and no others.
   void subscribe(const EntityClass& entities);
-  /// Calls back with each interaction of this type and who said it. Those in the name of another's
-  /// entity are refused, counted (`interactions_refused`) and reported; with `sender.owns` the
-  /// entity that the PDU is said for is the sender's, else nobody is heard under its name. A second
-  /// call replaces the first.
+  /// Calls back with each interaction of this type and its sender. A PDU whose issuing entity
+  /// belongs to another sender is refused, counted (`interactions_refused`) and reported.
+  /// `sender.owns` is true if the issuing entity belongs to the sender, and false if it has no
+  /// known owner. A second call replaces the first.
   ///
   ///   federate.subscribe<pdu::Fire>([](const pdu::Fire& fire, const peer::InteractionSender& by) {
   ///     if (by.owns) take_damage(fire);
@@ -103,42 +104,43 @@ class Federate {
       if (pdu::decode(octets, message) == pdu::DecodeError::none) callback(message, sender);
     });
   }
-  /// The same for who does not ask who said it.
+  /// The same without the sender.
   template <pdu::Pdu T>
   void subscribe(std::function<void(const T&)> callback) {
     subscribe<T>(std::function<void(const T&, const InteractionSender&)>(
         [callback](const T& message, const InteractionSender&) { callback(message); }));
   }
   void on_discover(std::function<void(const RemoteObject&)> callback);
-  /// After each step() in which an update came, once an entity: what it says now.
+  /// Calls back after each step() with updates, once for each updated entity.
   void on_reflect(std::function<void(const RemoteObject&)> callback);
   void on_remove(std::function<void(const pdu::EntityId&)> callback);
 
-  // Our entities ----------------------------------------------------------------------------------
-  // Of an object that is not registered, or deleted: @throws std::logic_error.
+  // Own entities ----------------------------------------------------------------------------------
+  // For an object that is not registered or is deleted they throw std::logic_error.
 
-  /// @param truth where it is; without a time: now. A default truth (all zero) is the origin.
-  /// @throws std::logic_error where its class is not published, std::length_error where
-  /// kMostOwned are registered, std::invalid_argument for a marking that is too long or not ASCII
+  /// @param truth its true state; without a time: now. A default truth (all zero) is at the origin.
+  /// @throws std::logic_error if its class is not published, std::length_error if kMostOwned are
+  /// registered, std::invalid_argument for a marking that is too long or not ASCII
   ObjectHandle register_object(const EntityDescription& description, const EntityTruth& truth);
-  /// Its true motion, at any rate. Between two calls it goes on as the last one said.
-  /// @param truth without a time: now. One that is not finite, or older than the last, is ignored.
+  /// States its true motion, at any rate. Between two calls the last truth is extrapolated.
+  /// @param truth without a time: now. A truth that is not finite or older than the last is
+  /// ignored.
   void update_attributes(ObjectHandle object, const EntityTruth& truth);
-  /// Appearance as on the wire; sent at once where it is another.
+  /// Appearance bits as on the wire; a change is sent at once.
   void update_appearance(ObjectHandle object, std::uint32_t appearance);
-  /// Articulated parts (deadreckon/motion/articulation.hpp); sent where others are wrong about
-  /// them.
+  /// Articulated parts (deadreckon/motion/articulation.hpp); sent if the error at peers exceeds the
+  /// threshold.
   void update_parts(ObjectHandle object, const deadreckon::PartState& parts);
-  /// Its last Entity State has the deactivated bit.
+  /// Deletes it: its last Entity State has the deactivated bit.
   void delete_object(ObjectHandle object);
-  /// Its ID now; the first half changes where an identity conflict was lost.
+  /// Its present ID. Site and application change if this peer loses an identity conflict.
   [[nodiscard]] pdu::EntityId id_of(ObjectHandle object) const noexcept;
-  /// The hand that device `index` of the options moves.
+  /// The hand that device `index` of the options moves, counted from 0.
   [[nodiscard]] ObjectHandle hand(std::size_t index) const noexcept;
 
   // The entities of others ------------------------------------------------------------------------
 
-  /// None where it is not known, or of a class not subscribed. Good until the next step().
+  /// Nothing for an unknown entity or a class without subscription. Valid until the next step().
   [[nodiscard]] std::optional<RemoteObject> find(const pdu::EntityId& id) const;
   /// Calls visit(RemoteObject) for all.
   template <typename Visit>
@@ -149,9 +151,9 @@ class Federate {
 
   // Interactions ----------------------------------------------------------------------------------
 
-  /// Sends any PDU: exercise and timestamp are filled in. One with a world location (Fire,
-  /// Detonation) goes to those who can sense the place, all else to everybody.
-  /// @throws std::logic_error where its type is not published
+  /// Sends any PDU, with exercise and timestamp filled in. A PDU with a world location (Fire,
+  /// Detonation) goes to peers that can sense the place, any other PDU to all peers.
+  /// @throws std::logic_error if its type is not published
   template <pdu::Pdu T>
   void send(T message) {
     message.header.exercise_id = exercise();
@@ -165,33 +167,33 @@ class Federate {
     send_octets(T::kPduType, octets, place);
   }
 
-  /// Interactions that were lost because step() was not called for long: 8 MiB of them may wait.
+  /// Interactions that were lost because step() was not called: at most 8 MiB of them are pending.
   [[nodiscard]] std::uint64_t dropped_interactions() const noexcept;
 
   // Time and place --------------------------------------------------------------------------------
 
   /// Steady time; what RemoteObject::shown() takes.
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept;
-  /// UTC since 1970 as this peer tells it: without the leaps of its host's clock.
+  /// UTC since 1970, without the discontinuities of the host's clock.
   [[nodiscard]] std::chrono::nanoseconds utc() const noexcept;
-  /// Simulation time since 1970 by Start/Resume and Stop/Freeze for us or all; UTC before.
+  /// Simulation time since 1970, as set by Start/Resume and Stop/Freeze. Before the first: UTC.
   [[nodiscard]] std::chrono::nanoseconds exercise_time() const noexcept;
-  /// Between the scene and the earth (deadreckon/motion/geocentric.hpp).
+  /// Converts between the scene's frame and geocentric coordinates
+  /// (deadreckon/motion/geocentric.hpp).
   [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept;
-  /// Standing at a geodetic place [rad, rad, m over the ellipsoid], with a heading [rad] clockwise
-  /// from north.
+  /// A truth at rest at a geodetic place [rad, rad, m over the ellipsoid], with a heading [rad]
+  /// clockwise from north.
   [[nodiscard]] EntityTruth place(double latitude, double longitude, double height = 0.0,
                                   double heading = 0.0) const;
 
   // Running ---------------------------------------------------------------------------------------
 
-  /// Lets everything happen that is due, and calls back. Call it often: at 60 Hz for pictures, at
-  /// 1 kHz for devices in step. Never waits.
+  /// Runs what is due, and calls back. Call it often: at 60 Hz for graphics, at 1 kHz with devices
+  /// and FederateLoops::in_step. Never waits.
   void step();
 
-  /// What it stands on: the peer with its counters, pictures and notices, its threads, what there
-  /// is to report of its link. Steps, threads and leaving are the federate's, unless
-  /// FederateLoops::by_hand. Include joined_peer.hpp to use them.
+  /// The peer below: counters, views, notices, threads, reports of its link. The federate runs its
+  /// loops and ends it, except with FederateLoops::by_hand. Include joined_peer.hpp to use it.
   [[nodiscard]] JoinedPeer& joined() noexcept;
   [[nodiscard]] Peer& peer() noexcept;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a program takes part in an exercise.
+// Options with which a program joins an exercise.
 #pragma once
 
 #include <cstdint>
@@ -20,45 +20,45 @@ class ServoThread;
 
 /// Who runs the loops.
 enum class FederateLoops : std::uint8_t {
-  in_step,  ///< step() makes a pass of each: one thread, the caller's; for simulated time too
-  threads,  ///< threads of the federate's own; step() only calls back. Needed for haptic devices
-  by_hand,  ///< the caller steps the loops of peer() in an order of his own, as several peers in
-            ///< one simulated time need; step() only calls back
+  in_step,  ///< step() runs one pass of each on the caller's thread; also for simulated time
+  threads,  ///< the federate has threads; step() only calls back. Needed for haptic devices
+  by_hand,  ///< the caller steps the loops of peer() in its own order, for several peers in one
+            ///< simulated time; step() only calls back
 };
 
-/// How a program takes part.
+/// Options of a federate.
 struct FederateOptions {
   std::string name = "federate";  ///< of the peer, and marking of its first hand
-  /// The world: origin, cells and radius of interest, groups, impairment. load_scene_file() reads
-  /// one (scene_file.hpp); a scene of defaults has a radius of 2 m, see dis_exercise() for
+  /// The scene: origin, cells, radius of interest, groups, impairment. load_scene_file() of
+  /// scene_file.hpp reads one. A default scene has a radius of 2 m; use dis_exercise() for
   /// vehicles.
   SceneHolder scene;
-  std::string interface;  ///< name, address or index; empty: the scene's, else chosen by rule
+  std::string interface;  ///< name, address or index; empty: that of the scene, else chosen
   FederateLoops loops = FederateLoops::in_step;
-  /// Which of the scene's [[entity]] tables are ours: those with this `peer`; 0: none. They move by
-  /// themselves.
+  /// The federate owns the scene's [[entity]] tables with this `peer`; 0: none. They follow their
+  /// tracks.
   std::uint32_t scene_peer = 0;
   std::vector<PeerDevice> devices;  ///< haptic devices that move hands; at most kMaxDevices
-  /// Instead of both: the number is dealt out on the LAN by identity, so that peers which start in
-  /// one instant get different ones (it takes a second), and this makes the devices of that number.
-  /// Not over a link of the caller's, nor in an interop scene: there the number is 1.
+  /// Replaces scene_peer and devices: peers agree on their numbers over the LAN, which takes a
+  /// second, and this function makes the devices of the agreed number. With a link of the caller or
+  /// in an interop scene the number is 1.
   std::function<std::vector<PeerDevice>(std::uint32_t scene_peer)> deal;
-  /// Of the entity IDs. Site: absent, by the host's address, or 1 over a link of the caller's.
+  /// Site of the entity IDs. Absent: from the host's address, or 1 with a link of the caller.
   std::optional<std::uint16_t> site;
-  std::uint16_t application = 1;  ///< in a conflict the next free one is taken
-  bool transfer = true;           ///< energy given on demand; without it no hand can push another
+  std::uint16_t application = 1;  ///< of the entity IDs; after a conflict the next free one
+  bool transfer = true;           ///< give energy on demand; otherwise no hand can push another
   bool record_shown = false;      ///< fill Peer::shown() at every model step
-  /// Number by which the scene's impairment draws what this peer loses; peers with others lose
-  /// others.
+  /// Stream of the random impairment of the scene: peers with different numbers lose different
+  /// datagrams.
   std::uint64_t receiver = 0;
-  /// The thread that serves the devices, with those of other peers; outlives the federate. Null:
-  /// one of its own.
+  /// The thread that runs the servos, shared with other peers; must outlive the federate. Null: the
+  /// federate makes one.
   ServoThread* servo = nullptr;
-  /// Where there is no multicast: to whom each datagram goes, as parse_peers() reads a list; this
-  /// host may be among them. Empty: those of the scene, else to groups. Not over a link of the
-  /// caller's.
+  /// For networks without multicast: the hosts that receive each datagram, see parse_peers(). This
+  /// host may be in the list. Empty: the list of the scene, else multicast. Ignored with a link of
+  /// the caller.
   std::vector<NamedPeer> peers;
-  /// Receives what becomes of each datagram, see DatagramBalance; outlives the federate.
+  /// Receives the fate of each datagram, see DatagramBalance; must outlive the federate.
   DatagramTap* tap = nullptr;
 };
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a peer comes into an exercise: link, identity, what the scene gives it, and who runs its
-// loops. The one place that puts these together; Federate speaks HLA's words on top of it, the
-// program's verbs look at the peer itself.
+// Assembles a peer and joins an exercise: link, identity, settings of the scene, and the threads of
+// its loops. Federate is built on it. The verbs of the program use the peer directly.
 #pragma once
 
 #include <chrono>
@@ -26,8 +25,8 @@ namespace reckon::peer {
 
 class RollCall;
 
-/// A peer that has joined. From construction it is on the network, and its loops stand still until
-/// run(): prepare peer() meanwhile. All functions by one thread.
+/// A peer that has joined. Its link is open after construction. Its loops do not run before run(),
+/// so peer() can be prepared. One thread calls all functions.
 ///
 ///   JoinedPeer joined(options);
 ///   joined.run();
@@ -35,27 +34,28 @@ class RollCall;
 ///   joined.resign();
 class JoinedPeer {
  public:
-  /// Joins over UDP multicast, under an epoch drawn at random. @param guest takes part in each pass
-  /// and may follow RemoteEntities::take_changes(), outlives this; may be null. @throws
+  /// Joins over UDP multicast with a random epoch. @param guest is called in each pass and may use
+  /// RemoteEntities::take_changes(); must outlive this; may be null. @throws
   /// SceneFileError, KeyFileError, RandomSourceError, std::invalid_argument, std::runtime_error or
   /// std::system_error with the value and the remedy.
   explicit JoinedPeer(const FederateOptions& options, ModelGuest* guest = nullptr);
-  /// The same over a link and a clock of the caller's, which outlive it.
-  /// @param epoch names this life; never 0, never the same twice
+  /// The same with a link and a clock of the caller, which must outlive it.
+  /// @param epoch identifies this run of the peer: not 0, and different for each run
   JoinedPeer(const FederateOptions& options, Link& link, const Clock& clock, std::uint32_t epoch,
              ModelGuest* guest = nullptr);
   ~JoinedPeer() { resign(); }
   JoinedPeer(const JoinedPeer&) = delete;
   JoinedPeer& operator=(const JoinedPeer&) = delete;
 
-  /// Begins the threads, where the options ask for some; also again after stop_loops(). @throws
-  /// std::system_error with the remedy
+  /// Starts the threads if the options ask for them; may be called again after stop_loops().
+  /// @throws std::system_error with the remedy
   void run();
   /// Without threads: one pass of each loop, at the clock's time.
   void pass() noexcept;
-  /// Ends the threads; what they tell of themselves stays until the next run().
+  /// Ends the threads. Their statistics remain until the next run().
   void stop_loops() noexcept;
-  /// stop_loops(), then every entity says that it goes, then the peer. A second call does nothing.
+  /// Calls stop_loops(), deactivates all own entities, and announces the end of the peer. A second
+  /// call does nothing.
   void resign() noexcept;
 
   [[nodiscard]] Peer& peer() noexcept { return *peer_; }
@@ -67,9 +67,9 @@ class JoinedPeer {
   [[nodiscard]] const Clock& clock() const noexcept { return *clock_; }
   /// Since construction.
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept { return clock_->now() - begun_; }
-  /// LanLink::report(); empty over a link of the caller's.
+  /// LanLink::report(); empty with a link of the caller.
   [[nodiscard]] std::vector<std::string> link_report() const;
-  /// What there is to tell of datagrams that the scene's key does not open, since the last call.
+  /// Reports of datagrams that the scene's key does not open, since the last call.
   [[nodiscard]] std::vector<Notice> take_sealing_notices();
 
  private:
@@ -85,7 +85,7 @@ class JoinedPeer {
   SteadyClock steady_;
   const Clock* clock_;
   std::unique_ptr<LanLink> lan_;
-  std::unique_ptr<SealedLink> sealed_;  // null where the scene names no key
+  std::unique_ptr<SealedLink> sealed_;  // null if the scene has no key
   std::unique_ptr<Peer> peer_;
   std::unique_ptr<PeerThreads> threads_;
   std::chrono::nanoseconds begun_{0};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One peer: the entities it owns, any number of haptic devices that move some of them, what it
-// knows of the entities of others, and the loops between. Each loop is a step; PeerThreads gives
-// each a thread of its own, tests and simulated time call them in one. Programs do not put one
-// together: Federate does, or JoinedPeer where the loops themselves are looked at.
+// One peer: the entities that it owns, the haptic devices that move some of them, the state table
+// of remote entities, and the loops. Each loop is a step function. PeerThreads gives each a thread;
+// tests and simulated time call all of them in one thread. Programs use Federate, or JoinedPeer for
+// access to the loops.
 #pragma once
 
 #include <chrono>
@@ -30,26 +30,26 @@
 
 namespace reckon::peer {
 
-/// What a peer is besides its scene.
+/// Settings of a peer besides its scene.
 struct PeerOptions {
   std::string name = "hand";       ///< of the peer, and marking of its first hand
   std::uint16_t site = 1;          ///< first number of its entities' IDs
   std::uint16_t application = 1;   ///< second number; the next free one is taken in a conflict
   std::uint32_t epoch = 1;         ///< random at every start of a process; never 0
-  aoim::ChainLink chain_secret{};  ///< by which this life proves itself to others, random
-  std::uint32_t started = 0;       ///< UTC second of that start; the older keeps a disputed ID
-  std::uint8_t scene_peer = 0;     ///< which peer of the scene it is, from 1; 0: none
+  aoim::ChainLink chain_secret{};  ///< random secret with which this epoch proves its identity
+  std::uint32_t started = 0;       ///< UTC second of that start; the older peer keeps a disputed ID
+  std::uint8_t scene_peer = 0;     ///< its number in the scene, from 1; 0: none
   bool transfer = true;            ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
-  std::vector<EntityConfig> entities = {};  ///< that it owns beside its hands, see entities_of()
+  std::vector<EntityConfig> entities = {};  ///< owned besides its hands, see entities_of()
   bool record_shown = false;                ///< fill shown() at every model step
   bool record_changes = false;              ///< for RemoteEntities::take_changes()
   std::size_t capacity = 100'000;  ///< most remote entities; memory is touched as they come
-  /// Room for datagrams between the model loop and the network, each way [octets], 64 KiB at least.
-  /// 2 MiB hold 5,400 typical updates: a stall of 110 ms at 50,000 a second; the kernel's buffer
-  /// comes after that. Memory is taken as it is used.
+  /// Size of each ring of datagrams between the model loop and the network [octets], at least 64
+  /// KiB. 2 MiB hold 5,400 typical updates, or a stall of 110 ms at 50,000 a second; then the
+  /// kernel's buffer fills. Memory is used as the ring fills.
   std::size_t datagram_ring = std::size_t{2} << 20;
-  DatagramTap* tap = nullptr;  ///< of what becomes of each datagram; outlives the peer
+  DatagramTap* tap = nullptr;  ///< receives the fate of each datagram; outlives the peer
 };
 
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,
@@ -61,7 +61,7 @@ class Peer {
   /// remedy.
   Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
        std::span<const PeerDevice> devices);
-  /// The same with one device that stands at the scene's origin.
+  /// The same with one device at the scene's origin.
   Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
        haptics::HapticDevice& device);
   ~Peer();
@@ -77,31 +77,31 @@ class Peer {
   void servo_step(std::chrono::nanoseconds now) noexcept;
   /// How often to call it: the shortest period of a device.
   [[nodiscard]] std::chrono::nanoseconds servo_period() const noexcept { return servo_period_; }
-  /// The force loop of one device alone, numbered from 0, due or not: for who keeps each at its own
-  /// period, servo_period_of(), to the instant.
+  /// The force loop of one device, numbered from 0, due or not. For callers that step each device
+  /// at its own period, servo_period_of().
   void servo_step_of(std::size_t device, std::chrono::nanoseconds now) noexcept {
     servos_[device]->step(now);
   }
   [[nodiscard]] std::chrono::nanoseconds servo_period_of(std::size_t device) const noexcept {
     return servo_due_[device].period;
   }
-  /// Takes what has arrived, as far as there is room for it. Returns datagrams taken.
+  /// Reads datagrams from the link while the ring has room. Returns their number.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
-  /// Predicts, decides, routes. `utc` is the same instant as `now`.
+  /// One pass of the model loop. `utc` is the same instant as `now`.
   void model_step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
     model_.step(now, utc);
   }
   /// Sends what the model loop bundled. Returns datagrams sent.
   std::size_t write_step() noexcept { return write_.step(); }
 
-  // What the threads of the loops wake each other for; any thread, except next_step() the model
-  // loop's.
+  // Conditions on which the threads of the loops wake each other. Any thread may call these, except
+  // next_step(), which belongs to the model loop.
 
-  /// When model_step() is due at the latest if nothing arrives and no servo steps.
+  /// When model_step() is due if no datagram arrives and no servo steps.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return model_.next_step(); }
-  /// Whether anything drives a servo_step().
+  /// Whether there is a device, so that servo_step() has to be called.
   [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
-  /// Whether model_step() has more to take than it took.
+  /// Whether more datagrams are pending for model_step().
   [[nodiscard]] bool has_inbound() const noexcept {
     return !inbound_.empty() || (felt_ && !felt_->empty());
   }
@@ -109,25 +109,26 @@ class Peer {
   [[nodiscard]] bool has_outbound() const noexcept { return !outbound_.empty(); }
   /// Whether read_step() has a group to join or leave.
   [[nodiscard]] bool has_group_commands() const noexcept { return !commands_.empty(); }
-  /// Whether the last read_step() left things in the link for want of room; the reader's thread.
+  /// Whether the last read_step() left datagrams in the link because the ring was full; read
+  /// thread.
   [[nodiscard]] bool is_reading_held_up() const noexcept { return read_.is_full(); }
 
-  /// A clean end: a last Entity State with the deactivated bit and a good-bye, both sent here. The
-  /// loops must have stopped.
+  /// Ends the peer: sends a last Entity State with the deactivated bit for each entity, and
+  /// announces the end. The loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
-  /// Newest picture of the peer; one reader thread.
+  /// Newest view of the peer; one reader thread.
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
-  /// Records every step of the servo of one device, numbered from 0, into `ring`; call while it
-  /// stands still.
+  /// Records every step of the servo of one device, numbered from 0, into `ring`; call while no
+  /// loop runs.
   void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept {
     if (device < servos_.size()) servos_[device]->trace(ring);
   }
 
   [[nodiscard]] const ModelLoop& model() const noexcept { return model_; }
-  /// To own entities beside the hands: by the thread of model_step, or while the loops stand still.
+  /// The owned entities; for the thread of model_step(), or while no loop runs.
   [[nodiscard]] ModelLoop& model() noexcept { return model_; }
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
   [[nodiscard]] Counters& counters() noexcept { return counters_; }
@@ -135,7 +136,7 @@ class Peer {
   [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }
   [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept { return frame_; }
   [[nodiscard]] Link& link() noexcept { return link_; }
-  /// Messages for the user (a stranger's scene, a changed ID, a group that could not be joined),
+  /// Notices for the user (another scene, a changed ID, a group that could not be joined),
   /// oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return model_.notices(); }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One thread for all servos of a process, as punctual as the host allows: a thread that spins takes
-// a core's time for itself, so one is enough.
+// One thread for all servos of a process, as punctual as the host allows. A spinning thread
+// occupies a core, so a process has only one.
 #pragma once
 
 #include <array>
@@ -24,55 +24,54 @@ namespace reckon::peer {
 
 /// How a ServoThread keeps time.
 struct ServoThreadOptions {
-  /// It wakes this much early and spins: p99 of the lateness falls from tens of microseconds to
-  /// none. Only where the host grants real-time priority; 0 = never.
+  /// It wakes this early and spins, which reduces the p99 of the lateness from tens of microseconds
+  /// to zero. Only if the host grants real-time priority; 0 = never.
   std::chrono::nanoseconds spin = std::chrono::microseconds(100);
   bool real_time = true;  ///< ask for SCHED_FIFO
-  /// Where ordinary threads get no time for so long, and this process takes it, it first ceases to
-  /// spin and the next time gives SCHED_FIFO up for good: what could end the program would not run.
+  /// If this process keeps ordinary threads from running for this long, the servo thread stops
+  /// spinning. The second time it gives up SCHED_FIFO. Otherwise nothing could end the program.
   std::chrono::nanoseconds starvation = std::chrono::milliseconds(500);
   std::string name = "rk-servo";  ///< of the thread, see name_thread()
 };
 
-/// What a ServoThread calls. Both functions are called by that thread and must not throw.
+/// A servo as a ServoThread calls it. The thread calls both functions; they must not throw.
 struct Servo {
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< > 0
   std::function<void(std::chrono::nanoseconds now)> step;
-  /// After one step or more, when no other servo's step waits for it: tells others what is new.
+  /// Called after one or more steps, when no other servo is due: wakes the readers of the outcome.
   std::function<void()> tell;
-  DutyCycle* duty = nullptr;  ///< takes lateness, step time and misses; outlives the servo
+  DutyCycle* duty = nullptr;  ///< counts lateness, step time and misses; outlives the servo
 };
 
 /// Calls the steps of any number of servos, each at its own period, in the order in which they are
-/// due. A step that comes late is not made up for: missed periods are counted in the DutyCycle.
+/// due. Missed periods are counted in the DutyCycle and not repeated.
 class ServoThread {
  public:
   static constexpr int kPriority = 50;             ///< of SCHED_FIFO
   static constexpr std::size_t kMostServos = 256;  ///< at the same time
 
-  /// @param clock outlives the thread. @throws std::system_error where no thread can be made.
+  /// @param clock outlives the thread. @throws std::system_error if no thread can be started.
   explicit ServoThread(const Clock& clock, const ServoThreadOptions& options = {});
   ~ServoThread() { stop(); }
 
   ServoThread(const ServoThread&) = delete;
   ServoThread& operator=(const ServoThread&) = delete;
 
-  /// Steps `servo` from now on, first after one period; returns its number. Any thread but this
-  /// one. @throws std::runtime_error where there are kMostServos already.
+  /// Steps `servo` from now on, first after one period, and returns its number. Any thread except
+  /// the servo thread. @throws std::runtime_error if there are kMostServos already.
   [[nodiscard]] std::size_t add(Servo servo);
-  /// Ends it: when this returns, none of its functions is running or will be called again. Any
-  /// thread but this one.
+  /// Removes a servo. After the return none of its functions runs or will be called. Any thread
+  /// except the servo thread.
   void remove(std::size_t number) noexcept;
 
-  /// Ends and joins the thread; all servos must have been removed. What it tells of itself stays.
+  /// Ends and joins the thread; all servos must have been removed. Its statistics remain.
   void stop() noexcept;
 
-  /// By which others that have SCHED_FIFO see whether they starve the ordinary threads; null
-  /// without `real_time`.
+  /// Shows other SCHED_FIFO threads whether ordinary threads starve; null without `real_time`.
   [[nodiscard]] const OrdinaryPulse* pulse() const noexcept { return pulse_ ? &*pulse_ : nullptr; }
   /// Whether it has SCHED_FIFO: granted by the host and not given up.
   [[nodiscard]] bool real_time() const noexcept { return real_time_; }
-  /// "SCHED_FIFO 50, wakes 100 us early and spins", or why not.
+  /// "SCHED_FIFO 50, wakes 100 us early and spins", or the reason why not.
   [[nodiscard]] std::string describe() const;
 
  private:
@@ -95,7 +94,7 @@ class ServoThread {
   std::optional<OrdinaryPulse> pulse_;
   std::atomic<std::chrono::nanoseconds> spin_{std::chrono::nanoseconds(0)};
   std::array<Seat, kMostServos> seats_;
-  std::atomic<std::size_t> seats_used_{0};  // the first so many may be served
+  std::atomic<std::size_t> seats_used_{0};  // number of seats at the front that may be in use
   std::mutex adding_;                       // never taken by the thread
   WakeSignal changed_, left_;
   std::atomic<bool> real_time_{false};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of threads, as `ps -L`, `top -H` and debuggers show them: by them one sees which loop of
-// which peer takes a core.
+// Names of threads for `ps -L`, `top -H` and debuggers. They show which loop of which peer uses a
+// core.
 #pragma once
 
 #include <pthread.h>
@@ -11,11 +11,11 @@
 
 namespace reckon::peer {
 
-/// The system keeps so many characters.
+/// Longest name that the system keeps.
 inline constexpr std::size_t kLongestThreadName = 15;
 
-/// Names a thread that runs; what is too long is cut. A name that the system does not take is none:
-/// nothing depends on it.
+/// Names a running thread and cuts a name that is too long. Failure is ignored, because nothing
+/// depends on the name.
 ///
 ///   std::thread thread(loop);
 ///   name_thread(thread.native_handle(), "rk-servo 1");

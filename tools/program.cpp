@@ -53,7 +53,7 @@ std::span<const Verb> list() {
       verb::figures(),
       verb::zwidth(),
       Verb{"completion", "print a completion script for a shell", run_list_completion},
-      Verb{"help", "show the verbs, or what one verb takes", run_help},
+      Verb{"help", "list the verbs, or explain one", run_help},
   };
   return kVerbs;
 }
@@ -65,7 +65,7 @@ VerbProgram program() {
 int run_help(Arguments arguments, const Console& console) {
   std::string name;
   bool manual = false;
-  CommandLine line("help", "Show the verbs, or what one verb takes.",
+  CommandLine line("help", "List the verbs, or explain one.",
                    "reckon help\nreckon help inspect\nreckon help rules\n"
                    "reckon help --man | man -l -");
   line.word("VERB", name, false, "the verb to explain; rules: those of `inspect check`");

@@ -14,7 +14,7 @@ struct Deliveries {
   double heard = 0.0, wanted = 0.0;
 };
 
-// Of one instant.
+// Counts the deliveries of one instant: every participant sends once and receives.
 Deliveries deliveries(const CellPartition& cells, const std::vector<Demand>& demands) {
   Deliveries sum;
   std::vector<double> said(cells.groups() + 1);
@@ -29,7 +29,7 @@ Deliveries deliveries(const CellPartition& cells, const std::vector<Demand>& dem
         joined[group] = true;
       });
     });
-    sum.heard -= joined[cells.group(listener.position).value] ? 1.0 : 0.0;  // its own
+    sum.heard -= joined[cells.group(listener.position).value] ? 1.0 : 0.0;  // not its own update
     sum.wanted -= 1.0;
     for (const Demand& sender : demands) {
       const double x = sender.position.x - listener.position.x,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Is an observer aware of an entity? Class, aura, focus and nimbus, and occlusion in one evaluator,
-// the cheapest question first. Per pair and not symmetric: A may be aware of B and not B of A. The
-// spatial model of DIVE and MASSIVE.
+// Is an observer aware of an entity? One evaluator tests class, aura, focus and nimbus, and
+// occlusion, the cheapest test first. The answer is not symmetric: A may be aware of B while B is
+// not aware of A. This is the spatial model of DIVE and MASSIVE.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct AwarenessFocus {
   enum class Shape : std::uint8_t {
     ball,  ///< all around
     cone,  ///< the part of the ball within `half_angle` of `axis`, such as a field of view
-    box,   ///< along the axes of S, `half_sides` to each side; `radius` does not count
+    box,   ///< along the axes of S, `half_sides` to each side; `radius` is ignored
   };
   Shape shape = Shape::ball;
   Position position;             ///< [m, S]
@@ -31,25 +31,26 @@ struct AwarenessFocus {
   Position half_sides;           ///< of a box [m], >= 0
 };
 
-/// Distance from a point to a focus [m]: 0 inside, NaN where an input is. Exact for each shape.
+/// Distance from a point to a focus [m]: 0 inside, NaN if an input is NaN. Exact for each shape.
 [[nodiscard]] double distance_to(const AwarenessFocus& focus, const Position& point) noexcept;
 
-/// One who attends.
+/// The participant that observes.
 struct Observer {
   AwarenessFocus focus;
-  /// Beyond it from `focus.position` it meets nobody, whatever the foci [m]; default no bound.
+  /// Radius of the aura around `focus.position` [m]. Where two auras do not meet, there is no
+  /// awareness, whatever the focus. Default: unbounded.
   double aura = std::numeric_limits<double>::infinity();
-  std::uint32_t kinds = 0xFFFFFFFFU;  ///< bit k: entities of IEEE 1278.1 kind k, 0 .. 31, wanted
-  std::uint32_t roles = 0xFFFFFFFFU;  ///< bits of which an entity must have one
+  std::uint32_t kinds = 0xFFFFFFFFU;  ///< bit k: wants entities of IEEE 1278.1 kind k, 0 .. 31
+  std::uint32_t roles = 0xFFFFFFFFU;  ///< an entity must share one of these bits
 };
 
-/// One who may be noticed.
+/// The entity that may be observed.
 struct Subject {
   Position position;    ///< [m, S]
-  double nimbus = 0.0;  ///< how far beyond itself it makes itself felt [m], >= 0
-  double aura = std::numeric_limits<double>::infinity();  ///< [m]
+  double nimbus = 0.0;  ///< radius in which it can be observed [m], >= 0
+  double aura = std::numeric_limits<double>::infinity();  ///< radius [m]
   std::uint32_t roles = 0xFFFFFFFFU;
-  std::uint8_t kind = 0;  ///< of 32 and above: wanted by all
+  std::uint8_t kind = 0;  ///< IEEE 1278.1; every observer wants 32 and above
 };
 
 /// Solid boxes along the axes of S that hide what is behind them.
@@ -61,9 +62,9 @@ class Occluders {
   /// @throws std::invalid_argument for a box that is empty or not finite.
   explicit Occluders(std::vector<Box> boxes = {});
 
-  /// Whether the straight line between two points passes through the inside of a box in which
-  /// neither lies: who stands in a box, or a box that is touched from outside, hides nothing.
-  /// Cost: about 5 ns a box.
+  /// Whether the straight line between two points passes through the interior of a box. A box that
+  /// contains one of the points hides nothing, nor does a box that the line only touches. About 5
+  /// ns for each box.
   [[nodiscard]] bool hides(const Position& from, const Position& to) const noexcept;
   [[nodiscard]] std::span<const Box> boxes() const noexcept { return boxes_; }
 
@@ -71,27 +72,28 @@ class Occluders {
   std::vector<Box> boxes_;
 };
 
-/// Answers, in the order in which they are looked for.
+/// Answers, in the order of the tests.
 enum class Awareness : std::uint8_t {
   aware,
   not_finite,    ///< a position, radius or nimbus is NaN or infinite
-  class_off,     ///< its kind is not wanted, or none of its roles
-  auras_apart,   ///< so far away that nothing else is asked
+  class_off,     ///< its kind is not wanted, or no role is shared
+  auras_apart,   ///< the auras do not meet
   out_of_focus,  ///< its nimbus does not meet the focus
-  occluded,      ///< something solid is between
+  occluded,      ///< a box is in the line of sight
 };
 inline constexpr std::size_t kAwarenessAnswers = 6;
 
 /// The evaluator. One thread; allocates nothing.
 class AwarenessEvaluator {
  public:
-  /// @param occluders outlive it; null: nothing is hidden.
+  /// @param occluders must outlive the evaluator; null: nothing is hidden.
   explicit AwarenessEvaluator(const Occluders* occluders = nullptr) : occluders_(occluders) {}
 
-  /// Counts by answer. About 10 ns, and the occluders where all else has passed.
+  /// Evaluates one pair and counts its answer. About 10 ns, plus the cost of the occluders if all
+  /// other tests pass.
   Awareness evaluate(const Observer& observer, const Subject& subject) noexcept;
 
-  /// Pairs by answer since the start: what each stage dropped.
+  /// Pairs with this answer since construction.
   [[nodiscard]] std::uint64_t count(Awareness answer) const noexcept {
     return counts_[static_cast<std::size_t>(answer)];
   }

@@ -23,7 +23,7 @@ using std::chrono::nanoseconds;
 
 GroupDirectory::GroupDirectory(std::size_t pool, nanoseconds lease) : pool_(pool), lease_(lease) {}
 
-// False where a cell, a group or a beacon is there twice, or the pool does not have the group.
+// False when a cell, a group or a beacon occurs twice, or when a group is not in the pool.
 bool GroupDirectory::is_sound(std::span<const pdu::CellGroup> rows) const {
   std::vector<bool> seen(pool_ + 1);
   std::vector<std::uint32_t> tags;
@@ -50,7 +50,7 @@ bool GroupDirectory::receive(const pdu::GroupMap& part, std::uint32_t leader, na
     ++refused_;
     return false;
   }
-  if (leader == leader_ && part.version < version_) return false;  // overtaken
+  if (leader == leader_ && part.version < version_) return false;  // an older map that arrived late
   const bool continues =
       pending_.leader == leader && pending_.version == part.version && pending_.parts == part.parts;
   if (!continues) pending_ = {leader, part.version, part.parts, {}, {}};
@@ -69,7 +69,7 @@ bool GroupDirectory::receive(const pdu::GroupMap& part, std::uint32_t leader, na
   return true;
 }
 
-// Rows that are there for a beacon alone go; each beacon gets the group of its cell.
+// Removes the rows that carry only a beacon, and gives each beacon the group of its cell.
 void GroupDirectory::take_beacons(std::vector<pdu::CellGroup>& rows) {
   beacons_.clear();
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(beacons_),

@@ -17,8 +17,8 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kRolesPerPdu = 25, kRoleSize = pdu::kFixedSize<pdu::CellRole>;
 constexpr std::size_t kMostPopulated = 4096;
 constexpr std::size_t kMostTold = 65'536;
-// Who leads the scene no longer says its map so often, for the one that leads to merge: after a
-// partition the first may be lost, or come before it knows us and our place.
+// A former leader of the scene sends its map this many times more. The new leader merges it. One
+// copy is not enough after a partition: it may be lost, or arrive before the new leader knows us.
 constexpr int kLastMaps = 3;
 
 }  // namespace
@@ -35,7 +35,8 @@ LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32
       beacons_(config.empty) {
   if (config.quarantine <= config.lease) {
     throw std::invalid_argument(
-        "the quarantine of groups must be longer than the lease of their map: take three times it");
+        "the quarantine of groups must be longer than the lease of their map: use three times the "
+        "lease");
   }
 }
 
@@ -60,7 +61,7 @@ void LeaderRole::enter(CellId cell, GroupIndex group, nanoseconds utc, nanosecon
 void LeaderRole::read(CellId cell, nanoseconds now) {
   if (leads(cell) && !leadership_.had_other_leader(cell)) return;
   reader_.begin(cell, now);
-  if (leads(cell)) return reader_.give_up(cell, now);  // an heir asks the owners
+  if (leads(cell)) return reader_.give_up(cell, now);  // a new leader asks the owners
   leadership_.say_soon(cell, now);
 }
 
@@ -110,7 +111,7 @@ void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nano
     }
     if (cell == kWholeScene) {
       heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;
-      // After a partition: until one has given way, each side has a map of its own.
+      // After a partition two leaders have different maps until one of them gives way.
       const bool rivals = (role.flags & pdu::kRoleLeads) != 0 && !leaves &&
                           sender != leader(cell) && leadership_.is_led(cell, now);
       if (rivals) doubted_ = now;
@@ -120,7 +121,7 @@ void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nano
   }
 }
 
-// Somebody lacks states of a cell, or, of the whole scene, the map.
+// Answers a peer that lacks the states of a cell. For the whole scene, it lacks the map.
 void LeaderRole::answer(const pdu::CellRole& role, nanoseconds now) {
   const CellId cell{role.column, role.row};
   if (!leads(cell)) return;
@@ -149,8 +150,8 @@ void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanose
     if (sender == leader(kWholeScene)) directory_.receive(part, sender, came);
     return;
   }
-  // Who will give way takes nothing over: of groups that are the other's alone it would say in its
-  // last map that they rest.
+  // A leader that will give way merges nothing. Otherwise its last map would list groups that only
+  // the other leader uses as resting.
   if (!leadership_.came_later(kWholeScene, sender)) return;
   if (!rival_.receive(part, sender, now)) return;
   pool_.merge(rival_.entries(), now);
@@ -229,13 +230,14 @@ void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const S
 void LeaderRole::take_events(nanoseconds now) {
   for (const LeaderEvent& event : leadership_.take_events()) {
     if (event.ours) {
-      // A leader before us may have left in the middle of telling us: then its owners do.
+      // The former leader may have left in the middle of a snapshot. Then we ask the owners.
       leadership_.had_other_leader(event.cell) ? reader_.give_up(event.cell, now)
                                                : reader_.drop(event.cell);
     }
     if (event.lost) server_.drop(event.cell);
     if (event.cell != kWholeScene) continue;
-    // Who wakes without the lead has nothing to say: its lease is over, or the map is the same.
+    // After a suspend without the lead there is no map to send: its lease is over, or it is the
+    // same as the new leader's.
     if (event.lost && event.leader != 0) {
       last_maps_ = kLastMaps;
       next_map_ = now;
@@ -244,14 +246,14 @@ void LeaderRole::take_events(nanoseconds now) {
     last_maps_ = 0;
     const bool fresh =
         !heard_mapped_ && directory_.leader() == 0 && !leadership_.had_other_leader(kWholeScene);
-    // An old map may name groups that are another cell's by now.
+    // A map whose lease is over may name groups that other cells have by now.
     const auto map =
         directory_.holds(now) ? directory_.entries() : std::span<const pdu::CellGroup>();
     pool_.begin(map, fresh, now);
-    version_ = std::max(version_, directory_.version());  // ours may be the higher one somebody has
+    version_ = std::max(version_, directory_.version());  // some peers may have ours already
     changed_ = true;
-    // What those whom we have not heard yet use is not to be given back.
     next_hand_out_ = now;
+    // Peers that we have not received yet use these groups, so they are not given back.
     for (const pdu::CellGroup& entry : map) note_populated({entry.column, entry.row}, now);
   }
 }

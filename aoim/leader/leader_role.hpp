@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The part of one peer in leading and being led: elections in the cells it is in, the map of groups
-// where it leads the scene, snapshots where it leads a cell and where it comes late. What others
-// say must have passed the tests of Presence: only a known life, from its own address, may say
-// anything here, and only who leads may say maps and snapshots.
+// The role of one peer in the leadership of cells: elections in the cells that it has joined, the
+// group map if it leads the scene, snapshots as a leader and as a newcomer. Presence checks
+// received PDUs first: each must come from a known epoch and its address, and maps and snapshots
+// from a leader.
 #pragma once
 
 #include <chrono>
@@ -29,15 +29,15 @@
 
 namespace reckon::aoim {
 
-/// A state that a leader relayed to us.
+/// An entity state that a leader relayed to us.
 struct RelayedState {
-  std::uint32_t epoch = 0;                 ///< life of the entity's owner, as the leader says
+  std::uint32_t epoch = 0;                 ///< epoch of the entity's owner, as the leader states
   std::vector<std::byte> octets;           ///< an Entity State PDU
   std::optional<pdu::HapticRecord> model;  ///< its force model
-  std::chrono::nanoseconds heard{};        ///< when the leader heard it, by our clock
+  std::chrono::nanoseconds heard{};        ///< when the leader received it, on our clock
 };
 
-/// A tag that is looked up in the map of groups, and the cell in which we carry it.
+/// A beacon of an own entity: its tag, which peers look up in the group map, and its cell.
 struct CarriedBeacon {
   std::uint32_t tag = 0;  ///< see beacon_tag; not 0
   CellId cell;
@@ -45,88 +45,89 @@ struct CarriedBeacon {
   friend bool operator==(const CarriedBeacon&, const CarriedBeacon&) = default;
 };
 
-/// Who a PDU says it is from.
+/// The sender's fields in a PDU.
 struct LeaderSignature {
   std::uint8_t exercise_id = 0;
   std::uint32_t timestamp = 0;
   pdu::SimulationAddress simulation;
 };
 
-/// One thread; allocates as cells, members and entities are new.
+/// One thread; allocates for new cells, members and entities.
 class LeaderRole {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
 
   /// @param pool groups of the grid, 1 .. 1,000
-  /// @param epoch our life
+  /// @param epoch of this peer
   /// @throws std::invalid_argument for a pool of more than 1,000 groups, or a quarantine that is
   /// not longer than the lease
   LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32_t epoch);
 
-  /// We take part in the scene.
+  /// Joins the scene.
   void start(std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
-  /// We say good-bye everywhere; the next steps send it.
+  /// Leaves all cells and the scene; the next steps announce it.
   void stop(std::chrono::nanoseconds now);
-  /// We have joined a cell, whose traffic runs in `group`, or left it. Where groups are handed out,
-  /// `group` is but a number of the cell, and read() is to be called once its traffic is heard.
+  /// This peer has joined or left a cell with the group `group`. If leaders hand out groups,
+  /// `group` is only a number of the cell; call read() once the traffic of the cell is received.
   void enter(CellId cell, GroupIndex group, std::chrono::nanoseconds utc,
              std::chrono::nanoseconds now);
   void leave(CellId cell, std::chrono::nanoseconds now);
-  /// All beacons that we carry, in the place of those before. One in a cell that we have not joined
-  /// is not announced.
+  /// Replaces the set of own beacons. A beacon in a cell that this peer has not joined is not
+  /// announced.
   void set_beacons(std::span<const CarriedBeacon> beacons, Nanoseconds now);
 
-  // What others say, `sender` being the life that their datagram is from.
+  // Received PDUs; `sender` is the epoch of their datagram.
   void receive(const pdu::CellRoles& roles, std::uint32_t sender, std::chrono::nanoseconds now);
-  /// @param came when it arrived, <= now: its lease runs from then on, for who slept may find maps
-  /// that wait for it
+  /// @param came arrival time, <= now. The lease starts then, because a suspended peer may find old
+  /// maps in its queue
   void receive(const pdu::GroupMap& part, std::uint32_t sender, Nanoseconds now, Nanoseconds came);
   void receive(const pdu::CellSnapshot& part, std::uint32_t sender, std::chrono::nanoseconds now);
-  /// An Entity State of its owner, ours too, in a group that we have joined.
+  /// Stores an Entity State from its owner, or an own one, in a joined group.
   void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
             std::span<const std::byte> octets, std::chrono::nanoseconds now) {
     states_.note(group, epoch, state, octets, now);
   }
-  /// Records of its owner that extend the last state noted.
+  /// Stores records from the owner that extend the last stored state.
   void note_records(std::uint32_t epoch, const pdu::EntityId& entity,
                     std::span<const std::byte> records) {
     states_.note_records(epoch, entity, records);
   }
-  /// An entity of this life was heard in a cell that is none of ours.
+  /// Removes an entity that was received in a cell that we have not joined.
   void forget(std::uint32_t epoch, const pdu::EntityId& entity) { states_.forget(epoch, entity); }
-  /// Presence says that this life is over.
+  /// Removes an epoch that has ended.
   void forget(std::uint32_t epoch, std::chrono::nanoseconds now);
 
-  /// Elections, maps, snapshots: `send` gets (GroupIndex, std::span<const std::byte>), a PDU each.
+  /// Sends roles, maps and snapshots. `send` gets (GroupIndex, std::span<const std::byte>) for each
+  /// PDU.
   using Send = std::function<void(GroupIndex, std::span<const std::byte>)>;
   void step(std::chrono::nanoseconds now, const LeaderSignature& signature, const Send& send);
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
-  /// States of snapshots since the last call.
+  /// States from received snapshots since the last call.
   [[nodiscard]] std::vector<RelayedState> take_relayed() { return std::exchange(relayed_, {}); }
   [[nodiscard]] bool has_relayed() const noexcept { return !relayed_.empty(); }
-  // Where groups are handed out (LeaderConfig::hand_out) ------------------------------------------
+  // Groups that leaders hand out (LeaderConfig::hand_out) -----------------------------------------
 
-  /// The group to speak to in a cell: the base group until the cell's has been in the map for
-  /// `settle`, and where the map may not be everybody's: its lease is over, two lead the scene, or
-  /// somebody has said that it has none.
+  /// The group for sending to a cell. It is the base group until the cell's group has been in the
+  /// map for `settle`. It is also the base group while peers may have different maps: the lease is
+  /// over, there are two leaders of the scene, or a peer has announced that it lacks the map.
   [[nodiscard]] GroupIndex speak_group(CellId cell, Nanoseconds now) const noexcept;
-  /// The group to listen to for a cell; none where it has none.
+  /// The group of a cell to join, if it has one.
   [[nodiscard]] std::optional<GroupIndex> listen_group(CellId cell) const noexcept {
     return directory_.last_group(cell);
   }
-  /// All that is said of this cell is heard from now on: its leader is asked for what was.
+  /// Updates of this cell are received from now on. Requests its present states from its leader.
   void read(CellId cell, Nanoseconds now);
-  /// A peer that is known says that it has no map.
+  /// A known peer has announced that it lacks the map.
   void doubt_map(Nanoseconds now) noexcept { doubted_ = now; }
-  /// Whether others have a map and we have none.
+  /// Whether others have a map and this peer has none.
   [[nodiscard]] bool lacks_map(Nanoseconds now) const noexcept {
     return config_.hand_out && heard_mapped_ && !leads(kWholeScene) && !directory_.holds(now);
   }
-  /// True, once in `refresh`, where we lack the map.
+  /// True, once in `refresh`, while this peer lacks the map.
   [[nodiscard]] bool take_plea(Nanoseconds now) noexcept;
 
-  /// A cell whose snapshot did not come in time: its owners are to be asked. False: none.
+  /// A cell whose snapshot is overdue, so that its owners must be asked. False if there is none.
   bool take_given_up(std::chrono::nanoseconds now, CellId& cell) {
     return reader_.take_given_up(now, cell);
   }
@@ -135,14 +136,14 @@ class LeaderRole {
     return leadership_.leader(cell);
   }
   [[nodiscard]] bool leads(CellId cell) const noexcept { return leadership_.leads(cell); }
-  /// Group handed out for a cell; none: the base group.
+  /// Group of a cell in the map; without a value the base group is used.
   [[nodiscard]] std::optional<GroupIndex> group(CellId cell,
                                                 std::chrono::nanoseconds now) const noexcept {
     return directory_.group(cell, now);
   }
   [[nodiscard]] const CellLeadership& leadership() const noexcept { return leadership_; }
   [[nodiscard]] const GroupDirectory& directory() const noexcept { return directory_; }
-  /// What is given to whom where we lead the scene; else as it was when we last did.
+  /// Assignment of groups to cells. Current while this peer leads the scene.
   [[nodiscard]] const GroupPool& pool() const noexcept { return pool_; }
   [[nodiscard]] const StateStore& states() const noexcept { return states_; }
   [[nodiscard]] const SnapshotServer& server() const noexcept { return server_; }
@@ -170,7 +171,7 @@ class LeaderRole {
     pdu.simulation = signature.simulation;
     pdu.epoch = leadership_.epoch();
   }
-  /// Changes of the map within this are sent together.
+  /// Shortest time between two maps.
   static constexpr Nanoseconds kMapGap = std::chrono::milliseconds(100);
 
   LeaderConfig config_;
@@ -183,14 +184,15 @@ class LeaderRole {
   SnapshotReader reader_;
   std::map<CellId, GroupIndex> entered_;
   std::vector<CarriedBeacon> carried_;
-  BeaconBook beacons_;                       ///< of all
-  std::map<CellId, Nanoseconds> populated_;  ///< cells in which somebody is, and was heard when
+  BeaconBook beacons_;  ///< of all peers
+  std::map<CellId, Nanoseconds>
+      populated_;  ///< occupied cells, and when a peer there was last received
   Nanoseconds next_hand_out_{}, next_map_{}, last_map_{};
-  bool changed_ = false;                          ///< the pool, since the last map
-  bool heard_mapped_ = false;                     ///< somebody has said that there is a map
-  int last_maps_ = 0;                             ///< still to say after the lead was lost
-  int more_maps_ = 0;                             ///< still to say soon after a change
-  Nanoseconds doubted_ = Nanoseconds::min() / 2;  ///< when the map was last not everybody's
+  bool changed_ = false;                          ///< the pool has changed since the last map
+  bool heard_mapped_ = false;                     ///< a peer has announced that it has a map
+  int last_maps_ = 0;                             ///< maps still to send after the lead was lost
+  int more_maps_ = 0;                             ///< maps still to send soon after a change
+  Nanoseconds doubted_ = Nanoseconds::min() / 2;  ///< when peers last had different maps
   Nanoseconds next_plea_{}, next_map_ask_{};
   std::uint32_t version_ = 0;
   std::vector<std::byte> roles_;  ///< encoded, to be sent

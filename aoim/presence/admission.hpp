@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Admission control: the table of peers is not filled with names that nobody bears.
+// Admission control: keeps invented peers from filling the table of peers.
 #pragma once
 
 #include <chrono>
@@ -17,22 +17,22 @@
 
 namespace reckon::aoim {
 
-/// How many are believed of one source, and who goes where the table is full. One thread; allocates
-/// nothing after construction.
+/// Limits the peers of one source, and selects the row to drop when the table is full. One thread;
+/// allocates nothing after construction.
 class Admission {
  public:
   /// @param config, peers, claims, events outlive this
   Admission(const PresenceConfig& config, const PeerTable& peers, const Claims& claims,
             PresenceEvents& events);
 
-  /// Whether this source speaks for as many peers as one may: no further one is believed. Counted,
-  /// and reported once for each source, as long as it is remembered. @param own our announcement
+  /// Whether this source has the most peers that one source may have, so that no further one is
+  /// accepted. Counted, and reported once for each remembered source. @param own our announcement
   [[nodiscard]] bool is_crowd(const SourceAddress& from, const pdu::Presence& own);
-  /// The row that goes for a newcomer; nothing where each may stay. It is the first that came of
-  /// those that announced themselves once and were silent since, or have never sent a list.
+  /// The row to drop for a newcomer; nothing if all rows stay. It is the oldest of the peers that
+  /// announced themselves once and were silent since, or have never sent a list.
   [[nodiscard]] std::optional<std::size_t> stale_row(std::chrono::nanoseconds now) noexcept;
 
-  /// Announcements refused for too many of one source.
+  /// Announcements refused because their source had too many peers.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:
@@ -42,8 +42,9 @@ class Admission {
   const PeerTable& peers_;
   const Claims& claims_;
   PresenceEvents& events_;
-  std::vector<SourceAddress> crowds_;          // reported, oldest first
-  std::chrono::nanoseconds next_eviction_{0};  // when one of a crowd may go again
+  std::vector<SourceAddress> crowds_;  // reported, oldest first
+  std::chrono::nanoseconds next_eviction_{
+      0};  // when a peer of a crowded source may be dropped again
   std::uint64_t refused_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When we announce ourselves: once a heartbeat, and sooner and more often while somebody may not
-// have heard us.
+// Schedule of our announcements: once a heartbeat, and more often while a peer may not have
+// received one.
 #pragma once
 
 #include <chrono>
@@ -21,45 +21,46 @@ class AnnouncementPace {
 
   /// The first announcement is due at once.
   void start(std::chrono::nanoseconds now) noexcept;
-  /// None is due any more.
+  /// No announcement is due after this.
   void stop() noexcept { running_ = false; }
   [[nodiscard]] bool is_running() const noexcept { return running_; }
 
-  /// Somebody may not know us: at once, and again for a while, since announcements are lost.
+  /// A peer may not know us: announces at once, and repeats for a while because of loss.
   void announce_soon(std::chrono::nanoseconds now) noexcept;
-  /// Others hear us and may believe another of us: every `brisk_gap` for the time `brisk`, since no
-  /// list reports when that is over.
+  /// Others may have accepted another peer in our place: announces every `brisk_gap` during
+  /// `brisk`, because no list shows when they accept us.
   void insist(std::chrono::nanoseconds now) noexcept;
-  /// The next one leaves at `time` at the latest, if that is far enough from the last one.
+  /// Sends the next one at `time` or earlier, if that is long enough after the last one.
   void announce_by(std::chrono::nanoseconds time) noexcept;
-  /// Where we send from. After a change we announce ourselves at once and some times more.
+  /// Sets our source address. A change is announced at once and repeated.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept;
 
-  /// Whether one is to leave now.
+  /// Whether an announcement is due.
   [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
     return running_ && now >= next_;
   }
-  /// One leaves now, and the next one is scheduled. @param acquainted whether all whom we hear list
-  /// us: nothing is to be repeated  @return whether it is more than a heartbeat
+  /// Counts an announcement that is sent now, and schedules the next. @param acquainted whether all
+  /// received peers list us, so that nothing is repeated  @return whether it is more than a
+  /// heartbeat
   bool note_announced(std::chrono::nanoseconds now, bool acquainted) noexcept;
 
-  /// Whether the next one repeats the last one for those who do not list us yet.
+  /// Whether the next one is a repetition for peers that do not list us yet.
   [[nodiscard]] bool is_repeating() const noexcept {
     return running_ && next_cause_ == Cause::repetition;
   }
-  /// All list us: the next one is a heartbeat. Only where is_repeating().
+  /// All peers list us, so the next one is a heartbeat. Call it only if is_repeating().
   void end_repetition() noexcept;
-  /// We have another id, which nobody has heard: there is no gap to keep.
+  /// Our ID has changed and no peer knows it, so no gap applies.
   void forget_last() noexcept { last_.reset(); }
 
-  /// When the last one under our id left.
+  /// When the last one with our present ID was sent.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> last() const noexcept { return last_; }
-  /// When the next one leaves.
+  /// When the next one is due.
   [[nodiscard]] std::chrono::nanoseconds next() const noexcept { return next_; }
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  // What our next announcement is for.
+  // Purpose of the next announcement.
   enum class Cause : std::uint8_t { heartbeat, repetition, news };
 
   const PresenceConfig& config_;
@@ -68,9 +69,9 @@ class AnnouncementPace {
   Cause next_cause_ = Cause::news;
   Nanoseconds brisk_until_ = Nanoseconds::min();
   Nanoseconds insist_until_ = Nanoseconds::min();
-  Nanoseconds gap_{0};               // until we repeat ourselves again
-  std::optional<Nanoseconds> last_;  // our last announcement under this id
-  SourceAddress own_source_;         // where we send from
+  Nanoseconds gap_{0};               // until the next repetition
+  std::optional<Nanoseconds> last_;  // last announcement with this ID
+  SourceAddress own_source_;         // our source address
 };
 
 }  // namespace reckon::aoim

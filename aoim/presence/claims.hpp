@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Claims to ids that others hold, or we do: they wait until it is plain whether the holder lives.
+// Claims to IDs that other peers or we hold. They are pending until it is known whether the holder
+// is alive.
 #pragma once
 
 #include <chrono>
@@ -18,13 +19,13 @@
 
 namespace reckon::aoim {
 
-/// Of two that claim an id anew: a total order that both compute alike and that no restart turns
-/// round. Who started first keeps it; of two in the same second, the lower epoch.
+/// Which of two new claimants keeps an ID. Both compute the same total order, and a restart does
+/// not reverse it. The peer that started first keeps the ID; in the same second, the lower epoch.
 [[nodiscard]] bool precedes(const pdu::Presence& one, const pdu::Presence& other) noexcept;
-/// Whether it announces that it has held its id for long.
+/// Whether it announces that it is established, that is, has held its ID for long.
 [[nodiscard]] bool announces_established(const pdu::Presence& heard) noexcept;
 
-/// A peer that announces itself under an id that another holds, or we do.
+/// A peer that announces itself with an ID of another peer or of ours.
 struct Claimant {
   pdu::Presence announced;
   std::chrono::nanoseconds since{}, last_heard{};
@@ -35,36 +36,37 @@ struct Claimant {
 
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
   [[nodiscard]] std::uint32_t epoch() const noexcept { return announced.epoch; }
-  /// It has announced itself again, maybe under another id.
+  /// It has announced itself again, perhaps with another ID.
   void hear(const pdu::Presence& heard, std::chrono::nanoseconds now, const SourceAddress& from);
 };
 
-/// All claimants, without an order. One thread; allocates nothing after construction.
+/// All claimants, unordered. One thread; allocates nothing after construction.
 class Claims {
  public:
   /// @param config, peers, events outlive this
   Claims(const PresenceConfig& config, const PeerTable& peers, PresenceEvents& events);
 
-  /// Null where this life claims nothing; good until the next call that adds or removes one.
+  /// Null if this epoch claims no ID; valid until the next call that adds or removes one.
   [[nodiscard]] Claimant* find(std::uint32_t epoch) noexcept;
   [[nodiscard]] const Claimant* find(std::uint32_t epoch) const noexcept;
   /// Whether anybody claims this id.
   [[nodiscard]] bool contains(PeerId id) const noexcept;
   [[nodiscard]] bool is_full() const noexcept { return claimants_.size() == config_.claims; }
-  /// One more; not where they are full.
+  /// Adds a claimant unless the table is full.
   Claimant& add(const Claimant& claimant);
   void forget(std::uint32_t epoch) noexcept;
-  /// This process stood still for `slept`: nobody was silent meanwhile.
+  /// This process was suspended for `slept`, which does not count as silence of others.
   void note_slept(std::chrono::nanoseconds slept, std::chrono::nanoseconds now) noexcept;
 
-  /// Looks at the claimant of this index, which goes where it has been silent for too long. A claim
-  /// that lasts is reported.
-  /// @return the claimant, removed, where it is the holder's next life
+  /// Checks the claimant with this index. Removes it after long silence, and reports a claim that
+  /// lasts.
+  /// @return the removed claimant, if it is a restart of the holder
   [[nodiscard]] std::optional<Claimant> settle(std::size_t index, PeerId own,
                                                std::chrono::nanoseconds now);
-  /// Removes the best of those that claim an id that nobody holds.
+  /// Removes and returns the best claimant of an ID without a holder.
   [[nodiscard]] std::optional<Claimant> take_free(PeerId own, std::chrono::nanoseconds now);
-  /// When one is to be looked at; duration max where there is none. @param looked the last time
+  /// When a claimant must be checked; nanoseconds::max() if there is none. @param looked the last
+  /// check
   [[nodiscard]] std::chrono::nanoseconds next_step(PeerId own,
                                                    std::chrono::nanoseconds looked) const noexcept;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The lives of peers that are over, as far as presence knows: what comes late in their names is
-// known by them, and so are those that come back.
+// Epochs of peers that have ended, as far as presence knows. They identify stale datagrams, and
+// peers that return.
 #pragma once
 
 #include <chrono>
@@ -20,14 +20,14 @@ namespace reckon::aoim {
 struct FormerLife {
   PeerId id;
   std::uint32_t epoch = 0;
-  std::chrono::nanoseconds since{};  ///< it is over
+  std::chrono::nanoseconds since{};  ///< end of the epoch
   SourceAddress source;
   LifeTip tip;
   std::chrono::nanoseconds known_since{}, last_heard{};
   bool said_goodbye = false;
 };
 
-/// The last 64 of them. One that may come back and was heard for long is remembered longest. One
+/// The last 64 ended epochs. Those that may return and were received for long are kept longest. One
 /// thread; allocates nothing after construction.
 class FormerLives {
  public:
@@ -35,18 +35,18 @@ class FormerLives {
 
   FormerLives() { lives_.reserve(kMost); }
 
-  /// Null where this life is not known to be over; good until the next call.
+  /// Null if this epoch is not known to have ended; valid until the next call.
   [[nodiscard]] FormerLife* find(std::uint32_t epoch) noexcept;
   [[nodiscard]] bool contains(std::uint32_t epoch) const noexcept;
-  /// Whether the life that announces itself is over. Who proves itself lives, and who offers no
-  /// proof where it speaks long after, or under another id; one from elsewhere is believed after
-  /// `pin`.
+  /// Whether the announced epoch has ended. An epoch that proves its identity is alive. One without
+  /// a proof is alive if it is received long after its end, or with another ID. From another
+  /// address it is accepted after `pin`.
   [[nodiscard]] bool is_over(const pdu::Presence& heard, std::chrono::nanoseconds now,
                              const SourceAddress& from, ProofJudge& proofs,
                              std::chrono::nanoseconds pin) noexcept;
-  /// This one is over, too.
+  /// Adds an ended epoch.
   void add(const FormerLife& life);
-  /// It is forgotten. @return what was known of it
+  /// Removes an epoch. @return what was known of it
   std::optional<FormerLife> take(std::uint32_t epoch) noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Our list of the peers whom we hear: when it leaves, and in how many parts.
+// Our list of received peers (Peers Heard PDU): when it is sent, and in how many parts.
 #pragma once
 
 #include <chrono>
@@ -15,30 +15,31 @@
 
 namespace reckon::aoim {
 
-/// Those whom we hear, or a part of them.
+/// The received peers, or a part of them.
 struct HeardList {
   std::span<const std::uint32_t> epochs;  ///< a part is in ascending order
   std::uint16_t continues = 0;            ///< pdu::kPeersHeardBelow, pdu::kPeersHeardAbove
 };
 
-/// Sends the list with each announcement that is more than a heartbeat; else once a heartbeat: when
-/// we have been silent for three quarters of it, as a sign of life, or with an announcement. One
-/// thread; allocates nothing after construction.
+/// Sends the list with each announcement that is more than a heartbeat, otherwise once a heartbeat.
+/// If we send nothing for three quarters of a heartbeat the list is the sign of life; otherwise it
+/// goes with an announcement. One thread; allocates nothing after construction.
 class HeardListSender {
  public:
   /// @param config, peers outlive this
   HeardListSender(const PresenceConfig& config, const PeerTable& peers);
 
-  /// A list goes with the announcement that leaves now.
+  /// Sends a list with the announcement that is sent now.
   void send_now(std::chrono::nanoseconds now) noexcept { next_ = now; }
-  /// The list, where it is time to send it; good until the next call.
-  /// @param last_sent when our last datagram left, whatever was in it
-  /// @param announced when our last announcement left  @param announcing when the next one does
+  /// The list if it is due; valid until the next call.
+  /// @param last_sent when our last datagram was sent, with any content
+  /// @param announced when our last announcement was sent  @param announcing when the next one is
+  /// due
   [[nodiscard]] std::optional<HeardList> take(std::chrono::nanoseconds now,
                                               std::chrono::nanoseconds last_sent,
                                               std::optional<std::chrono::nanoseconds> announced,
                                               std::chrono::nanoseconds announcing);
-  /// When take() may have one.
+  /// When take() may return a list.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return next_; }
 
  private:
@@ -48,7 +49,7 @@ class HeardListSender {
   const PeerTable& peers_;
   std::chrono::nanoseconds next_ = std::chrono::nanoseconds::max();
   std::vector<std::uint32_t> list_;
-  std::uint32_t sent_to_ = 0;  // the last one of the last part
+  std::uint32_t sent_to_ = 0;  // last epoch of the last part
 };
 
 }  // namespace reckon::aoim

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When a newcomer is heard, every peer sends its Entity States once more, each at its own moment
-// within 100 ms, or longer where it owns so many that the newcomer would be flooded. The moment
-// follows from the entity's id and their number. Newcomers in a row share one round of moments,
-// which begins with the first of them and repeats: no entity is sent more often than once a round,
-// however many come.
+// Schedule of an introduction. After a newcomer is received, every peer sends its Entity States
+// once more, spread over 100 ms, or longer if it owns so many that they would flood the newcomer.
+// The moment of each entity follows from its ID and from their number. Consecutive newcomers share
+// one round, which begins with the first of them and repeats. So no entity is sent more than once
+// in a round, for any number of newcomers.
 #pragma once
 
 #include <chrono>

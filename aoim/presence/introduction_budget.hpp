@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What introductions may cost: whoever joins, or says that it does, receives all that a peer
-// owns, and one short datagram must not cause a hundred long ones again and again.
+// Budget of introductions. A newcomer receives all entities of a peer. A short datagram that claims
+// to come from a newcomer must not cause a hundred long ones again and again.
 #pragma once
 
 #include <chrono>
@@ -9,22 +9,22 @@
 
 namespace reckon::aoim {
 
-/// A token bucket in octets. It is full at first, holds one whole introduction or kLeastBurst, and
-/// fills within a second, but with kMostRate at most. While anything is in it an introduction may
-/// begin; what that costs is taken out, also what is not there, and the next one waits for it. A
-/// value; one thread, some ns.
+/// A token bucket in octets. It is full at first, holds one introduction of all entities or
+/// kLeastBurst, and fills within a second, at most at kMostRate. An introduction may begin while
+/// the bucket is not empty. Its cost may make the bucket negative, and the next introduction waits.
+/// A value type; one thread, some ns.
 class IntroductionBudget {
  public:
   static constexpr double kLeastBurst = 65'536.0;  ///< [octets]
-  static constexpr double kLeastRate = 16'384.0;   ///< [octets/s]: of those who own little
+  static constexpr double kLeastRate = 16'384.0;   ///< [octets/s], for peers with few entities
   static constexpr double kMostRate = 1'048'576.0;
 
-  /// @param octets that one introduction of everything costs, from now on
+  /// @param octets cost of one introduction of all entities, from now on
   void set_whole(double octets) noexcept;
   [[nodiscard]] bool may_begin(std::chrono::nanoseconds now) const noexcept {
     return now >= ready_at();
   }
-  /// When an introduction may begin at the earliest.
+  /// Earliest time for the next introduction.
   [[nodiscard]] std::chrono::nanoseconds ready_at() const noexcept;
   void spend(std::size_t octets, std::chrono::nanoseconds now) noexcept;
 

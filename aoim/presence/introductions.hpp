@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When the entities of a peer are introduced to those who begin to listen to a group.
+// Decides when a peer introduces its entities to newcomers of a group.
 #pragma once
 
 #include <array>
@@ -14,30 +14,31 @@
 
 namespace reckon::aoim {
 
-/// Begins introductions at once, as long as those who ask have not caused too much of it lately;
-/// what strangers cause and what known peers cause has a budget each. One thread; allocates at
-/// construction alone.
+/// Begins an introduction at once, unless the budget for introductions is spent. There is one
+/// budget for introductions to unknown peers and one for introductions to known peers. One thread;
+/// allocates only at construction.
 class Introductions {
  public:
-  /// @param groups of all tiers and cells, behind the base group
+  /// @param groups number of groups of all tiers and cells, without the base group
   Introductions(const IntroductionConfig& config, std::size_t groups);
 
-  /// How many entities this peer owns: the more, the longer answering a newcomer takes, so that no
-  /// more than about 15,000 datagrams a second do so. Call it when the number changes.
+  /// Sets the number of entities that this peer owns. Call it when the number changes. An
+  /// introduction of more entities takes longer, so that it sends at most about 15,000 datagrams a
+  /// second.
   void set_owned(std::size_t count) noexcept;
-  /// An entity was sent because is_due asked for it, in so many octets. Who causes more than one
-  /// introduction of everything in a second waits for the next one.
+  /// Counts `octets` that were sent because is_due() returned true. Newcomers that cause more than
+  /// one introduction of all entities within a second wait for the next one.
   void note_sent(std::size_t octets, std::chrono::nanoseconds now) noexcept;
 
-  /// Somebody listens to `group` from now on, and has not received what we send there.
-  /// @param heard_for for how long we have been receiving from that peer
+  /// A newcomer has joined `group` and lacks the states that we send there.
+  /// @param heard_for how long we have been receiving from that peer
   void begin(GroupIndex group, std::chrono::nanoseconds heard_for, std::chrono::nanoseconds now);
-  /// Begins what had to wait, and forgets what is over.
+  /// Begins pending introductions and removes finished ones.
   void step(std::chrono::nanoseconds now);
-  /// When step has something to begin; duration max where nothing waits.
+  /// When step() can begin the next pending introduction; nanoseconds::max() if none is pending.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
-  /// False where nobody is to be introduced: no entity need be asked about.
+  /// False if no introduction is under way. Then is_due() is false for every entity.
   [[nodiscard]] bool is_pending() const noexcept { return introduction_.is_pending(); }
   /// See Introduction::is_due.
   [[nodiscard]] bool is_due(const pdu::EntityId& entity, GroupIndex group,
@@ -47,12 +48,13 @@ class Introductions {
   }
 
  private:
-  /// What those who came lately cause together, and what those whom we have known for long do.
+  /// The introductions that one class of peers, unknown or known, has caused.
   struct Askers {
     IntroductionBudget budget;
-    std::vector<GroupIndex> waiting;  ///< none twice
-    std::vector<bool> waits;          ///< by group
-    std::chrono::nanoseconds until = std::chrono::nanoseconds::min();  ///< the last one goes on
+    std::vector<GroupIndex> waiting;  ///< each group once
+    std::vector<bool> waits;          ///< by group: is in `waiting`
+    std::chrono::nanoseconds until =
+        std::chrono::nanoseconds::min();  ///< the last introduction ends
   };
   void begin_waiting(std::chrono::nanoseconds now);
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Asking for what is in a cell that we have just joined, when one datagram may be lost on the way
-// and the switch may open its port late: first at once, then with some of our announcements. Those
-// who have heard the question know it again by its instant; where nobody at all has answered it is
-// asked anew.
+// Requests for the states of a cell that we have just joined. A datagram may be lost, and a switch
+// may open its port late. So a request is sent at once and repeated with some of our announcements.
+// Its time identifies it, so that peers answer it once. If no peer has answered, a new request is
+// made.
 #pragma once
 
 #include <array>
@@ -18,40 +18,39 @@
 
 namespace reckon::aoim {
 
-/// What we ask. One thread; allocates nothing after construction.
+/// Our requests. One thread; allocates nothing after construction.
 class JoinAsks {
  public:
-  /// Cells of one question at most.
+  /// Most cells of one request.
   static constexpr std::size_t kMostCells = 128;
-  /// Who has something to send has sent it by then: 130 ms, and slow steps at both ends. Before,
-  /// silence tells nothing.
+  /// Peers that own entities there have answered by then: 130 ms plus slow steps at both ends.
   static constexpr std::chrono::milliseconds kAnswered{300};
-  /// A question is said again with an announcement, which leaves so long after it at the latest.
+  /// A request is repeated with an announcement, at most this long after it.
   static constexpr std::chrono::milliseconds kSaidAgain{600};
-  /// As long as a group stays silent it is asked about with so many announcements.
+  /// A request for a silent group is repeated with this many announcements.
   static constexpr int kMostRepetitions = 3;
 
-  /// A cell to ask about now. Those with one instant are one question, and in a row.
+  /// A requested cell. Consecutive cells with the same time are one request.
   struct Question {
     CellId cell;
-    std::uint64_t since = 0;  ///< UTC [ns], of the first time that it was asked
+    std::uint64_t since = 0;  ///< UTC [ns] of the first request
   };
 
-  /// @param pool of groups: 1 .. pool are joined and left
+  /// @param pool number of groups: 1 .. pool are joined and left
   explicit JoinAsks(std::size_t pool);
 
-  /// @param ask at once; false for who starts, to whom all introduce themselves unasked
+  /// @param ask request at once; false at the start, when all peers introduce their entities anyway
   void join(GroupIndex group, CellId cell, bool ask, std::chrono::nanoseconds now);
   void leave(GroupIndex group) noexcept;
-  /// Somebody whom we know said something in this group, at most the pool. O(1)
+  /// A known peer has sent to this group, which is at most the pool. O(1)
   void note_heard(GroupIndex group) noexcept { silent_[group.value] = 0; }
 
-  /// Whether something is to be asked for the first time.
+  /// Whether a new request is due.
   [[nodiscard]] bool has_new() const noexcept { return has_new_; }
-  /// When an announcement has to leave with which a question is said again; max where none has to.
+  /// When an announcement must repeat a request; max if none must.
   [[nodiscard]] std::chrono::nanoseconds next_repetition() const noexcept;
-  /// What to ask now; good until the next call. @param utc in ns @param announcing whether an
-  /// announcement leaves now
+  /// The cells to request now; valid until the next call. @param utc in ns @param announcing
+  /// whether an announcement is sent now
   [[nodiscard]] std::span<const Question> take_due(std::chrono::nanoseconds now, std::uint64_t utc,
                                                    bool announcing);
 
@@ -60,22 +59,22 @@ class JoinAsks {
     GroupIndex group;
     CellId cell;
     std::chrono::nanoseconds at{};
-    std::uint64_t since = 0;  // of the last question; 0: not asked
+    std::uint64_t since = 0;  // of the last request; 0: none yet
     int left = kMostRepetitions;
     bool is_new = false;
   };
 
-  std::vector<Joined> joined_;        // of which something is still to be asked
+  std::vector<Joined> joined_;        // cells with requests to come
   std::vector<std::uint8_t> silent_;  // by group
   std::vector<Question> due_;
   bool has_new_ = false;
 };
 
-/// Questions that were heard lately, each by who asked and when. One thread; no allocation.
+/// Recently received requests, by requester and time. One thread; no allocation.
 class HeardAsks {
  public:
-  /// False where it was noted before. Some are forgotten for others, and taken for new then.
-  /// @param since 0 says nothing: always new
+  /// False if it is known already. A request that was dropped from memory counts as new.
+  /// @param since 0: without a time, always new
   [[nodiscard]] bool note(std::uint32_t epoch, std::uint64_t since) noexcept;
 
  private:

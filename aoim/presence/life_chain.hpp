@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a life proves without a key that it is the one that was heard before: each announcement opens
-// what the one before it was bound to. Whoever has heard all of them cannot say the next one.
+// How an epoch proves without a key that it is the same as before: each announcement opens the
+// commitment of the one before. A receiver of all announcements cannot forge the next one.
 //
-//   link 255 --H--> link 254 --H--> .. --H--> link 0 --H--> anchor     drawn from a secret, said the
+//   link 255 --H--> link 254 --H--> .. --H--> link 0 --H--> anchor     drawn from a secret, sent
+//   the
 //                                                                      other way round
 //
-// A chain has 256 links; each announcement also says the anchor of the next chain.
+// A chain has 256 links. Each announcement also contains the anchor of the next chain.
 #pragma once
 
 #include <array>
@@ -19,16 +20,16 @@ namespace reckon::aoim {
 
 using pdu::ChainLink;
 
-/// A one-way function: nobody finds an argument for a value. `number` tells its uses apart.
+/// A one-way function: nobody finds an argument for a value. `number` distinguishes its uses.
 using OneWay = ChainLink (*)(const ChainLink& link, std::uint32_t number) noexcept;
 
 /// Links of one chain.
 inline constexpr std::uint32_t kChainLength = 256;
 
-/// Our own chain. Some 256 calls of the function at construction and again each 256 announcements.
+/// Our own chain. About 256 calls of the function at construction and after each 256 announcements.
 class LifeChain {
  public:
-  /// @param one_way null: nothing is proved  @param secret drawn at random, never said
+  /// @param one_way null: no proofs  @param secret random, never sent
   LifeChain(OneWay one_way, const ChainLink& secret) noexcept;
 
   /// Fills in the proof of the next announcement.
@@ -44,15 +45,15 @@ class LifeChain {
   Links links_{}, next_{};    // of this chain, and the one after it
 };
 
-/// What an announcement says of its proof.
+/// Result of judging the proof of an announcement.
 enum class Opening : std::uint8_t {
-  none,   ///< the life has offered no proof yet
-  newer,  ///< it opens what was heard last
-  known,  ///< what has been heard already, or something before it
-  wrong,  ///< somebody else says it
+  none,   ///< the epoch has offered no proof yet
+  newer,  ///< it opens the last received commitment
+  known,  ///< a link that was received already, or an earlier one
+  wrong,  ///< not from this epoch
 };
 
-/// The last announcement of a life that was believed. A value.
+/// The last accepted announcement of an epoch. A value type.
 class LifeTip {
  public:
   LifeTip() = default;
@@ -64,10 +65,10 @@ class LifeTip {
 
   /// Whether it has offered a proof.
   [[nodiscard]] bool is_chained() const noexcept { return link_ != ChainLink{}; }
-  /// How far ahead its next announcement may be by now, if all between were lost.
+  /// Largest number of announcements since the last accepted one, if all others were lost.
   [[nodiscard]] std::uint32_t farthest(std::chrono::nanoseconds now) const noexcept;
-  /// Judges an announcement, with as many calls of the function as it is ahead. @param most calls;
-  /// what is farther ahead is wrong
+  /// Judges an announcement. It needs one call of the function for each announcement in between.
+  /// @param most calls; an announcement farther ahead is wrong
   [[nodiscard]] Opening judge(const pdu::Presence& heard, OneWay one_way,
                               std::uint32_t most) const noexcept;
 

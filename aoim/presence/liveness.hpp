@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who is silent, and for how long this process itself stood still.
+// Which peers are silent, and for how long this process itself was suspended.
 #pragma once
 
 #include <chrono>
@@ -12,38 +12,38 @@
 
 namespace reckon::aoim {
 
-/// Times at which the peers were heard last. All are looked at when the first of them may have been
-/// silent for long, not in each step. One thread; allocates nothing.
+/// Times at which the peers were last received. They are checked only when the first time-out may
+/// be due, not in each step. One thread; allocates nothing.
 class Liveness {
  public:
   /// @param config, peers, events outlive this
   Liveness(const PresenceConfig& config, PeerTable& peers, PresenceEvents& events) noexcept
       : config_(config), peers_(peers), events_(events) {}
 
-  /// We are called. @return how long ago the last call was
+  /// Notes a call of this process. @return the time since the last call
   std::chrono::nanoseconds wake(std::chrono::nanoseconds now) noexcept;
-  /// When we were last called.
+  /// Time of the last call.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> awake() const noexcept { return awake_; }
-  /// This process stood still for `slept`: nobody could be heard, so nobody was silent meanwhile.
+  /// This process was suspended for `slept`, which does not count as silence of others.
   void note_slept(std::chrono::nanoseconds slept, std::chrono::nanoseconds now) noexcept;
 
-  /// The peer has been heard.
+  /// A datagram of the peer was received.
   void note_heard(Peer& peer, std::chrono::nanoseconds now) noexcept;
   /// The peer has a new row, or another `last_heard`.
   void watch(const Peer& peer) noexcept;
 
-  /// Whether somebody may be silent: each peer is to be looked at.
+  /// Whether a peer may be silent, so that all peers must be checked.
   [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
     return look_ || now >= silent_at_;
   }
-  /// Reports the peer as quiet, or heard again. @return whether it is lost
+  /// Checks a peer; reports it as quiet or as received again. @return whether it has timed out
   [[nodiscard]] bool is_lost(Peer& peer, std::chrono::nanoseconds now);
-  /// Each has been looked at.
+  /// All peers have been checked.
   void watch_all() noexcept;
 
-  /// No joined peer was heard last before this: a bound, which may lag behind by some seconds.
+  /// Lower bound of the last receive times of all joined peers; may lag by some seconds.
   [[nodiscard]] std::chrono::nanoseconds heard_since() const noexcept { return heard_since_; }
-  /// Nobody is silent for too long before; duration max where there is no peer.
+  /// Earliest time-out; nanoseconds::max() without peers.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return silent_at_; }
 
  private:
@@ -56,7 +56,7 @@ class Liveness {
   std::optional<Nanoseconds> awake_;
   Nanoseconds silent_at_ = Nanoseconds::max();
   Nanoseconds heard_since_ = Nanoseconds::max();
-  bool look_ = false;  // one that was quiet may have been heard
+  bool look_ = false;  // a quiet peer may have been received
 };
 
 }  // namespace reckon::aoim

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether we and the others hear each other, as their lists of peers heard report.
+// Whether we and the other peers receive each other, by their Peers Heard lists.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace reckon::aoim {
 /// Reads the lists of others into their rows. One thread; allocates nothing.
 class MutualHearing {
  public:
-  /// All outlive this.
+  /// All references must outlive this.
   MutualHearing(const PresenceConfig& config, const PeerTable& peers, const Claims& claims,
                 const FormerLives& former, const OwnIdentity& own, const AnnouncementPace& pace,
                 PresenceEvents& events) noexcept
@@ -31,15 +31,16 @@ class MutualHearing {
         pace_(pace),
         events_(events) {}
 
-  /// The list of a claimant of an id.
+  /// Reads the list of a claimant of an ID.
   void read(Claimant& claimant, const pdu::PeersHeard& list,
             std::chrono::nanoseconds now) const noexcept {
     read(claimant.hears, list, now);
   }
-  /// The list of a joined peer. Reports that it hears us late, does not hear us, or hears us again.
+  /// Reads the list of a joined peer. Reports if it received us late, does not receive us, or
+  /// receives us again.
   void read(Peer& peer, const pdu::PeersHeard& list, std::chrono::nanoseconds now) const;
 
-  /// Whether all whom we hear list us, and nobody lists one whom we do not hear.
+  /// Whether all received peers list us, and none lists a peer that we do not receive.
   [[nodiscard]] bool is_complete() const noexcept;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The peers that live, as presence knows them: one row for each id. Who may have a row is decided
-// by Presence; here they are found by id and by life.
+// The live peers, one row for each ID. Presence decides which peers get a row. This table finds
+// them by ID and by epoch.
 #pragma once
 
 #include <chrono>
@@ -19,17 +19,17 @@
 
 namespace reckon::aoim {
 
-/// What the last lists of a peer say.
+/// Summary of the last lists of a peer.
 struct Hearing {
-  std::chrono::nanoseconds came{std::chrono::nanoseconds::min()};  ///< when the last one came
-  /// When one came that would list us, or the rival, if it heard us.
+  std::chrono::nanoseconds came{std::chrono::nanoseconds::min()};  ///< arrival of the last list
+  /// Arrival of the last list whose part covers our epoch or the rival's.
   std::chrono::nanoseconds us_at = came, rival_at = came;
-  /// The same of one that does list us.
+  /// Arrival of the last list that contains us.
   std::chrono::nanoseconds us_listed = came;
   bool us = false;
-  bool missed_us = false;   ///< it had to hear us and did not, and has not listed us since
-  bool strangers = false;   ///< it hears lives that we do not know
-  std::uint32_t rival = 0;  ///< epoch of one that claims our id and is heard as its holder; 0: none
+  bool missed_us = false;   ///< it missed our announcements and has not listed us since
+  bool strangers = false;   ///< it receives epochs that we do not know
+  std::uint32_t rival = 0;  ///< epoch that claims our ID and that it accepts as the holder; 0: none
 };
 
 /// A peer has proved itself from another address.
@@ -39,23 +39,23 @@ struct Move {
   std::chrono::nanoseconds since{};
 };
 
-/// One other peer: the living holder of its id.
+/// Another peer: the live holder of its ID.
 struct Peer {
   pdu::Presence announced;
   std::chrono::nanoseconds first_heard{}, last_heard{};
-  /// Its first word, also where it was taken for over meanwhile.
+  /// Its first datagram, also if its epoch was taken for ended in between.
   std::chrono::nanoseconds known_since{};
-  /// When it was heard again after it had been quiet, or taken for over.
+  /// When it was received again after it had been quiet or taken for ended.
   std::chrono::nanoseconds back_since = std::chrono::nanoseconds::min() / 2;
   bool joined = false;                   ///< same scene and grid
-  SourceAddress source;                  ///< the only one from which it is believed; port 0: any
+  SourceAddress source;                  ///< the only accepted source; port 0: any
   SourceAddress former_source;           ///< before it moved
-  std::optional<Move> move;              ///< it may have moved
-  SourceAddress suspect;                 ///< port 0: nobody; spoke in its name from elsewhere ..
+  std::optional<Move> move;              ///< pending change of its source
+  SourceAddress suspect;                 ///< source of an impostor, port 0: none ..
   std::chrono::nanoseconds suspected{};  ///< .. since
   LifeTip tip;
-  bool confirmed = false;          ///< heard more than once
-  bool impostor_reported = false;  ///< of this life
+  bool confirmed = false;          ///< received more than once
+  bool impostor_reported = false;  ///< in this epoch
   bool quiet = false;              ///< reported as such
   bool unheard = false;            ///< reported as such
   Hearing hears;
@@ -63,45 +63,44 @@ struct Peer {
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
 };
 
-/// Rows without an order. One thread; allocates nothing while it holds no more than it was made
-/// for. Indices are good until the next row goes.
+/// Unordered rows. One thread; allocates nothing up to its capacity. Indices are valid until the
+/// next row is removed.
 class PeerTable {
  public:
   /// @param capacity peers that it holds without allocating.
   explicit PeerTable(std::size_t capacity);
 
-  /// Index of who holds this id; size() where nobody does. Linear.
+  /// Index of the holder of this ID, or size(). Linear.
   [[nodiscard]] std::size_t find(PeerId id) const noexcept;
-  /// Whether anybody holds this id. Linear.
+  /// Whether a peer holds this ID. Linear.
   [[nodiscard]] bool contains(PeerId id) const noexcept { return find(id) < size(); }
-  /// Index of this life; size() where it has no row.
+  /// Index of this epoch, or size().
   [[nodiscard]] std::size_t find_epoch(std::uint32_t epoch) const noexcept {
     const std::uint32_t place = places_.find(epoch);
     return place == EpochIndex::kNone ? peers_.size() : place;
   }
 
-  /// Epoch of the joined peer that holds this id; nothing where there is none. Linear.
+  /// Epoch of the joined peer that holds this ID, if any. Linear.
   [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept;
-  /// The id that the joined peer of this epoch holds; nothing where there is none.
+  /// ID of the joined peer with this epoch, if any.
   [[nodiscard]] std::optional<PeerId> id_of(std::uint32_t epoch) const noexcept;
-  /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
-  /// epoch is not known.
+  /// Source of the peer with this epoch; port 0 if the source is unknown, nothing for an unknown
+  /// epoch.
   [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept;
-  /// For how long the peer of this epoch has been heard, from its first word to its last one; 0
-  /// where it is not known.
+  /// Time from the first to the last datagram of the peer with this epoch; 0 for an unknown epoch.
   [[nodiscard]] std::chrono::nanoseconds heard_for(std::uint32_t epoch) const noexcept;
-  /// How many times as long distances count to the peer of this epoch; 1 where it is not known.
+  /// Factor of distances to the peer with this epoch; 1 for an unknown epoch.
   [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept;
 
-  /// One more row, at the end; neither its id nor its life has one.
+  /// Appends a row; its ID and epoch must not have one.
   void append(const Peer& peer);
-  /// Another life takes over the row.
+  /// Replaces the epoch of a row.
   void replace(std::size_t index, const Peer& peer);
-  /// The row goes, and the last one takes its place.
+  /// Removes a row; the last row takes its place.
   void erase(std::size_t index) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return peers_.size(); }
-  /// What it says of itself may change, but for its id and epoch.
+  /// A row to modify; its ID and epoch must not change.
   [[nodiscard]] Peer& operator[](std::size_t index) noexcept { return peers_[index]; }
   [[nodiscard]] const Peer& operator[](std::size_t index) const noexcept { return peers_[index]; }
   [[nodiscard]] std::uint32_t epoch(std::size_t index) const noexcept { return epochs_[index]; }

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who else is here. Each peer announces itself on the base group at once on start, when it hears a
-// newcomer, and every second; six missed announcements mean it is gone. Another scene is reported
-// once and not joined. Who claims an id that another holds waits until it is plain whether the
-// other still lives; two that live settle it between themselves.
+// Presence of peers. Each peer announces itself on the base group at its start, when it receives a
+// newcomer, and every second. After six missed announcements it has timed out. A peer with another
+// scene is reported once and not joined. A claim to an ID of another peer is pending until it is
+// known whether that peer is alive. Two live peers settle a dispute between themselves.
 //
-//   ProofJudge, SourcePins     is it the peer that it claims to be?
-//   FormerLives                is its life over?
-//   Claims, Admission          may it have a row?
-//   Liveness                   who is silent?
-//   OwnIdentity, WitnessCount  who holds our id?
+//   ProofJudge, SourcePins     is the sender the peer that it claims to be?
+//   FormerLives                has its epoch ended?
+//   Claims, Admission          may it get a row?
+//   Liveness                   which peers are silent?
+//   OwnIdentity, WitnessCount  which peer holds our ID?
 //   AnnouncementPace           when do we announce ourselves?
-//   HeardListSender            .. and list whom we hear?
-//   MutualHearing              who hears us?
+//   HeardListSender            .. and send the list of received peers?
+//   MutualHearing              which peers receive us?
 #pragma once
 
 #include <chrono>
@@ -43,142 +43,141 @@
 
 namespace reckon::aoim {
 
-/// How the sender of a datagram, named by its epoch, stands with us.
+/// Relation of a sender, identified by its epoch, to this peer.
 enum class Standing : std::uint8_t {
-  unknown,      ///< no announcement heard (yet), or it claims an id that another holds
+  unknown,      ///< no announcement received yet, or it claims an ID of another peer
   own,          ///< ourselves
-  member,       ///< same scene, present life
+  member,       ///< same scene, present epoch
   other_scene,  ///< reported and not joined
-  former_life,  ///< a later life of that peer has been heard since, or it announced that it leaves
-  impostor,     ///< it speaks in the name of a peer that speaks from elsewhere
+  former_life,  ///< replaced by a later epoch of that peer, or announced its end
+  impostor,     ///< uses the epoch of a peer with another source
 };
 
 /// Sums since the start.
 struct PresenceCounts {
   std::uint64_t announced = 0, heard = 0, former_life = 0, conflicts = 0;
-  std::uint64_t table_full = 0;  ///< announcements of peers for whom there was no room
-  std::uint64_t crowd = 0;       ///< announcements refused for too many of one source
+  std::uint64_t table_full = 0;  ///< announcements of peers without room in the table
+  std::uint64_t crowd = 0;       ///< announcements refused because their source had too many peers
   std::uint64_t impostors = 0;   ///< announcements and lists from another source than their peer's
 };
 
 /// The peers table and our own announcements. One thread; allocates nothing after construction.
 class Presence {
  public:
-  /// `own` carries all that we announce: simulation address wanted, epoch (drawn at random at every
-  /// start of the process), start time, scene hash, cells. @throws std::invalid_argument for a
-  /// heartbeat or number of misses that is not positive, or an epoch of 0.
+  /// `own` is our announcement: wanted simulation address, epoch (random at each start of the
+  /// process), start time, scene hash, cells. @throws std::invalid_argument for a heartbeat or
+  /// number of misses that is not positive, or an epoch of 0.
   Presence(const PresenceConfig& config, const pdu::Presence& own);
   Presence(const Presence&) = delete;
   Presence& operator=(const Presence&) = delete;
 
-  /// From now on we announce ourselves, at once at the next step.
+  /// Starts our announcements; the first is sent in the next step.
   void start(std::chrono::nanoseconds now);
-  /// The next step announces that we leave, and nothing follows.
+  /// The next step announces our end, and no announcement follows.
   void stop();
 
-  /// Takes an announcement heard on the base group; our own echoes and those of other exercises are
-  /// ignored. Of a newcomer linear in the peers known.
-  /// @param from the source of the datagram it was in
+  /// Receives an announcement from the base group. Own echoes and other exercises are ignored.
+  /// Linear in the number of peers for a newcomer.
+  /// @param from source of its datagram
   void receive(const pdu::Presence& heard, std::chrono::nanoseconds now,
                const SourceAddress& from = {});
-  /// Takes a list of those whom another peer hears.
+  /// Receives a Peers Heard list.
   void receive(const pdu::PeersHeard& list, std::chrono::nanoseconds now,
                const SourceAddress& from = {});
 
-  /// Any datagram of a member shows that it lives: lost announcements do not count while its
-  /// updates arrive. Unknown epochs are ignored. Ask standing() about its source first.
+  /// Notes a datagram of a member as a sign of life: lost announcements do not matter while its
+  /// updates arrive. Unknown epochs are ignored. Check its source with standing() first.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
-  /// Where we send from. Where that is elsewhere than at the last call we announce ourselves at
-  /// once and some times more, so that others take the proof soon.
+  /// Sets our source address. A change is announced at once and repeated, so that others receive
+  /// the proof soon.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept {
     pace_.note_own_source(source, now);
   }
-  /// A datagram in the name of this epoch came from elsewhere; see Standing::impostor. Of one that
-  /// can prove itself it is reported when it has not done so half a second later.
+  /// Notes a datagram with this epoch from another source; see Standing::impostor. If the peer can
+  /// prove its identity, the impostor is reported after half a second without a proof.
   void note_impostor(std::uint32_t epoch, const SourceAddress& from, std::chrono::nanoseconds now);
 
-  /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
-  /// who has timed out. Send times and timestamps are left to the caller.
+  /// Finds time-outs, and returns the announcements to send on the base group now (mostly 0 or 1),
+  /// valid until the next step. The caller fills in send times and timestamps.
   [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now);
-  /// Epochs of the peers whom we hear, where it is time to send them, maybe none; good until the
-  /// next call. After step(). See HeardListSender.
-  /// @param last_sent when our last datagram left, whatever was in it
+  /// The list of received peers if it is due; it may be empty. Valid until the next call. Call it
+  /// after step(). See HeardListSender.
+  /// @param last_sent when our last datagram was sent, with any content
   [[nodiscard]] std::optional<HeardList> take_list(
       std::chrono::nanoseconds now,
       std::chrono::nanoseconds last_sent = std::chrono::nanoseconds::min());
 
-  /// Announces from the next time on that distances count so many times as long to us, 1 ..
-  /// 2^15; rounded up to a sixteenth of an octave.
+  /// Sets the factor of distances to us, 1 .. 2^15, for the next announcement. It is rounded up to
+  /// a sixteenth of an octave.
   void set_stretch(double stretch) noexcept { own_.set_stretch(stretch); }
-  /// What the peer of this epoch announces of that; 1 where it is not known.
+  /// The factor that the peer with this epoch announces; 1 for an unknown epoch.
   [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept {
     return peers_.stretch_of(epoch);
   }
 
-  /// Our next announcement leaves at `time` at the latest, if that is far enough from the last one.
+  /// Sends our next announcement at `time` or earlier, if that is long enough after the last one.
   void announce_by(std::chrono::nanoseconds time) noexcept { pace_.announce_by(time); }
 
-  /// Takes the smallest number of the scene's peers that no member holds; those that want one are
-  /// served in the order of their ids. Announced from the next announcement on.
+  /// Takes the smallest free peer number of the scene. Peers that want one are served in the order
+  /// of their IDs. The next announcement contains it.
   void take_scene_peer() noexcept { own_.take_scene_peer(); }
 
-  /// Events since the last call, oldest first; the span is good until the next call.
+  /// Events since the last call, oldest first; valid until the next call.
   [[nodiscard]] std::span<const PresenceEvent> take_events() { return events_.take(); }
 
   /// Whether the next step at `now` announces us.
   [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
     return pace_.is_due(now) && !own_.is_yielding();
   }
-  /// Who we are at present.
+  /// Our present announcement.
   [[nodiscard]] const pdu::Presence& own() const noexcept { return own_.announced(); }
   [[nodiscard]] PeerId id() const noexcept { return own_.id(); }
-  /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
+  /// True for an own entity. A received datagram with its ID is an echo or shows a disputed ID.
   [[nodiscard]] bool is_own(const pdu::EntityId& entity) const noexcept {
     return entity.simulation() == id();
   }
-  /// The others, one for each id.
+  /// The other peers, one for each ID.
   [[nodiscard]] std::span<const Peer> peers() const noexcept { return peers_.rows(); }
-  /// @param from the source of the datagram; nothing: whatever it is
+  /// @param from source of the datagram; nothing: any
   [[nodiscard]] Standing standing(std::uint32_t epoch,
                                   const SourceAddress* from = nullptr) const noexcept;
-  /// Epoch of the living member that holds this id: who may speak for its entities. Ourselves are
-  /// no member. Linear in the peers known.
+  /// Epoch of the live member that holds this ID and so owns its entities. Does not include this
+  /// peer. Linear in the number of peers.
   [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept {
     return peers_.epoch_of(id);
   }
-  /// The id that the living member of this epoch holds; nothing where there is none.
+  /// ID of the live member with this epoch, if any.
   [[nodiscard]] std::optional<PeerId> id_of(std::uint32_t epoch) const noexcept {
     return peers_.id_of(epoch);
   }
-  /// No joined peer was heard last before this: a bound, which may lag behind by some seconds.
+  /// Lower bound of the last receive times of all joined peers; may lag by some seconds.
   [[nodiscard]] std::chrono::nanoseconds heard_since() const noexcept {
     return liveness_.heard_since();
   }
-  /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
-  /// epoch is not known.
+  /// Source of the peer with this epoch; port 0 if the source is unknown, nothing for an unknown
+  /// epoch.
   [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept {
     return peers_.source_of(epoch);
   }
-  /// For how long the peer of this epoch has been heard, from its first word to its last one; 0
-  /// where it is not known.
+  /// Time from the first to the last datagram of the peer with this epoch; 0 for an unknown epoch.
   [[nodiscard]] std::chrono::nanoseconds heard_for(std::uint32_t epoch) const noexcept {
     return peers_.heard_for(epoch);
   }
-  /// Whether we have held our id for long enough to give way to no newcomer.
+  /// Whether we are established: have held our ID long enough to give way to no newcomer.
   [[nodiscard]] bool is_established(std::chrono::nanoseconds now) const noexcept {
     return own_.is_established(now);
   }
-  /// Whether all who hear us believe our id: 0.85 s after the start or the last change, as long as
-  /// there is no dispute that we may lose.
+  /// Whether all peers that receive us accept our ID: 0.85 s after the start or the last change,
+  /// unless there is a dispute that we may lose.
   [[nodiscard]] bool is_settled() const noexcept { return own_.is_settled(); }
   [[nodiscard]] PresenceCounts counts() const noexcept;
-  /// When step has to be called next at the latest; duration max where there is nothing to do.
+  /// Deadline of the next step(); nanoseconds::max() if there is nothing to do.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  // Who comes, and who goes.
+  // Arrivals and departures.
   void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
                   const SourceAddress& from);
   void believe(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
@@ -195,21 +194,21 @@ class Presence {
   void bury(const Peer& peer, Nanoseconds now, bool said_goodbye);
   void remove(std::size_t index, PresenceEventKind why);
 
-  // What time settles.
+  // Time-outs.
   void wake(Nanoseconds now);
   void settle(Nanoseconds now);
   void settle_moves(Nanoseconds now);
   void settle_silence(Nanoseconds now);
   bool settle_claims(Nanoseconds now);  // whether a claimant has become the holder
-  bool fill_free_ids(Nanoseconds now);  // whether it gave one
+  bool fill_free_ids(Nanoseconds now);  // whether an ID was assigned
 
   PresenceConfig config_;
   PeerTable peers_;
   FormerLives former_;
   PresenceEvents events_;
-  PresenceCounts counts_;  // without those of the parts
+  PresenceCounts counts_;  // without the counts of the parts
   LifeChain chain_;        // our own proofs
-  ProofJudge proofs_;      // those of others
+  ProofJudge proofs_;      // proofs of others
   Liveness liveness_;
   SourcePins pins_;
   Claims claims_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What presence reports of the others and of ourselves, and the queue in which it waits.
+// Events of presence about other peers and this one, and their queue.
 #pragma once
 
 #include <chrono>
@@ -19,67 +19,66 @@ namespace reckon::aoim {
 
 /// What happened to a peer.
 enum class PresenceEventKind : std::uint8_t {
-  newcomer,          ///< same scene: joined. We introduce our entities to it now
-  restarted,         ///< same id, new epoch: drop what its former life left behind, introduce
-  renamed,           ///< it gave up the id `former`: drop the entities of that id, introduce
-  moved,             ///< it speaks from `source` now, no more from `other`, and has proved itself
-  departed,          ///< announced that it leaves, or lost its id: drop its entities
+  newcomer,          ///< same scene: joined. We introduce our entities
+  restarted,         ///< same ID, new epoch: drop the entities of the former one, introduce
+  renamed,           ///< it gave up the ID `former`: drop the entities of that ID, introduce
+  moved,             ///< its source is `source` now, no longer `other`, and it has proved that
+  departed,          ///< announced its end, or lost its ID: drop its entities
   timed_out,         ///< silent for six heartbeats: drop its entities
-  scene_mismatch,    ///< another scene or cell grid: reported once per life, not joined; drop its
+  scene_mismatch,    ///< another scene or cell grid: reported once per epoch, not joined; drop its
                      ///< entities
-  identity_changed,  ///< we lost a dispute: `announced` is ours with the new id, `former` the old
-                     ///< id
-  settled,      ///< we hold our id, and all who hear us believe it now: introduce. Not reported
-                ///< beyond the area-of-interest manager, see is_settled()
-  heard_late,   ///< it hears us, but did not when we introduced our entities: introduce again.
+  identity_changed,  ///< we lost a dispute: `announced` is ours with the new ID, `former` the old
+                     ///< ID
+  settled,           ///< we hold our ID, and all that receive us accept it: introduce. Not reported
+                     ///< beyond the area-of-interest manager, see is_settled()
+  heard_late,   ///< it receives us, but did not when we introduced our entities: introduce again.
                 ///< Not reported beyond the area-of-interest manager
-  disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
-                ///< from `other`; the holder speaks from `source`, none where that is this
-                ///< peer. Once per claimant
-  impostor,     ///< something in its name came from `other`, not from `source`; not believed.
-                ///< Once per life
-  crowd,        ///< `source` speaks for more peers than one may: the rest are not believed.
+  disputed,     ///< two peers hold one ID and do not settle it: `announced` claims it from the
+                ///< source `other`; the holder has `source`, empty for this peer. Once per
+                ///< claimant
+  impostor,     ///< a datagram with its epoch came from `other`, not from `source`; refused. Once
+                ///< per epoch
+  crowd,        ///< `source` has more peers than one may have: the rest are refused.
                 ///< Once per source
-  quiet,        ///< not heard for 2.5 s
-  unheard,      ///< its list reports that it does not hear us
-  heard_again,  ///< after quiet or unheard: both hear each other
-  slept,        ///< this peer itself stood still for `slept`: nobody else is to blame
+  quiet,        ///< not received for 2.5 s
+  unheard,      ///< its list shows that it does not receive us
+  heard_again,  ///< after quiet or unheard: both receive each other
+  slept,        ///< this peer itself was suspended for `slept`
 };
 
 struct PresenceEvent {
   PresenceEventKind kind = PresenceEventKind::newcomer;
-  pdu::Presence announced;  ///< last heard of the peer; of slept and settled: our own
+  pdu::Presence announced;  ///< last of the peer; for slept and settled: our own
   PeerId former;            ///< identity_changed and renamed only
-  /// restarted only: epoch of the life that is over.
+  /// restarted only: the former epoch.
   std::uint32_t former_epoch = 0;
-  SourceAddress source{};  ///< where the peer speaks from, if it is another's; see above
+  SourceAddress source{};  ///< source of another peer; see above
   SourceAddress other{};   ///< of disputed, impostor and moved
   std::chrono::nanoseconds slept{0};
-  std::chrono::nanoseconds heard_for{0};  ///< from its first word to its last one so far
+  std::chrono::nanoseconds heard_for{0};  ///< from its first to its last datagram
 
   [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
 
   struct Dropped {
     PeerId name;              ///< of its entities
-    std::uint32_t epoch = 0;  ///< of the life that announced them
+    std::uint32_t epoch = 0;  ///< that announced them
   };
-  /// Whose entities are not to be shown any more after this event; none after most.
+  /// The peer whose entities are no longer shown after this event, if any.
   [[nodiscard]] std::optional<Dropped> dropped() const noexcept;
 };
 
-/// Events that have not been taken. One thread; allocates nothing while no more than `capacity`
-/// wait.
+/// Pending events. One thread; allocates nothing for up to `capacity` events.
 class PresenceEvents {
  public:
   explicit PresenceEvents(std::size_t capacity);
 
-  /// Reports something of ourselves, or of one that has no row.
-  /// @return the event, to be completed; good until the next call
+  /// Reports an event of this peer, or of a peer without a row.
+  /// @return the event, to be completed; valid until the next call
   PresenceEvent& report(PresenceEventKind kind, const pdu::Presence& about);
-  /// Reports something of another peer, with its source and how long it has been heard.
+  /// Reports an event of another peer, with its source and the time since its first datagram.
   PresenceEvent& report(PresenceEventKind kind, const Peer& about);
 
-  /// Events since the last call, oldest first; the span is good until the next call.
+  /// Events since the last call, oldest first; valid until the next call.
   [[nodiscard]] std::span<const PresenceEvent> take();
 
  private:

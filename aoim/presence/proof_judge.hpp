@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Judges the proofs of announcements, and bounds what wrong ones from elsewhere cost.
+// Judges the proofs of announcements, and bounds the cost of wrong ones from other sources.
 #pragma once
 
 #include <chrono>
@@ -13,18 +13,18 @@ namespace reckon::aoim {
 /// One thread; allocates nothing. See LifeTip::judge.
 class ProofJudge {
  public:
-  /// @param one_way null: nothing is proved
+  /// @param one_way null: no proofs
   explicit ProofJudge(OneWay one_way) noexcept : one_way_(one_way) {}
 
-  /// @param tip of the life that `heard` speaks for  @param at_home whether it came from the source
-  /// of that life: such a proof is judged however many were wrong lately
+  /// @param tip of the epoch in `heard`  @param at_home whether it came from the source of that
+  /// epoch: such a proof is judged for any number of recent wrong ones
   [[nodiscard]] Opening judge(const LifeTip& tip, const pdu::Presence& heard,
                               std::chrono::nanoseconds now, bool at_home) noexcept;
 
  private:
   OneWay one_way_;
   std::chrono::nanoseconds wrong_since_ = std::chrono::nanoseconds::min() / 2;
-  std::uint32_t wrong_steps_ = 0;  // of the function for wrong proofs, since then
+  std::uint32_t wrong_steps_ = 0;  // calls of the function for wrong proofs, since then
 };
 
 }  // namespace reckon::aoim

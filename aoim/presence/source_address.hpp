@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whom a datagram came from, as far as this folder has to know: two of them are equal or not.
+// Source of a datagram. This folder only compares sources for equality.
 #pragma once
 
 #include <array>
@@ -9,12 +9,13 @@
 
 namespace reckon::aoim {
 
-/// UDP source address and port of a datagram, and who has proved to have sent it. A value. Where
-/// somebody has, that alone decides who it is: two of one boot are equal, from wherever they come.
+/// UDP source address and port of a datagram, and the boot number that its seal proves. With a seal
+/// only the boot number is compared: two sources with one boot are equal, for any addresses. A
+/// value type.
 struct SourceAddress {
   std::array<std::uint8_t, 16> octets{};  ///< an IPv6 address, or an IPv4 one as ::ffff:a.b.c.d
-  std::uint16_t port = 0;                 ///< 0: not known, as of a datagram read from a file
-  std::uint64_t boot = 0;                 ///< proved by the seal; 0 where nothing is sealed
+  std::uint16_t port = 0;                 ///< 0: unknown, for example in a file
+  std::uint64_t boot = 0;                 ///< proved by the seal; 0 without a seal
 
   constexpr bool operator==(const SourceAddress& other) const noexcept {
     return boot == other.boot && (boot != 0 || (octets == other.octets && port == other.port));
@@ -26,8 +27,8 @@ struct SourceAddress {
   }
 };
 
-/// Whether a peer pinned to the one address is believed from the other: before its source is known,
-/// from any.
+/// Whether a peer that is bound to the one source is accepted from the other. Any source is
+/// accepted while its own is unknown.
 [[nodiscard]] constexpr bool may_speak(const SourceAddress& pinned,
                                        const SourceAddress& from) noexcept {
   return pinned.port == 0 || pinned == from;

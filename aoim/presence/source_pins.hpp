@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Each peer is pinned to the source that it speaks from. Here a peer that has moved is
-// distinguished from one that only speaks in its name.
+// Binds each peer to its source address, and distinguishes a peer that has moved from an impostor.
 #pragma once
 
 #include <chrono>
@@ -15,34 +14,33 @@
 
 namespace reckon::aoim {
 
-/// Moves and impostors, of which the rows of the peers keep what is pending. One thread; allocates
-/// nothing.
+/// Moves and impostors. The rows of the peers hold the pending ones. One thread; allocates nothing.
 class SourcePins {
  public:
   /// @param config, events outlive this
   SourcePins(const PresenceConfig& config, PresenceEvents& events) noexcept
       : config_(config), events_(events) {}
 
-  /// Whether a believable announcement from elsewhere moves the peer at once. One that offers a
-  /// proof waits until its former source is known to be silent, see settle().
+  /// Whether an acceptable announcement from another source moves the peer at once. One with a
+  /// proof is pending until the former source is silent, see settle().
   [[nodiscard]] bool may_move(Peer& peer, const pdu::Presence& heard, std::chrono::nanoseconds now,
                               const SourceAddress& from);
-  /// The peer speaks from `to` from now on.
+  /// The source of the peer is `to` from now on.
   void move(Peer& peer, const SourceAddress& to);
 
-  /// A datagram in the name of the peer came from elsewhere. Of one that can prove itself it is
-  /// reported when it has not done so half a second later.
+  /// Notes a datagram with the peer's epoch from another source. If the peer can prove its
+  /// identity, the impostor is reported after half a second without a proof.
   void note_impostor(Peer& peer, const SourceAddress& from, std::chrono::nanoseconds now);
-  /// An announcement or list of such a one is refused, and counted.
+  /// Counts a refused announcement or list of an impostor.
   void refuse(Peer& peer, const SourceAddress& from, std::chrono::nanoseconds now);
-  /// The same where the claimant of an id was spoken for: counted only.
+  /// The same for an impostor of a claimant of an ID; it is only counted.
   void refuse() noexcept { ++refused_; }
 
-  /// Whether something is to be settled now: each peer is to be looked at then.
+  /// Whether a pending move or impostor is due, so that all peers must be checked.
   [[nodiscard]] bool begin_settling(std::chrono::nanoseconds now) noexcept;
-  /// Reports an impostor whose time is over. @return the move of the peer, if it has moved
+  /// Checks a peer; reports an impostor that is due. @return the move of the peer, if it has moved
   [[nodiscard]] std::optional<Move> settle(Peer& peer, std::chrono::nanoseconds now);
-  /// When something is to be settled; duration max where nothing is.
+  /// When a pending move or impostor is due; nanoseconds::max() if none is.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return next_; }
 
   /// Announcements and lists refused so far.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// After a partition two have held one id for long. Whom more of the others hear keeps it.
+// After a partition two established peers may hold the same ID. The one that more peers receive
+// keeps it.
 #pragma once
 
 #include <chrono>
@@ -13,24 +14,24 @@
 
 namespace reckon::aoim {
 
-/// Counts the witnesses of disputes about our id: those whose lists name us, and the rival. One
-/// thread; allocates nothing.
+/// Counts the witnesses of a dispute about our ID: the peers whose lists contain us, and those
+/// whose lists contain the rival. One thread; allocates nothing.
 class WitnessCount {
  public:
   /// @param config, peers, claims outlive this
   WitnessCount(const PresenceConfig& config, const PeerTable& peers, const Claims& claims) noexcept
       : config_(config), peers_(peers), claims_(claims) {}
 
-  /// Whether we lose our id to a rival; looked at four times a second at most, false between.
-  /// @param own our announcement  @param excess ids that we have lost in a row beyond those after
-  /// which a dispute lasts longer; negative: fewer
+  /// Whether we lose our ID to a rival; evaluated at most four times a second, false in between.
+  /// @param own our announcement  @param excess number of IDs lost in a row, less the number after
+  /// which a dispute lasts longer
   [[nodiscard]] bool is_against(const pdu::Presence& own, int excess,
                                 std::chrono::nanoseconds now) noexcept;
-  /// When a dispute about our id is to be looked at; duration max where there is none.
+  /// When a dispute about our ID must be checked; nanoseconds::max() if there is none.
   [[nodiscard]] std::chrono::nanoseconds next_step(PeerId own) const noexcept;
 
  private:
-  // How many list a peer: from how many addresses, and how many at all.
+  // How many peers list a peer: by addresses, and in total.
   struct Support {
     std::size_t addresses = 0, peers = 0;
     auto operator<=>(const Support&) const = default;

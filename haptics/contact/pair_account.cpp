@@ -8,8 +8,8 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kGreatestTotal = 1e6;     // [J], larger totals are nonsense
-constexpr double kGreatestBelieved = 0.1;  // [J], work that is kept in mind
+constexpr double kGreatestTotal = 1e6;     // [J], a larger total is invalid
+constexpr double kGreatestBelieved = 0.1;  // [J], bound of |believed|
 
 }  // namespace
 

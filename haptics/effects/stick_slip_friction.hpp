@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stick-slip friction as a cone on the surface contact point (SCP), see friction_cone.hpp. Declared
-// by `friction = {..}` of an object.
+// Stick-slip friction as a cone on the surface contact point (SCP), see friction_cone.hpp. A scene
+// file sets it with `friction = {..}` of an object.
 #pragma once
 
 #include <array>
@@ -19,13 +19,14 @@ struct Friction {
   double kinetic_coefficient = 0.35;  ///< at most static_coefficient
 };
 
-/// Holds the contact point: what the spring then feels is the friction.
+/// Holds the contact point back while the hand moves on. The spring between them then renders the
+/// friction force.
 class StickSlipFriction : public CountedEffect<StickSlipFriction> {
  public:
   using Parameters = Friction;
   static constexpr std::string_view kName = "stick_slip_friction";
   static constexpr std::string_view kKey = "friction";
-  static constexpr std::string_view kCost = "a square root a move";
+  static constexpr std::string_view kCost = "one square root for each move";
   static constexpr std::array<EffectParameter<Friction>, 2> kParameters{{
       {"static", "", &Friction::static_coefficient, 0.0, 10.0, 0.5,
        "Tangential over normal force at which a resting contact starts to slide; higher sticks "
@@ -45,12 +46,12 @@ class StickSlipFriction : public CountedEffect<StickSlipFriction> {
     }
   }
 
-  /// Hook: what holds the contact point.
+  /// Effect hook: the cone that holds the contact point.
   [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
 
   [[nodiscard]] const Friction& parameters() const noexcept { return friction_; }
 
-  /// Goes on with other values, which are in range: what slides goes on sliding.
+  /// Changes the coefficients, which must be in range. A sliding contact keeps sliding.
   void adjust(const Friction& friction) noexcept {
     friction_ = friction;
     cone_.adjust(friction.static_coefficient, friction.kinetic_coefficient);

@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The cone that holds a surface contact point (SCP): it rests until the tangential part of (device
-// - SCP) passes the static share of the normal part, then slides until it is down to the kinetic
-// share.
+// The friction cone that holds a surface contact point (SCP). The SCP rests until the tangential
+// part of (device - SCP) exceeds the static coefficient times the normal part. Then it slides until
+// that ratio is down to the kinetic coefficient.
 #pragma once
 
 #include <cstdint>
 
 namespace reckon::haptics {
 
-/// Passive: it only stops the SCP short of a goal, on a way along which |device - SCP| falls.
-/// Holds whether the contact slides; one object per contact, servo thread only.
+/// Passive: it only stops the SCP before its goal, on a path along which |device - SCP| decreases.
+/// Stores whether the contact slides. One object for each contact; servo thread only.
 class FrictionCone {
  public:
   /// Tangential over normal, both >= 0; kinetic is at most static.
   FrictionCone(double static_coefficient, double kinetic_coefficient) noexcept
       : static_(static_coefficient), kinetic_(kinetic_coefficient) {}
 
-  /// Coefficient that holds now: static at rest, kinetic while sliding. Counted as a call.
+  /// Present coefficient: static at rest, kinetic while sliding. Counts the call.
   [[nodiscard]] double coefficient(bool sliding) noexcept {
     ++calls_;
     return sliding ? kinetic_ : static_;
   }
 
-  /// How far from its frictionless goal the SCP stays [m].
+  /// Distance that the SCP keeps from its frictionless goal [m].
   /// @param lateral distance from the SCP to that goal [m]
   /// @param normal  summed normal displacement at the goal (force over stiffness) [m], >= 0
   [[nodiscard]] double held(double lateral, double normal, bool sliding) noexcept {
@@ -31,7 +31,7 @@ class FrictionCone {
     return kinetic_ * normal;
   }
 
-  /// Other coefficients from now on, as in the constructor.
+  /// Changes the coefficients; ranges as in the constructor.
   void adjust(double static_coefficient, double kinetic_coefficient) noexcept {
     static_ = static_coefficient;
     kinetic_ = kinetic_coefficient;

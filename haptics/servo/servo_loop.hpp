@@ -26,25 +26,24 @@ namespace reckon::haptics {
 /// The servo of one impedance device. Takes the newest ContactSet, publishes a ServoSnapshot every
 /// step.
 ///
-/// One ledger serves all contacts of the device. Walls may lean on at most 3/4 of its sure damping,
-/// so that something is left to show hands with.
+/// One energy port serves all contacts of the device. Walls may use at most 3/4 of the device's
+/// guaranteed damping; the rest is for hands.
 class ServoLoop {
  public:
   /// @param device outlives the loop; its limits are read once, here.
-  /// @param plan not null; only read, so that the servos of one process may share it and hold the
-  /// scene once
+  /// @param plan not null; never modified, so that all servos of a process may share it
   /// @throws std::invalid_argument when a setting is out of range; the text says which and why.
   ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
             const ServoConfig& config);
-  /// With a plan of its own.
+  /// The same with a plan that no other servo shares.
   ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& config);
 
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
   /// One servo period. @param now steady, never decreasing. Servo thread only; no allocation, no
-  /// lock, no clock. About 0.2 us beside what the device takes, and 0.35 us for each remote hand
-  /// near, plus the contact queries; logarithmic in the objects that are out of reach.
+  /// lock, no clock. About 0.2 us plus the device's own time, 0.35 us for each remote hand in
+  /// reach, and the contact queries. Logarithmic in the number of objects out of reach.
   void step(std::chrono::nanoseconds now) noexcept;
 
   /// The model loop writes the remote hands here.
@@ -52,24 +51,23 @@ class ServoLoop {
   /// The model loop reads the outcome here.
   [[nodiscard]] TripleBuffer<ServoSnapshot>& snapshots() noexcept { return snapshots_; }
 
-  /// Records every step from now on; nullptr stops. Call while the servo stands still.
+  /// Records every step from now on; nullptr stops. Call while no step runs.
   void trace(TraceRing* ring) noexcept { trace_ = ring; }
 
-  /// Stiffest surface [N/m] that the static scene is rendered with; stiffer ones are softened to
-  /// it.
+  /// Stiffness limit of the static scene [N/m]; stiffer surfaces are softened to it.
   [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
-  /// Fastest growth and turning of the force [N/s]; it may fall as fast as it likes.
+  /// Rate limit for growth and rotation of the force [N/s]. Its decrease is not limited.
   [[nodiscard]] double force_rate_limit() const noexcept { return max_rate_; }
-  /// Most power [W] that the force puts into a hand which gives way to it.
+  /// Most power [W] that the force puts into a yielding hand.
   [[nodiscard]] double power_limit() const noexcept { return max_power_; }
-  /// What the scene asks for [N/m].
+  /// Stiffness that the scene asks for [N/m].
   [[nodiscard]] double static_stiffness() const noexcept { return plan_->max_stiffness(); }
-  /// Stiffest remote hand [N/m]: half of what a wall could have, for two hands that press have the
-  /// energy of one spring between them.
+  /// Stiffness limit of a remote hand [N/m]: half that of a wall, because two hands that press each
+  /// other share the energy of one spring.
   [[nodiscard]] double remote_stiffness_limit() const noexcept;
-  /// Stiffest body that nobody holds [N/m].
+  /// Stiffness limit of a body that no device moves [N/m].
   [[nodiscard]] double body_stiffness_limit() const noexcept;
-  /// Sure damping of the device [N s/m].
+  /// Guaranteed damping of the device [N s/m].
   [[nodiscard]] double damping() const noexcept { return limits_.damping; }
   /// Greatest force [N] that is written to the device.
   [[nodiscard]] double force_limit() const noexcept { return step_.force_limit; }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a servo tells of a step.
+// The servo publishes the outcome of a step.
 #include <algorithm>
 
 #include "reckon/haptics/servo/servo_loop.hpp"
@@ -8,7 +8,7 @@
 
 namespace reckon::haptics {
 
-// All that was ever received, less all that was given.
+// Energy received from all remote hands since the start, less the energy given to them [J].
 double ServoLoop::transferred() const noexcept {
   double sum = resting_;
   for (const RemoteContact* remote : near()) {

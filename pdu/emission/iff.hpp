@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// IFF PDU (type 28): identification friend or foe: basic system data and further layers.
+// IFF PDU (type 28, identification friend or foe): basic system data and further layers.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffLayer> == 4);
 
-/// What layer 2 says of the emission; its fundamental parameter data follow.
+/// Layer 2: emission data. Fundamental parameter data records follow it.
 struct IffEmission {
   BeamData scan;
   std::uint8_t operational_parameter_1 = 0;
@@ -65,7 +65,7 @@ struct IffFundamentalParameters {
   float pulse_width = 0.0F;  ///< [us]
   std::uint32_t burst_length = 0;
   std::uint8_t applicable_modes = 0;
-  std::array<std::uint8_t, 3> system_specific_data{};  ///< padding up to DIS 6
+  std::array<std::uint8_t, 3> system_specific_data{};  ///< padding before DIS 7
 };
 
 template <typename Visitor, Is<IffFundamentalParameters> Record>
@@ -80,7 +80,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffFundamentalParameters> == 24);
 
-/// Layer 5: data of a category, for some of the layers.
+/// Layer 5: data records of one category that apply to `applicable_layers`.
 struct IffDataLayer {
   SimulationAddress reporting_simulation;
   std::uint16_t padding_1 = 0;
@@ -101,8 +101,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffDataLayer> == 12);
 
-/// Layer 3: Mode 5; its basic data are of a transponder or of an interrogator, which the layer does
-/// not say.
+/// Layer 3: Mode 5. The basic data are those of a transponder or of an interrogator; nothing in the
+/// layer distinguishes them.
 struct IffMode5Layer {
   SimulationAddress reporting_simulation;
   std::array<std::uint8_t, 16> mode_5_basic_data{};
@@ -119,7 +119,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffMode5Layer> == 24);
 
-/// A head and the data records that it announces; false where they are not all of the body.
+/// Visits a head and its data records. False if they do not fill the body exactly.
 template <typename Head, typename Visitor>
 bool show_iff_layer(Visitor& visitor, std::span<const std::byte> body) {
   Head head;
@@ -146,7 +146,7 @@ bool show_iff_emission(Visitor& visitor, std::span<const std::byte> body) {
   return true;
 }
 
-/// Layers 2, 3 and 5 by their fields where these take the whole layer; all else as octets.
+/// Visits layers 2, 3 and 5 field by field if the fields fill the layer, anything else as octets.
 template <typename Visitor>
 void parts(Visitor& visitor, const IffLayer& layer, std::span<const std::byte> body) {
   const bool shown = (layer.layer_number == 2 && show_iff_emission(visitor, body)) ||
@@ -170,7 +170,7 @@ struct Iff {
   std::uint8_t change_options = 0;
   std::uint8_t system_designator = 0;     ///< from DIS 7 on
   std::uint8_t system_specific_data = 0;  ///< from DIS 7 on
-  std::uint16_t padding = 0;              ///< in their place up to DIS 6
+  std::uint16_t padding = 0;              ///< before DIS 7, instead of the two fields above
   std::uint8_t system_status = 0;
   std::uint8_t alternate_parameter_4 = 0;
   std::uint8_t information_layers = 0;  ///< which layers are present

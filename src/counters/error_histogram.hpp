@@ -15,8 +15,8 @@ struct Spread {
   std::uint64_t count = 0;
 };
 
-/// Distribution of the size of an error in any SI unit: 1e-9 of the unit resolved, buckets 3 %
-/// wide, up to 1000 units. add() by one thread, spread() by any; no allocation.
+/// Distribution of the size of an error in any SI unit, from 1e-9 to 1000 units in buckets 3 %
+/// wide. One thread calls add(), any thread calls spread(). No allocation.
 class ErrorHistogram {
  public:
   /// Negative, NaN or above 1000 units counts as 1000 units. About 5 ns.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What can be no datagram of this exercise is refused where it is read: that costs less than to
-// queue it.
+// Refuses datagrams that cannot belong to this exercise. The reader refuses them at once, which
+// costs less than to queue them.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@ namespace reckon::peer {
 /// Why a datagram is refused.
 enum class Refusal : std::uint8_t {
   none,
-  version,   ///< its first octet is no DIS version that is read
-  length,    ///< it has no whole PDU header, or one that says to be shorter than a header
-  exercise,  ///< its first PDU is of another exercise
+  version,   ///< its first octet is not a supported DIS version
+  length,    ///< it is shorter than a PDU header, or its PDU length is
+  exercise,  ///< its first PDU belongs to another exercise
   sealed,    ///< it is sealed, and the link has no key
 };
 inline constexpr std::size_t kRefusals = 5;
 
-/// Looks at the first PDU header of a datagram; what passes is read with all rules later. Some ns,
-/// no allocation.
+/// Checks the first PDU header of a datagram. Later stages apply all other rules. Some ns, no
+/// allocation.
 [[nodiscard]] inline Refusal refuse_at_gate(std::span<const std::byte> datagram,
                                             std::uint8_t exercise) noexcept {
   const auto octet = [&](std::size_t at) { return std::to_integer<unsigned>(datagram[at]); };

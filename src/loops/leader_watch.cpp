@@ -54,7 +54,7 @@ LeaderWatch::LeaderWatch(Counters& counters, bool on) {
   led_ = &counters.make("cells_led", "cells that this peer leads");
   map_version_ = &counters.make("group_map_version", "version of the map of groups that is in use");
   relayed_in_ =
-      &counters.make("states_relayed_in", "states that leaders relayed to this peer when it came");
+      &counters.make("states_relayed_in", "states that leaders relayed to this peer as a newcomer");
   parts_out_ =
       &counters.make("snapshot_parts_out", "parts of snapshots that this peer sent as a leader");
 }

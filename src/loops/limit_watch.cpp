@@ -19,8 +19,7 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       read_waits_{
           counters.make("read_waits", "times that reading waited for a model loop that lags")},
       models_refused_{counters.make("models_refused", "force models with impossible values")},
-      sealed_{counters.make("sealed_unread_in", "sealed datagrams heard by a peer without a key")} {
-}
+      sealed_{counters.make("sealed_unread_in", "sealed datagrams received without a key")} {}
 
 Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
   const std::uint64_t value = counter.value();

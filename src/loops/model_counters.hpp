@@ -16,16 +16,14 @@ struct ModelCounters {
             "datagrams_refused",
             "datagrams doubled, of a former life, another scene or exercise, a stranger, or of a "
             "group left since")),
-        unicast_refused(counters.make("unicast_refused",
-                                      "datagrams sent to this host alone, which no peer does")),
+        unicast_refused(counters.make("unicast_refused", "unicast datagrams, which no peer sends")),
         orders_refused(counters.make(
             "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
         interactions_refused(counters.make(
             "interactions_refused",
-            "fires, detonations and other PDUs that are no states, said in another's name")),
+            "interactions (Fire, Detonation, ..) of a sender that does not own the issuer")),
         lost(counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
-        leaps(counters.make("sequence_leaps",
-                            "datagrams numbered too far from those before to be believed alone")),
+        leaps(counters.make("sequence_leaps", "datagrams with a sequence number too far ahead")),
         doubled(counters.make("datagrams_doubled", "datagrams that arrived again")),
         reordered(counters.make("datagrams_reordered", "datagrams that were overtaken")),
         numberings_given_up(counters.make(

@@ -15,14 +15,12 @@ namespace reckon::peer {
 /// The counters of an owner. Made at set-up; `counters` outlives them.
 struct SendCounters {
   explicit SendCounters(Counters& counters)
-      : checks(counters.make("send_checks", "decisions whether the own hand has to be sent")),
-        updates(counters.make("updates_out", "own updates sent, for whatever reason")),
+      : checks(counters.make("send_checks", "decisions whether an own entity is due")),
+        updates(counters.make("updates_out", "own updates sent, for any reason")),
         held_back(counters.make("updates_held_back",
-                                "own updates that waited, for nobody is near who needs them yet")),
-        felt(counters.make("updates_felt",
-                           "own updates that went to a contact group, for those within reach")),
-        near(counters.make("updates_near",
-                           "own updates that went to a near group, for those who are near")),
+                                "own updates held back, because no receiver needs them yet")),
+        felt(counters.make("updates_felt", "own updates sent to a contact group")),
+        near(counters.make("updates_near", "own updates sent to a near group")),
         octets(counters.make("own_octets",
                              "octets of own updates: Entity States and their records of force")) {
     for (std::size_t i = 1; i < by_reason.size(); ++i) {

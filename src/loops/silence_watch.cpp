@@ -12,9 +12,8 @@ namespace reckon::peer {
 using std::chrono::nanoseconds;
 
 SilenceWatch::SilenceWatch(Counters& counters)
-    : doubted_(counters.make("peers_doubted",
-                             "times that a peer was silent for so long that what it owns was "
-                             "brought to rest")) {
+    : doubted_(
+          counters.make("peers_doubted", "times that the entities of a silent peer were stopped")) {
   doubts_.reserve(aoim::PresenceConfig{}.capacity);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A list of the hosts of an exercise, for networks without multicast: as it is written, and the
-// addresses that it names.
+// The list of hosts of an exercise, for networks without multicast: its text form, and its host
+// names resolved to addresses.
 #pragma once
 
 #include <cstddef>
@@ -14,30 +14,30 @@ namespace reckon::peer {
 
 struct IpEndpoint;
 
-/// Most addresses of a list: each datagram is sent so many times.
+/// Most addresses in a list. A datagram is sent once to each of them.
 inline constexpr std::size_t kMostUnicastPeers = 256;
 
-/// One address of a list as it is written: "10.0.0.7", "host-b:3001", "[2001:db8::7]:3001".
+/// One entry of a list: "10.0.0.7", "host-b:3001", "[2001:db8::7]:3001".
 struct NamedPeer {
   std::string host;
-  std::uint16_t port = 0;  ///< 0: that of the exercise
-  /// As it is read.
+  std::uint16_t port = 0;  ///< 0: the port of the exercise
+  /// The text that parse_peer() reads.
   [[nodiscard]] std::string text() const;
   friend bool operator==(const NamedPeer&, const NamedPeer&) = default;
 };
 
-/// Reads one; blanks around it are passed over. @throws std::invalid_argument with the item and the
-/// remedy
+/// Reads one entry and ignores blanks around it. @throws std::invalid_argument with the entry and
+/// the remedy
 [[nodiscard]] NamedPeer parse_peer(std::string_view text);
 
-/// @throws std::invalid_argument where there are more than kMostUnicastPeers
+/// Checks the length of a list. @throws std::invalid_argument for more than kMostUnicastPeers
 void check_number(const std::vector<NamedPeer>& peers);
 
-/// Reads a list, commas between. @throws as these two
+/// Reads a list separated by commas. @throws as parse_peer() and check_number()
 [[nodiscard]] std::vector<NamedPeer> parse_peers(std::string_view list);
 
-/// Their addresses, each once, names looked up now; may take seconds. @throws std::runtime_error
-/// with the name that is not known, or knows no address of that family
+/// Resolves the host names and returns each address once. The look-up may take seconds. @throws
+/// std::runtime_error with a name that is unknown or has no address of this family
 [[nodiscard]] std::vector<IpEndpoint> resolve_peers(const std::vector<NamedPeer>& peers,
                                                     std::uint16_t port, bool ipv6);
 

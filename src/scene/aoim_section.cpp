@@ -52,30 +52,29 @@ Section<AoimConfig> aoim_section() {
   Section<AoimConfig> section{
       {
           {"scheme", &AoimConfig::scheme,
-           "how space is cut into cells: equal squares or hexagons, a square that is divided where "
-           "many are, or locales such as rooms"},
+           "how space is divided into cells: equal squares, equal hexagons, a quad-tree that is "
+           "finer in crowds, or locales such as rooms"},
           {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
            "side of a square, corner radius of a hexagon"},
           {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
           {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
            "multicast groups after the base group; not 2 or 3"},
           {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),
-           "of the pool, joined at once at most; what is beyond is not received, and reported"},
+           "groups of the pool that are joined at most at the same time; more are reported and not "
+           "received"},
           {"leaders", &AoimConfig::leaders,
-           "each cell has a leader, who tells what is in it to those that come late; the same for "
-           "all peers"},
-          {"hand_out", &AoimConfig::hand_out,
-           "with leaders: who leads the scene gives each cell in which somebody is a group of the "
-           "pool, as long as there are some; else cells that lie a tile apart share one; the same "
+           "each cell has a leader that sends the states of its entities to newcomers; the same "
            "for all peers"},
+          {"hand_out", &AoimConfig::hand_out,
+           "with leaders: the leader of the scene gives each occupied cell a group of the pool "
+           "while there are free ones; otherwise cells one tile apart share a group; the same for "
+           "all peers"},
           {"follow", &AoimConfig::follow,
-           "with `hand_out`: beacons of entities, as in \"gate, ferry\", whose cells are listened "
-           "to "
-           "and whose contents are shown, wherever they are"},
+           "with `hand_out`: names of beacons, for example \"gate, ferry\"; this peer joins their "
+           "cells, wherever they are, and shows the entities there"},
           {"tier", &AoimConfig::tiers, tier_section(),
-           "who receives an update, how often and how well, inmost first: those who can touch the "
-           "entity, then by distance; when absent, everything goes to all; the same for all "
-           "peers"},
+           "recipient tiers, nearest first: which peers receive an update, how often and how "
+           "accurately; when absent, all peers receive everything; the same for all peers"},
       },
       check_aoim};
   for (const auto& rows : {cell_rows(), awareness_rows()})

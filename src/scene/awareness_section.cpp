@@ -17,10 +17,10 @@ Section<NimbusClass> nimbus_section() {
   const auto text = [](const NimbusClass&) { return std::string(); };
   return {{
               {"type", text,
-               "required; as in [[entity]], where missing ones and 0 are any: \"1.1\" is all that "
-               "is on land"},
+               "required; as in [[entity]]; missing numbers and 0 match any: \"1.1\" is all land "
+               "platforms"},
               {"reach", &NimbusClass::nimbus, within("m", 0, kWorld),
-               "so far beyond `radius` they are sensed; cells are joined as far"},
+               "they are sensed this far beyond `radius`; cells are joined that far too"},
           },
           [](TomlReader& table, NimbusClass& one) {
             table.require("type");
@@ -62,13 +62,13 @@ std::vector<Row<AoimConfig>> awareness_rows() {
        "count "
        "as longer until that is met, and the others are informed; 0 is no bound"},
       {"kinds", of(&Config::kinds),
-       "of entities that are shown, as in \"platform, life form\"; when absent, all"},
+       "kinds of entities that are shown, for example \"platform, life form\"; when absent, all"},
       {"aura", of(&Config::aura), within("m", 0, kWorld),
-       "nothing farther from ours is shown, whatever its reach; 0 is no bound"},
+       "entities farther away than this are never shown; 0 is no bound"},
       {"nimbus", of(&Config::nimbus), nimbus_section(),
-       "some types of entities are sensed from farther away; the first that fits holds"},
+       "types of entities that are sensed from farther away; the first match applies"},
       {"occluder", of(&Config::occluders), occluder_section(),
-       "a solid box: what is behind it is not shown"},
+       "a solid box; entities behind it are not shown"},
   };
 }
 

@@ -20,21 +20,21 @@ Section<QuadTreeConfig> quad_tree_section() {
   return {
       {
           {"centre", &Config::centre, within("m", -kWorld, kWorld),
-           "of the square that is divided; its height plays no part"},
+           "centre of the square that is divided; height is ignored"},
           {"side", &Config::side, within("m", 0.01, kWorld),
-           "of that square; what is outside belongs to the nearest cell"},
+           "side of that square; positions outside belong to the nearest cell"},
           {"smallest", &Config::smallest, within("m", 0.01, kWorld), "no cell has a shorter side"},
           {"most", &Config::most, within("", 0, aoim::kMaximumPool),
-           "cells at most; 0: as many as there are groups, or with `hand_out` 1000"},
+           "most cells; 0: one for each group, or 1000 with `hand_out`"},
           {"density", &Config::density,
-           "a sample of where entities are, CSV with x_m,y_m (or px_m,py_m) and where there "
-           "are several instants t_s, beside the scene file: the square is quartered where "
-           "most would be heard that is out of `reach`"},
+           "sample of entity positions, CSV with x_m,y_m (or px_m,py_m) and, for several instants, "
+           "t_s, beside the scene file; cells are divided where peers would receive most from "
+           "beyond `reach`"},
           {"reach", &Config::reach, declared("m", 0.01, kWorld),
-           "with `density`: how far they sense; `radius` as most peers have it"},
+           "with `density`: how far they sense; the usual `radius` of the peers"},
           {"leaves", &Config::leaves,
-           "instead of `density`, cells by the quarters that lead to each (east 1, north 2), as "
-           "in \"0 1 2 30 31 32 33\"; what lies in none is in cells as large as can be"},
+           "instead of `density`: each cell by the quarters that lead to it (east 1, north 2), for "
+           "example \"0 1 2 30 31 32 33\"; the rest of the square gets the largest possible cells"},
       },
       [](TomlReader& table, QuadTreeConfig&) {
         (void)only_one(table, {"density", "leaves"}, "where the square is divided");
@@ -46,25 +46,26 @@ Section<QuadTreeConfig> quad_tree_section() {
 
 Section<LocaleConfig> locale_section() {
   using Config = LocaleConfig;
-  return {{
-              {"name", &Config::name, "required; unlike all others, without commas"},
-              {"origin", &Config::origin, within("m", -kWorld, kWorld),
-               "of its own frame, in S: its middle"},
-              {"yaw", &Config::yaw, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-               "of its x axis, anticlockwise from east, seen from above"},
-              {"size", &Config::size, within("m", 0, kWorld),
-               "along its own x, y and z axes; a z of 0 is any height"},
-              {"neighbours", &Config::neighbours,
-               "names, as in \"hall, stairs\"; of two either may name the other"},
-          },
-          [](TomlReader& table, LocaleConfig& locale) {
-            table.require("name");
-            table.require("size");
-            if (locale.name.find(',') != std::string::npos)
-              table.problem("name", "'name' has a comma, which lists of neighbours are parted by");
-            if (table.has("size") && locale.size.head<2>().minCoeff() <= 0)
-              table.problem("size", "'size' is 0 along x or y: a locale has an area");
-          }};
+  return {
+      {
+          {"name", &Config::name, "required; unlike all others, without commas"},
+          {"origin", &Config::origin, within("m", -kWorld, kWorld),
+           "centre, the origin of its own frame, in S"},
+          {"yaw", &Config::yaw, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
+           "direction of its x axis, anticlockwise from east, seen from above"},
+          {"size", &Config::size, within("m", 0, kWorld),
+           "sides along its own x, y and z axes; z = 0 is any height"},
+          {"neighbours", &Config::neighbours,
+           "names of adjacent locales, for example \"hall, stairs\"; one of two names the other"},
+      },
+      [](TomlReader& table, LocaleConfig& locale) {
+        table.require("name");
+        table.require("size");
+        if (locale.name.find(',') != std::string::npos)
+          table.problem("name", "'name' has a comma, which lists of neighbours are parted by");
+        if (table.has("size") && locale.size.head<2>().minCoeff() <= 0)
+          table.problem("size", "'size' is 0 along x or y: a locale has an area");
+      }};
 }
 
 /// The cells that `leaves` names; what is no cell is a problem.

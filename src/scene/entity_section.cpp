@@ -165,7 +165,7 @@ Section<TouchModel> force_model_section() {
           {"normal", &Model::normal, within("", -1e6, 1e6),
            "outwards, body axes; the default is up"},
           {"validity", &Model::validity, within("s", 12, 65),
-           "after so long without an update the force fades out"},
+           "the force fades out after this time without an update"},
           {"mass", &Model::mass, within("kg", 0, 1e9), "of the entity; 0: not stated"},
           {"restitution", &Model::restitution, within("", 0, 1), "0 plastic, 1 elastic"},
       },
@@ -231,16 +231,17 @@ Section<EntityConfig> entity_section() {
        "scene file"},
       {"speed", &Entity::speed, within("", 0.01, 100), "of the track: 2 plays twice as fast"},
       {"repeat", &Entity::repeat,
-       "the track begins again at its end, else it stays there; absent: where its ends meet"},
+       "the track starts again at its end, otherwise the entity stays there; when absent: true if "
+       "its ends meet"},
       {"dead_reckoning", dead_reckoning, own_dead_reckoning_section(),
-       "how far remote copies of it may be off"},
+       "error of remote copies at which an update is sent"},
       {"force_model", model, force_model_section(),
-       "what hands feel of it; none: they pass through"},
+       "what hands feel of it; when absent, they pass through"},
       {"power", &Entity::power, within("W", 0, 1e3),
-       "that a moving one may give to the hands it pushes"},
+       "most power that it gives to hands while it moves"},
       {"beacon", &Entity::beacon,
-       "with `hand_out`: its cell can be found by this name, wherever it goes: letters, digits, "
-       "'-', '_', '.'; unlike all others"},
+       "with `hand_out`: a unique name by which peers find its cell, wherever it goes: letters, "
+       "digits, '-', '_', '.'"},
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;

@@ -17,14 +17,10 @@ namespace {
 using enum Condition;
 
 constexpr std::array<std::string_view, 8> kWords{
-    "datagrams that plain DIS does not know",
-    "more than one multicast group",
-    "groups that stay those of their cells",
-    "Entity States in their plain form",
-    "Entity States of which nothing is left out",
-    "all who listen to a cell to receive the same",
-    "leaders of cells",
-    "a map of the groups that are handed out",
+    "experimental PDUs",          "more than one multicast group",
+    "fixed groups for each cell", "Entity States in their plain form",
+    "complete Entity States",     "the same updates for all receivers of a cell",
+    "leaders of cells",           "a map of groups",
 };
 
 std::string_view words_of(Condition condition) {

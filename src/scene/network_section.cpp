@@ -19,8 +19,8 @@ Section<BundleClass> bundle_class_section() {
   const auto text = [](const BundleClass&) { return std::string(); };
   return {{
               {"type", text,
-               "required; as in [[entity]], where missing ones and 0 are any: \"1.1\" is all that "
-               "is on land"},
+               "required; as in [[entity]]; missing numbers and 0 match any: \"1.1\" is all land "
+               "platforms"},
               {"hold", in(&BundleClass::policy, &BundlePolicy::hold), within("s", 0, 1),
                "as in [network.bundle]"},
               {"updates", in(&BundleClass::policy, &BundlePolicy::updates),
@@ -37,11 +37,12 @@ Section<NetworkConfig> bundle_section() {
       {"max", &NetworkConfig::bundle_max, within("B", aoim::kLeastPayload, kMaxDatagram),
        "payload of a datagram, headers of IP and UDP not counted"},
       {"hold", in(&NetworkConfig::bundle, &BundlePolicy::hold), within("s", 0, 1),
-       "a pose that is off or due waits so long for company; events and forces leave at once"},
+       "a due pose waits at most this long for others in its bundle; events and forces are sent at "
+       "once"},
       {"updates", in(&NetworkConfig::bundle, &BundlePolicy::updates), within("", 0, kMaxDatagram),
-       "so many leave together before that time is up; 0: as many as fit"},
+       "a bundle with this many poses is sent at once; 0: as many as fit"},
       {"class", &NetworkConfig::bundle_classes, bundle_class_section(),
-       "another policy for some types of entities; the first that fits holds"},
+       "another policy for some types of entities; the first match applies"},
   }};
 }
 
@@ -136,7 +137,7 @@ Section<NetworkConfig> network_section() {
           {"interop", &NetworkConfig::interop,
            "plain DIS to the base group, for other DIS programs"},
           {"exercise", &NetworkConfig::exercise, within("", 1, 255),
-           "DIS exercise; others are not heard"},
+           "DIS exercise; PDUs of other exercises are ignored"},
           {"ttl", &NetworkConfig::ttl, within("", 1, 255), "hops; 1 stays on this LAN"},
           {"iface", &NetworkConfig::iface,
            "interface name or address; when absent, chosen by the rule that `reckon doctor` "
@@ -150,18 +151,17 @@ Section<NetworkConfig> network_section() {
            "key file beside the scene file: the exercise is sealed, on the port above `port`; "
            "when absent, plain DIS"},
           {"peers", peers,
-           "where there is no multicast: to whom each datagram goes, as in [\"10.0.0.7\", "
-           "\"host-b:3001\"], all peers the same list; `--to` goes before it"},
+           "for networks without multicast: the hosts that receive each datagram, for example "
+           "[\"10.0.0.7\", \"host-b:3001\"]; the same list for all peers; `--to` overrides it"},
           {"allow_management", management,
-           "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
-           "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},
+           "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this scene), "
+           "anyone, or a list of site:application, for example \"1:2, 40:1\""},
           {"touch", touch,
-           "whose bodies are felt: all, members (who has proved to have the `key`), or "
-           "site:application of the peers that may, as in [\"1:2\", \"40:1\"]; a program of plain "
-           "DIS bears no such name"},
+           "whose bodies are felt: all, members (peers that have proved to have the `key`), or a "
+           "list of site:application, for example [\"1:2\", \"40:1\"]; plain DIS programs are "
+           "never in a list"},
           {"strangers_memory", &NetworkConfig::strangers_memory, within("B", 65536, 1e12),
-           "what is kept of entities of plain DIS programs takes no more; 32 MiB hold 12,000 to "
-           "30,000 of them"},
+           "memory for entities of plain DIS programs; 32 MiB hold 12,000 to 30,000 of them"},
           {"compression", &NetworkConfig::compression,
            "of Entity States, the same for all peers: compact: rounded and short, each complete; "
            "residual: what cannot be predicted from the last ones"},
@@ -174,7 +174,7 @@ Section<Outage> outage_section() {
   return {{
       {"start", &Outage::start, within("s", 0, 1e9), "after the start of the run"},
       {"duration", &Outage::duration, within("s", 0, 1e9), "how long"},
-      {"period", &Outage::period, within("s", 0, 1e9), "again each such time; 0 is once"},
+      {"period", &Outage::period, within("s", 0, 1e9), "repeated after this time; 0 is once"},
   }};
 }
 
@@ -185,20 +185,22 @@ Section<ImpairmentConfig> impairment_section() {
       {
           {"delay", law(&Law::delay), within("s", 0, 10), "one way"},
           Row<ImpairmentConfig>("jitter", law(&Law::jitter), within("s", 0, 10),
-                                "delay varies uniformly by so much either way")
+                                "delay varies uniformly by this much in both directions")
               .or_share_of("delay"),
-          {"loss", law(&Law::loss), within("", 0, 1), "share of datagrams lost, each for itself"},
+          {"loss", law(&Law::loss), within("", 0, 1),
+           "share of datagrams lost, independently of each other"},
           {"burst_loss", law(&Law::burst_loss), within("", 0, 0.999),
            "share of datagrams lost in bursts"},
           {"burst_length", law(&Law::burst_length), within("", 1, Law::kMostBurstLength),
            "mean datagrams in such a burst"},
           {"reorder", law(&Law::reorder), within("", 0, 1), "share of datagrams held back"},
-          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10), "for so long"},
+          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10),
+           "how long they are held back"},
           {"duplicate", law(&Law::duplicate), within("", 0, 1),
-           "share of datagrams that come twice"},
+           "share of datagrams that arrive twice"},
           {"seed", &ImpairmentConfig::seed, within("", 0, 9007199254740992.0),
-           "equal seeds give equal damage"},
-          {"outage", law(&Law::outages), outage_section(), "a time in which nothing passes"},
+           "equal seeds give equal impairment"},
+          {"outage", law(&Law::outages), outage_section(), "a time in which no datagram passes"},
       },
       check_impairment};
 }

@@ -128,7 +128,7 @@ Section<haptics::SceneObject> object_section() {
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
        "turned about S's x, then y, then z axis"},
       {"patch", patches, patch_section(),
-       "mesh: the faces of a material or group, which feel otherwise"},
+       "mesh: the faces of a material or group with other properties"},
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;

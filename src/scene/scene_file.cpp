@@ -131,7 +131,7 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
   config.kind = value_of<OperatorKind>(kind).value_or(config.kind);
   bool passive = true;
   table.read("passive", passive);
-  if (!passive) table.problem("passive", "'passive' is false: take the line out, or say true");
+  if (!passive) table.problem("passive", "'passive' is false: remove the line, or write true");
 }
 
 void refuse_baseline(const SceneFile& scene) {
@@ -173,7 +173,7 @@ SceneFile load_scene_file(const std::filesystem::path& path) {
   if (!fs::exists(path, error))
     throw SceneFileError(
         path.string(),
-        {{0, 0, "there is no such file; name a scene file, as in scenes/two_hands.toml"}});
+        {{0, 0, "there is no such file; name a scene file, for example scenes/two_hands.toml"}});
   if (fs::is_directory(path, error)) throw SceneFileError(path.string(), {{0, 0, "is a folder"}});
   SceneFile scene = parse_scene_file(read_bytes(path), path.string(), path.parent_path());
   scene.path = path;

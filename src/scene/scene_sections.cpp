@@ -38,7 +38,7 @@ namespace {
 
 Section<SceneFile> scene_section() {
   return {{
-      {"name", &SceneFile::name, "for people; the file's name without its ending when absent"},
+      {"name", &SceneFile::name, "for display; when absent, the file name without its ending"},
       {"origin", &SceneFile::origin, origin_section(),
        "where the scene's frame S (east, north, up) stands"},
   }};
@@ -59,7 +59,7 @@ Section<HandModel> hand_section() {
           {"kinetic_friction", &HandModel::kinetic_friction, within("", 0, 10),
            "coefficient; 0 is no friction"},
           {"validity", &HandModel::validity, within("s", 12, 65),
-           "after so long without an update the force fades out"},
+           "the force fades out after this time without an update"},
       },
       check_hand};
 }
@@ -68,8 +68,7 @@ Section<OperatorConfig> sweep_section() {
   return {{
       {"from", &OperatorConfig::from, within("m", -kWorld, kWorld), "one end, in S"},
       {"to", &OperatorConfig::to, within("m", -kWorld, kWorld), "the other end, in S"},
-      {"period", &OperatorConfig::period, within("s", 0.01, 86400),
-       "there and back, a sine in time"},
+      {"period", &OperatorConfig::period, within("s", 0.01, 86400), "period, sinusoidal motion"},
   }};
 }
 
@@ -101,21 +100,20 @@ Section<DeadReckoningConfig> dead_reckoning_section() {
            "DRM of IEEE 1278.1: F/R without or with rotation, P/V velocity or acceleration, W/B "
            "world or body axes; auto: the one that needs the fewest updates, as the motion goes"},
           {"position", threshold(&Thresholds::position), within("m", 1e-6, 1e4),
-           "an update goes out when copies are off by more"},
+           "an update is sent if the error of remote copies exceeds this"},
           {"angle", threshold(&Thresholds::angle), within("rad", kPi / 180e3, kPi),
            "the same for the orientation"},
           {"force", threshold(&Thresholds::force), within("N", 1e-4, 1e3),
            "the same for the contact force"},
           {"force_share", threshold(&Thresholds::weber), within("", 0, 1),
-           "or by more than this share of the force, where that is more; people notice 0.07 to "
-           "0.1"},
+           "or this share of the force, if that is larger; people notice 0.07 to 0.1"},
           {"rule", &Config::rule,
            "how `position` is meant: " + meanings_of(deadreckon::kSendRules)},
           {"acceleration", &Config::acceleration,
            "what peers mean by it in rvb: the rate of the velocity's body components, or the "
            "acceleration itself in body axes; must be the same for all"},
           {"heartbeat", &Config::heartbeat, within("s", 0.1, 60),
-           "an update at least so often; silence for 2.4 of these is a time-out"},
+           "longest time between two updates; silence for 2.4 times this is a time-out"},
       },
       check_dead_reckoning};
   const auto behind =
@@ -136,18 +134,19 @@ Section<ConvergenceConfig> convergence_section() {
        "velocity, quintic none in acceleration"},
       {"duration", setting(&ConvergenceSettings::duration),
        within("s", ConvergenceSettings::kLeastDuration, ConvergenceSettings::kMostDuration),
-       "in this time; longer is smoother and wrong for longer"},
+       "duration of convergence; longer is smoother and less accurate"},
       {"longest", setting(&ConvergenceSettings::longest),
        within("s", ConvergenceSettings::kLeastDuration, 10),
-       "a large error takes up to this, so that its correction looks like motion; at most "
-       "`duration` is a fixed time"},
+       "longest convergence, for large errors, so that the correction looks like motion; if it is "
+       "not above `duration`, the duration is fixed"},
       {"teleport_distance", setting(&ConvergenceSettings::teleport_distance),
-       within("m", 1e-3, kWorld), "what is off by more was moved on purpose: shown there at once"},
+       within("m", 1e-3, kWorld),
+       "a larger error is a discontinuity: the entity is shown at its new position at once"},
       {"teleport_angle", setting(&ConvergenceSettings::teleport_angle),
        within("rad", kPi / 180, kPi), "the same for the orientation; 180 deg is never"},
       {"prediction", &ConvergenceConfig::prediction,
-       "what is shown follows the model of the last update, or what predicted the last updates "
-       "best; forces always follow the model"},
+       "the shown pose follows the model of the last update, or the model that predicted the last "
+       "updates best; forces always follow the former"},
   }};
 }
 
@@ -168,20 +167,21 @@ Section<OperatorConfig> operator_section() {
           {"trace", &OperatorConfig::trace,
            "a recorded hand, CSV with t_s,px_m,py_m,pz_m, beside the scene file"},
           {"passive", no_key, "a hand that holds still at `position`"},
-          {"sweep", std::identity(), sweep_section(), "a hand that goes to and fro along a line"},
+          {"sweep", std::identity(), sweep_section(),
+           "a hand that moves back and forth along a line"},
           {"position", &OperatorConfig::position, within("m", -kWorld, kWorld),
            "passive: where it rests; trace: added to every point"},
           {"speed", &OperatorConfig::speed, within("", 0.01, 100), "trace: 2 plays twice as fast"},
           {"begin", &OperatorConfig::begin, within("s", 0, 86400),
-           "trace: how far into the recording it begins; further rounds begin at its first point"},
+           "trace: where in the recording it begins; later rounds begin at its first point"},
           {"approach", &OperatorConfig::approach, within("m", -kWorld, kWorld),
            "trace: where it is at first, beside the point where it begins; it comes from there "
            "until `start`"},
           {"start", &OperatorConfig::start, within("s", 0, 86400),
-           "rests at its first point until then"},
+           "trace: it rests at its first point until then"},
           {"stiffness", &OperatorConfig::stiffness, within("N/m", 0, 1e5),
-           "of the grip between hand and device"},
-          {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "of the grip"},
+           "stiffness of the grip between hand and device"},
+          {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "damping of the grip"},
       },
       check_operator};
 }
@@ -197,21 +197,21 @@ const Section<SceneFile>& file_section() {
           {"hand", &SceneFile::hand, hand_section(),
            "the force model of this peer's own hand, which others feel"},
           {"operator", &SceneFile::operators, operator_section(),
-           "one simulated hand each; what moves it"},
+           "one simulated hand for each table, and what moves it"},
           {"device", devices, device_section(),
            "one simulated device of one peer; where a file has none, each peer has one"},
           {"entity", entities, entity_section(),
-           "what a peer owns and no device moves: a vehicle, a post, a robot's tip"},
+           "an entity that no device moves: a vehicle, a post, a robot's tip"},
           {"dead_reckoning", &SceneFile::dead_reckoning, dead_reckoning_section(),
-           "how far remote copies may be off"},
+           "when updates are sent, and how they are extrapolated"},
           {"convergence", &SceneFile::convergence, convergence_section(),
-           "how this peer shows what updates correct"},
+           "how the shown pose converges after an update"},
           {"aoim", &SceneFile::aoim, aoim_section(), "cells, and how far this peer senses"},
-          {"network", &SceneFile::network, network_section(), "where and how this peer speaks"},
+          {"network", &SceneFile::network, network_section(), "how this peer sends and receives"},
           {"impairment", &SceneFile::impairment, impairment_section(),
-           "seeded damage to what this peer hears, for trying out"},
+           "simulated impairment of received datagrams, for tests"},
           {"coupling", &SceneFile::coupling, coupling_section(),
-           "how a study couples hands: docs/baselines.md"},
+           "coupling of hands in studies: docs/baselines.md"},
       },
       check_file};
   return section;

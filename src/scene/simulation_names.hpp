@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Simulations that a scene names, as in "1:2, 40:1". Private to the scene reader and its rules.
+// Lists of simulations in a scene file, for example "1:2, 40:1". Private to the scene reader and
+// its rules.
 #pragma once
 
 #include <optional>
@@ -12,11 +13,11 @@
 
 namespace reckon::peer {
 
-/// The site:application pairs of a text, separated by commas; nothing where it is none. 0 and 65535
-/// name no simulation.
+/// Parses site:application pairs that are separated by commas. Returns nothing for any other text.
+/// Numbers are 1 to 65534.
 [[nodiscard]] std::optional<std::vector<aoim::PeerId>> parse_simulations(std::string_view text);
 
-/// As parse_simulations() takes it.
+/// Writes the text that parse_simulations() reads.
 [[nodiscard]] std::string simulations_text(const std::vector<aoim::PeerId>& names);
 
 }  // namespace reckon::peer

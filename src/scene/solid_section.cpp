@@ -82,8 +82,7 @@ Section<haptics::CsgPart> part_section() {
   const auto no_turn = [](const Part&) { return Eigen::Vector3d(0, 0, 0); };
   Section<Part> section{
       {{"operation", &Part::operation,
-        "what it does to the parts before it: add it to them, subtract it from them, or intersect: "
-        "leave only what it fills"}},
+        "how it is combined with the parts before it: add, subtract, or intersect"}},
       check_part};
   const std::vector<Row<Part>> solids = solid_rows<Part>();
   section.rows.insert(section.rows.end(), solids.begin(), solids.end());

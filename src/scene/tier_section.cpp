@@ -111,22 +111,23 @@ Section<TierConfig> tier_section() {
            "receive what is felt by a group of each cell that only they join, and read it first. "
            "touch is the first row and takes no other key"},
           {"own_group", &TierConfig::own_group,
-           "each cell has a multicast group for this row, which only peers so near join; for all "
-           "rows that are neither `kept` nor the last, or for none"},
+           "each cell has a multicast group for this row, which only peers within its distance "
+           "join; set it for all rows that are neither `kept` nor the last, or for none"},
           {"farthest", of(&Channel::farthest), within("m", 0, kWorld),
-           "to receivers up to here; when absent, to all beyond the row before"},
+           "greatest distance of the receivers; when absent, unbounded"},
           {"body", of(&Channel::body),
            "rigid: position and orientation; approximate: articulated parts, too; full: what "
            "hands feel, too. Of what is new or abrupt and at heartbeats all is sent"},
           {"active", of(&Channel::active_hz), within("Hz", 0, 1000),
-           "most updates a second of one that moves"},
-          {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000), "of one that stands"},
+           "most updates a second of a moving entity"},
+          {"passive", of(&Channel::passive_hz), within("Hz", 0, 1000),
+           "most updates a second of an entity at rest"},
           {"octets", of(&Channel::octets), within("B", 1, kMaxDatagram),
-           "that an update counts against `budget`"},
-          {"kept", of(&Channel::kept), "whatever the budget"},
+           "octets that an update counts against `budget`"},
+          {"kept", of(&Channel::kept), "this row is exempt from `budget`"},
           {"coarser", of(&Channel::coarser), within("", 1, 1e6),
-           "with `own_group`: how many times as wide the thresholds of place and turn are to "
-           "receivers so far away; no less than in the row before"},
+           "with `own_group`: factor of the thresholds of position and orientation for these "
+           "receivers; at least that of the row before"},
       },
       check_tier};
 }

@@ -37,7 +37,7 @@ bool EnvelopeSealer::begin_anew() noexcept {
   return is_good_;
 }
 
-// Draws a salt and makes the key where it is time; false where nothing can be drawn.
+// Draws a salt and derives the key if they are due. False if the random source fails.
 bool EnvelopeSealer::make_ready(Stream& stream, std::size_t epoch, nanoseconds now) noexcept {
   if (!is_good_) return false;
   const bool salts_key = key_.suite == SealingSuite::aes_256_gcm;

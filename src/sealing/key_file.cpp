@@ -116,7 +116,7 @@ class KeyReader {
     std::string_view word = next_word(line);
     if (word == "from") {
       epoch.from = parse_utc(next_word(line));
-      if (!epoch.from) fail("'from' wants a time in UTC, as in 2026-12-01T06:00:00Z");
+      if (!epoch.from) fail("'from' needs a time in UTC, for example 2026-12-01T06:00:00Z");
       word = next_word(line);
     }
     if (word != "secret" || !read_secret(next_word(line), epoch.secret))

@@ -13,21 +13,22 @@ struct RemoteCounters {
       : accepted(counters.make("updates_in", "updates of remote entities accepted")),
         refused_values(counters.make("values_refused", "updates with impossible values")),
         refused_models(counters.make("models_refused", "force models with impossible values")),
-        untouchables(counters.make("touch_refused", "force models of who may not touch")),
+        untouchables(counters.make("touch_refused", "force models of senders that may not touch")),
         reserved(counters.make("reserved_ids_in",
                                "updates of IDs that no entity can have, such as 0:0:0 and 65535")),
         stale(counters.make("stale_in", "updates older than what was known, dropped")),
-        repeats(counters.make("repeats_in", "updates that said again what was known")),
+        repeats(counters.make("repeats_in", "repeated updates without news")),
         sender_leaps(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
         not_interesting(counters.make("not_interesting", "entities outside the radius")),
         entered(counters.make("entered", "entities that came within the radius between updates")),
         table_full(counters.make("table_full", "entities without room in the state table")),
         strangers_full(counters.make(
             "strangers_full", "entities of plain DIS programs without room in their memory")),
-        evicted(counters.make("rows_evicted", "entities dropped for others, of who has too many")),
+        evicted(counters.make("rows_evicted",
+                              "entities of senders with too many, dropped to make room")),
         disputed(counters.make("disputed_in", "updates refused, for another owns their entity")),
         timed_out(counters.make("timed_out", "entities dropped after silence")),
-        left(counters.make("left", "entities that said good-bye or went out of sight")),
+        left(counters.make("left", "entities that were deactivated or left the radius")),
         snaps(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
 
   Counter& accepted;

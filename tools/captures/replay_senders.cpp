@@ -47,8 +47,8 @@ std::vector<LocalNetwork> local_networks() {
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) != 0)
     throw EnvironmentError(
-        fmt::format("the interfaces of this host cannot be listed: {}; say "
-                    "where to send with --iface",
+        fmt::format("the interfaces of this host cannot be listed: {}; name "
+                    "the interface to send on with --iface",
                     std::strerror(errno)));
   const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, freeifaddrs);
   std::vector<LocalNetwork> networks;

@@ -54,7 +54,8 @@ double number_value(const std::string& name, const std::string& text) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, number);
   if (result.ec == std::errc{} && result.ptr == end) return number;
-  throw CLI::ValidationError(name, fmt::format("'{}' is not a number; write it as in 0.5", text));
+  throw CLI::ValidationError(name,
+                             fmt::format("'{}' is not a number; write for example 0.5", text));
 }
 
 /// Whether `word` is one of `words`, blanks between.

@@ -9,11 +9,13 @@
 
 namespace reckon::tools {
 
-/// Before the work, so that nobody waits for a result that cannot be kept. Nothing for an empty
-/// path. @throws UsageError with the path and the remedy.
+/// Checks that the file can be written. Call it before a long computation, so that the result is
+/// not lost at the end. An empty path means no file and passes. @throws UsageError with the path
+/// and the remedy.
 void check_writable(const std::string& path);
 
-/// Replaces what is there and says so on err. Nothing for an empty path. @throws UsageError.
+/// Writes the text to the file, replaces an existing file, and reports the path on console.err. An
+/// empty path writes nothing. @throws UsageError.
 void write_output(const std::string& path, const std::string& text, const Console& console);
 
 }  // namespace reckon::tools

@@ -232,7 +232,8 @@ class FilterParser {
   }
 
   std::size_t field() {
-    if (token_.kind != TokenKind::word) fail(token_.at, "expected a field, as in kind == platform");
+    if (token_.kind != TokenKind::word)
+      fail(token_.at, "expected a field, for example kind == platform");
     const std::string typed = lower(token_.text);
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < filter_fields().size(); ++i) {
@@ -338,7 +339,7 @@ class FilterParser {
     const std::size_t second =
         first == std::string_view::npos ? first : text.find_first_of(":-", first + 1);
     if (second == std::string_view::npos)
-      fail(token_.at, "an entity ID has three parts, as in 1:2:3 or 1:*:*");
+      fail(token_.at, "an entity ID has three parts, for example 1:2:3 or 1:*:*");
     return {id_part(text.substr(0, first), 0),
             id_part(text.substr(first + 1, second - first - 1), first + 1),
             id_part(text.substr(second + 1), second + 1)};

@@ -84,7 +84,7 @@ constexpr auto kFields = std::to_array<FilterField>({
     {"entity.category", "category of its type, a number", ValueKind::number,
      from_state<[](const State& s) { return s.entity_type.category; }>},
     {"entity.words",
-     "its type in words, as in Platform Land Germany Tank; * stands for any letters",
+     "its type in words, for example Platform Land Germany Tank; * stands for any letters",
      ValueKind::text, nullptr, nullptr,
      [](const FilterSubject& s) -> Text {
        if (s.entity_state == nullptr) return std::nullopt;

@@ -24,8 +24,10 @@ peer::GroupAddress parse_group(std::string_view text) {
   if (address.starts_with(kUdp)) address.remove_prefix(kUdp.size());
   const auto group = peer::IpEndpoint::parse(address);
   if (!group.has_value())
-    throw UsageError(fmt::format(
-        "--group {}: no address; write 239.192.1.0 or 239.192.1.0:3000 as info lists them", text));
+    throw UsageError(
+        fmt::format("--group {}: not an address; write 239.192.1.0 or 239.192.1.0:3000, as `reckon "
+                    "info` lists it",
+                    text));
   return *group;
 }
 
@@ -39,23 +41,25 @@ std::string checked_type(const std::string& text) {
     return text;
   const std::string_view nearest = peer::nearest_word(text, names);
   throw UsageError(
-      fmt::format("--type {}: no type of PDU{}; `reckon info` lists those of a capture", text,
+      fmt::format("--type {}: not a PDU type{}; `reckon info` lists the types in a capture", text,
                   nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest)));
 }
 
 }  // namespace
 
 void SelectionOptions::declare(CommandLine& line) {
-  line.option("--from", from, "begin so long after the first datagram, as in 90s");
-  line.option("--group", groups, "only what was sent there; may be given more than once");
-  line.option("--type", types, "only datagrams with such a PDU, as in entity_state; repeatable");
-  line.option("--entity", entities, "only datagrams with a PDU of it, as in 1:2:3 or 1:*:*");
+  line.option("--from", from, "start this long after the first datagram, for example 90s");
+  line.option("--group", groups, "only datagrams sent to this address; repeatable");
+  line.option("--type", types,
+              "only datagrams with a PDU of this type, for example entity_state; repeatable");
+  line.option("--entity", entities,
+              "only datagrams with a PDU of this entity, for example 1:2:3 or 1:*:*; repeatable");
   declare_filter(line);
 }
 
 void SelectionOptions::declare_filter(CommandLine& line) {
   line.option("--where", where,
-              "only datagrams with a PDU that matches, as in 'kind == platform and force == "
+              "only datagrams with a PDU that matches, for example 'kind == platform and force == "
               "opposing'; `reckon inspect --help` lists the fields");
 }
 
@@ -84,7 +88,8 @@ CaptureSelection::EntityPattern CaptureSelection::parse_entity(const std::string
   }
   if (!good)
     throw UsageError(fmt::format(
-        "--entity {}: write site:application:entity, each 0 to 65535 or *, as in 1:2:*", text));
+        "--entity {}: write site:application:entity, each 0 to 65535 or *, for example 1:2:*",
+        text));
   return pattern;
 }
 

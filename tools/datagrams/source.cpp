@@ -56,9 +56,10 @@ peer::GroupAddress base_group(const SourceChoice& choice) {
   const std::string_view text = std::string_view(source).substr(kUdp.size());
   const auto group = peer::IpEndpoint::parse(text, peer::GroupPool::kDefaultPort);
   if (!group.has_value())
-    throw UsageError(fmt::format(
-        "'{}' is no group; write udp://239.192.1.0:3000, udp://239.192.1.0 or udp://[ff15::1]:3000",
-        source));
+    throw UsageError(
+        fmt::format("'{}' is not a group; write udp://239.192.1.0:3000, udp://239.192.1.0 or "
+                    "udp://[ff15::1]:3000",
+                    source));
   if (!group->is_multicast())
     throw UsageError(fmt::format(
         "{} is no multicast group (224.0.0.0 to 239.255.255.255, or ff00::/8)", group->text()));
@@ -68,8 +69,9 @@ peer::GroupAddress base_group(const SourceChoice& choice) {
 /// Refuses words that look like a source but are none.
 void check_form(const std::string& source) {
   if (source == kRaw || source == kInterface)
-    throw UsageError(fmt::format("'{}' names nothing; write {}", source,
-                                 source == kRaw ? "raw:FILE" : "iface:NAME, as in iface:eth0"));
+    throw UsageError(
+        fmt::format("'{}' has no name after the colon; write {}", source,
+                    source == kRaw ? "raw:FILE" : "iface:NAME, for example iface:eth0"));
   const std::size_t scheme = source.find("://");
   if (scheme == std::string::npos || source.starts_with(kUdp) || source.find('/') < scheme) return;
   throw UsageError(

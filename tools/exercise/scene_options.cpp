@@ -17,9 +17,9 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
   line.option("--hand", options.hand,
               "recorded hand trace (CSV) that the hands follow, fitted to the object");
   line.option("--impair", options.impair,
-              "damage to the network, e.g. 'delay=200ms jitter=100ms loss=20% reorder=5% "
-              "duplicate=5%'; jitter is a time, or a share of the delay as in 40%");
-  line.option("--seed", options.seed, "seed of the damage");
+              "network impairment, for example 'delay=200ms jitter=100ms loss=20% reorder=5% "
+              "duplicate=5%'; jitter is a time or a share of the delay, for example 40%");
+  line.option("--seed", options.seed, "seed of the impairment");
   line.option("--iface", options.iface, "network interface by name, address or index");
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
 }
@@ -32,7 +32,8 @@ void check_key(const peer::SceneFile& scene) {
   static_cast<void>(peer::load_group_key(scene.network.key));
   static_cast<void>(peer::sealed_group(scene.network.group));
   if (scene.network.interop)
-    throw UsageError("--key seals what the scene's 'interop' wants plain: leave one of them out");
+    throw UsageError(
+        "--key seals datagrams and the scene's 'interop' needs plain ones: leave one of them out");
 }
 
 }  // namespace
@@ -58,8 +59,7 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
   }
   if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
   if (options.seed && !draws_by_seed(scene.impairment.law))
-    throw UsageError(
-        "--seed is of damage that is drawn, and there is none; add it, as in --impair 'loss=20%'");
+    throw UsageError("--seed needs a random impairment; add one, for example --impair 'loss=20%'");
   if (options.seed) scene.impairment.seed = *options.seed;
   if (!options.iface.empty()) scene.network.iface = options.iface;
   return scene;

@@ -55,7 +55,7 @@ void write_identification(Xml& xml) {
   xml.leaf("version", "0.1");
   xml.leaf("modificationDate", "2026-01-01");
   xml.leaf("securityClassification", "unclassified");
-  xml.leaf("purpose", "What a federate of Reckon can say and hear");
+  xml.leaf("purpose", "What a federate of Reckon can send and receive");
   xml.leaf("applicationDomain", "Haptics and distributed interactive simulation");
   xml.leaf(
       "description",

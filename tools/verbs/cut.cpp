@@ -35,7 +35,7 @@ struct CutOptions {
 void refuse_same_file(const CutOptions& options) {
   std::error_code none;
   if (std::filesystem::equivalent(options.in, options.out.path, none))
-    throw UsageError(fmt::format("{} would be overwritten while it is read; take another name",
+    throw UsageError(fmt::format("{} would be overwritten while it is read; choose another name",
                                  options.out.path));
 }
 
@@ -71,8 +71,9 @@ int run_cut(Arguments arguments, const Console& console) {
   CutOptions options;
   CommandLine line("cut", kSummary, kExamples);
   line.word("IN", options.in, true, "pcap or pcapng file, also compressed by zstd; - is stdin");
-  line.word("OUT", options.out.path, true, "the pcapng file to make");
-  line.option("--to", options.selection.to, "end so long after the first datagram, as in 2min");
+  line.word("OUT", options.out.path, true, "the pcapng file to write");
+  line.option("--to", options.selection.to,
+              "stop this long after the first datagram, for example 2min");
   options.selection.declare(line);
   line.flag("--force", options.out.overwrite, "overwrite OUT");
   if (const auto status = line.parse(arguments, console)) return *status;
@@ -89,7 +90,7 @@ int run_cut(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb cut() { return {"cut", "write a part of a capture as a new one", run_cut}; }
+Verb cut() { return {"cut", "write a part of a capture to a new file", run_cut}; }
 
 }  // namespace verb
 

@@ -101,7 +101,7 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
 
 peer::SceneFile scene_of(const DoctorOptions& options) {
   if (options.scene.empty()) return {};
-  if (options.ipv6) throw UsageError("--ipv6: the scene says which family its groups are of");
+  if (options.ipv6) throw UsageError("--ipv6: the scene sets the address family; leave --ipv6 out");
   try {
     return peer::load_scene_file(options.scene);
   } catch (const std::exception& error) {
@@ -120,7 +120,7 @@ peer::InterfaceChoice choose(const std::string& interface, bool ipv6) {
 int run_doctor(Arguments arguments, const Console& console) {
   DoctorOptions options;
   CommandLine line("doctor",
-                   "Looks at what a peer needs of this host and says how to mend what is wrong.",
+                   "Checks what a peer needs from this host, and reports problems with remedies.",
                    "reckon doctor scenes/two_hands.toml --iface eth0\n"
                    "reckon doctor --iface eth0 --json");
   line.word("SCENE", options.scene, false,
@@ -129,11 +129,10 @@ int run_doctor(Arguments arguments, const Console& console) {
   line.option("--iface", options.interface,
               "interface name, address or index (default: the scene's, else by score)");
   line.option("--groups", options.groups,
-              "multicast groups joined at once (default: those of the scene)");
-  line.flag("--ipv6", options.ipv6, "look at IPv6 instead of IPv4");
-  line.flag(
-      "--sealed", options.sealed,
-      "look at the port of a sealed exercise, one above (default: where the scene has a key)");
+              "number of multicast groups joined at the same time (default: that of the scene)");
+  line.flag("--ipv6", options.ipv6, "check IPv6 instead of IPv4");
+  line.flag("--sealed", options.sealed,
+            "check the port of a sealed exercise, one above (default: if the scene has a key)");
   line.flag("--json", options.json, "one JSON object per finding");
   if (const auto status = line.parse(arguments, console)) return *status;
 
@@ -161,9 +160,7 @@ int run_doctor(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb doctor() {
-  return {"doctor", "say what is wrong with this host and how to mend it", run_doctor};
-}
+Verb doctor() { return {"doctor", "report problems of this host with remedies", run_doctor}; }
 
 }  // namespace verb
 

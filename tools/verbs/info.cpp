@@ -55,7 +55,7 @@ int run_info(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb info() { return {"info", "say what a capture holds", run_info}; }
+Verb info() { return {"info", "show what a capture contains", run_info}; }
 
 }  // namespace verb
 

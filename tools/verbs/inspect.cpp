@@ -305,20 +305,20 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
   line.flag("--csv", options.csv, views_with_csv() + ": one table with titles");
   line.choice("--by", options.by, {"type", "sender", "group", "entity"},
-              "stats: this table alone, and whole");
+              "stats: only this table, with all rows");
   line.flag("--follow", options.source.follow,
             "wait for more at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
-              "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
+              "only PDUs that match, for example 'entity.id == 1:*:* and kind == platform'");
   line.option("--svg", options.svg, "haptics: draw the forces into this file");
   line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
-  line.flag("--rules", options.rules, "list the rules of check, with remedies, and end");
-  line.option("--for", options.duration, "end by itself after this time, as in 10s");
-  line.option("--count", options.count, "end after this many PDUs");
+  line.flag("--rules", options.rules, "list the rules of check with remedies, and exit");
+  line.option("--for", options.duration, "stop after this time, for example 10s");
+  line.option("--count", options.count, "stop after this many PDUs");
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: chosen by score)");
   line.option("--key", options.key,
-              "key file: reads what is sealed; groups are then one port above");
+              "key file: reads sealed datagrams; groups are then one port above");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   if (const auto status = line.parse(arguments, console)) return *status;

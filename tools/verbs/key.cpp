@@ -36,8 +36,8 @@ SealingSuite suite_of(const KeyOptions& options) {
 std::chrono::seconds time_of(const KeyOptions& options) {
   const auto time = peer::parse_utc(options.from);
   if (!time)
-    throw UsageError(fmt::format("--from '{}' is no time in UTC: write it as 2026-12-01T06:00:00Z",
-                                 options.from));
+    throw UsageError(fmt::format(
+        "--from '{}' is not a time in UTC: write it as 2026-12-01T06:00:00Z", options.from));
   return *time;
 }
 
@@ -81,23 +81,24 @@ void show(const KeyOptions& options, const Console& console) {
 
 int run_key(Arguments arguments, const Console& console) {
   KeyOptions options;
-  CommandLine line("key", "The key file of a sealed exercise: make one, go on to a new secret.",
+  CommandLine line("key", "The key file of a sealed exercise: create one, add a secret, show it.",
                    "reckon key new crane.key --group crane\n"
                    "reckon key next crane.key --from 2026-12-01T06:00:00Z\n"
                    "reckon key show crane.key\n"
                    "reckon peer scenes/two_hands.toml --key crane.key");
   line.choice("ACTION", options.action, {"new", "next", "show"},
-              "new: a file with a secret drawn at random; next: adds the secret of a later time; "
-              "show: what is in it, no secret");
+              "new: create a file with a random secret; next: add a secret for a later time; show: "
+              "the content without secrets");
   line.word("FILE", options.file, false, "key file; only its owner may read it");
-  line.option("--group", options.group, "new: name of the group, for people");
+  line.option("--group", options.group, "new: name of the group, for display");
   line.choice("--suite", options.suite,
               {std::string(kFastest), "aes-256-gcm", "xchacha20-poly1305"},
               "new: how it is sealed; aes-256-gcm needs AES instructions in the CPU of each member "
               "(default: fastest of this CPU)");
-  line.option("--from", options.from, "next: when it begins, UTC, as 2026-12-01T06:00:00Z");
+  line.option("--from", options.from,
+              "next: when it begins, UTC, for example 2026-12-01T06:00:00Z");
   if (const auto status = line.parse(arguments, console)) return *status;
-  if (options.action.empty()) throw UsageError("say what to do: reckon key new, next or show");
+  if (options.action.empty()) throw UsageError("name an action: reckon key new, next or show");
   if (options.file.empty())
     throw UsageError(fmt::format("name a key file: reckon key {} FILE", options.action));
   try {
@@ -114,7 +115,7 @@ int run_key(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb key() { return {"key", "make and look at the key of a sealed exercise", run_key}; }
+Verb key() { return {"key", "create and show the key of a sealed exercise", run_key}; }
 
 }  // namespace verb
 

@@ -47,8 +47,8 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
   for (const peer::TierConfig& tier : file.aoim.tiers) {
     if (!tier.own_group || tier.channel.farthest < file.aoim.radius) continue;
     notes.push_back(fmt::format(
-        "the tier up to {} reaches as far as the radius of {}: a group of its own spares nobody "
-        "anything; make it the last one, without 'farthest'",
+        "the tier up to {} reaches as far as the radius of {}: a group of its own saves nothing; "
+        "make it the last one, without 'farthest'",
         format_quantity(tier.channel.farthest, "m"), format_quantity(file.aoim.radius, "m")));
     break;
   }

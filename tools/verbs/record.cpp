@@ -242,26 +242,28 @@ void check(RecordOptions& options) {
   if (options.rotate_size.empty()) return;
   const auto size = parse_size(options.rotate_size);
   if (!size.has_value())
-    throw UsageError(fmt::format("--rotate-size {}: no size; write as in 500k, 100MB or 2GiB",
-                                 options.rotate_size));
+    throw UsageError(
+        fmt::format("--rotate-size {}: not a size; write for example 500k, 100MB or 2GiB",
+                    options.rotate_size));
   options.writer.rotate_octets = *size;
 }
 
 int run_record(Arguments arguments, const Console& console) {
   RecordOptions options;
   CommandLine line("record", kSummary, kExamples);
-  line.word("FILE", options.writer.path, true, "the pcapng file to make");
+  line.word("FILE", options.writer.path, true, "the pcapng file to write");
   line.word("SOURCE", options.source.source, false, "what to record, see above");
-  line.option("--for", options.duration, "end by itself after this time, as in 10s");
+  line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: chosen by score)");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   line.option("--rotate-size", options.rotate_size,
-              "begin the next file, FILE_00002, at this size, as in 100MB");
+              "begin the next file, FILE_00002, at this size, for example 100MB");
   line.option("--rotate-time", options.writer.rotate_after,
-              "begin the next file after this time, as in 1h");
-  line.flag("--compress", options.writer.compress, "by zstd, as a FILE that ends in .zst is");
+              "begin the next file after this time, for example 1h");
+  line.flag("--compress", options.writer.compress,
+            "compress with zstd, as for a FILE that ends in .zst");
   options.selection.declare_filter(line);
   line.option("--key", options.key,
               "key file: the filter and the counts read what is sealed; groups are then one port "

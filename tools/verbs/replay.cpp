@@ -255,10 +255,10 @@ void Replay::send(const peer::SourceDatagram& datagram) {
 peer::IpEndpoint Replay::destination(const peer::SourceDatagram& datagram) const {
   if (options_.destination.has_value()) return *options_.destination;
   if (datagram.group.is_multicast() && datagram.group.port != 0) return datagram.group;
-  throw UsageError(fmt::format(
-      "frame {} was sent to {}, which is no multicast group; say where it shall go, as in --to "
-      "udp://239.192.1.0:3000 or --to udp://127.0.0.1:3000",
-      datagram.frame, datagram.group.text()));
+  throw UsageError(
+      fmt::format("frame {} was sent to {}, which is not a multicast group; give a destination, "
+                  "for example --to udp://239.192.1.0:3000 or --to udp://127.0.0.1:3000",
+                  datagram.frame, datagram.group.text()));
 }
 
 std::string Replay::speed_text() const {
@@ -367,12 +367,12 @@ int run_replay(Arguments arguments, const Console& console) {
   line.word("FILE", options.file, true, "the capture; - is stdin");
   line.option("--to", options.to,
               "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
-              "where it was sent); or, as in 2min, end so long after the first datagram");
+              "where it was sent); or stop this long after the first datagram, for example 2min");
   line.option(
       "--iface", options.interface,
       "interface to send on (default: lo, this host only; for a broadcast address its own)");
   line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
-  line.option("--loop", options.loop, "play it so many times; 0 until Ctrl-C");
+  line.option("--loop", options.loop, "repeat this many times; 0: until Ctrl-C");
   options.selection.declare(line);
   line.option("--key", options.key, "key file: what is sealed is sent plain, to the port below");
   line.flag("--rewrite-time", options.rewrite_time,

@@ -146,13 +146,13 @@ int run_scene(Arguments arguments, const Console& console) {
   std::string action;
   std::vector<std::string> files;
   bool json = false;
-  CommandLine line("scene", "Check scene files, explain what runs for one, or begin one.",
+  CommandLine line("scene", "Check or explain scene files, or print a new one.",
                    "reckon scene check scenes/*.toml\nreckon scene explain scenes/two_hands.toml\n"
                    "reckon scene new > my_scene.toml\nreckon scene keys");
   line.choice("ACTION", action, {"check", "explain", "new", "keys"},
-              "check: problems with place and remedy; explain: the stages of each servo step, what "
-              "is left out, what peers do and have; new: a file to begin with; keys: everything a "
-              "scene file may say");
+              "check: report problems with place and remedy; explain: the stages of each servo "
+              "step, what is left out, what each peer does; new: print a scene file to start from; "
+              "keys: list all keys");
   line.words("FILE", files, false, "scene files");
   line.flag("--json", json, "one JSON object per line");
   if (const auto status = line.parse(arguments, console)) return *status;
@@ -163,7 +163,7 @@ int run_scene(Arguments arguments, const Console& console) {
         fmt::format("'{}' is a word too many: write reckon scene {}", files.front(), action));
   if (action == "keys") return keys(json, console);
   if (action == "new") return print_template(console);
-  if (action.empty()) throw UsageError("say what to do: reckon scene check, explain, new or keys");
+  if (action.empty()) throw UsageError("name an action: reckon scene check, explain, new or keys");
   if (files.empty())
     throw UsageError(fmt::format("name a scene file: reckon scene {} FILE", action));
   return action == "check" ? check(files, json, console) : explain(files, json, console);
@@ -173,9 +173,7 @@ int run_scene(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb scene() {
-  return {"scene", "check a scene file, explain what runs for it, or begin one", run_scene};
-}
+Verb scene() { return {"scene", "check or explain a scene file, or print a new one", run_scene}; }
 
 }  // namespace verb
 

@@ -40,22 +40,21 @@ std::string groups_text(const peer::SceneFile& file) {
 void add_group_rows(const peer::SceneFile& file, SettingRows& rows) {
   if (file.aoim.leaders)
     rows.emplace_back("leaders",
-                      "of the scene and of each cell; a cell's tells late comers at once "
-                      "what is in it, and owners say nothing");
+                      "of the scene and of each cell; the leader of a cell introduces its entities "
+                      "to newcomers, instead of their owners");
   if (file.aoim.hand_out)
     rows.emplace_back("handed out",
-                      "groups, by who leads the scene; a cell without one speaks to "
-                      "the base group, which all hear");
+                      "groups, by the leader of the scene; a cell without one uses the base group, "
+                      "which all peers receive");
   add_beacons(file, rows);
   const std::size_t own_groups = own_group_count(file.aoim.tiers);
   if (has_touch_tier(file.aoim.tiers))
-    rows.emplace_back(
-        "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
-                            "a hand needs up to {} of them",
-                            file.aoim.pool, peer::group_needs(file).within_touch));
+    rows.emplace_back("felt", fmt::format("by {} more groups, joined only by peers that can touch "
+                                          "there; a hand needs up to {} of them",
+                                          file.aoim.pool, peer::group_needs(file).within_touch));
   if (own_groups > 0)
     rows.emplace_back(
-        "near", fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
+        "near", fmt::format("{} by {} more groups, joined only by peers that are near enough; a "
                             "focus needs up to {} of them",
                             own_groups == 1 ? "one tier" : fmt::format("{} tiers", own_groups),
                             own_groups * file.aoim.pool, peer::group_needs(file).within_rows));

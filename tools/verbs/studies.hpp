@@ -13,11 +13,11 @@ struct StudyVerb {
   std::string_view summary;  ///< one line
 };
 
-inline constexpr StudyVerb kTuneVerb{"tune", "say which model and threshold suit recorded motion"};
+inline constexpr StudyVerb kTuneVerb{"tune", "find the model and threshold for recorded motion"};
 inline constexpr StudyVerb kBenchVerb{
-    "bench", "the studies: what accuracy costs, how long a touch takes, what stays calm"};
-inline constexpr StudyVerb kFiguresVerb{"figures", "make the figures of the thesis anew"};
-inline constexpr StudyVerb kZWidthVerb{"zwidth",
-                                       "say which stiffness and damping a device can show"};
+    "bench", "studies: cost of accuracy, latency of a touch, stability, scaling"};
+inline constexpr StudyVerb kFiguresVerb{"figures", "compute the figures of the thesis"};
+inline constexpr StudyVerb kZWidthVerb{
+    "zwidth", "compute the stiffness and damping that a device can render"};
 
 }  // namespace reckon::tools

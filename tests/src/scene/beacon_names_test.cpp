@@ -45,7 +45,7 @@ TEST(BeaconNames, OfASceneAreThoseOfItsEntitiesAndOfWhatItFollows) {
 
 TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
   EXPECT_THAT(test::refusal("[aoim]\nleaders = true\nfollow = \"gate\"\n"),
-              HasSubstr("x.toml:3:10: 'follow' needs a map of the groups that are handed out: set "
+              HasSubstr("x.toml:3:10: 'follow' needs a map of groups: set "
                         "'hand_out' too"));
   EXPECT_THAT(test::refusal("[[entity]]\nbeacon = \"gate\"\n"),
               HasSubstr("x.toml:2:10: 'beacon' is announced with the groups that are handed out"));

@@ -31,7 +31,7 @@ TEST(Mechanisms, AreSwitchedOnByKeysThatExist) {
 TEST(Mechanisms, AreReportedAtTheirKeyWithTheRemedy) {
   EXPECT_THAT(
       test::refusal("[network]\ninterop = true\n[aoim]\nradius = \"50 m\"\nleaders = true\n"),
-      HasSubstr("x.toml:5:11: 'leaders' needs datagrams that plain DIS does not know, which "
+      HasSubstr("x.toml:5:11: 'leaders' needs experimental PDUs, which "
                 "'interop' excludes: take one of the two out"));
   EXPECT_THAT(
       test::refusal("[aoim]\nhand_out = true\n"),
@@ -45,11 +45,11 @@ TEST(Mechanisms, ThatTiersAreAreReportedAtTheRowThatSwitchesThemOn) {
       "[[aoim.tier]]\nfarthest = 9\nactive = 9\noctets = 144\nown_group = true\n"
       "[[aoim.tier]]\nactive = 9\noctets = 144\n";
   EXPECT_THAT(test::refusal("[aoim]\nleaders = true\nhand_out = true\n" + tiers),
-              HasSubstr("x.toml:4:1: 'tier' with to = \"touch\" needs groups that stay those of "
-                        "their cells, which 'hand_out' excludes: take one of the two out\n"
-                        "x.toml:6:1: 'tier' with own_group = true needs groups"));
+              HasSubstr("x.toml:4:1: 'tier' with to = \"touch\" needs fixed groups for each "
+                        "cell, which 'hand_out' excludes: take one of the two out\n"
+                        "x.toml:6:1: 'tier' with own_group = true needs fixed groups"));
   EXPECT_THAT(test::refusal("[aoim]\nleaders = true\n" + tiers),
-              HasSubstr("'leaders' needs Entity States of which nothing is left out, which 'tier' "
+              HasSubstr("'leaders' needs complete Entity States, which 'tier' "
                         "with to = \"distance\" excludes"));
   EXPECT_THAT(test::refusal(tiers + "[network]\ncompression = \"residual\"\n"),
               HasSubstr("which 'tier' with own_group = true excludes"));

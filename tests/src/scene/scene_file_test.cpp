@@ -215,7 +215,7 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {object("sphere = 1\n") + object("sphere = 2\n"), "another object 'a'"},
       {"object = 3\n", "it wants tables"},
       {"[[operator]]\n", "what moves the hand is missing"},
-      {"[[operator]]\npassive = false\n", "say true"},
+      {"[[operator]]\npassive = false\n", "write true"},
       {"[[operator]]\ntrace = \"nobody.csv\"\n", "cannot read"},
       {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of auto static fpw"},
       {"[dead_reckoning]\nposition = 0\n", "it must be"},
@@ -257,7 +257,7 @@ TEST_F(SceneFolder, SaysWhichFileIsMissing) {
   } catch (const SceneFileError& error) {
     EXPECT_EQ(std::string(error.what()),
               (folder_ / "none.toml").string() +
-                  ": there is no such file; name a scene file, as in scenes/two_hands.toml");
+                  ": there is no such file; name a scene file, for example scenes/two_hands.toml");
   }
   EXPECT_THROW((void)load_scene_file(folder_), SceneFileError);
 }

@@ -184,11 +184,11 @@ TEST(Cut, NamesTheMistake) {
   EXPECT_THAT(error_of({in, out, "--type", "entity_sate"}),
               HasSubstr("did you mean 'entity_state'"));
   EXPECT_THAT(error_of({in, out, "--entity", "1:2"}), HasSubstr("site:application:entity"));
-  EXPECT_THAT(error_of({in, out, "--group", "here"}), HasSubstr("no address"));
+  EXPECT_THAT(error_of({in, out, "--group", "here"}), HasSubstr("not an address"));
   EXPECT_THAT(error_of({in, out, "--from", "3s", "--to", "2s"}), HasSubstr("the range is empty"));
   EXPECT_THAT(error_of({in, out, "--where", "colour == red"}), HasSubstr("^"));
   EXPECT_THAT(error_of({in, in, "--force"}), HasSubstr("overwritten while it is read"));
-  EXPECT_THAT(error_of({in, in}), HasSubstr("take another name"));
+  EXPECT_THAT(error_of({in, in}), HasSubstr("choose another name"));
   EXPECT_THAT(error_of({in, "/nowhere/a.pcapng"}), HasSubstr("cannot be written"));
 }
 

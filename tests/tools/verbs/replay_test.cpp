@@ -223,7 +223,7 @@ TEST(Replay, AsksWhereToSendWhatWentToNoGroup) {
   }
   const ProgramResult result = run_reckon({"replay", path});
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("192.168.1.255:3000, which is no multicast group"));
+  EXPECT_THAT(result.err, HasSubstr("192.168.1.255:3000, which is not a multicast group"));
   EXPECT_THAT(result.err, HasSubstr("--to udp://"));
 }
 

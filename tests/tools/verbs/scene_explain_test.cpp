@@ -44,13 +44,14 @@ TEST(SceneExplain, SaysWhoReceivesAnUpdate) {
     return run_reckon({"scene", "explain", scene.path()}).out;
   };
   EXPECT_THAT(explain(""), HasSubstr("one: everything to all"));
-  EXPECT_THAT(explain(test::kTouchTier), HasSubstr("who can touch, then everything to all"));
+  EXPECT_THAT(explain(test::kTouchTier), HasSubstr("peers that can touch, then everything to all"));
   EXPECT_THAT(explain(test::kDistanceTiers),
               HasSubstr("to 200 m 10 Hz approximate, beyond 1 Hz rigid of the nearest receiver;"));
   const std::string all = explain(test::kAllTiers);
-  EXPECT_THAT(all, HasSubstr("who can touch, to 1 m 1000 Hz full, to 50 m 30 Hz full, to 200 m "
-                             "10 Hz approximate 4 x as coarse, beyond 1 Hz rigid 16 x as coarse;"));
-  EXPECT_THAT(all, HasSubstr("by 100 more groups, which those alone listen to who can touch"));
+  EXPECT_THAT(all,
+              HasSubstr("peers that can touch, to 1 m 1000 Hz full, to 50 m 30 Hz full, to 200 m "
+                        "10 Hz approximate 4 x as coarse, beyond 1 Hz rigid 16 x as coarse;"));
+  EXPECT_THAT(all, HasSubstr("by 100 more groups, joined only by peers that can touch"));
   EXPECT_THAT(all, HasSubstr("2 tiers by 200 more groups"));
   EXPECT_THAT(all, HasSubstr("the tier up to 200 m reaches as far as the radius of 90 m"));
 }

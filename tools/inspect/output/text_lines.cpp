@@ -31,7 +31,7 @@ void append_printable(std::string& out, std::string_view text) {
   for (const char letter : text) out += letter < ' ' || letter > '~' ? '.' : letter;
 }
 
-/// The name of a value, or what it is and its number: "Friendly", "force 77".
+/// Appends the name of a value or, if it has none, its kind and number: "Friendly", "force 77".
 template <typename Enumeration>
 void append_name(std::string& out, std::string_view what, Enumeration value) {
   const std::string_view name = pdu::name(value);
@@ -84,7 +84,7 @@ void append_attribute(std::string& out, const pdu::Attribute& pdu) {
     records += set.count;
     for (const pdu::AttributeRecord& record : set.records()) {
       (void)pdu::visit_attribute_record(record, [&](const auto& typed) {
-        ours += "; ";  // the entity of an only set stands in its own column
+        ours += "; ";  // with one set the ID column has the entity
         if (pdu.record_sets.count > 1) ours += id_text(set.entity_id) + ": ";
         append_record(ours, typed);
       });
@@ -153,14 +153,14 @@ void append_brief(std::string& out, const PduRow& row) {
   });
 }
 
-/// A number at the right of a column of `width`; one that is wider takes its room.
+/// A number aligned right in a column of `width`. A wider number widens its line.
 void append_right(std::string& out, std::uint64_t value, std::size_t width) {
   const fmt::format_int text(value);
   out.append(width - std::min(text.size(), width), ' ');
   out.append(text.data(), text.size());
 }
 
-/// ASCII text at the left of a column of `width`.
+/// ASCII text aligned left in a column of `width`.
 void append_left(std::string& out, std::string_view text, std::size_t width) {
   out += text;
   out.append(width - std::min(text.size(), width), ' ');
