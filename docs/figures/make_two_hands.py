@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Draws docs/figures/two_hands.svg from a run of the demo: python3 docs/figures/make_two_hands.py
+"""Draws docs/figures/two_hands.svg from a run of scenes/two_hands.toml: python3 docs/figures/make_two_hands.py
 
-Runs `reckon demo --simulated-time --for 60s --trace ...` and draws where the two hands were, and the force
+Runs `reckon demo scenes/two_hands.toml --simulated-time --for 60s --trace ...` and draws where the two hands were, and the force
 that each felt from the other, computed from what it had received. Standard library only.
 """
 import csv
@@ -24,7 +24,7 @@ SCALE = 1950  # page units a metre
 def record():
     with tempfile.TemporaryDirectory() as folder:
         trace = pathlib.Path(folder) / "trace.csv"
-        subprocess.run([PROGRAM, "demo", "--simulated-time", "--for", "60s", "--trace", trace],
+        subprocess.run([PROGRAM, "demo", ROOT / "scenes/two_hands.toml", "--simulated-time", "--for", "60s", "--trace", trace],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         hands = {1: [], 2: []}
         with open(trace, newline="") as file:
