@@ -65,8 +65,8 @@ void MotionFilter::take(const Row& sample) noexcept {
   }
 }
 
-// The sums only ever grow by one sample, and begin anew before a window can leave the origin
-// behind: nothing is subtracted and no rounding piles up, however long the filter runs.
+// The sums only ever grow by one sample, and are restarted before the origin leaves a window.
+// Nothing is subtracted, so that no rounding error accumulates.
 void MotionFilter::restart_sums() noexcept {
   origin_ = samples_[newest_];
   since_ = 0;
@@ -78,8 +78,8 @@ void MotionFilter::restart_sums() noexcept {
   }
 }
 
-// The normal equations by cofactors. Every product in them has the same power of time, so that they
-// are as well conditioned for any unit of it.
+// Solves the normal equations by cofactors. Every product in them has the same power of time, so
+// that their conditioning does not depend on the unit of time.
 MotionFilter::Parabola MotionFilter::fit(std::size_t count) const noexcept {
   Parabola out;
   Sums& s = out.sums;
@@ -109,8 +109,8 @@ MotionFilter::Parabola MotionFilter::fit(std::size_t count) const noexcept {
   return out;
 }
 
-// No sample can be off by more than all of them together, and one is by more than their mean. Only
-// where these two leave it open are the samples looked at one by one.
+// The largest residual lies between the mean and the sum of the residuals. The samples are examined
+// one by one only if these bounds do not decide.
 bool MotionFilter::fits(const Parabola& parabola, std::size_t count) const noexcept {
   if (parabola.rounding <= 0) return false;
   const Sums& s = parabola.sums;

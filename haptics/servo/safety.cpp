@@ -41,7 +41,7 @@ double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& veloc
   return power > max_power_ ? std::min(by_force, max_power_ / power) : by_force;
 }
 
-// A cause that lasts keeps the force off but counts once.
+// A lasting cause keeps the force at zero but counts once.
 void Safety::trip(Trip cause) noexcept {
   if (held_ == 0 || cause != last_) ++trips_;
   last_ = cause;

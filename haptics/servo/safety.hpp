@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The last stage before the device: limits, trips, the operator's switch.
+// The last stage before the device: limits, trips and the operator's switch.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,44 +10,45 @@
 
 namespace reckon::haptics {
 
-/// Why the force was cut to zero in a step.
+/// Why a step cut the force to zero.
 enum class Trip : std::uint8_t { none, not_finite, overspeed, no_reading, watchdog };
 
-/// What a step may do.
+/// What forces a step may show.
 enum class Admission : std::uint8_t {
   shown,   ///< forces are rendered
-  paused,  ///< none in this step, for its reading failed; what contacts hold is kept
-  cut,     ///< none: contacts let go
+  paused,  ///< no force in this step, because its reading failed; the contacts keep their state
+  cut,     ///< no force, and the contacts let go
 };
 
-/// Decides what part of a wanted force may reach the hand. It only ever scales: direction is kept,
-/// and the caller scales the storage of its contacts by the same factor, so that the energy books
-/// stay exact. After a trip or a released switch the force is 0 and stays so for `hold`; then the
-/// contacts ramp up again by themselves, paid by the port. A reading that fails by itself pauses
-/// the force for that step: what the hand did meanwhile is booked by the next one. Where more than
-/// kMostMissed of them fail in half a second it is a trip.
+/// Decides which share of a wanted force may reach the hand. It only scales, so that the direction
+/// stays, and the caller scales the storage of its contacts by the same factor to keep the energy
+/// accounts exact. After a trip or a released switch the force is 0 for `hold`. Then the contacts
+/// ramp up again by themselves, paid by the port. A single failed reading pauses the force for that
+/// step, and the next step accounts for the motion of the hand. More than kMostMissed failed
+/// readings in half a second are a trip.
 class Safety {
  public:
   /// @param max_force [N] > 0, magnitude of the total force
-  /// @param max_power [W] > 0, that the force puts into a hand which gives way to it
+  /// @param max_power [W] > 0, power of the force on a hand that yields to it
   /// @param max_speed [m/s] > 0, of the handle
   /// @param hold_steps samples of zero force after a trip
   Safety(double max_force, double max_power, double max_speed, int hold_steps) noexcept;
 
-  /// Failed readings in a row, or within kForgiven samples, that are no trip yet.
+  /// Most failed readings, in a row or within kForgiven samples, that are not yet a trip.
   static constexpr int kMostMissed = 3;
   static constexpr int kForgiven = 500;
 
-  /// Call once a step, first. @param velocity [m/s], of the handle, any frame.
+  /// Call first in each step. @param velocity [m/s], of the handle, any frame.
   [[nodiscard]] Admission admit(const DeviceSample& sample,
                                 const Eigen::Vector3d& velocity) noexcept;
 
-  /// Factor in [0, 1] for the wanted total force [N]; 0 and a trip when it is not finite. Power is
-  /// that of the hand's velocity [m/s] now: what it gains within the sample is not foreseen.
+  /// Factor in [0, 1] for the wanted total force [N]. A force that is not finite gives 0 and a
+  /// trip. The power limit uses the present velocity of the hand [m/s] and does not predict its
+  /// acceleration within the sample.
   [[nodiscard]] double scale(const Eigen::Vector3d& wanted,
                              const Eigen::Vector3d& velocity) noexcept;
 
-  /// Trips since construction; one for each cause that begins.
+  /// Trips since construction. Each cause counts once when it begins.
   [[nodiscard]] std::uint64_t trips() const noexcept { return trips_; }
   [[nodiscard]] Trip last_trip() const noexcept { return last_; }
 
@@ -59,8 +60,8 @@ class Safety {
   double max_speed_;
   int hold_steps_;
   int held_ = 0;
-  int missed_ = 0;    // readings that failed within kForgiven samples
-  int forgiven_ = 0;  // samples until that is forgotten
+  int missed_ = 0;    // failed readings within kForgiven samples
+  int forgiven_ = 0;  // samples until the failures are forgotten
   std::uint64_t trips_ = 0;
   Trip last_ = Trip::none;
 };

@@ -12,7 +12,7 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
+constexpr double kMostStaticShare = 0.75;  // of b; the rest is reserved for remote hands
 
 void require(bool good, const std::string& text) {
   if (!good) throw std::invalid_argument("servo: " + text);

@@ -17,12 +17,12 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kToSpare = 1.05;   // of the energy that the whole force needs
-constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or given way to all force
+constexpr double kToSpare = 1.05;   // times the energy that the whole force needs
+constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or of a yielding hand
 constexpr int kHoldSteps = 100;     // of zero force after a trip
-constexpr double kStill = 0.02;     // [m/s], a tremor is rest too
+constexpr double kStill = 0.02;     // [m/s], a hand with a tremor is at rest too
 constexpr double kRest = 1.0;       // [s]
-constexpr double kReadFor = 0.002;  // [s]: an encoder's step in it may be no motion
+constexpr double kReadFor = 0.002;  // [s]: within it an encoder step may be no motion
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -87,7 +87,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
   if (step_.transfer) {
     step_.engaged = exchange(wanted);
   } else {
-    // A hand that shows nothing wants nothing: what others gave it would be lost.
+    // Without forces the hand needs no energy: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();
   }
   const Eigen::Vector3d force = hold(wanted);
@@ -108,7 +108,7 @@ double ServoLoop::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
 }
 
-// Short of energy for a second in which the hand held still: nobody else will put it in.
+// Energy has been short for a second while the hand held still, so that nobody will supply it.
 bool ServoLoop::at_rest() noexcept {
   const bool is = softening_.share() < 1.0 && sure_speed() <= kStill;
   rested_ = is ? rested_ + step_.dt : 0.0;
@@ -118,13 +118,13 @@ bool ServoLoop::at_rest() noexcept {
 std::size_t ServoLoop::exchange(const PortLoad& load) noexcept {
   const bool rests = at_rest();
   const double walls = static_.lacks();
-  // Alone, with nothing to borrow or to pay back.
+  // Without neighbours, loan or debt there is nothing to do.
   if (near_count_ == 0 && !(walls > 0) && !(port_.owed() > 0)) return 0;
   const double spare = port_.spare(load.walls_slope, period_);
   return exchange_energy(near(), port_, {spare, walls, sure_speed(), rests, step_.dt});
 }
 
-// What is cut to nothing is let go: it fades in again from there.
+// A contact whose force is cut to zero lets go, and fades in again from there.
 void ServoLoop::reduce(double scale) noexcept {
   static_.attenuate(scale, port_);
   if (scale > 0.0) return;
@@ -132,8 +132,8 @@ void ServoLoop::reduce(double scale) noexcept {
   for (RemoteContact* remote : near()) remote->drop();
 }
 
-// A cut lowers the gain of the walls, which begins to rise again at once: what they ask for is more
-// than what is wanted in this step.
+// A cut lowers the gain of the walls, which at once begins to rise again. Their full force is
+// therefore greater than the force of this step.
 void ServoLoop::note_limit(const Eigen::Vector3d& force, double scale) noexcept {
   limit_share_ = 1.0;
   if (!(scale > 0.0) || scale >= 1.0) return;
@@ -142,7 +142,7 @@ void ServoLoop::note_limit(const Eigen::Vector3d& force, double scale) noexcept 
   tally_.limit.note(limit_share_, asked, step_.dt);
 }
 
-// A shorter sample than real would credit more damping than there was.
+// A sample shorter than the real one would credit too much damping.
 void ServoLoop::note_time() noexcept {
   if (count_ > 0 && 2 * (step_.now - stepped_at_) > 3 * config_.period) ++tally_.late;
   elapsed_ =
@@ -150,7 +150,7 @@ void ServoLoop::note_time() noexcept {
   stepped_at_ = step_.now;
 }
 
-// A reading that is not there leaves the hand where it was; the held force is cut in this step.
+// A failed reading leaves the hand where it was; the held force is cut in this step.
 bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   step_.dt = period_;
   if (!reading.ok || !reading.position.allFinite()) {
@@ -173,9 +173,9 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   return true;
 }
 
-// The device dropped the force by itself. Up to where it did so the sample is like any other, after
-// that the hand moved without a force. Where that is not known, how much it took from the hand is
-// not known.
+// The device dropped the force by itself. Up to that place the sample is a normal one, and after it
+// the hand moved without a force. If the place is unknown, the energy exchanged with the hand is
+// unknown too.
 void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept {
   ++tally_.let_go;
   if (reading.released_at && reading.released_at->allFinite()) {
@@ -226,7 +226,7 @@ PairAccount& ServoLoop::pair_of(const pdu::EntityId& id) noexcept {
   return *oldest;
 }
 
-// Sets keep their order for the most part: a hand is looked for where it was in the last one.
+// Sets mostly keep their order, so that the search begins at the hand's place in the last set.
 RemoteContact* ServoLoop::slot_of(const pdu::EntityId& id, std::size_t at) noexcept {
   RemoteContact* guess = placed_[at];
   if (guess != nullptr && guess->occupied() && guess->id() == id) return guess;
@@ -251,7 +251,7 @@ void ServoLoop::take_contacts() noexcept {
   const ContactSet& set = contacts_.read();
   frozen_ = set.frozen;
   left_out_ = set.left_out;
-  for (RemoteContact* remote : near()) remote->leave();  // but for those that are listed
+  for (RemoteContact* remote : near()) remote->leave();  // except those in the set
   for (std::size_t i = 0; i < std::min(set.count, kMaxRemoteHands); ++i) {
     if (!place(set.hands[i], i)) ++left_out_;
   }
@@ -294,7 +294,7 @@ void ServoLoop::drop_faded() noexcept {
   near_count_ = kept;
 }
 
-// All springs are one force to the hand: what cancels costs nothing.
+// All springs are one force to the hand: opposite forces cancel and cost nothing.
 PortLoad ServoLoop::load() noexcept {
   PortLoad load;
   static_.load(step_.velocity, period_, load);
@@ -316,8 +316,8 @@ PortLoad ServoLoop::load() noexcept {
   return load;
 }
 
-// More springs at once than the device can show would buzz, paid by the ledger: all of them are
-// shown softer alike.
+// If the springs together are stiffer than the device can show, they would buzz at the expense of
+// the ledger. So all are softened by the same factor.
 void ServoLoop::soften_crowd(PortLoad& load) noexcept {
   const double most = body_stiffness_limit() - load.walls_slope;
   const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
@@ -353,10 +353,11 @@ Eigen::Vector3d ServoLoop::hold(PortLoad& load) noexcept {
   return force;
 }
 
-// A crease, an edge or a quick blow turns the force within one sample: it lags, and what is missing
-// is held like any rest. Where the energy does not allow that, all of it falls.
+// A crease, an edge or a quick blow turns the force within one sample. The force follows at a
+// limited rate, which the port accounts for like any held force. If the energy does not allow that,
+// the whole force is reduced.
 Eigen::Vector3d ServoLoop::keep_rate(const PortLoad& load, const Eigen::Vector3d& wanted) noexcept {
-  if (!wanted.allFinite()) return wanted;  // safety sees to it
+  if (!wanted.allFinite()) return wanted;  // safety handles it
   const double most = max_rate_ * elapsed_;
   const Eigen::Vector3d near_by = nearest_in_reach(written_, wanted, most);
   if (near_by == wanted || port_.hold_instead(load, near_by, period_)) return near_by;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One step of the force loop: read, predict, contact, gate, safety, write, publish. A thread of its
-// own calls step() every period; tests call it by hand.
+// One step of the force loop: read, predict, contact, gate, safety, write, publish. Its own thread
+// calls step() every period; tests call it directly.
 #pragma once
 
 #include <array>
@@ -75,9 +75,9 @@ class ServoLoop {
  private:
   void note_time() noexcept;
   void reduce(double scale) noexcept;
-  [[nodiscard]] std::size_t exchange(const PortLoad& load) noexcept;  // contacts engaged
+  [[nodiscard]] std::size_t exchange(const PortLoad& load) noexcept;  // number of contacts engaged
   [[nodiscard]] bool at_rest() noexcept;
-  [[nodiscard]] double sure_speed() const noexcept;  // [m/s], at least
+  [[nodiscard]] double sure_speed() const noexcept;  // [m/s], lower bound
   void note_limit(const Eigen::Vector3d& force, double scale) noexcept;
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
@@ -110,20 +110,20 @@ class ServoLoop {
   double period_;                 // [s], nominal
   double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
   double static_cap_ = 0.0;       // [N/m]
-  double max_rate_ = 0.0;         // [N/s], of growth and turning of the force
-  double max_power_ = 0.0;        // [W], into a hand that gives way
+  double max_rate_ = 0.0;         // [N/s], growth and rotation of the force
+  double max_power_ = 0.0;        // [W], into a yielding hand
   StaticContact static_;
   EnergyPort port_;
   Softening softening_;
-  double crowd_share_ = 1.0;  // of the springs of all hands, where together they are too stiff
-  PortHold held_;             // what of the load is held
-  double limit_share_ = 1.0;  // of that, within the greatest force
+  double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
+  PortHold held_;             // shares of the load that the port held
+  double limit_share_ = 1.0;  // share of that within the greatest force
   Safety safety_;
   MotionFilter device_motion_;
   MotionFilter scp_motion_;
   std::array<RemoteContact, kMaxRemoteHands> remote_{};
-  std::array<RemoteContact*, kMaxRemoteHands> near_{};    // those in use, in the order of remote_
-  std::array<RemoteContact*, kMaxRemoteHands> placed_{};  // by place in the last set
+  std::array<RemoteContact*, kMaxRemoteHands> near_{};    // slots in use, in the order of remote_
+  std::array<RemoteContact*, kMaxRemoteHands> placed_{};  // slots by place in the last set
   std::size_t near_count_ = 0;
   std::size_t left_out_ = 0;
   std::array<PairAccount, 8 * kMaxRemoteHands> pairs_{};
@@ -136,7 +136,7 @@ class ServoLoop {
   std::uint64_t count_ = 0;
   std::chrono::nanoseconds stepped_at_{0};
   double elapsed_ = 0.0;  // [s], since the last step
-  double rested_ = 0.0;   // [s], short of energy and still
+  double rested_ = 0.0;   // [s], time short of energy and at rest
   ServoTally tally_;
   bool frozen_ = false;
   bool started_ = false;
@@ -145,7 +145,7 @@ class ServoLoop {
   Eigen::Vector3d last_probe_ = Eigen::Vector3d::Zero();
   double port_min_ = 0.0;
   double loan_most_ = 0.0;
-  double resting_ = 0.0;  // [J], received - given of all accounts that are in no contact now
+  double resting_ = 0.0;  // [J], received - given of all accounts without a contact now
 };
 
 }  // namespace reckon::haptics
