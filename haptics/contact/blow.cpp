@@ -7,16 +7,16 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kHitSpeed = 0.15;       // [m/s], at first touch; slower is a press
+constexpr double kHitSpeed = 0.15;       // [m/s], at first touch; a slower approach is a press
 constexpr double kStrikeSpeed = 0.075;   // [m/s], of our hand
-constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
-constexpr double kCatchUp = 0.5;         // [s/s], of what was played back and is still felt
-constexpr double kStopped = 0.05;        // [kg], until its owner tells how it went on
-constexpr double kRelease = 0.003;       // [s], for a surface to go back
-constexpr double kNewsAge = 0.004;       // [s]; with less delay who is struck asks in time
-constexpr double kGiftAtOnce = 0.005;    // [J], with the news
+constexpr double kBlowTime = 0.5;        // [s], since the last such approach
+constexpr double kCatchUp = 0.5;         // [s/s], for the playback delay while the hand is felt
+constexpr double kStopped = 0.05;        // [kg], mass assumed until the owner reports the outcome
+constexpr double kRelease = 0.003;       // [s], time for a surface to recede
+constexpr double kNewsAge = 0.004;       // [s]; with a lower delay the struck hand asks in time
+constexpr double kGiftAtOnce = 0.005;    // [J], with the first update
 constexpr double kGiftPower = 0.1;       // [W], after it
-constexpr double kGiftsOfABlow = 0.015;  // [J], in one blow
+constexpr double kGiftsOfABlow = 0.015;  // [J], for one blow
 
 }  // namespace
 

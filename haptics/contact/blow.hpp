@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A blow between our hand and one remote hand: from the news or the sight of a quick approach until
-// half a second after the last one. What is shown, how deep a guess may lead and what is given
-// unasked are others then than in a press. Servo thread, SI units.
+// A blow between our hand and one remote hand. It begins with a quick approach, stated or observed,
+// and ends half a second after the last one. Display, the depth of an extrapolation and unrequested
+// gifts of energy differ from those in a press. Servo thread, SI units.
 #pragma once
 
 #include <algorithm>
@@ -12,59 +12,62 @@
 
 namespace reckon::haptics {
 
-/// Tells blows from presses and has what goes on with one: the playback of a hand that comes from
-/// far off, and the gifts to who is struck. O(1), but for the pose of what is played back.
+/// Distinguishes blows from presses, plays back a distant hand and gives energy to the struck hand.
+/// O(1), except for the pose of a playback.
 class Blow {
  public:
-  /// Whether there is one.
+  /// Whether a blow is on.
   [[nodiscard]] bool is_on() const noexcept { return left_ > 0; }
 
-  /// Its owner says where the hand was at this time.
+  /// Stores the state of the hand that its owner states for this time.
   void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept {
     playback_.hear(state, time);
   }
-  /// By what its owner says, before extrapolation leads the hand into ours. @param closing [m/s],
-  /// towards ours  @param age [s], of updates on arrival
+  /// Detects a blow from stated states, before extrapolation leads the hand into ours. @param
+  /// closing [m/s], towards ours  @param age [s], of updates on arrival
   void expect(double closing, double age) noexcept;
-  /// Hands that are apart: a blow begins where they close in quickly. @param closing [m/s], of both
-  /// @param ours [m/s], of it by our hand
+  /// For hands apart: a blow begins if they approach quickly. @param closing [m/s], of both hands
+  /// @param ours [m/s], the part of our hand
   void see(double closing, double ours) noexcept;
-  /// A step of `dt` [s] goes by.
+  /// Advances by a step of `dt` [s].
   void pass(double dt) noexcept { left_ = std::max(0.0, left_ - dt); }
 
-  /// Moves on the time of which the hand is shown: with the present, and once the blow is over
-  /// faster until it is the present. @param felt it is touched: slowly  @return by how much [s]
+  /// Advances the time at which the hand is shown. It runs at the normal rate, and after the blow
+  /// faster until it reaches the present. @param felt the hand is touched: the time catches up
+  /// slowly
+  /// @return the advance [s]
   [[nodiscard]] double move_on(double dt, bool felt) noexcept;
-  /// [s], by which what is shown is behind the present; 0 where that is extrapolated.
+  /// Delay of the playback [s]; 0 if the hand is extrapolated to the present.
   [[nodiscard]] double behind() const noexcept { return playback_.behind(); }
-  /// Where the hand was so long ago, see Playback::pose().
+  /// Pose of the hand `before` [s] earlier, see Playback::pose().
   [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double before) const noexcept {
     return playback_.pose(now, playback_.behind(), before);
   }
 
-  /// Its owner has not said yet how it went on. @param since [s], it said something
+  /// Whether the outcome of the blow is still unknown. @param since [s], age of the owner's last
+  /// state
   [[nodiscard]] bool is_guessed(double since) const noexcept {
     return is_on() && since > playback_.behind();
   }
-  /// How deep a hand comes into ours that was stated to be `depth` [m] deep and closes in at
-  /// `closing` [m/s]: as a light hand would that a spring of k1 [N/m] stops.
+  /// Greatest depth of a hand that was stated `depth` [m] deep and approaches at `closing` [m/s]:
+  /// that of a light hand which a spring of k1 [N/m] stops.
   [[nodiscard]] static double deepest_guess(double depth, double closing, double k1) noexcept;
 
-  /// Share of what a surface stands too deep in our hand that it goes back in dt [s]: in a blow as
-  /// fast as the news says. What a follower would leave standing strikes our hand harder than its
-  /// owner does, and after that one has gone. 0 in a press: it keeps the calm follower, for it
-  /// would lose in ripples the energy that it rests on.
+  /// Share of the surface's excess depth in our hand that is removed in dt [s]. In a blow the
+  /// surface recedes as fast as updates state: one that a follower leaves in place strikes our hand
+  /// harder than its owner does, and after the owner has left. 0 in a press, which keeps the calm
+  /// follower, because ripples would cost the energy on which the press relies.
   [[nodiscard]] double release(double dt) const noexcept;
 
-  /// What to give unasked [J]: who is struck can ask only when the blow is over, so some of what it
-  /// needs comes with the news. @param age [s], of updates  @param surplus [J], ours
+  /// Energy to give without a request [J]. A struck hand can ask only after the blow, so that part
+  /// of its need comes with the updates. @param age [s], of updates  @param surplus [J], ours
   [[nodiscard]] double gift(double age, double surplus, double dt) noexcept;
 
  private:
   Playback playback_;
   double left_ = 0.0;     // [s]
-  double gifts_ = 0.0;    // [J], still to give for it
-  bool strikes_ = false;  // ours comes down on it, and has not given for that yet
+  double gifts_ = 0.0;    // [J], still to give in this blow
+  bool strikes_ = false;  // our hand strikes, and nothing has been given for it yet
 };
 
 }  // namespace reckon::haptics

@@ -11,11 +11,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Least |a - b|^2 and |a + b|^2 of two unit vectors that count as two directions.
+// Two unit vectors count as two directions above this value of |a - b|^2 and |a + b|^2.
 constexpr double kParallel = 1e-6;
 
 // N (N^T N)^(-1/2): the nearest orthonormal directions, by symmetric orthogonalisation (Loewdin).
-// The columns of `directions` beyond the shares are zero; they stay so.
+// The columns of `directions` beyond the shares are zero and stay zero.
 bool straighten(Matrix3d& directions, std::size_t count) {
   Matrix3d gram = directions.transpose() * directions;
   for (auto i = static_cast<Eigen::Index>(count); i < 3; ++i) gram(i, i) = 1.0;

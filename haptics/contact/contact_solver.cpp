@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Far beyond any scene, near enough that no square of it overflows.
+// Far beyond any scene, but near enough that its square does not overflow.
 constexpr double kFarthest = 1e9;
-// Overlapping objects that are left one after the other before the search goes straight out, and
+// Number of overlapping objects that the search leaves one by one before it goes straight out, and
 // the lengths [m] that it tries.
 constexpr int kPushes = 32;
 constexpr double kSearchFrom = 1e-4;
@@ -25,7 +25,7 @@ bool usable(const Vector3d& device) {
   return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthest;
 }
 
-// What holds the contact point; null for a smooth surface.
+// Friction cone that holds the contact point; null for a smooth surface.
 FrictionCone* cone_of(PlannedEffects& effects) {
   FrictionCone* cone = nullptr;
   effects.for_each([&]<class Effect>(Effect& effect) {
@@ -34,8 +34,8 @@ FrictionCone* cone_of(PlannedEffects& effects) {
   return cone;
 }
 
-// The objects whose planes carry load. A walk that ended without any, for it takes more moves than
-// one step has, is held by the object of a plane that it met, or by `other`.
+// The objects whose planes carry load. A walk that needs more moves than one step has may end
+// without load. Then the object of a plane that it met holds the point, or else `other`.
 std::size_t holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t other,
                     const Vector3d& way, ContactShares& shares) {
   std::size_t count = 0;
@@ -103,8 +103,8 @@ ContactResult ContactSolver::step(const Vector3d& device) noexcept {
   return sum(device);
 }
 
-// The SCP never gets farther from the device than it is. What is touched may be left behind by a
-// way that no longer meets its box, and is to be notified.
+// The SCP never moves farther from the device than it is. A touched object may be left on a path
+// that no longer meets its box, and must be notified.
 void ContactSolver::find_near(const Vector3d& device) noexcept {
   ++step_;
   near_.clear();
@@ -125,7 +125,7 @@ bool ContactSolver::within_reach(std::uint32_t index, const Vector3d& device) co
   return distance_below(object.shape, object.to_object(device)) <= reach;
 }
 
-// Some object whose solid the probe overlaps at p.
+// An object whose solid the probe overlaps at p, if any.
 std::uint32_t ContactSolver::overlapped(const Vector3d& p) const noexcept {
   std::uint32_t found = kNobody;
   const Vector3d room = Vector3d::Constant(radius_);
@@ -137,7 +137,7 @@ std::uint32_t ContactSolver::overlapped(const Vector3d& p) const noexcept {
   return found;
 }
 
-// Out of one object after the other.
+// Moves p out of one object after the other.
 bool ContactSolver::push_out(Vector3d& p) const noexcept {
   for (int round = 0; round < kPushes; ++round) {
     const std::uint32_t index = overlapped(p);
@@ -150,7 +150,8 @@ bool ContactSolver::push_out(Vector3d& p) const noexcept {
   return overlapped(p) == kNobody;
 }
 
-// Along the axes and the diagonals, in growing steps. Nothing found: stays where it is.
+// Searches along the axes and the diagonals, in growing steps. Returns the device if nothing is
+// found.
 Vector3d ContactSolver::search_outside(const Vector3d& device) const noexcept {
   for (double reach = kSearchFrom; reach < kSearchTo; reach *= 2.0) {
     for (int way = 0; way < 27; ++way) {
@@ -197,7 +198,7 @@ void ContactSolver::settle(const Vector3d& device) noexcept {
   } else {
     settle_among(device);
   }
-  // What was left no longer slides.
+  // An object that was left no longer slides.
   for (const std::uint32_t i : touched_) {
     if (cones_[i] != nullptr && !contacts_[i].in_contact) cones_[i]->set_sliding(false);
   }
@@ -257,7 +258,7 @@ void ContactSolver::apply(std::uint32_t index, const SurfaceFeel& feel) noexcept
   if (auto& friction = effects.of<StickSlipFriction>()) friction->adjust(feel.friction);
 }
 
-// A contact begins with what is there; what was touched before goes over to it in time.
+// A new contact begins with the patch below it. An existing one changes to it gradually.
 void ContactSolver::note_patch(std::uint32_t index, std::uint32_t triangle) noexcept {
   const SurfacePatches* patches = plan_.objects()[index].patches.get();
   if (patches == nullptr) return;
@@ -296,7 +297,7 @@ double ContactSolver::stiffness_of(std::uint32_t index) const noexcept {
   return sum;
 }
 
-// Springs of one object, in its axes, of a contact whose place and normal are known.
+// Forces of one object's springs, in its axes, for a contact with known place and normal.
 void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
                          const Vector3d& device) noexcept {
   const PlannedObject& object = plan_.objects()[index];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Contact of one probe with all objects of a plan: one surface contact point (SCP) that stays
-// outside all of them, objects far away left out by a tree of their boxes, forces of those that
-// hold it summed. Runs inside the servo step.
+// Contact of one probe with all objects of a plan. One surface contact point (SCP) stays outside
+// all of them. A tree of boxes excludes distant objects. The forces of the objects that hold the
+// SCP are summed. Runs inside the servo step.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,9 +22,10 @@ namespace reckon::haptics {
 
 /// Contact with one object, frame S.
 struct ObjectContact {
-  /// [m]; the same for all that hold it; of one that is free, the device point when it was near.
+  /// [m]; the same for all objects that hold it. For a free object, the device point when it was
+  /// near.
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero when free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero if free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
   double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
   double depth = 0.0;                                ///< [m], this object's share of |device - scp|
@@ -33,68 +34,70 @@ struct ObjectContact {
   bool started_inside = false;  ///< since reset, until this object is left once
 };
 
-/// Outcome of a step, frame S. The spans stay valid until the solver's next call.
+/// Result of a step, frame S. The spans stay valid until the solver's next call.
 struct ContactResult {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< outside all objects; device when free
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the deepest contact; zero when free
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< outside all objects; device if free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the deepest contact; zero if free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< springs only, summed over objects [N]
   double stored_energy = 0.0;                        ///< summed over objects [J]
   std::size_t deepest = kNone;                       ///< index of the deepest contact in objects
   bool in_contact = false;
-  bool started_inside = false;             ///< of any object: the servo ramps the force up
+  bool started_inside = false;             ///< inside any object: the servo ramps the force up
   std::span<const ObjectContact> objects;  ///< in the plan's order
-  std::span<const std::uint32_t> touched;  ///< indices of those in contact, ascending
+  std::span<const std::uint32_t> touched;  ///< indices of objects in contact, ascending
 };
 
-/// One SCP for all objects, kept outside each to within its clearance (1e-7 of its size). Where one
-/// object alone is within reach, it settles in that object's own closed form or walk; where there
-/// are several, planes of all of them hold it, and |device - scp| is split into one share per
-/// object that holds it (contact_shares.hpp), which feels that object's springs. For a device that
-/// holds still no step raises |device - scp|, and the sum of the springs has no curvature above the
-/// stiffest of them: storage of a passive virtual wall. Where objects of different stiffness meet,
-/// the energy may jump as one takes over from another: whoever uses it books it whole, as
-/// StaticContact does.
+/// One SCP for all objects, kept outside each of them to within its clearance (1e-7 of its size).
+/// If only one object is within reach, the SCP settles in that object's own closed form or walk. If
+/// there are several, planes of all of them hold it. |device - scp| is then split into one share
+/// per holding object (contact_shares.hpp), on which that object's springs act.
 ///
-/// Where no place outside all objects is found, as between planes that leave none, the SCP starts
-/// inside: as passive, but held by what it meets from there.
+/// For a device at rest no step raises |device - scp|, and the sum of the springs has no curvature
+/// above the stiffest of them: the storage of a passive virtual wall. Where objects of different
+/// stiffness meet, the energy may jump as one takes over from another. The user must therefore book
+/// all of it, as StaticContact does.
+///
+/// If no place outside all objects is found, as between planes that leave none, the SCP starts
+/// inside. It is still passive, but is held by the surfaces that it meets from there.
 class ContactSolver {
  public:
-  /// @param plan outlives the solver; shared between solvers it is only read.
+  /// @param plan outlives the solver; solvers that share it only read it
   /// @param radius of the probe [m], >= 0: the SCP is its centre
-  /// @param patch_cap [N/m], stiffer patches of a mesh are felt so stiff
+  /// @param patch_cap [N/m], limit of the stiffness of mesh patches
   explicit ContactSolver(const EffectPlan& plan, double radius = 0.0,
                          double patch_cap = std::numeric_limits<double>::infinity());
   ContactSolver(const ContactSolver&) = delete;
   ContactSolver& operator=(const ContactSolver&) = delete;
 
-  /// Starts anew at `device` [m, S]: where that lies inside objects, the SCP is put outside near by
-  /// and started_inside is set. No allocation; looks at every object, tens of nanoseconds each,
-  /// tens of microseconds for a mesh.
+  /// Restarts at `device` [m, S]. If that lies inside objects, the SCP is put outside nearby and
+  /// started_inside is set. No allocation; examines every object, tens of nanoseconds each, or tens
+  /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
-  /// Moves the SCP to where it settles for this device position [m, S]; any position is allowed,
-  /// one that is not finite or beyond 1e9 m gives no force, the last scp, and changes nothing. The
-  /// first call resets. No allocation. Looks at the objects touched before and at those no farther
+  /// Moves the SCP to where it settles for this device position [m, S]. Any position is allowed.
+  /// One that is not finite or beyond 1e9 m gives no force and the last scp, and changes nothing.
+  /// The first call resets. No allocation. Examines the objects touched before and those no farther
   /// from the device than the SCP was: logarithmic in all others.
   ContactResult step(const Eigen::Vector3d& device) noexcept;
 
-  /// Goes over to the patches below the SCP, as PatchBlend does: the same contacts with other
-  /// springs. A contact begins with its patch at once. No allocation.
-  /// @param dt [s], since the last step  @param energy [J] >= 0, that growing springs may take
+  /// Changes to the patches below the SCP, as PatchBlend does: the contacts stay and their springs
+  /// change. A new contact begins with its patch at once. No allocation.
+  /// @param dt [s], since the last step  @param energy [J] >= 0, available for growing springs
   ContactResult follow_patches(double dt, double energy) noexcept;
   /// Whether any object touched has patches.
   [[nodiscard]] bool on_patches() const noexcept;
-  /// Of the stiffness of the patches that were touched, what their energy allows, (0, 1].
+  /// Share of the touched patches' stiffness that the energy allowed, (0, 1].
   [[nodiscard]] double patch_share() const noexcept { return patch_share_; }
-  /// Of all springs of an object together, as they are felt now [N/m].
+  /// Present stiffness of all springs of an object together [N/m].
   [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept;
 
-  /// What the effects give beside the springs [N, S], summed over objects, at the last step's
-  /// contacts: dampers, and whatever else has the hook force(). Once a step, so that an effect may
-  /// keep time. Not bounded, nor finite: StaticContact sees to it. No allocation.
-  /// @param velocity of the device [m/s, S]  @param dt [s], how long the force will be held
+  /// Forces of the effects besides the springs [N, S], summed over objects, at the last step's
+  /// contacts: dampers, and any other effect with the hook force(). Call once a step, so that an
+  /// effect may keep time. Neither bounded nor surely finite: StaticContact limits it. No
+  /// allocation.
+  /// @param velocity of the device [m/s, S]  @param dt [s], hold time of the force
   [[nodiscard]] Eigen::Vector3d effect_force(const Eigen::Vector3d& velocity, double dt) noexcept;
 
   /// Evaluations of friction since the last reset; zero for a scene that declares none.
@@ -107,8 +110,8 @@ class ContactSolver {
     PlannedEffects effects;
     bool started_inside = false;
     PatchBlend blend;                                   // of a mesh with patches
-    std::uint64_t touched_at = 0;                       // step, of the same
-    Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs go, its own axes
+    std::uint64_t touched_at = 0;                       // step of the last touch
+    Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs end, its own axes
   };
 
   [[nodiscard]] bool within_reach(std::uint32_t index,
@@ -135,13 +138,13 @@ class ContactSolver {
   double radius_;
   double patch_cap_;  // [N/m]
   double patch_share_ = 1.0;
-  std::vector<FrictionCone*> cones_;    // per object; null where it is smooth
+  std::vector<FrictionCone*> cones_;    // per object; null if it is smooth
   std::vector<std::uint32_t> near_;     // objects of this step, ascending
-  std::vector<std::uint32_t> reached_;  // of these, the ones that the SCP may meet
-  std::vector<std::uint32_t> touched_;  // of these, the ones in contact
-  std::vector<std::uint64_t> noted_;    // per object, the step in which it was put into near_
+  std::vector<std::uint32_t> reached_;  // of these, objects that the SCP may meet
+  std::vector<std::uint32_t> touched_;  // of these, objects in contact
+  std::vector<std::uint64_t> noted_;    // per object, the step at which it was put into near_
   std::uint64_t step_ = 0;
-  std::uint32_t alone_ = kNobody;                          // whose own SCP is the newest
+  std::uint32_t alone_ = kNobody;                          // object whose own SCP is the newest
   Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();          // S
   Eigen::Vector3d last_device_ = Eigen::Vector3d::Zero();  // S, of the last finite step
   bool started_ = false;

@@ -9,18 +9,19 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kSpringSpare = 1e-4;  // [J], wanted beyond what springs store
+constexpr double kSpringSpare = 1e-4;  // [J], wanted beyond the springs' storage
 constexpr double kMostAsked = 0.06;    // [J], of one neighbour
 
-// What all contacts that are engaged want together.
+// Sums over all engaged contacts.
 struct Wants {
   std::size_t engaged = 0;
-  Eigen::Vector3d shown = Eigen::Vector3d::Zero();   // [N], the sum: what cancels costs nothing
-  Eigen::Vector3d coming = Eigen::Vector3d::Zero();  // [N], of where they are going
-  double inside_force = 0.0;                         // [N], the largest of those that began inside
-  double of_hands = 0.0;                             // [N], the largest of hands
+  Eigen::Vector3d shown = Eigen::Vector3d::Zero();   // [N], sum: opposite forces cancel
+  Eigen::Vector3d coming = Eigen::Vector3d::Zero();  // [N], sum of coming_force()
+  double inside_force = 0.0;                         // [N], greatest of the contacts that began
+                                                     // inside
+  double of_hands = 0.0;                             // [N], greatest of the hands
   double stored = 0.0;                               // [J]
-  double asked = 0.0;                                // [J], of us
+  double asked = 0.0;                                // [J], requested of us
 };
 
 Wants wants_of(std::span<RemoteContact* const> near) noexcept {
@@ -39,7 +40,7 @@ Wants wants_of(std::span<RemoteContact* const> near) noexcept {
   return out;
 }
 
-// @param inside what contacts that began inside need [J]
+// @param inside energy needed by contacts that began inside [J]
 void settle_loan(EnergyPort& port, const EnergyDemand& own, double inside,
                  const PortNeeds& needs) noexcept {
   if (own.surplus() > 0) {

@@ -8,10 +8,10 @@
 namespace reckon::haptics {
 namespace {
 
-// Nearer than this it is there: no number becomes subnormal.
+// Distance at which the goal counts as reached, so that no number becomes subnormal.
 constexpr double kThere = 1e-12;
 
-// The part `take` of the way, at most `most` of it either way.
+// The share `take` of the difference, limited to `most` in either direction.
 double step_towards(double from, double to, double take, double most) {
   const double way = to - from;
   const double part = std::abs(way) < kThere ? way : take * way;
@@ -34,7 +34,7 @@ double PatchBlend::follow(const SurfaceFeel& goal, double depth, double dt,
   held.static_coefficient = lag(held.static_coefficient, goal.friction.static_coefficient, take);
   held.kinetic_coefficient = lag(held.kinetic_coefficient, goal.friction.kinetic_coefficient, take);
 
-  // A spring that is not stretched may be any at once: the bounds are infinite there.
+  // An unstretched spring may change at once: the bounds are infinite there.
   double& stiffness = now_.surface.stiffness;
   const double per_stiffness = 0.5 * depth * depth;  // [J m/N]
   const double wanted = step_towards(stiffness, lagged_.surface.stiffness, take, most / depth);

@@ -7,21 +7,22 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kBlowSpeed = 0.15;      // [m/s]; slower is a press
-constexpr double kBlowDepth = 0.008;     // [m], within the age: that deep even a slow one strikes
-constexpr double kTrusted = 0.07;        // [s], of an acceleration
-constexpr double kTrustedFaster = 0.03;  // [s], of one that speeds up
+constexpr double kBlowSpeed = 0.15;      // [m/s]; a slower approach is a press
+constexpr double kBlowDepth = 0.008;     // [m], within the age: at this depth a slow approach
+                                         // strikes too
+constexpr double kTrusted = 0.07;        // [s], validity of an acceleration
+constexpr double kTrustedFaster = 0.03;  // [s], validity of one that raises the speed
 constexpr double kSlowest = 0.05;        // [m/s]
 constexpr double kLate = 0.012;          // [s]
 constexpr double kFarthestBehind = 0.3;  // [s]
-constexpr double kMargin = 1.3;          // of the age: jitter
-constexpr double kCycle = 0.002;         // [s], of a peer
+constexpr double kMargin = 1.3;          // of the age, for jitter
+constexpr double kCycle = 0.002;         // [s], cycle of a peer
 
 double seconds(std::chrono::nanoseconds time) noexcept {
   return 1e-9 * static_cast<double>(time.count());
 }
 
-// On from a pose for `longer` [s], no faster than `stated` [m/s], and not back.
+// Moves a pose on for `longer` [s], no faster than `stated` [m/s] and not backwards.
 deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& stated,
                           double longer) noexcept {
   if (pose.velocity.squaredNorm() > stated.squaredNorm()) pose.velocity = stated;
@@ -35,7 +36,7 @@ deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& stated,
 deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) noexcept {
   if (!(age > kTrustedFaster)) return deadreckon::extrapolate(state, age);
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
-  // It goes on as it does: where it leads says nothing more.
+  // Steady motion: its extrapolated direction says nothing more.
   if (!terms.acceleration && !terms.body_axes) {
     if (!(age > kTrusted)) return deadreckon::extrapolate(state, age);
     const deadreckon::Pose steady = deadreckon::extrapolate(state, kTrusted);
@@ -83,8 +84,8 @@ deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind,
   return towards(heard_[(i + 1) % kKept], pose, heard_[i], age - before);
 }
 
-// Between two states that are known the way leads from one to the other: who was stopped after the
-// first is not led on by it until the second.
+// Between two known states the motion leads from one to the other. So a hand that was stopped after
+// the first state is not extrapolated from it until the second.
 deadreckon::Pose Playback::towards(const Heard& next, deadreckon::Pose pose, const Heard& last,
                                    double age) noexcept {
   const double gap = seconds(next.time) - seconds(last.time);

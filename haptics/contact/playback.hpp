@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A blow that comes late is played back: for as long as it lasts the remote hand is shown where its
-// owner said that it was, a little ago. Extrapolation knows nothing of the touch that stops a hand,
-// and would lead it as deep into ours as it flies within the delay. Servo thread, SI units.
+// Playback of a delayed blow. While the blow lasts, the remote hand is shown at a stated place of a
+// short time ago. Extrapolation does not know the touch that stops a hand, and would lead it into
+// ours as deep as it travels within the delay. Servo thread, SI units.
 #pragma once
 
 #include <array>
@@ -13,38 +13,38 @@
 
 namespace reckon::haptics {
 
-/// Where a hand is so long after it said this. Updates come each 60 ms where hands touch: an
-/// acceleration that is older than 70 ms, or 30 ms where it makes the hand faster, moves it on no
-/// faster than it said that it was, and one that had turned it round has brought it to rest. It
-/// would bring a hand back that has gone, its next update lost. @param age [s]
+/// Pose of a hand `age` [s] after its owner stated `state`. Touching hands send an update each 60
+/// ms. An acceleration is valid for 70 ms, or for 30 ms if it raises the speed. After that the hand
+/// moves on at the stated speed at most, and stops if the acceleration had reversed it. Otherwise
+/// the loss of one update would bring back a hand that has left. @param age [s]
 [[nodiscard]] deadreckon::Pose hand_pose(const deadreckon::KinematicState& state,
                                          double age) noexcept;
 
-/// The last states of one remote hand, and how far behind the present it is shown. O(kKept) where
-/// it is asked for a pose, else O(1); no allocation.
+/// The last states of one remote hand, and the delay with which it is shown. A pose is O(kKept),
+/// all else O(1); no allocation.
 class Playback {
  public:
-  /// Updates that are kept: those of a quarter of a second at 125 /s.
+  /// Number of stored updates: a quarter of a second at 125 /s.
   static constexpr std::size_t kKept = 32;
 
-  /// A state that came, of this time. One before the last begins a new story.
+  /// Stores a received state of this time. A time before the last one discards the older states.
   void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
 
-  /// Whether what comes so fast would by extrapolation be deep in our hand before it is known to
-  /// have touched it. @param closing [m/s]  @param age [s], of updates on arrival
+  /// Whether extrapolation would lead this approach deep into our hand before a touch can be known.
+  /// @param closing [m/s]  @param age [s], of updates on arrival
   [[nodiscard]] static bool is_blow(double closing, double age) noexcept;
-  /// A blow comes: so far behind that states are there before they are shown; where updates are
-  /// young a follower shows it well enough. @param age [s]
+  /// Begins the playback of a blow, with a delay at which states arrive before they are shown.
+  /// Young updates need none, because a follower shows them well enough. @param age [s]
   void begin(double age) noexcept;
-  /// Comes so much nearer to the present [s].
+  /// Reduces the delay by `by` [s].
   void catch_up(double by) noexcept;
 
-  /// [s], 0 where the present is extrapolated.
+  /// Delay [s]; 0 if the hand is extrapolated to the present.
   [[nodiscard]] double behind() const noexcept { return behind_; }
 
-  /// Where it was `behind` [s] before `now`: by the newest state that is no younger. Needs a state.
-  /// @param before [s], so much earlier by that state, for a velocity in which no state follows
-  /// another
+  /// Pose `behind` [s] before `now`, from the newest state that is not later. Needs a state.
+  /// @param before [s], evaluates the same state earlier by this: for a velocity that does not mix
+  /// two states
   [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double behind,
                                       double before = 0.0) const noexcept;
 

@@ -13,19 +13,20 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
-constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
-constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
-constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
-constexpr double kCalmRate = 200.0;      // [N/s], of a surface that is not where it is shown
-constexpr double kLetGoRate = 400.0;     // [N/s], of a surface that is elsewhere
-constexpr double kShallow = 0.001;       // [m], below which a spring's change is hardly felt
-constexpr double kReshape = 0.1;         // [s], time constant of a spring that becomes another one
-constexpr double kReshaped = 0.3;        // [s], after which nothing of the old one is left
+constexpr double kEngageMargin = 0.005;  // [m], a hand within this distance exchanges energy
+constexpr double kNearAge = 0.018;       // [s], with a lower delay a shortage is shared
+constexpr double kSpareShare = 0.001;    // [J], beyond the greatest need of a contact: passed on,
+                                         // or lost
+constexpr double kDeepestGuess = 0.75;   // of the reach, for extrapolation alone
+constexpr double kCalmRate = 200.0;      // [N/s], for a surface that is not where it is shown
+constexpr double kLetGoRate = 400.0;     // [N/s], for a surface that is elsewhere
+constexpr double kShallow = 0.001;       // [m], below which a change of a spring is hardly felt
+constexpr double kReshape = 0.1;         // [s], time constant of a change of the spring
+constexpr double kReshaped = 0.3;        // [s], after which the old spring has gone
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Difference of two times that may be hostile, without overflow.
+// Difference of two untrusted times, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
   return 1e-9 * (static_cast<double>(to.count()) - static_cast<double>(from.count()));
 }
@@ -36,7 +37,7 @@ bool is_sound(const RemoteHand& hand) {
          hand.model.damping >= 0;
 }
 
-// Another spring, not another place.
+// Whether the spring differs, whatever its place.
 bool is_reshaped(const deadreckon::ForceModel& from, const deadreckon::ForceModel& to) {
   const auto differs = [](double a, double b) { return std::abs(b - a) > 0.01 * std::max(a, b); };
   return differs(from.k1, to.k1) || differs(from.k3, to.k3) || differs(from.radius, to.radius) ||
@@ -44,7 +45,7 @@ bool is_reshaped(const deadreckon::ForceModel& from, const deadreckon::ForceMode
          differs(from.kinetic_friction, to.kinetic_friction);
 }
 
-// What a surface pushes with, and where.
+// Force of a surface and its point of action.
 struct SurfacePush {
   explicit SurfacePush(const ContactSpring& spring) noexcept
       : depth(std::max(0.0, spring.geometry().depth)),
@@ -52,8 +53,8 @@ struct SurfacePush {
         across(spring.force() - along * spring.geometry().normal),
         point(spring.parameters().point) {}
   double depth;            // [m]
-  double along;            // [N], the normal
-  Eigen::Vector3d across;  // [N]
+  double along;            // [N], along the normal
+  Eigen::Vector3d across;  // [N], across the normal
   Eigen::Vector3d point;   // [m]
 };
 
@@ -104,10 +105,10 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   }
 }
 
-// What the surface does on our spring by moving, be it held or not, else a hand that lacks energy
-// would never believe in any; what it gets back from us, as far as it is held. Along the normal by
-// what it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a
-// hand.
+// Observes the work of the moving surface on our spring. Positive work counts in full even if the
+// spring is only partly held, because a hand that lacks energy would otherwise never credit
+// anybody. Negative work counts only for the held share. The normal part follows the change of
+// depth, the lateral part the motion of the surface. A stiffer spring is no work of a hand.
 void RemoteContact::show(const ContactParameters& target) noexcept {
   const SurfacePush before(spring_);
   spring_.move(target);
@@ -117,12 +118,12 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   account_->see(work > 0 ? work : share_ * work);
 }
 
-// As its owner said.
+// Pose as stated by the owner.
 deadreckon::Pose RemoteContact::stated_pose() const noexcept {
   return deadreckon::extrapolate(hand_.state, 0.0);
 }
 
-// @param before [s], so much earlier by the same record
+// @param before [s], evaluates the same record earlier by this
 deadreckon::Pose RemoteContact::pose_now(double before) const noexcept {
   if (blow_.behind() > 0) return blow_.pose(predicted_at_, before);
   const double age = seconds_between(hand_.state_time, predicted_at_) - before;
@@ -133,7 +134,7 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
                                            const StepContext& step) const noexcept {
   ContactParameters theta = parameters(hand_.model, pose, step.probe_radius);
   theta.force_limit = step.force_limit;
-  // What damps cannot also carry a spring.
+  // Damping that the damper uses cannot also carry a spring.
   const double left = step.damping > 0 ? 1.0 - damping_ / step.damping : 1.0;
   const double most = left * (hand_.has_device ? step.stiffness_limit : step.body_stiffness_limit);
   theta.slope_limit = step.softening * most;
@@ -142,8 +143,8 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
   return theta;
 }
 
-// Extrapolation knows of no touch: a hand that ours stops it would carry on through the middle of
-// ours, and pull from there. Which side the hand is on only its owner can tell.
+// Extrapolation does not know touches: a hand that ours stops would continue through the middle of
+// ours, and pull from there. Only its owner knows on which side the hand is.
 void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
                                        const Eigen::Vector3d& probe) const noexcept {
   if (!hand_.has_device || !is_sphere(full_.kind)) return;
@@ -195,8 +196,8 @@ void RemoteContact::advance(const StepContext& step) noexcept {
   if (!engaged()) began_inside_ = false;
 }
 
-// A surface that is followed to where it has gone would meanwhile be shown where it was: far off,
-// or on the other side of our hand, which it would pull the wrong way.
+// Whether the surface has moved to another place. If it were followed, it would be shown meanwhile
+// at a distant place, or on the other side of our hand, where it would pull the wrong way.
 bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept {
   if ((full_.point - shown.point).norm() > kTeleport) return true;
   return touching() && there_.depth > 0 && there_.normal.dot(spring_.geometry().normal) < 0;
@@ -209,7 +210,7 @@ void RemoteContact::expect_blow(const StepContext& step) noexcept {
   blow_.expect(closing, std::max(tracker_.age(), seconds_between(hand_.state_time, step.now)));
 }
 
-// In a blow the surface goes back as fast as the news says.
+// In a blow the surface recedes as fast as updates state.
 void RemoteContact::recede(ContactParameters& target, const StepContext& step) noexcept {
   if (!blow_.is_on() || !hand_.has_device || !is_sphere(target.kind)) return;
   const Eigen::Vector3d& normal = spring_.geometry().normal;
@@ -220,8 +221,9 @@ void RemoteContact::recede(ContactParameters& target, const StepContext& step) n
   tracker_.hold_back(normal, (full_.point - before_.point) / step.dt, take);
 }
 
-// Most of the way to the prediction that is taken in this step: what jumps is felt as a push, not
-// as a blow. A hand's spring changes by itself, slowly, that of a body together with its place.
+// Greatest share of the difference to the prediction that is taken in this step: a jump is felt as
+// a push, not as a blow. The spring of a hand changes separately and slowly, that of a body
+// together with its place.
 double RemoteContact::calm_share(const ContactParameters& shown,
                                  const StepContext& step) const noexcept {
   const Eigen::Vector3d normal = spring_.normal_force() * spring_.geometry().normal;
@@ -232,7 +234,7 @@ double RemoteContact::calm_share(const ContactParameters& shown,
     away += lever * (full_.normal - shown.normal).norm();
   }
   double missing = (faded * coming_ - normal).norm();
-  if (std::max(shown.k3, full_.k3) > 0) {  // steeper at the deep end than between both
+  if (std::max(shown.k3, full_.k3) > 0) {  // steeper at the deep end than in between
     const double here = std::max(0.0, spring_.geometry().depth);
     const double there = std::max(0.0, there_.depth);
     const double deepest = std::max(here, there);
@@ -277,8 +279,8 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     how.played = blow_.behind() > 0;
     how.share = calm_share(shown, step);
     const double take = std::min(how.share, step.dt / tracker_.time_constant(how));
-    // What nobody holds may change all at once. Untouched, nothing is felt of it: a stiffness that
-    // is out of date would be met first. A hand only gets softer and stiffer, slowly.
+    // A body that nobody holds may change all at once. While untouched it changes before it is
+    // felt, because an outdated stiffness would be met first. A hand changes its stiffness slowly.
     const bool leaps = !hand_.has_device;
     const bool at_once = leaps && !touching();
     const double part = leaps ? take : std::min(take, step.dt / kReshape);
@@ -302,7 +304,8 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   show(target);
 }
 
-// What is felt of a surface where it is no more goes within some ms: whether it has gone.
+// Removes the force of a surface that is no longer there within some ms. Returns whether it is
+// gone.
 bool RemoteContact::let_go(const StepContext& step) noexcept {
   const double felt = spring_.force().norm(), most = kLetGoRate * step.dt;
   if (felt <= most) {
@@ -313,7 +316,7 @@ bool RemoteContact::let_go(const StepContext& step) noexcept {
   return false;
 }
 
-// A prediction that left the world: what is shown goes away as an expired model would.
+// For a prediction beyond the world: the shown surface fades like an expired model.
 void RemoteContact::fade_out(const StepContext& step) noexcept {
   fade_to(std::max(0.0, spring_.parameters().gain - step.dt / kRamp));
 }
@@ -324,7 +327,7 @@ void RemoteContact::fade_to(double gain) noexcept {
   show(target);
 }
 
-// The surface moves with its body and turns with it.
+// The surface translates and rotates with its body.
 Eigen::Vector3d RemoteContact::slip(const StepContext& step) const noexcept {
   const Eigen::Vector3d arm = step.probe - pose_.position;
   const Eigen::Vector3d spin = pose_.orientation * pose_.angular_velocity;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One remote hand at our device: its predictor, the gate in front of it, and the energy account
-// between its owner and us. Frame S, SI units, servo thread.
+// One remote hand at our device: its predictor, its gate, and the energy account between its owner
+// and us. Frame S, SI units, servo thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@
 
 namespace reckon::haptics {
 
-/// What the servo knows in one step.
+/// State of the servo in one step.
 struct StepContext {
   std::chrono::nanoseconds now{0};
   double dt = 0.001;      ///< [s], length of the sample that ended
@@ -28,30 +28,30 @@ struct StepContext {
   double probe_radius = 0.0;
   double force_limit = 0.0;           ///< [N], for one contact
   double stiffness_limit = 0.0;       ///< [N/m], for one hand, without a damper
-  double body_stiffness_limit = 0.0;  ///< [N/m], for a body that nobody holds
+  double body_stiffness_limit = 0.0;  ///< [N/m], for a body that no hand holds
   double softening = 1.0;             ///< share of the stiffness that is shown
   double damping = 0.0;               ///< [N s/m], of the device
-  std::size_t engaged = 0;            ///< contacts that were touched or nearly so in the last step
+  std::size_t engaged = 0;            ///< contacts touched or nearly so in the last step
   bool transfer = true;
 };
 
-/// Steps in order: settle, accept (when a new set came), predict, advance, then the port's gifts
-/// and hold, then shown. All of it noexcept and bounded for any content of the record.
+/// A step calls settle, accept (if a new set came), predict, advance, then the port's gifts and
+/// hold, then shown. All of them are noexcept and bounded for any content of the record.
 class RemoteContact {
  public:
-  /// Seconds for a force to fade in or out.
+  /// Time [s] in which a force fades in or out.
   static constexpr double kRamp = 0.1;
-  /// A prediction that jumps farther than this [m] is a new surface, not motion.
+  /// A prediction that jumps farther than this [m] is a new surface and no motion.
   static constexpr double kTeleport = 0.1;
 
-  /// Starts for this hand.
+  /// Starts a contact with this hand.
   void begin(const RemoteHand& hand, PairAccount& account, const StepContext& step) noexcept;
-  /// Takes over a record with a new version: predictor, account.
+  /// Takes over a record of a new version: predictor and account.
   void accept(const RemoteHand& hand, const StepContext& step) noexcept;
-  /// The hand left the set: fades out with its last record. Free again when faded().
+  /// The hand left the set: fades out with its last record. The slot is free after faded().
   void leave() noexcept { leaving_ = true; }
-  /// The hand is in the set: takes its record where the version is new, and how long it holds
-  /// always, for its owner may be doubted without a word.
+  /// The hand is in the set: takes its record if the version is new. Always takes its validity,
+  /// because doubts about an owner change that without a new version.
   void come_back(const RemoteHand& hand, const StepContext& step) noexcept {
     leaving_ = false;
     hand_.valid_until = hand.valid_until;
@@ -60,57 +60,57 @@ class RemoteContact {
   /// Marks the account as in use in this servo step.
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
 
-  /// Takes what waits of the owner's gifts, as far as the port receives it now.
+  /// Credits pending gifts of the owner, as far as the port accepts them now.
   void claim(EnergyPort& port) noexcept {
     if (!leaving_) account_->claim(port);
   }
 
-  /// The hand is there now.
+  /// Settles the spring at the present position of our hand.
   void settle(const StepContext& step) noexcept { spring_.settle(step.probe, step.dt); }
-  /// Where the surface is now. @param frozen holds the predictor still.
+  /// Predicts the surface to the present. @param frozen stops the predictor's time.
   void predict(const StepContext& step, bool frozen) noexcept;
-  /// Moves what is shown towards it.
+  /// Moves the shown surface towards the prediction.
   void advance(const StepContext& step) noexcept;
-  /// Of the record's damper [N]: along the normal, and never a pull.
+  /// Force of the record's damper [N]: along the normal, and never a pull.
   [[nodiscard]] Eigen::Vector3d damper(const StepContext& step) const noexcept;
-  /// Of the spring where it is going [N], without friction.
+  /// Force of the spring at the prediction [N], without friction.
   [[nodiscard]] const Eigen::Vector3d& coming_force() const noexcept { return coming_; }
-  /// Largest force [N] of the spring: as shown, and where it is going.
+  /// Largest force [N] of the spring: as shown, or at the prediction.
   [[nodiscard]] double greatest_force() const noexcept;
-  /// Most that the spring stores [J]: as shown, and where it is going.
+  /// Greatest storage of the spring [J]: as shown, or at the prediction.
   [[nodiscard]] double greatest_store() const noexcept;
-  /// Answers the account that came, if one did. @param own what we want ourselves; lowered by what
-  /// is given. @param spare see first_tier()  @param contested whether others ask us too
+  /// Answers a received account, if there is one. @param own our own need; lowered by the energy
+  /// given @param spare see first_tier()  @param contested whether others request energy too
   void answer(EnergyPort& port, EnergyDemand& own, double spare, bool contested) noexcept;
-  /// Gives, unasked, where our hand strikes its hand. @param dt [s], of this step
+  /// Gives energy without a request if our hand strikes the remote one. @param dt [s], of this step
   void give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept;
-  /// What we ask of the owner [J].
+  /// Requests energy of the owner [J].
   void ask(double need, double spring_need) noexcept;
-  /// Neither asks nor answers.
+  /// Neither requests nor answers.
   void ask_nothing() noexcept {
     ask(0.0, 0.0);
     answer_ = false;
   }
-  /// What its owner asked of us last [J].
+  /// Last request of the owner [J].
   [[nodiscard]] double asked() const noexcept { return asked_; }
-  /// What the port holds of it. @param share of the spring  @param ledger [J], free in the port
+  /// Takes the shares that the port held. @param share of the spring  @param ledger [J], free in
+  /// the port
   void shown(double share, double ledger) noexcept;
-  /// Whether energy may go to and fro: it is touched, or about to be.
+  /// Whether energy may be exchanged: the hand is touched, or nearly.
   [[nodiscard]] bool engaged() const noexcept;
-  /// Nothing was felt of the surface when the hand came to where it is: it was found inside, or
-  /// found again there after its model had expired or the force had been cut to nothing. A surface
-  /// that jumps is known all the time.
+  /// The hand came to its place without feeling the surface: it was found inside, or again after
+  /// its model had expired or the force had been cut to zero. A surface that jumps stays known.
   [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
-  /// The force was cut to nothing: it grows again from there.
+  /// The force was cut to zero: it grows again from there.
   void drop() noexcept {
     lost_ = lost_ || touching();
     spring_.release();
   }
-  /// The held force is not what was written: forgets what cannot be proved.
+  /// The held force differs from the written one: discards what cannot be proved.
   void forfeit(const Eigen::Vector3d& probe) noexcept;
 
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return hand_.id; }
-  /// Of a device; else a body that nobody holds.
+  /// A hand with a device; else a body that no hand holds.
   [[nodiscard]] bool is_hand() const noexcept { return hand_.has_device; }
   [[nodiscard]] bool occupied() const noexcept { return account_ != nullptr; }
   [[nodiscard]] bool faded() const noexcept { return leaving_ && fade_ <= 0; }
@@ -119,9 +119,9 @@ class RemoteContact {
   [[nodiscard]] const ContactSpring& spring() const noexcept { return spring_; }
   [[nodiscard]] const SurfaceTracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const PairAccount& pair() const noexcept { return *account_; }
-  /// The record that came last, or what follows from it by now, is nothing that can be shown.
+  /// Whether the last record, or the present prediction from it, cannot be shown.
   [[nodiscard]] bool refused() const noexcept;
-  /// @param extra share of its damper that is held
+  /// @param extra held share of its damper
   [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
@@ -140,7 +140,8 @@ class RemoteContact {
   void fade_to(double gain) noexcept;
   [[nodiscard]] bool let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to it [m/s]
+  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours relative to
+                                                                               // it [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
@@ -148,29 +149,30 @@ class RemoteContact {
   SurfaceTracker tracker_;
   Blow blow_;
   deadreckon::Pose pose_;
-  ContactParameters full_;                                  // of the prediction now, gain = fade_
+  ContactParameters full_;                                  // of the present prediction, gain =
+                                                            // fade_
   ContactPlace before_;                                     // of the same record one step ago
   ContactGeometry there_;                                   // of full_, at our hand
-  Eigen::Vector3d stated_point_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
+  Eigen::Vector3d stated_point_ = Eigen::Vector3d::Zero();  // place stated by the owner [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
-  double coming_store_ = 0.0;                         // [J], with that force
+  double coming_store_ = 0.0;                         // [J], at that force
   std::chrono::nanoseconds predicted_at_{0};
-  double fade_ = 0.0;       // 1 while valid, to 0 within kRamp after it
+  double fade_ = 0.0;       // 1 while valid, falls to 0 within kRamp after it
   double damping_ = 0.0;    // [N s/m], of the record, at most half of the device's
-  double reshaping_ = 0.0;  // [s], for which the record's spring is blended in slowly
+  double reshaping_ = 0.0;  // [s], remaining time of slow blending to the record's spring
   double asked_ = 0.0;      // [J], by the owner
-  double need_ = 0.0;       // [J], what we ask of it
+  double need_ = 0.0;       // [J], our request
   double spring_need_ = 0.0;
-  double share_ = 0.0;   // of the spring that the port held
+  double share_ = 0.0;   // of the spring, held by the port
   double ledger_ = 0.0;  // [J], free in the port
   bool began_inside_ = false;
-  bool lost_ = true;  // not known, or not known any more
+  bool lost_ = true;  // not known, or no longer known
   bool usable_ = false;
   bool showable_ = false;  // full_ is a surface that can be shown
-  bool unsound_ = false;   // the last record: the one before it goes on
+  bool unsound_ = false;   // the last record is invalid: the one before it stays
   bool leaving_ = false;
-  bool answer_ = false;  // an account came and was not answered yet
+  bool answer_ = false;  // an account came and is not answered yet
 };
 
 }  // namespace reckon::haptics

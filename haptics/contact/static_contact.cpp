@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRampSeconds = 0.1;
 constexpr double kFadeSeconds = 0.5;
-constexpr double kHiccup = 0.05;  // of the store, that a late sample may cost and no more be felt
+constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
 
 }  // namespace
 
@@ -57,8 +57,8 @@ void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort&
   raise_gain(dt, port);
 }
 
-// What a spring gains in storage while it is stretched nobody put in: the port pays for it, first
-// of what the sample brought.
+// Nobody put in the storage that a stretched spring gains when its stiffness grows. The port pays
+// for it, first from the energy of the sample.
 void StaticContact::follow_patches(double dt, EnergyPort& port) noexcept {
   share_ = patch_share_ = 1.0;
   if (!solver_.on_patches() || !(gain_ > 0)) return;
@@ -94,8 +94,8 @@ void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
   if (!(gain_ < most)) fades_in_ = false;
 }
 
-// The effects' forces belong to no storage: the port cuts them to what it can answer for. Here they
-// are cut to where the sum would pull the hand to the surface.
+// The effects' forces belong to no storage, and the port limits them. Here they are limited so that
+// the sum never pulls the hand to the surface.
 void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
   extra_.setZero();
   force_ = gain_ * result_.force;
@@ -107,7 +107,9 @@ void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& l
   const double size = wanted.norm();
   const double spring = force_.norm();
   if (!(size > 0) || !std::isfinite(size)) return;
-  if (result_.in_contact && !(spring > 0)) return;  // what would be a pull is not known
+  if (result_.in_contact && !(spring > 0))
+    return;  // without a spring force a pull cannot be
+             // recognised
 
   const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
   extra_ = along < 0 ? Eigen::Vector3d(std::min(1.0, spring / -along) * wanted) : wanted;

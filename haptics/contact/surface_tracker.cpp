@@ -12,10 +12,10 @@ constexpr double kDelaysPerTau = 2.0;
 constexpr double kShortest = 0.002;        // [s]
 constexpr double kLongest = 0.1;           // [s]
 constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
-constexpr double kPlayed = 0.005;          // [s], of what is played back
+constexpr double kPlayed = 0.005;          // [s], for a playback
 constexpr double kSmoothing = 0.2;         // weight of a new update
 constexpr double kLongestInterval = 0.02;  // [s]
-// Close following, of one hand alone that is near by.
+// Close following, for one hand alone that is near.
 constexpr double kStiff = 1400.0;         // [N/m]
 constexpr double kShortestClose = 0.003;  // [s]
 constexpr double kPace = 0.02;            // [m/s]

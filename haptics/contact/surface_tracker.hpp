@@ -1,57 +1,59 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a rendered surface follows its prediction: closely on a LAN, calmly over a long line.
+// How a rendered surface follows its prediction: closely on a LAN, calmly over a line with a long
+// delay.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace reckon::haptics {
 
-/// What is followed.
+/// Inputs of one step.
 struct Following {
   bool alone = false;      ///< no other hand is touched, by us or by it, and neither lacks energy
   double stiffness = 0.0;  ///< [N/m] of the contact, >= 0
-  /// New stiffness over what is shown of it in this step. With it the forces of old and new are
-  /// blended; a place and a stiffness that go their ways by themselves meet in more than either.
+  /// New stiffness over the stiffness shown in this step. With this weight the forces of old and
+  /// new are blended. If place and stiffness changed separately, the force could exceed both.
   double weight = 1.0;
-  bool played = false;  ///< it is no extrapolation: closely, whatever the line
-  double share = 1.0;   ///< most of the error that is taken up in this step
+  bool played = false;  ///< a playback and no extrapolation: followed closely, whatever the line
+  double share = 1.0;   ///< greatest share of the error corrected in this step
 };
 
-/// Second-order follower c of a prediction c*: c moves by a filtered velocity u and takes up the
+/// Second-order follower c of a prediction c*. c moves with a filtered velocity u and corrects the
 /// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
-/// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
-/// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
-/// two hands are alone with each other, neither lacks energy, stiffness x age is below 4.5 N s/m,
-/// about what devices and grips damp, and updates come often (every 19.5 ms, or every 10 ms where
-/// they are more than 2.5 ms old), tau is shorter: the age once more and D, as a share of 1400 N/m;
-/// 3 ms at least, and so long that what updates usually miss by is taken up at 20 mm/s. Rows of
-/// hands would ring so, stiff ones over longer lines too, and steps that come seldom are felt as
-/// such. Whatever the surface does, the port's energy answers for it: this rule decides quality,
-/// never passivity.
+/// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most). It
+/// is the delay of the coupling of two hands over this line. tau = 2 D within 2..100 ms. tau is
+/// shorter for two hands alone with each other if neither lacks energy, stiffness x age is below
+/// 4.5 N s/m (about what devices and grips damp), and updates come often: every 19.5 ms, or every
+/// 10 ms if they are more than 2.5 ms old. Then tau is the age plus D, times stiffness / (1400
+/// N/m). It is at least 3 ms, and long enough to correct the usual error of updates at 20 mm/s.
+/// With a short tau rows of hands would ring, and stiff hands over longer lines too, and seldom
+/// steps are felt as such. The port's energy covers any motion of the surface: this rule decides
+/// quality, never passivity.
 /// docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
-  /// Starts at rest with nothing known of the line.
+  /// Restarts at rest, with an unknown line.
   void reset() noexcept { *this = SurfaceTracker{}; }
 
-  /// Learns from an accepted update. @param age [s] on arrival  @param interval [s] since the last
-  /// one  @param miss [m] between the old prediction and the new one, where it is felt, else 0
+  /// Takes an accepted update. @param age [s] on arrival  @param interval [s] since the last one
+  /// @param miss [m] between the old prediction and the new one, if it is felt, else 0
   void learn(double age, double interval, double miss) noexcept;
 
-  /// Where the rendered point should be after this step. @param predicted_before, predicted [m],
-  /// the present record's prediction one step ago and now  @param shown [m], rendered one step ago
+  /// Place of the rendered point after this step. @param predicted_before, predicted [m], the
+  /// present record's prediction one step ago and now  @param shown [m], rendered one step ago
   [[nodiscard]] Eigen::Vector3d follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& predicted,
                                        const Eigen::Vector3d& shown, double dt,
                                        const Following& how) noexcept;
 
-  /// The rendered point is put on the prediction, at its velocity [m/s].
+  /// The rendered point is placed on the prediction, at its velocity [m/s].
   void snap(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
 
-  /// Takes back a share of what is faster along `normal`, towards our hand, than the prediction.
+  /// Removes a share of the velocity along `normal`, towards our hand, in excess of the
+  /// prediction's.
   void hold_back(const Eigen::Vector3d& normal, const Eigen::Vector3d& predicted_velocity,
                  double share) noexcept {
     const double faster = normal.dot(velocity_ - predicted_velocity);
@@ -61,7 +63,7 @@ class SurfaceTracker {
   /// Smoothed age of updates on arrival [s].
   [[nodiscard]] double age() const noexcept { return age_; }
 
-  /// D: that and the interval between updates [s].
+  /// D: age plus the interval between updates [s].
   [[nodiscard]] double delay() const noexcept { return delay_; }
 
   /// [s], 0.002 .. 0.1.
@@ -69,7 +71,7 @@ class SurfaceTracker {
 
  private:
   double delay_ = 0.0;  // D [s]
-  double age_ = 0.0;    // [s], the part of D that the line makes
+  double age_ = 0.0;    // [s], part of D from the line
   double miss_ = 0.0;   // [m], smoothed
   bool learnt_ = false;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // u [m/s]
