@@ -9,14 +9,14 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kFarthest = 1e6;   // [m]
-constexpr double kStiffest = 1e12;  // [N/m], [N/m^3]: beyond it squares lose their meaning
+constexpr double kStiffest = 1e12;  // [N/m], [N/m^3]: beyond it squares lose precision
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 SpringLoad hardening(double k1, double k3, double d) noexcept {
   return {d * (k1 + k3 * d * d), d * d * (0.5 * k1 + 0.25 * k3 * d * d)};
 }
 
-// Hardening up to the knee, straight beyond it.
+// Hardening spring up to the knee, linear beyond it.
 SpringLoad with_knee(double k1, double k3, double slope, double knee, double d) noexcept {
   if (d <= knee) return hardening(k1, k3, d);
   const SpringLoad at = hardening(k1, k3, knee);
@@ -24,7 +24,8 @@ SpringLoad with_knee(double k1, double k3, double slope, double knee, double d) 
   return {at.force + slope * e, at.energy + e * (at.force + 0.5 * slope * e)};
 }
 
-// Depth at which the hardening spring reaches `force`; Newton from above on a convex function.
+// Depth at which the hardening spring reaches `force`, by Newton's method from above on a convex
+// function.
 double depth_of_force(double k1, double k3, double force) noexcept {
   const double by_k1 = k1 > 0 ? force / k1 : kInfinity;
   const double by_k3 = k3 > 0 ? std::cbrt(force / k3) : kInfinity;
@@ -57,7 +58,7 @@ bool is_sphere(pdu::ForceModelKind kind) noexcept {
 SpringLoad bounded_spring(double k1, double k3, double slope_limit, double force_limit,
                           double depth) noexcept {
   if (!(depth > 0) || slope_limit <= 0) return {};
-  if (k1 >= slope_limit) k3 = 0;  // straight from the start
+  if (k1 >= slope_limit) k3 = 0;  // linear from the start
   k1 = std::min(k1, slope_limit);
   const double knee = k3 > 0 ? std::sqrt((slope_limit - k1) / (3 * k3)) : kInfinity;
   const SpringLoad free = with_knee(k1, k3, slope_limit, knee, depth);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The spring of one contact as a potential S(x; theta) whose curvature is bounded: what a sampled
-// device can render without making energy. Frame S, SI units.
+// The spring of one contact as a potential S(x; theta) with bounded curvature, which a sampled
+// device can render without generating energy. Frame S, SI units.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,15 +18,15 @@ struct SpringLoad {
   double energy = 0.0;  ///< [J]
 };
 
-/// Hardening spring f(d) = k1 d + k3 d^3, continued with slope `slope_limit` once its own slope
-/// exceeds that, and constant from `force_limit` on. So 0 <= f' <= slope_limit everywhere: S is
-/// convex and never falls with depth, and its second derivative is bounded.
+/// Hardening spring f(d) = k1 d + k3 d^3. It continues with slope `slope_limit` where its own slope
+/// would exceed that, and is constant from `force_limit` on. So 0 <= f' <= slope_limit everywhere:
+/// S is convex, never falls with depth and has a bounded second derivative.
 /// @param k1 [N/m] >= 0  @param k3 [N/m^3] >= 0  @param slope_limit [N/m] >= 0
 /// @param force_limit [N] >= 0, may be infinite  @param depth [m]; no load for depth <= 0
 [[nodiscard]] SpringLoad bounded_spring(double k1, double k3, double slope_limit,
                                         double force_limit, double depth) noexcept;
 
-/// theta: everything that shapes the potential of a contact.
+/// theta: all parameters of a contact's potential.
 struct ContactParameters {
   pdu::ForceModelKind kind = pdu::ForceModelKind::none;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< sphere centre or point of the plane [m]
@@ -42,10 +42,10 @@ struct ContactParameters {
   double force_limit = std::numeric_limits<double>::infinity();  ///< [N]
 };
 
-/// Whether depth is the distance to the surface of a sphere round the point.
+/// Whether the depth is measured from the surface of a sphere around the point.
 [[nodiscard]] bool is_sphere(pdu::ForceModelKind kind) noexcept;
 
-/// Where a received model is at a predicted pose, in frame S.
+/// Place of a received model at a predicted pose, in frame S.
 struct ContactPlace {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< as ContactParameters::point [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, as ContactParameters::normal
@@ -53,15 +53,15 @@ struct ContactPlace {
 [[nodiscard]] ContactPlace place(const deadreckon::ForceModel& model,
                                  const deadreckon::Pose& pose) noexcept;
 
-/// Parameters of a received model at a predicted pose, gain 1, limits left to the caller.
+/// Parameters of a received model at a predicted pose, with gain 1. The caller sets the limits.
 [[nodiscard]] ContactParameters parameters(const deadreckon::ForceModel& model,
                                            const deadreckon::Pose& pose,
                                            double probe_radius) noexcept;
 
-/// Depth [m] (> 0 inside) and unit normal towards the probe, as deadreckon::contact has them. For
-/// every kind depth is a concave function of the probe's place with slope 1, less where the edge of
-/// a region is rounded: with the bounded spring that makes S(x + dx) <= S(x) - f.dx + slope |dx|^2
-/// / 2, which the gate's proof rests on.
+/// Depth [m] (> 0 inside) and unit normal towards the probe, as in deadreckon::contact. For every
+/// kind, depth is a concave function of the probe's position with slope 1, or less where the edge
+/// of a region is rounded. With the bounded spring this gives S(x + dx) <= S(x) - f.dx + slope
+/// |dx|^2 / 2, on which the gate's proof is based.
 struct ContactGeometry {
   double depth = -std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
@@ -70,15 +70,15 @@ struct ContactGeometry {
 [[nodiscard]] ContactGeometry geometry(const ContactParameters& theta,
                                        const Eigen::Vector3d& probe) noexcept;
 
-/// Spring along the normal, gain included.
+/// Load of the spring along the normal, gain included.
 [[nodiscard]] SpringLoad normal_load(const ContactParameters& theta, double depth) noexcept;
 
-/// Slope of the normal force at that depth [N/m], without gain and without the limit of the force.
+/// Slope of the normal force at that depth [N/m], without gain and force limit.
 [[nodiscard]] inline double slope_at(const ContactParameters& theta, double depth) noexcept {
   return std::min(theta.k1 + 3 * theta.k3 * depth * depth, theta.slope_limit);
 }
 
-/// Least upper bound known of the slope of the normal force [N/m], gain included.
+/// Smallest known upper bound of the slope of the normal force [N/m], gain included.
 [[nodiscard]] inline double slope_bound(const ContactParameters& theta) noexcept {
   const double own = theta.k3 > 0 ? theta.slope_limit : theta.k1;
   return theta.gain * std::min(own, theta.slope_limit);
@@ -90,7 +90,7 @@ struct ContactGeometry {
   return theta.gain * std::min(own, theta.slope_limit);
 }
 
-/// True when every number may enter the books: finite, coefficients >= 0, positions within 1e6 m.
+/// Whether every number may be used: finite, coefficients >= 0, positions within 1e6 m.
 [[nodiscard]] bool is_usable(const ContactParameters& theta) noexcept;
 
 }  // namespace reckon::haptics

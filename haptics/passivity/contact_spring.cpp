@@ -7,8 +7,8 @@
 namespace reckon::haptics {
 namespace {
 
-// [N/s], by which friction falls from sticking to sliding: where it breaks away is felt, but not as
-// a blow.
+// [N/s], rate at which friction falls from sticking to sliding, so that breakaway is felt but not
+// as a blow.
 constexpr double kBreakAway = 100.0;
 
 Eigen::Vector3d tangential(const Eigen::Vector3d& v, const Eigen::Vector3d& normal) {
@@ -27,8 +27,8 @@ void ContactSpring::release() noexcept {
   contact_ = evaluate(theta_, Eigen::Vector3d::Zero(), false, 0.0);
 }
 
-// Projecting the bristle on the present tangent plane and cutting it at the friction limit only
-// ever lower the energy.
+// Projecting the bristle on the present tangent plane and limiting it to the friction limit can
+// only lower the energy.
 ContactSpring::ContactState ContactSpring::evaluate(const ContactParameters& theta,
                                                     const Eigen::Vector3d& bristle, bool slipping,
                                                     double fall) const noexcept {
@@ -45,7 +45,7 @@ ContactSpring::ContactState ContactSpring::evaluate(const ContactParameters& the
   const double pull = stiffness * s.bristle.norm();
   const double stick = theta.static_friction * s.normal_force;
   const double slide = theta.kinetic_friction * s.normal_force;
-  // Sliding ends only when the motion turns round and the bristle slackens.
+  // Sliding ends only when the motion reverses and the bristle slackens.
   s.slipping = slipping ? pull > slide * (1.0 - 1e-9) : pull > stick;
   if (s.slipping) {
     const double limit = std::clamp(this->pull() - fall, slide, stick);
@@ -56,7 +56,7 @@ ContactSpring::ContactState ContactSpring::evaluate(const ContactParameters& the
   return s;
 }
 
-// Only motion in the old tangent plane stretches the bristle: the normal spring has the rest.
+// Only motion in the old tangent plane stretches the bristle. The normal spring takes the rest.
 void ContactSpring::settle(const Eigen::Vector3d& probe, double dt) noexcept {
   const Eigen::Vector3d dx = probe - probe_;
   probe_ = probe;
@@ -80,9 +80,9 @@ double ContactSpring::pull() const noexcept {
   return bristle_stiffness(theta_) * contact_.bristle.norm();
 }
 
-// Depth is concave in the probe's place with a slope of at most 1 along the normal at the start,
-// the normal spring convex and rising: its share is K n n^T for any length of dx. The bristle has
-// the rest of dx, whatever becomes of it.
+// Depth is concave in the probe's position, with a slope of at most 1 along the normal at the
+// start. The normal spring is convex and rising. So its part is K n n^T for any length of dx. The
+// bristle takes the rest of dx, whether it sticks or slides.
 Eigen::Matrix3d ContactSpring::slope() const noexcept {
   if (!(contact_.energy > 0)) return Eigen::Matrix3d::Zero();
   const Eigen::Vector3d& n = contact_.geometry.normal;

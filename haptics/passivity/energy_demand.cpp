@@ -9,12 +9,12 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kMargin = 1.3;            // of the first tier
-constexpr double kSpare = 2e-4;            // [J], on top
+constexpr double kSpare = 2e-4;            // [J], added to it
 constexpr double kSpringPart = 0.2;        // of half the difference of second tiers, at once
-constexpr double kFarPart = 0.2;           // of an equal share, where answers come late
+constexpr double kFarPart = 0.2;           // of an equal share, if answers come late
 constexpr double kGreatestRequest = 0.06;  // [J]
 
-// What brings both to the same share of what they want.
+// Energy that gives both sides the same share of their needs.
 double equal_share(const EnergyRequest& request, double shortage,
                    const EnergyDemand& own) noexcept {
   const double full = std::max(request.most, shortage);

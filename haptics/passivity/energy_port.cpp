@@ -7,12 +7,12 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMostGift = 0.9;  // of what there is
+constexpr double kMostGift = 0.9;  // of the present energy
 constexpr int kHalvings = 20;
 
 }  // namespace
 
-// What was chosen is written at the beginning of the sample that ends now.
+// Writes the chosen force: it was written at the beginning of the sample that ends now.
 void EnergyPort::pass() noexcept {
   if (reads_in_steps()) {
     const Eigen::Vector3d before = held_.at_handle();
@@ -44,9 +44,9 @@ void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
   take_back(sure);
 }
 
-// Over forces g_j, each held for t_j of a time t in which the hand went D, the least of
-// sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D - sum t_j |g_j - m|^2 / (4 b), m their
-// mean.
+// Lower bound of the energy for unknown motion. Forces g_j are held for t_j each, within a time t
+// in which the hand moved by D. The least of sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D
+// - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces.
 void EnergyPort::settle_missed(const Eigen::Vector3d& dx) noexcept {
   const double spread = squares_ - impulse_.squaredNorm() / time_;
   const double work =
@@ -95,7 +95,7 @@ double EnergyPort::receivable() const noexcept {
   return std::min(receivable_, room);
 }
 
-// What others gave that no spring stores.
+// Energy from others that no spring stores.
 double EnergyPort::waiting() const noexcept {
   return std::max(0.0, std::min(unearned_, level_) - booked_);
 }
@@ -106,7 +106,7 @@ void EnergyPort::wait(double dt) noexcept {
   receivable_ = std::min(most, receivable_ + received_power_ * dt);
 }
 
-// The hand may take from each force q under way |q|^2 T / (4 b), whatever is booked or shown by
+// The hand may take |q|^2 T / (4 b) from each force q under way, whatever is booked or shown by
 // then.
 double EnergyPort::spendable() const noexcept {
   if (held_.delay() == 0) return std::max(0.0, level_);
@@ -144,7 +144,7 @@ void EnergyPort::let_go() noexcept {
   chosen_.setZero();
 }
 
-// @param walls share of them that stays
+// @param walls share of the walls that stays
 SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) const noexcept {
   SplitBound bound;
   bound.energy = std::max(0.0, level_ + (1.0 - walls) * load.walls_stored);
@@ -182,8 +182,8 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   return out;
 }
 
-// What belongs to no storage gives way first.
-// @return false where walls as they are leave no answer for what is under way.
+// Reduces first what belongs to no storage.
+// @return false if the unchanged walls leave no energy for the forces under way.
 bool EnergyPort::choose_part(const PortLoad& load, const SplitBound& bound,
                              PortHold& out) const noexcept {
   const auto with_extra = [&](double share) {
@@ -213,8 +213,8 @@ bool EnergyPort::choose_part(const PortLoad& load, const SplitBound& bound,
   return weight.has_value() || held_.delay() == 0;
 }
 
-// What is under way was answered for when it was chosen, with all that the walls store: their share
-// for which that is so still is an interval that begins at 0.
+// The forces under way were paid for when they were chosen, with all storage of the walls. So the
+// shares of the walls that still pay for them are an interval that begins at 0.
 void EnergyPort::lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept {
   out.walls = 0.0;
   out.weight = 0.0;

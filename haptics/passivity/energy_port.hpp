@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The one ledger of a haptic device: what the hand put in, what others gave, and the force that may
-// be held with it. Whatever the contacts show, in whatever order, the hand never gets more energy
-// out of the device than is in here. Proof: docs/haptic_stability.md.
+// The ledger of one haptic device: the energy that the hand put in, the energy that others gave,
+// and the force that may be held with it. For any contacts and any order of calls, the hand never
+// gets more energy out of the device than the ledger has. Proof: docs/haptic_stability.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,128 +15,134 @@
 
 namespace reckon::haptics {
 
-/// What the contacts of a device want to be held for the next sample.
+/// Forces that the contacts of a device want to hold for the next sample.
 struct PortLoad {
-  /// Springs of the static scene [N]; what they store is out of the ledger already, see book().
+  /// Springs of the static scene [N]; their storage is already out of the ledger, see book().
   Eigen::Vector3d walls = Eigen::Vector3d::Zero();
   double walls_slope = 0.0;   ///< [N/m], upper bound of their curvature
   double walls_stored = 0.0;  ///< [J]
-  /// Sum of the springs that others move [N]: forces that cancel cost nothing.
+  /// Sum of the springs that others move [N]. Opposite forces cancel and cost nothing.
   Eigen::Vector3d springs = Eigen::Vector3d::Zero();
-  double stored = 0.0;         ///< [J], the sum of what they would store
+  double stored = 0.0;         ///< [J], sum of their storage
   double springs_slope = 0.0;  ///< [N/m], greatest eigenvalue of the sum of their curvature bounds
-  /// What belongs to no storage: dampers, effects [N].
+  /// Forces that belong to no storage: dampers, effects [N].
   Eigen::Vector3d extra = Eigen::Vector3d::Zero();
 };
 
-/// What of it can be held.
+/// The part of the load that can be held.
 struct PortHold {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
   double weight = 0.0;                              ///< share of `stored` that is booked
-  double walls = 1.0;                               ///< share of the walls: the caller books it
+  double walls = 1.0;                               ///< share of the walls that stays: the caller
+                                                    ///< books it
   double springs = 1.0;                             ///< share of the springs that is shown
   double extra = 1.0;                               ///< share of the extra force
 };
 
 /// Energy of one device. Order of calls within a servo step: settle (or miss), then any of book,
-/// follow, credit, give and borrow, then hold, then attenuate if the force must shrink. What was
-/// chosen last is taken to be written then, and to be at the handle `delay` samples later.
+/// follow, credit, give and borrow, then hold, then attenuate if the force must be reduced. The
+/// force of the last hold() counts as written then, and reaches the handle `delay` samples later.
 ///
-/// Springs that others move are paid from one level E that holds their storage too: it changes by
-/// the work of the hand and the device's damping alone, wherever their surfaces go. hold() chooses
-/// what E can answer for over any motion, together with all forces that are under way to the
-/// handle. O(delay), allocates at construction alone.
+/// Springs that others move are paid from one level E, which includes their storage. E changes only
+/// by the work of the hand and the device's damping, wherever the surfaces move. hold() chooses a
+/// force for which E can pay over any motion, together with all forces under way to the handle.
+/// O(delay); allocates only at construction.
 class EnergyPort {
  public:
-  /// Believed without being seen [J], and how fast that comes again [W]. Higher hinders honest play
-  /// less where the shown surface lags behind what its owner does, and lets a liar do more.
+  /// Energy credited without observation [J], and the power at which this credit refills [W]. A
+  /// higher value hinders honest peers less if the shown surface lags behind their real one, and
+  /// allows a dishonest peer more.
   static constexpr double kUnseen = 0.005;
   static constexpr double kUnseenPower = 0.05;
 
-  /// What all others together may put in at once [J], beyond received_power() over time: what waits
-  /// in E beside what the springs store, and what may be credited at once. Higher lets a quick blow
-  /// arrive whole, and a liar throw a hand that much harder.
+  /// Greatest energy from all others together at once [J], beyond received_power() over time. It
+  /// limits their part of E that no spring stores, and a single credit. A higher value lets a quick
+  /// blow arrive whole, and a dishonest peer throw a hand that much harder.
   static constexpr double kReceivedAtOnce = 0.008;
-  /// Most that is kept beside what the springs store [J], of it at most kReceivedAtOnce that the
-  /// hand did not put in by its work. Higher lets more come back at once after a rest (stronger
-  /// kicks), lower makes moving surfaces softer.
+  /// Greatest energy kept beside the springs' storage [J]. At most kReceivedAtOnce of it may come
+  /// from others than the hand. A higher value returns more at once after a rest (stronger kicks);
+  /// a lower value makes moving surfaces softer.
   static constexpr double kMostKept = 0.04;
 
-  /// @param damping [N s/m] >= 0, the device's sure damping  @param delay [samples] >= 0, from a
-  /// write to the force at the handle  @param resolution [m] >= 0, the device's encoder step
+  /// @param damping [N s/m] >= 0, guaranteed damping of the device
+  /// @param delay [samples] >= 0, from a write to the force at the handle
+  /// @param resolution [m] >= 0, the device's encoder step
   explicit EnergyPort(double damping, int delay = 0, double resolution = 0.0)
       : damping_(damping, resolution),
         held_(delay),
         samples_(1.0 + delay),
         unsure_(kHalfDiagonal * resolution) {}
 
-  /// Most that all others together put in, less what was given to them [W] > 0; at first endless.
-  /// What comes in beyond it is not lost, it waits: see receivable().
+  /// Greatest power from all others together, less what was given to them [W] > 0; unlimited at
+  /// first. Excess energy is not lost but stays pending: see receivable().
   void limit_received_power(double power) noexcept { received_power_ = power; }
 
-  /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0, and whatever samples were
-  /// missed before it. Of those nobody knows when the hand went how far under which force: the
-  /// worst is booked, and nothing that the hand may have put in.
+  /// Books the sample that ended, in which the hand moved by dx [m] in dt [s] > 0, and the missed
+  /// samples before it. In missed samples it is unknown how far the hand moved under which force.
+  /// So the worst case is booked, and no work of the hand is credited.
   void settle(const Eigen::Vector3d& dx, double dt) noexcept;
-  /// A sample of dt [s] > 0 ended and where the hand is was not read.
+  /// A sample of dt [s] > 0 ended without a reading of the handle.
   void miss(double dt) noexcept;
-  /// Books what a wall took in storage (negative) or gave back (positive) [J].
+  /// Books energy that a wall stored (negative) or released (positive) [J].
   void book(double energy) noexcept { level_ += energy; }
-  /// Whether the handle is read in steps; follow() does nothing where it is not.
+  /// Whether the handle is read in encoder steps; otherwise follow() does nothing.
   [[nodiscard]] bool reads_in_steps() const noexcept { return unsure_ > 0; }
-  /// A spring's force changed by `change` [N] as the hand was read to move by dx [m]. Where an
-  /// encoder went one step on, the hand crossed it between both forces, not under the first alone.
+  /// Books a change of a spring's force by `change` [N] while the reading moved by dx [m]. The hand
+  /// crossed an encoder step somewhere between both forces, not under the first one alone.
   void follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept;
-  /// Adds energy that was given to us. @return what there was room for [J].
+  /// Adds energy given to us. @return the part that fits [J].
   double credit(double energy) noexcept;
-  /// Adds energy that somebody only says to have given us. Who stands still has nothing to give but
-  /// what was given to him: the hand behind a surface that brings energy is seen to push. So it is
-  /// believed as far as it was seen, and 5 mJ beyond that, which come again at 50 mW: one such
-  /// account for all, whatever they call themselves. The rest is lost. @param seen [J] >= 0
+  /// Adds energy that a peer claims to have given. A hand at rest can only pass on what it
+  /// received, and a surface that brings energy is observed to push. So energy is credited as far
+  /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
+  /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
   double credit(double energy, double seen) noexcept;
-  /// How much may be credited now [J], whoever gives it: so much in all, and more with time, as far
-  /// as there is room.
+  /// Energy that may be credited now [J], from all peers together. It grows with time, as far as
+  /// there is room.
   [[nodiscard]] double receivable() const noexcept;
-  /// Time passes [s]: both accounts fill again.
+  /// Advances time by `dt` [s]: both accounts refill.
   void wait(double dt) noexcept;
-  /// Takes `wanted` [J] to give it away, at most 0.9 E, and leaves what answers for the forces
-  /// under way. @return what was taken [J].
+  /// Takes `wanted` [J] for a gift, at most 0.9 E, and keeps the energy that pays for the forces
+  /// under way. @return the energy taken [J].
   double give(double wanted) noexcept;
-  /// Adds energy that nobody put in, to be paid back; the caller bounds it. @param energy [J] >= 0
+  /// Adds a loan: energy that nobody put in and that is paid back. The caller bounds it. @param
+  /// energy [J] >= 0
   void borrow(double energy) noexcept;
-  /// Pays back, at most what is owed, and leaves what answers for the forces under way.
-  /// @param energy [J] >= 0
+  /// Pays back, at most the debt, and keeps the energy that pays for the forces under way. @param
+  /// energy [J] >= 0
   void pay_back(double energy) noexcept;
 
-  /// Chooses what to hold for the next dt [s], and throws away what the limit does not let keep.
+  /// Chooses the force to hold for the next dt [s], and discards energy above the limits.
   PortHold hold(const PortLoad& load, double dt) noexcept;
-  /// Holds `force` [N] in place of what hold() chose for the same load: one that lags behind it is
-  /// a rest like any other. @return false, and nothing changes, where E cannot answer for it.
+  /// Holds `force` [N] instead of the one that hold() chose for the same load. A force that lags
+  /// behind is paid for like any held force. @return false, without any change, if E cannot pay for
+  /// it.
   bool hold_instead(const PortLoad& load, const Eigen::Vector3d& force, double dt) noexcept;
   /// The force is scaled by `factor` in [0, 1] on its way to the device.
   void attenuate(double factor) noexcept { chosen_ *= factor; }
-  /// The device dropped the force by itself, and all that were under way.
+  /// The device dropped the force by itself, with all forces under way.
   void let_go() noexcept;
-  /// Forgets all energy: what the hand took since is not known. What is owed stays owed.
+  /// Discards all energy, because what the hand took since is unknown. The debt stays.
   void clear() noexcept;
 
-  /// E [J]; below 0 only after a sample that was late or a wall that cost more than was there.
+  /// E [J]; below 0 only after a late sample or a wall that cost more than was available.
   [[nodiscard]] double level() const noexcept { return level_; }
   [[nodiscard]] double debt() const noexcept { return level_ < 0 ? -level_ : 0.0; }
-  /// What is borrowed and not paid back [J].
+  /// Debt: borrowed and not yet paid back [J].
   [[nodiscard]] double owed() const noexcept { return owed_; }
-  /// What is in no spring [J], after the last hold().
+  /// Energy in no spring [J], after the last hold().
   [[nodiscard]] double free() const noexcept { return level_ - booked_; }
   [[nodiscard]] double damping() const noexcept { return damping_.damping(); }
-  /// What the hand put in and the device's damping surely took [J], since the start.
+  /// Energy that the hand put in, plus what the device's damping certainly took [J], since the
+  /// start.
   [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
-  /// Most that absorbed() may be above the truth, for an encoder tells only so much [J]: half the
-  /// diagonal of its step for each newton by which forces changed, to and fro. 0 without steps.
+  /// Greatest error of absorbed() above the truth from encoder steps [J]: half the diagonal of a
+  /// step for each newton by which forces changed, in either direction. 0 without steps.
   [[nodiscard]] double encoder_allowance() const noexcept {
     return reads_in_steps() ? allowance_ + unsure_ * held_.at_handle().norm() : 0.0;
   }
-  /// What pays for a force that stands still until it has left the handle again: |F|^2 / (4 spare)
-  /// [N/m]. @param walls_slope [N/m], of the walls touched  @param dt [s], of a sample
+  /// [N/m]: |F|^2 / (4 spare) is the energy that pays for a constant force until it has left the
+  /// handle. @param walls_slope [N/m], of touched walls  @param dt [s], of a sample
   [[nodiscard]] double spare(double walls_slope, double dt) const noexcept {
     return (damping() / dt - 0.5 * samples_ * walls_slope) / samples_;
   }
@@ -165,26 +171,26 @@ class EnergyPort {
 
   SureDamping damping_;
   HeldForces held_;
-  double samples_;  // for which a force that is chosen is answered for
-  double unsure_;   // [m], by which a reading may be off
+  double samples_;  // samples for which a chosen force has to be paid
+  double unsure_;   // [m], greatest error of a reading
   double level_ = 0.0;
   double booked_ = 0.0;  // w S of the last hold
   double period_ = 0.0;  // [s], of the last hold
   double owed_ = 0.0;
-  double unearned_ = 0.0;  // of E, what others gave
-  double pushed_ = 0.0;    // of that, what left E, as into the hand, and did not come back
+  double unearned_ = 0.0;  // of E, given by others
+  double pushed_ = 0.0;    // of that, what left E, as into the hand, and did not return
   double unseen_ = kUnseen;
   double received_power_ = std::numeric_limits<double>::infinity();
   double receivable_ = kReceivedAtOnce;
   double absorbed_ = 0.0;
   double allowance_ = 0.0;
   Eigen::Vector3d chosen_ = Eigen::Vector3d::Zero();  // to be written
-  // Where samples were missed, since the last reading: time, and force and its square over time.
+  // Since the last reading, if samples were missed: time, and integrals of force and its square.
   double time_ = 0.0;
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   double squares_ = 0.0;
   bool missed_ = false;
-  int doubtful_ = 0;  // samples in which the device may not hold what was written
+  int doubtful_ = 0;  // samples in which the device may not hold the written force
 };
 
 }  // namespace reckon::haptics

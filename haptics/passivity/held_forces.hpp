@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The forces that were written to a device and what of them is at the handle: a device with a delay
-// holds in each sample what was written some samples before.
+// The forces written to a device, and the one at the handle. A device with a delay holds in each
+// sample a force that was written some samples before.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,21 +13,21 @@
 
 namespace reckon::haptics {
 
-/// A queue of `delay` forces, moved on by one at each write. One thread; O(1) but for under_way(),
-/// O(delay); allocates at construction alone.
+/// A queue of `delay` forces that advances at each write. One thread; O(1), but under_way() is
+/// O(delay); allocates only at construction.
 class HeldForces {
  public:
   /// @param delay [samples] >= 0, between a write and the force at the handle
   explicit HeldForces(int delay) : under_way_(static_cast<std::size_t>(delay), kNone) {}
 
-  /// `force` [N] is written: the oldest one under way comes to the handle.
+  /// Writes `force` [N]; the oldest force under way reaches the handle.
   void write(const Eigen::Vector3d& force) noexcept {
     at_handle_ = force;
     if (under_way_.empty()) return;
     std::swap(at_handle_, under_way_[next_]);
     next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
   }
-  /// The device dropped all of them by itself.
+  /// The device dropped all forces by itself.
   void drop() noexcept {
     at_handle_ = kNone;
     for (Eigen::Vector3d& force : under_way_) force = kNone;
@@ -35,7 +35,7 @@ class HeldForces {
 
   [[nodiscard]] int delay() const noexcept { return static_cast<int>(under_way_.size()); }
   [[nodiscard]] const Eigen::Vector3d& at_handle() const noexcept { return at_handle_; }
-  /// Those that come to the handle later, each less `walls` [N].
+  /// Forces that reach the handle later, each less `walls` [N].
   [[nodiscard]] UnderWay under_way(const Eigen::Vector3d& walls) const noexcept {
     UnderWay out;
     out.count = static_cast<double>(under_way_.size());
@@ -50,7 +50,7 @@ class HeldForces {
   inline static const Eigen::Vector3d kNone = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d at_handle_ = kNone;
-  std::vector<Eigen::Vector3d> under_way_;  // a ring, the oldest at next_
+  std::vector<Eigen::Vector3d> under_way_;  // a ring, the oldest force at next_
   std::size_t next_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kHalvings = 30;
 
-// What of `held` is left when it has fallen to where it is nearest to `wanted`.
+// The part of `held` that is nearest to `wanted`.
 Eigen::Vector3d fallen(const Eigen::Vector3d& held, const Eigen::Vector3d& wanted) noexcept {
   const double square = held.squaredNorm();
   if (!(square > 0)) return Eigen::Vector3d::Zero();
@@ -31,7 +31,7 @@ Eigen::Vector3d nearest_in_reach(const Eigen::Vector3d& held, const Eigen::Vecto
   return length <= most ? wanted : Eigen::Vector3d(from + most / length * way);
 }
 
-// Within reach is a convex set that holds 0.
+// The forces within reach are a convex set that contains 0.
 double part_in_reach(const Eigen::Vector3d& held, const Eigen::Vector3d& wanted,
                      double most) noexcept {
   if (within_reach(held, wanted, most)) return 1.0;

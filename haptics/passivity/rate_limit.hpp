@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far a force may go in one servo step: it may fall as it likes, grow and turn only so fast.
+// Rate limit of the force in one servo step: its decrease is free, its growth and rotation are
+// limited.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace reckon::haptics {
 
-/// Whether `wanted` is no farther than `most` [N] from what `held` can fall to, which is any part
-/// of it.
+/// Whether `wanted` is at most `most` [N] from some fraction of `held`.
 [[nodiscard]] bool within_reach(const Eigen::Vector3d& held, const Eigen::Vector3d& wanted,
                                 double most) noexcept;
 
-/// `wanted` where that is within reach, else the nearest force that is: `held` falls first, then
-/// `most` is spent towards `wanted`. All [N], one frame, finite. @param most >= 0
+/// `wanted` if it is within reach, else the nearest force within reach: `held` first decreases,
+/// then moves by `most` towards `wanted`. All [N], one frame, finite. @param most >= 0
 [[nodiscard]] Eigen::Vector3d nearest_in_reach(const Eigen::Vector3d& held,
                                                const Eigen::Vector3d& wanted, double most) noexcept;
 
-/// The largest part of `wanted`, in [0, 1], that is within reach.
+/// Largest fraction of `wanted`, in [0, 1], that is within reach.
 [[nodiscard]] double part_in_reach(const Eigen::Vector3d& held, const Eigen::Vector3d& wanted,
                                    double most) noexcept;
 

@@ -8,10 +8,10 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMostOfSpare = 0.999;  // of c0 that springs may use: something must pay for a rest
+constexpr double kMostOfSpare = 0.999;  // of c0 that springs may use: the rest pays for held forces
 constexpr int kHalvings = 40;
 
-// Up to where both energy and damping are left.
+// Greatest weight that leaves both energy and damping.
 double greatest_weight(const SplitBound& bound) noexcept {
   double most = 1.0;
   if (bound.stored > bound.energy) most = bound.energy / bound.stored;
@@ -21,10 +21,10 @@ double greatest_weight(const SplitBound& bound) noexcept {
 
 }  // namespace
 
-// The cost is convex in w, a square over a line and a line. Multiplied out it is a quadratic
+// The cost is convex in w: a square over a line, plus a line. Multiplied out it is a quadratic
 //   Q(w) = rests(w) - 4 (c0 - w k) (E - w S) <= 0
-// which is >= 0 at the greatest w that leaves both factors positive, so that what is allowed is an
-// interval: it begins at 0, at the vertex or nowhere, and its end is found by halving.
+// that is >= 0 at the greatest w with both factors positive. So the allowed weights are an
+// interval. It begins at 0, at the vertex or nowhere, and its end is found by bisection.
 std::optional<double> largest_weight(const SplitBound& bound,
                                      const Eigen::Vector3d& wanted) noexcept {
   if (!(bound.spare > 0) || !(bound.energy >= 0)) return std::nullopt;
@@ -54,9 +54,9 @@ std::optional<double> largest_weight(const SplitBound& bound,
   return low;
 }
 
-// The share s with |s - w|^2 |F|^2 + rests under way <= 4 (c0 - w k) (E - w S): a cone over two
-// lines, so that the pairs (s, w) are a convex set and the greatest s is concave in w. Outside it
-// what lacks is minded, so that the search finds the way in.
+// The share s satisfies |s - w|^2 |F|^2 + rests under way <= 4 (c0 - w k) (E - w S): a cone over
+// two lines. So the pairs (s, w) are a convex set, and the greatest s is concave in w. Outside it
+// the function is the negative deficit, so that the search finds the set.
 std::optional<Strongest> strongest(const SplitBound& bound) noexcept {
   const double size = bound.springs.norm();
   if (!(bound.spare > 0) || !(bound.energy > 0) || !(size > 0)) return std::nullopt;

@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the friction of a device has surely taken, from where its handle was read.
+// Energy that the friction of a device has certainly dissipated, from readings of its handle.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace reckon::haptics {
 
-/// Over a way D in a time t a viscous friction b takes at least b |D|^2 / t, whatever the motion
-/// (Cauchy-Schwarz). Read by an encoder of step h, |D| may be less by sqrt(3) h: a handle that
-/// seems to leap a step now and then crept meanwhile. So motion is looked at in stretches of
-/// sixteen steps, the loss of each booked as it gets sure; of slow motion a fifth is given away.
+/// Over a displacement D in a time t a viscous friction b dissipates at least b |D|^2 / t, whatever
+/// the motion (Cauchy-Schwarz). With an encoder of step h, |D| may be less by sqrt(3) h: a handle
+/// that seems to jump a step now and then moved slowly meanwhile. So motion is divided into
+/// stretches of sixteen steps, and their loss is booked as it becomes certain. In slow motion a
+/// fifth is not credited.
 class SureDamping {
  public:
   /// @param damping b [N s/m] >= 0  @param resolution h [m] >= 0; 0 reads exactly
   SureDamping(double damping, double resolution) noexcept
       : damping_(damping), unsure_(kDiagonal * resolution), stretch_(kSteps * resolution) {}
 
-  /// The handle moved by `dx` [m] in `dt` [s] > 0. @return what became sure [J] >= 0.
+  /// The handle moved by `dx` [m] in `dt` [s] > 0. @return the energy that became certain [J] >= 0.
   [[nodiscard]] double move(const Eigen::Vector3d& dx, double dt) noexcept {
     if (!(unsure_ > 0)) return damping_ * dx.squaredNorm() / dt;
     way_ += dx;
@@ -30,7 +31,7 @@ class SureDamping {
     if (length >= stretch_) begin();
     return gain;
   }
-  /// Where the handle went is not known: begins anew.
+  /// The path of the handle is unknown: restarts.
   void begin() noexcept {
     way_.setZero();
     time_ = booked_ = 0.0;
