@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What an effect may do in a servo step: its hooks. An effect is a class with a table of parameters
-// and at least one hook; whoever runs effects finds them by these concepts alone.
+// The hooks of an effect: what it may do in a servo step. An effect is a class with a table of
+// parameters and at least one hook. Callers find the hooks by these concepts alone.
 //
 //   cone()                                       holds the surface contact point (SCP)
 //   spring_force(), stored_energy(), stiffness() stores energy between device and SCP
@@ -19,27 +19,28 @@
 
 namespace reckon::haptics {
 
-/// The contact with one object as its effects see it, frame S.
+/// The contact with one object, as input of its effects, frame S.
 struct EffectContact {
   Eigen::Vector3d device = Eigen::Vector3d::Zero();    ///< [m]
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();       ///< [m]; the device point when free
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, out of the solid; zero when free
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();       ///< [m]; the device point if free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, out of the solid; zero if free
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the device [m/s]
   Eigen::Vector3d spring = Eigen::Vector3d::Zero();    ///< force of this object's springs [N]
   double depth = 0.0;                                  ///< |device - scp| [m]
-  double dt = 0.001;                                   ///< [s], the force is held so long
+  double dt = 0.001;                                   ///< [s], hold time of the force
   bool in_contact = false;
 };
 
-/// Limits where the SCP goes, whoever moves it; at most one effect of an object may.
+/// Limits the motion of the SCP; at most one effect of an object may have this hook.
 template <class Effect>
 concept HoldsContactPoint = requires(Effect& effect) {
   { effect.cone() }
   noexcept->std::same_as<FrictionCone&>;
 };
 
-/// Stores energy: a function of |device - scp| that falls with it, whose force is its gradient and
-/// grows by at most stiffness() [N/m] per metre. The points [m] are in one frame, no matter which.
+/// Stores energy: a function of |device - scp| that falls with it. Its force is the gradient of the
+/// function and grows by at most stiffness() [N/m] per metre. The points [m] are in one frame, of
+/// any choice.
 template <class Effect>
 concept StoresEnergy = requires(const Effect& effect, const Eigen::Vector3d& point) {
   { effect.spring_force(point, point) }
@@ -50,11 +51,11 @@ concept StoresEnergy = requires(const Effect& effect, const Eigen::Vector3d& poi
   noexcept->std::same_as<double>;
 };
 
-/// Gives any other force [N, S], asked for once a servo step, touched or not (but for those that
-/// are ActsInContactOnly). It may be anything:
-/// it is shown as far as the contact's energy ledger covers it (see StaticContact::render), and the
-/// sum never pulls a hand to the surface. damping() [N s/m] is what the effect would have of the
-/// device's own damping, for a damper its coefficient, else 0: what is reserved fills the ledger.
+/// Gives any other force [N, S]. Called once a servo step, touched or not, except for effects that
+/// are ActsInContactOnly. The force may have any value. It is shown as far as the contact's energy
+/// ledger covers it (see StaticContact::load), and the sum never pulls a hand to the surface.
+/// damping() [N s/m] is the part of the device's own damping that the effect reserves for its
+/// ledger: for a damper its coefficient, else 0.
 template <class Effect>
 concept GivesForce = requires(Effect& effect, const Effect& fixed, const EffectContact& contact) {
   { effect.force(contact) }
@@ -63,21 +64,20 @@ concept GivesForce = requires(Effect& effect, const Effect& fixed, const EffectC
   noexcept->std::same_as<double>;
 };
 
-/// Its force() is zero where its object is not touched: it need not be asked there. An effect that
-/// does not say so is asked in every step, and so is an object that declares it, however far off.
+/// Declares that force() is zero while the object is not touched, and need not be called then. An
+/// effect without this is called in every step, at any distance of its object.
 template <class Effect>
 concept ActsInContactOnly = requires {
   requires Effect::kInContactOnly;
 };
 
-/// Belongs to whatever can be touched, with its defaults where it is not declared.
+/// Belongs to every object that can be touched, with its defaults if it is not declared.
 template <class Effect>
 concept AlwaysThere = requires {
   requires Effect::kAlways;
 };
 
-/// Says what it is, takes its parameters from its table, and is copied for each contact without
-/// a throw.
+/// Has a name, takes its parameters from its table, and is copied for each contact without a throw.
 template <class Effect>
 concept DescribedEffect = std::derived_from<Effect, CountedEffect<Effect>> &&
     std::constructible_from<Effect, const typename Effect::Parameters&> &&
@@ -91,11 +91,11 @@ concept DescribedEffect = std::derived_from<Effect, CountedEffect<Effect>> &&
   noexcept->std::same_as<const typename Effect::Parameters&>;
 };
 
-/// Does something in a servo step.
+/// Has at least one hook.
 template <class Effect>
 concept HookedEffect = HoldsContactPoint<Effect> || StoresEnergy<Effect> || GivesForce<Effect>;
 
-/// Each hook that it has a name of is there whole, with the right types.
+/// Each hook whose name it has is complete and has the right types.
 template <class Effect>
 concept WholeHooks = (HoldsContactPoint<Effect> || !requires { &Effect::cone; }) &&
                      (StoresEnergy<Effect> || !(
@@ -106,8 +106,7 @@ concept WholeHooks = (HoldsContactPoint<Effect> || !requires { &Effect::cone; })
                       !(
                           requires { &Effect::force; } || requires { &Effect::damping; }));
 
-/// When in a servo step an effect has its turn: the contact point first, then springs, then the
-/// rest.
+/// Order of the effects in a servo step: the contact point first, then springs, then the rest.
 inline constexpr int kTurns = 3;
 template <class Effect>
 inline constexpr int kTurn = HoldsContactPoint<Effect> ? 0 : (StoresEnergy<Effect> ? 1 : 2);

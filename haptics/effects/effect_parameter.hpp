@@ -14,7 +14,7 @@
 
 namespace reckon::haptics {
 
-/// A parameter of an effect whose values lie in the struct P.
+/// A parameter of an effect; its values are members of the struct P.
 template <class P>
 struct EffectParameter {
   std::string_view key;   ///< in scene files
@@ -23,7 +23,7 @@ struct EffectParameter {
   double minimum;
   double maximum;
   double default_value;
-  std::string_view help;  ///< one sentence: what it is, what raising it does
+  std::string_view help;  ///< one sentence: its meaning, and the effect of a higher value
 };
 
 /// Checks each value against its row.
@@ -39,8 +39,8 @@ void check_parameters(const std::array<EffectParameter<P>, n>& table, const P& v
   }
 }
 
-/// Counts how often an effect was constructed in this process (copies too), so that a test can
-/// show that a scene which does not declare it never does.
+/// Counts constructions and copies of an effect in this process, so that a test can show that a
+/// scene without the effect never constructs it.
 template <class Effect>
 class CountedEffect {
  public:

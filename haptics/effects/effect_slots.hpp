@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Room for each effect of the list in an object: its parameters in a scene, the effect itself in a
-// plan. What an object does not declare is never constructed.
+// One slot for each effect of the list in an object: its parameters in a scene, the effect itself
+// in a plan. An effect that is not declared is never constructed.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace reckon::haptics {
 
-/// One slot per effect, in the order of the list: a Kept<Effect> where the effect is kAlways, else
-/// std::optional of it.
+/// One slot per effect, in the order of the list: a Kept<Effect> for an effect that is kAlways,
+/// else a std::optional of it.
 template <template <class> class Kept>
 class EffectSlots {
  public:
@@ -24,7 +24,7 @@ class EffectSlots {
 
   EffectSlots() = default;
 
-  /// Fills each slot with what make(std::type_identity<Effect>{}) returns, a Slot<Effect>.
+  /// Fills each slot with the result of make(std::type_identity<Effect>{}), a Slot<Effect>.
   template <class Make>
   [[nodiscard]] static EffectSlots filled(Make&& make) {
     return [&]<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
@@ -41,13 +41,13 @@ class EffectSlots {
     return std::get<index_of<Effect>()>(slots_);
   }
 
-  /// What the slot holds; null when the effect is not declared.
+  /// Content of the slot; null if the effect is not declared.
   template <class Effect>
   [[nodiscard]] const Kept<Effect>* find() const noexcept {
     return held(of<Effect>());
   }
 
-  /// Declares the effect, with its defaults where it was not declared. @return to be filled in.
+  /// Declares the effect, with its defaults if it was not declared. @return the content to fill in.
   template <class Effect>
   Kept<Effect>& declare() {
     if constexpr (!AlwaysThere<Effect>) {
@@ -56,7 +56,7 @@ class EffectSlots {
     return *held(of<Effect>());
   }
 
-  /// Calls f(kept) for each effect that is declared, in the order of the list.
+  /// Calls f(kept) for each declared effect, in the order of the list.
   template <class F>
   void for_each(F&& f) {
     std::apply([&](auto&... slots) { (visit(slots, f), ...); }, slots_);
@@ -117,7 +117,7 @@ class EffectSlots {
 template <class Effect>
 using ParametersOf = typename Effect::Parameters;
 
-/// What a scene declares of an object's effects.
+/// The effects that a scene declares for an object.
 using DeclaredEffects = EffectSlots<ParametersOf>;
 /// The effects of an object, ready to run; a copy has its own state.
 using PlannedEffects = EffectSlots<std::type_identity_t>;

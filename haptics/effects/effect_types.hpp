@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE list of effects. A new effect is one header in effects/, named as its kName, and one row here
-// (and the header's line in CMakeLists.txt): scene files, their check and hash, `scene explain` and
-// the servo follow from the row.
+// (and the header's line in CMakeLists.txt). Scene files, their check and hash, `scene explain` and
+// the servo all use this list.
 #pragma once
 
 #include <tuple>
@@ -24,7 +24,7 @@ constexpr void for_each_effect(F&& f) {
   }(std::type_identity<EffectTypes>{});
 }
 
-/// Refuses, as it compiles, an effect that nobody could declare or run.
+/// Compile-time check that the effect can be declared and run.
 template <class Effect>
 struct CheckedEffect {
   static_assert(DescribedEffect<Effect>,

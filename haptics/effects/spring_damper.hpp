@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The virtual coupling of every surface: a spring from the device point to its surface contact
-// point (SCP), and a damper along the surface normal. Declared by `surface = {..}` of an object.
+// point (SCP), and a damper along the surface normal. A scene file sets it with `surface = {..}` of
+// an object.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,14 +15,14 @@
 
 namespace reckon::haptics {
 
-/// How a surface pushes back.
+/// Parameters of a surface.
 struct Surface {
   double stiffness = 800.0;  ///< [N/m]
   double damping = 0.0;      ///< [N s/m], along the surface normal
 };
 
-/// F = k (p_scp - p_device) and, apart from it, the damper, because only the spring stores energy.
-/// Passive for a sampled device with damping b when k <= 2 b / T (thesis eq (3.8)). Whatever can be
+/// F = k (p_scp - p_device). The damper is separate, because only the spring stores energy. Passive
+/// for a sampled device with damping b if k <= 2 b / T (thesis eq (3.8)). Every object that can be
 /// touched has it.
 class SpringDamper : public CountedEffect<SpringDamper> {
  public:
@@ -57,11 +58,11 @@ class SpringDamper : public CountedEffect<SpringDamper> {
     return 0.5 * surface_.stiffness * (scp - device).squaredNorm();
   }
 
-  /// Hook [N/m].
+  /// Hook: stiffness of the spring [N/m].
   [[nodiscard]] double stiffness() const noexcept { return surface_.stiffness; }
 
-  /// Hook: the damper [N], -damping (v.n) n while in contact, cut where it would pull the hand to
-  /// the surface against the spring. Its power on the device is never positive.
+  /// Hook: the damper [N], -damping (v.n) n while in contact. It is limited so that the sum with
+  /// the spring never pulls the hand to the surface. Its power on the device is never positive.
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) const noexcept {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d& normal = contact.normal;
@@ -69,12 +70,12 @@ class SpringDamper : public CountedEffect<SpringDamper> {
     return std::max(-surface_.damping * contact.velocity.dot(normal), pull_limit) * normal;
   }
 
-  /// Hook [N s/m].
+  /// Hook: the damper's coefficient [N s/m].
   [[nodiscard]] double damping() const noexcept { return surface_.damping; }
 
   [[nodiscard]] const Surface& parameters() const noexcept { return surface_; }
 
-  /// Goes on with other values, which are in range.
+  /// Changes the values, which must be in range.
   void adjust(const Surface& surface) noexcept { surface_ = surface; }
 
  private:

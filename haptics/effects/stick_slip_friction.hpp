@@ -36,7 +36,7 @@ class StickSlipFriction : public CountedEffect<StickSlipFriction> {
        "gives stronger stick-slip."},
   }};
 
-  /// @throws std::invalid_argument when out of range, or kinetic above static.
+  /// @throws std::invalid_argument when a coefficient is out of range, or kinetic is above static.
   explicit StickSlipFriction(const Friction& friction)
       : friction_(friction), cone_(friction.static_coefficient, friction.kinetic_coefficient) {
     check_parameters(kParameters, friction);

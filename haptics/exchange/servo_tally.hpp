@@ -1,24 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a servo has counted since its start: contact, forces that it showed smaller than asked, and
-// steps that were not what they should be.
+// Counts of a servo since its start: contact time, forces shown smaller than wanted, and faulty
+// steps.
 #pragma once
 
 #include <cstdint>
 
 namespace reckon::haptics {
 
-/// For how long a force was shown smaller than asked, and where it lacked most.
+/// Time in which a force was shown smaller than wanted, and the case with the greatest lack.
 struct Shortfall {
-  /// What lacks less, of the force and in all, is nothing that a hand could feel.
+  /// A smaller lack, relative and absolute, cannot be felt.
   static constexpr double kLeastShare = 0.01;
   static constexpr double kLeastForce = 0.001;  // [N]
 
-  double seconds = 0.0;  ///< [s], for which it was
-  double share = 1.0;    ///< shown of `asked` where most newtons lacked
-  double asked = 0.0;    ///< [N], there
+  double seconds = 0.0;  ///< [s], duration
+  double share = 1.0;    ///< shown share of `asked` in the case that lacked most newtons
+  double asked = 0.0;    ///< [N], wanted in that case
 
-  /// One step of `dt` [s]: of a force of `newtons` [N] this share in [0, 1] is shown.
+  /// Counts one step of `dt` [s] that shows the share `shown` in [0, 1] of a force of `newtons`
+  /// [N].
   void note(double shown, double newtons, double dt) noexcept {
     const double lacks = (1.0 - shown) * newtons;
     if (!(lacks > kLeastForce) || !(1.0 - shown > kLeastShare)) return;
@@ -27,29 +28,29 @@ struct Shortfall {
     share = shown;
     asked = newtons;
   }
-  /// The same of a vector [N], measured only where some of it lacks.
+  /// The same for a vector [N], whose size is computed only if some of it lacks.
   template <typename Force>
   void note_force(double shown, const Force& force, double dt) noexcept {
     if (1.0 - shown > kLeastShare) note(shown, force.norm(), dt);
   }
 };
 
-/// All since the start of the servo.
+/// Totals since the start of the servo.
 struct ServoTally {
-  double hands = 0.0;   ///< [s] in contact with what others own
+  double hands = 0.0;   ///< [s] in contact with remote hands and bodies
   double scene = 0.0;   ///< [s] in contact with the static scene
   Shortfall held_back;  ///< springs of hands, for lack of energy
-  Shortfall crowd;      ///< springs of hands, which together are stiffer than the device can show
-  /// The force as it is shown against that of springs as stiff as they were heard: energy is short
-  /// for longer, and both ends show the contact softer.
+  Shortfall crowd;      ///< springs of hands that are together stiffer than the device can show
+  /// The shown force against the force of springs at their received stiffness: energy has been
+  /// short for longer, and both ends show the contact softer.
   Shortfall softened;
-  Shortfall rate;            ///< all forces: what grows or turns faster than the limit lags
+  Shortfall rate;            ///< all forces that grow or rotate faster than the limit
   Shortfall walls;           ///< springs of the static scene, for lack of energy
   Shortfall effects;         ///< dampers and effects, for lack of energy
   Shortfall limit;           ///< all forces: more than the device, or the servo's setting, allows
-  double refused = 0.0;      ///< [s] that a record near by could not be used
-  std::uint64_t late = 0;    ///< steps that came more than half a period late
-  std::uint64_t let_go = 0;  ///< steps that found that the device had dropped the force by itself
+  double refused = 0.0;      ///< [s] in which a nearby record could not be used
+  std::uint64_t late = 0;    ///< steps more than half a period late
+  std::uint64_t let_go = 0;  ///< steps after which the device had dropped the force by itself
   std::uint64_t failed = 0;  ///< readings that failed
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What goes into the servo (remote hands) and what comes out of it (snapshots). Plain data, copied
-// through triple buffers. Frame S everywhere, SI units.
+// Inputs of the servo (remote hands) and its outputs (snapshots). Plain data, copied through triple
+// buffers. Frame S everywhere, SI units.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,11 +21,10 @@
 
 namespace reckon::haptics {
 
-/// Most remote hands that one servo can touch at the same time.
+/// Greatest number of remote hands that one servo can touch at the same time.
 inline constexpr std::size_t kMaxRemoteHands = 32;
 
-/// Copies the entries in use and leaves the others as they are: one hand costs what one costs,
-/// however many there is room for.
+/// Copies only the entries in use, so that the cost does not depend on the capacity.
 template <class T>
 void copy_used(std::array<T, kMaxRemoteHands>& to, const std::array<T, kMaxRemoteHands>& from,
                std::size_t count) noexcept {
@@ -36,21 +35,22 @@ void copy_used(std::array<T, kMaxRemoteHands>& to, const std::array<T, kMaxRemot
 struct RemoteHand {
   pdu::EntityId id;
   deadreckon::KinematicState state;         ///< S frame, at state_time
-  std::chrono::nanoseconds state_time{0};   ///< local steady time at which state was true
+  std::chrono::nanoseconds state_time{0};   ///< local steady time of the state
   deadreckon::ForceModel model;             ///< body axes of state
-  std::chrono::nanoseconds valid_until{0};  ///< then the force fades out over 100 ms
+  std::chrono::nanoseconds valid_until{0};  ///< after it the force fades out over 100 ms
   std::uint32_t version = 0;                ///< changes with each accepted update
-  double given_to_us = 0.0;                 ///< [J], running total its owner has given to us
-  double need = 0.0;                        ///< [J], what its owner asks of us
-  double spring_need = 0.0;                 ///< [J], what it would like beyond, see EnergyDemand
+  double given_to_us = 0.0;                 ///< [J], total that its owner has given to us
+  double need = 0.0;                        ///< [J], request of its owner
+  double spring_need = 0.0;                 ///< [J], further request, see EnergyDemand
   std::uint32_t epoch = 0;                  ///< of its owner's process; a change resets totals
-  /// How many its owner exchanges energy with, as far as it is known.
+  /// Number of hands with which its owner exchanges energy, as far as known.
   std::uint8_t neighbours = 0;
-  /// A hand, which has to be paid too; false: a body that nobody holds, which may be stiffer.
+  /// A hand with a device, which needs energy too; false: a body that no hand holds, which may be
+  /// stiffer.
   bool has_device = true;
 };
 
-/// Remote hands, the nearest ones. A copy takes those in use.
+/// The nearest remote hands. A copy takes only the entries in use.
 struct HandList {
   std::size_t count = 0;  ///< <= kMaxRemoteHands
   std::array<RemoteHand, kMaxRemoteHands> hands{};
@@ -64,34 +64,35 @@ struct HandList {
   }
 };
 
-/// Everything the servo knows about others; written by the model loop, newest wins.
+/// All inputs from others; written by the model loop, the newest set is used.
 struct ContactSet : HandList {
-  bool frozen = false;       ///< simulation frozen: predictors hold still, contact stays
-  std::size_t left_out = 0;  ///< hands that were near too, but farther than all in the list
+  bool frozen = false;       ///< simulation frozen: predictors stop, contact stays
+  std::size_t left_out = 0;  ///< nearby hands left out of the list, farther than all in it
 };
 
-/// The servo's side of one contact; `given` and `need` go out to the hand's owner.
+/// The servo's side of one contact; `given` and `need` are sent to the hand's owner.
 struct ContactAccount {
   pdu::EntityId id;
-  double given = 0.0;        ///< [J], running total we have given to the owner
-  double received = 0.0;     ///< [J], running total credited from the owner
-  double need = 0.0;         ///< [J], what we ask of the owner; 0 = nothing
-  double spring_need = 0.0;  ///< [J], what we would like beyond, see EnergyDemand
+  double given = 0.0;        ///< [J], total that we gave to the owner
+  double received = 0.0;     ///< [J], total credited from the owner
+  double need = 0.0;         ///< [J], our request to the owner; 0 = none
+  double spring_need = 0.0;  ///< [J], our further request, see EnergyDemand
   double depth = 0.0;        ///< [m], at the gate's own parameters; <= 0 outside
   Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< [N], spring on our hand, as rendered
-  Eigen::Vector3d damper_force = Eigen::Vector3d::Zero();  ///< [N], beside it, as rendered
-  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();   ///< [N], with energy to spare, alone
-  Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
-  double stiffness_limit = 0.0;  ///< [N/m], stiffest that its spring is shown
+  Eigen::Vector3d damper_force = Eigen::Vector3d::Zero();  ///< [N], besides it, as rendered
+  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();   ///< [N], with enough energy, without
+                                                           ///< other contacts
+  Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], of the record as received
+  double stiffness_limit = 0.0;  ///< [N/m], greatest stiffness at which its spring is shown
   bool refused = false;          ///< its record has values that no servo can show
-  bool has_device = true;        ///< a hand, which feels ours; false: a body that nobody holds
+  bool has_device = true;        ///< a hand, which feels ours; false: a body that no hand holds
   double sliding = 0.0;          ///< [m/s], of our hand over its surface
   double ledger = 0.0;           ///< [J], energy of the device that is in no spring
 };
 
-/// What the servo makes of each hand of its set. A copy takes those in use.
+/// Accounts of the contacts of the set. A copy takes only the entries in use.
 struct AccountList {
-  std::size_t count = 0;  ///< of contacts
+  std::size_t count = 0;  ///< number of contacts
   std::array<ContactAccount, kMaxRemoteHands> contacts{};
 
   AccountList() = default;
@@ -103,37 +104,41 @@ struct AccountList {
   }
 };
 
-/// One servo step as others see it.
+/// Published result of one servo step.
 struct ServoSnapshot : AccountList {
   std::chrono::nanoseconds time{0};
   std::uint64_t step = 0;
-  Eigen::Vector3d device = Eigen::Vector3d::Zero();           ///< [m], measured handle
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();              ///< [m], contact point kept outside
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         ///< [m/s], of the SCP, filtered
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();     ///< [m/s^2], of the SCP, filtered
-  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();  ///< [m/s], its own or filtered
+  Eigen::Vector3d device = Eigen::Vector3d::Zero();               ///< [m], measured handle
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();                  ///< [m], surface contact point,
+                                                                  ///< outside the objects
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s], of the SCP, filtered
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();         ///< [m/s^2], of the SCP, filtered
+  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();      ///< [m/s], from the device, else
+                                                                  ///< filtered
   Eigen::Vector3d device_acceleration = Eigen::Vector3d::Zero();  ///< [m/s^2], filtered
   Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< [N], total written to the device
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
   Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
-  double spring_share = 1.0;     ///< of the springs of hands, held with the energy there is
-  double crowd_share = 1.0;      ///< of them before that, where together they are too stiff
-  double extra_share = 1.0;      ///< of dampers and effects
-  double limit_share = 1.0;      ///< of all forces, where they are more than the device can show
+  double spring_share = 1.0;     ///< share of the hands' springs that the energy allows
+  double crowd_share = 1.0;      ///< share of them before that, if they are together too stiff
+  double extra_share = 1.0;      ///< share of dampers and effects
+  double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
   bool enabled = false;      ///< operator switch held and no trip pending
-  std::size_t left_out = 0;  ///< hands near by that are not felt, for there are too many
-  double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
-  /// [J], least of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
+  std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
+  double port_energy = 0.0;  ///< [J], absorbed from the hand + guaranteed damping + received -
+                             ///< given
+  /// [J], least value of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
   double port_energy_min = 0.0;
-  /// [J], most that port_energy may be above the truth for the steps of an encoder; 0 without.
+  /// [J], greatest error of port_energy above the truth from encoder steps; 0 without encoder.
   double encoder_allowance = 0.0;
-  double loan = 0.0;         ///< [J], lent, see exchange_energy(), not paid back; <= kGreatestLoan
-  double loan_most = 0.0;    ///< [J], of it so far
+  double loan = 0.0;         ///< [J], loan not yet paid back, see exchange_energy(); <=
+                             ///< kGreatestLoan
+  double loan_most = 0.0;    ///< [J], greatest loan so far
   double mesh_ledger = 0.0;  ///< [J]
-  /// Share of the stiffness of what others move that the device can show, for lack of energy or
-  /// beside walls and others, (0, 1]: goes out to them, so that both ends show the same.
+  /// Share of the stiffness of remote hands and bodies that the device can show, limited by energy,
+  /// walls and other contacts, (0, 1]. It is sent to them, so that both ends show the same.
   double softening = 1.0;
   std::uint64_t trips = 0;  ///< times that safety cut the force
   ServoTally tally;
@@ -145,25 +150,26 @@ struct ServoConfig {
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
-  double contact_radius = 0.0;  ///< [m], of the probe against the static scene; 0 to 1, 0 a point
+  double contact_radius = 0.0;  ///< [m], of the probe against the static scene; 0 to 1, 0 is a
+                                ///< point
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
-  /// [N/s], fastest growth and turning of the force; never its fall. At most, and by default, what
-  /// the stiffest surface that the device can hold gives at 1 m/s.
+  /// [N/s], limit for growth and rotation of the force; its decrease is free. At most, and by
+  /// default, the rate of the stiffest surface that the device can hold at 1 m/s.
   double max_force_rate = std::numeric_limits<double>::infinity();
-  /// [W], most that the force puts into a hand which gives way to it; more is cut, walls and all.
-  /// At most, and by default, the device's largest force at 1 m/s.
+  /// [W], greatest power of the force on a yielding hand; excess is cut, walls included. At most,
+  /// and by default, the device's largest force at 1 m/s.
   double max_power = std::numeric_limits<double>::infinity();
-  /// [W], most that others put into the hand through their contacts, on average: what they say to
-  /// have given is credited no faster, less what was given to them. A person pushes another with
-  /// some 0.1 W; a liar gets no more than this.
+  /// [W], greatest mean power of others on the hand through their contacts: gifts that they state,
+  /// less what was given to them, are credited no faster. A person pushes another with some 0.1 W;
+  /// a dishonest peer gets no more than this.
   double max_received_power = 0.2;
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
-  bool transfer = true;  ///< give energy on demand (off: a hand cannot push another)
+  bool transfer = true;  ///< gives energy on request (off: a hand cannot push another)
 };
 
-/// Every servo step for a recorder. When it is full new records are dropped and counted, so that a
-/// slow disk cannot disturb the servo.
+/// All servo steps for a recorder. A full ring drops and counts new records, so that a slow disk
+/// cannot disturb the servo.
 using TraceRing = SpscRing<ServoSnapshot>;
 
 }  // namespace reckon::haptics

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How loops hand things to each other in order: one writer, one reader, no lock, no allocation.
+// Ordered transfer between loops: one writer, one reader, no lock, no allocation.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 namespace reckon::haptics {
 
 /// Bounded queue from exactly one writing thread to exactly one reading thread. Elements are
-/// written and read in place. Wait-free on both sides; a full ring refuses and counts, so that a
-/// slow reader never holds up the writer.
+/// written and read in place. Wait-free on both sides. A full ring refuses new elements and counts
+/// them, so that a slow reader never delays the writer.
 template <class T>
 class SpscRing {
  public:
@@ -36,7 +36,7 @@ class SpscRing {
     head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
 
-  /// Writer: copies one element in; false when the ring is full.
+  /// Writer: copies one element; false if the ring is full.
   bool push(const T& value) noexcept {
     T* slot = claim();
     if (slot == nullptr) return false;
@@ -45,7 +45,7 @@ class SpscRing {
     return true;
   }
 
-  /// Reader: the oldest element, or nullptr when there is none. pop() gives the slot back.
+  /// Reader: the oldest element, or nullptr if there is none. pop() frees its slot.
   [[nodiscard]] const T* front() noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == head_.load(std::memory_order_acquire)) return nullptr;
@@ -56,7 +56,7 @@ class SpscRing {
     tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
 
-  /// Reader: moves the oldest element to `value`; false when there is none.
+  /// Reader: moves the oldest element to `value`; false if there is none.
   bool pop(T& value) noexcept {
     const T* slot = front();
     if (slot == nullptr) return false;
@@ -65,12 +65,12 @@ class SpscRing {
     return true;
   }
 
-  /// Whether there is nothing to read. Any thread.
+  /// Whether the ring is empty. Any thread.
   [[nodiscard]] bool empty() const noexcept {
     return tail_.load(std::memory_order_acquire) == head_.load(std::memory_order_acquire);
   }
 
-  /// How often the writer found the ring full. Any thread.
+  /// Number of times that the writer found the ring full. Any thread.
   [[nodiscard]] std::uint64_t refused() const noexcept {
     return refused_.load(std::memory_order_relaxed);
   }

@@ -18,7 +18,7 @@ namespace reckon::haptics {
 
 namespace {
 
-// By how much a patch has more of something than the object's own surface, at most.
+// Greatest excess of a patch's value over that of the object's own surface.
 double most_beyond(const SurfacePatches* patches, double Surface::*member) noexcept {
   double most = 0.0;
   if (patches == nullptr) return most;
@@ -49,9 +49,10 @@ double PlannedObject::damping() const noexcept {
 
 namespace {
 
-// So few objects are looked at one by one in less time than a tree is asked.
+// Number of objects up to which a linear search is faster than the tree.
 constexpr std::size_t kFewObjects = 8;
-// Bounds within it [m] are worth a place in the tree: farther out single precision tells nothing.
+// Bounds within this distance [m] go into the tree; farther out single precision cannot separate
+// them.
 constexpr double kFarthestBound = 1e9;
 
 using Eigen::Vector3d;
@@ -77,7 +78,7 @@ ContactShape make_shape(const Shape& shape) {
       shape);
 }
 
-// Box in S of a placed shape, with room for the clearance.
+// Box in S of a placed shape, grown by the clearance.
 Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
   const Eigen::AlignedBox3d local = std::visit(
       [](const auto& s) -> Eigen::AlignedBox3d {
@@ -97,7 +98,7 @@ Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
   return {centre - half - margin, centre + half + margin};
 }
 
-// A contact point obeys one effect.
+// Only one effect may hold the contact point.
 void check_one_holder(const PlannedEffects& effects) {
   std::string_view holder;
   effects.for_each([&]<class Effect>(const Effect&) {
@@ -126,7 +127,7 @@ PlannedEffects plan_effects(const DeclaredEffects& declared) {
   return effects;
 }
 
-// Where only patches have friction the object needs what holds the contact point there.
+// If only patches have friction, the object still needs the effect that holds the contact point.
 void hold_for(const SurfacePatches& patches, PlannedEffects& effects) {
   auto& friction = effects.of<StickSlipFriction>();
   const bool rough = std::ranges::any_of(patches.patches, [](const PlannedPatch& patch) {
@@ -147,7 +148,7 @@ PlannedObject plan_object(const SceneObject& object) {
                         {},
                         plan_effects(object.effects),
                         nullptr};
-  // A mesh that is drawn far from its origin has axes of its own.
+  // A mesh whose vertices are far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
     planned.position += planned.orientation * (*mesh)->origin();
     planned.patches = plan_patches(object, **mesh);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the servo runs for a scene: its shapes loaded and placed, and of the effects only those that
-// the scene declares. Built once at load; `reckon scene explain` prints stages().
+// The servo's version of a scene: its shapes loaded and placed, and only the effects that the scene
+// declares. Built once at load; `reckon scene explain` prints stages().
 #pragma once
 
 #include <Eigen/Core>
@@ -19,22 +19,23 @@
 
 namespace reckon::haptics {
 
-/// One object as the servo sees it.
+/// One object for the servo.
 struct PlannedObject {
   std::string name;
   ContactShape shape;  ///< its own axes; meshes are shared between copies of a plan
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< shape -> S
-  /// Of the shape's axes [m], S; not the object's own where a mesh has a SurfaceMesh::origin().
+  /// Origin of the shape's axes [m], S. It differs from the object's origin if a mesh has a
+  /// SurfaceMesh::origin().
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::AlignedBox3d bounds;  ///< S; everything for a plane
+  Eigen::AlignedBox3d bounds;  ///< S; unbounded for a plane
   PlannedEffects effects;      ///< as declared; contacts copy them
-  /// Of a mesh that has them, else null. Then `effects` are those of no patch.
+  /// Patches of a mesh, or null. With patches, `effects` are those of triangles in no patch.
   std::shared_ptr<const SurfacePatches> patches;
 
-  /// Of all its springs together [N/m]; of the stiffest patch where there are any.
+  /// Stiffness of all its springs together [N/m]; that of the stiffest patch if there are any.
   [[nodiscard]] double stiffness() const noexcept;
-  /// That its effects would have of the device's own damping, beside what the springs need [N s/m];
-  /// the most of any patch.
+  /// Damping of the device that its effects reserve, besides the need of the springs [N s/m]; the
+  /// greatest of any patch.
   [[nodiscard]] double damping() const noexcept;
   [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
     return orientation.transpose() * (p_S - position);
@@ -52,7 +53,7 @@ struct PlanStage {
   std::string cost;        ///< class, e.g. "logarithmic in 5184 triangles"
 };
 
-/// Copies share their meshes. Immutable after construction, so that many threads may read it.
+/// Copies share their meshes. Immutable after construction; many threads may read it.
 class EffectPlan {
  public:
   EffectPlan() = default;
@@ -62,9 +63,9 @@ class EffectPlan {
   explicit EffectPlan(const Scene& scene);
 
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
-  /// Calls visit(index) once for each object whose bounds meet `box` [m, S], and for some others:
-  /// those that have no bounds, or an effect that acts from afar. In no order, no allocation;
-  /// logarithmic in the objects that are bounded.
+  /// Calls visit(index) once for each object whose bounds meet `box` [m, S]. It also visits objects
+  /// that have no bounds, or an effect that acts at a distance. Any order, no allocation;
+  /// logarithmic in the objects with bounds.
   template <class Visit>
   void visit_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
     for (const std::uint32_t index : always_) visit(index);
@@ -72,9 +73,10 @@ class EffectPlan {
       for (std::uint32_t i = first; i < first + count; ++i) visit(in_tree_[tree_.order()[i]]);
     });
   }
-  /// Stiffest surface [N/m]; 0 without objects. The device's passive limit is compared with it.
+  /// Stiffness of the stiffest surface [N/m]; 0 without objects. Compared with the device's passive
+  /// limit.
   [[nodiscard]] double max_stiffness() const noexcept;
-  /// Every stage in the order of the servo step.
+  /// All stages in the order of the servo step.
   [[nodiscard]] std::vector<PlanStage> stages() const;
 
  private:
@@ -82,7 +84,7 @@ class EffectPlan {
 
   std::vector<PlannedObject> objects_;
   std::vector<std::uint32_t> always_;   // indices of objects, ascending
-  std::vector<std::uint32_t> in_tree_;  // of the others, as the tree counts them
+  std::vector<std::uint32_t> in_tree_;  // indices of the others, by their number in the tree
   BoundingVolumeTree tree_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a scene declares that can be touched, as plain structs. `src/scene_file` fills them from
-// TOML, EffectPlan (effect_plan.hpp) turns them into what the servo runs. Nothing here computes.
+// The touchable objects that a scene declares, as plain structs. `src/scene_file` fills them from
+// TOML, and EffectPlan (effect_plan.hpp) prepares them for the servo. Nothing here computes.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,27 +15,27 @@
 
 namespace reckon::haptics {
 
-/// Place of an object in the scene frame S: p_S = orientation * p_object + position.
+/// Pose of an object in the scene frame S: p_S = orientation * p_object + position.
 struct ObjectPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], S
   Eigen::Quaterniond orientation =
       Eigen::Quaterniond::Identity();  ///< object -> S; normalised on use
 };
 
-/// A part of a mesh that feels otherwise: the triangles of a material or group of its file.
+/// A part of a mesh with its own surface: the triangles of a material or group of its file.
 struct SurfacePatch {
   std::string name;  ///< of the material or group; SurfaceMesh::names()
   Surface surface;
   std::optional<Friction> friction;  ///< none: smooth
 };
 
-/// One thing that can be touched. An effect that is not declared is never constructed.
+/// One touchable object. An effect that is not declared is never constructed.
 struct SceneObject {
   std::string name;
   Shape shape;
   ObjectPose pose;
   DeclaredEffects effects;            ///< effects.of<SpringDamper>().stiffness = 900.0
-  std::vector<SurfacePatch> patches;  ///< of a mesh; all else feels as `effects` say
+  std::vector<SurfacePatch> patches;  ///< of a mesh; other triangles have `effects`
 };
 
 struct Scene {

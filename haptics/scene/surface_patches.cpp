@@ -12,7 +12,7 @@ namespace reckon::haptics {
 
 namespace {
 
-constexpr std::size_t kNamed = 6;  // of the names that a sentence tells
+constexpr std::size_t kNamed = 6;  // names listed in a sentence
 
 PlannedPatch planned(const SurfacePatch& patch) {
   try {
@@ -79,7 +79,7 @@ std::shared_ptr<const SurfacePatches> plan_patches(const SceneObject& object,
   for (const SurfacePatch& patch : object.patches) {
     const auto there = std::ranges::find(out->patches, patch.name, &PlannedPatch::name);
     if (there == out->patches.end() || there->triangles == 0) {
-      static_cast<void>(planned(patch));  // checked all the same
+      static_cast<void>(planned(patch));  // only for its checks
       out->missing.push_back(patch.name);
     }
   }

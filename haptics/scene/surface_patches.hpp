@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which part of a mesh feels how: the patches that a scene declares, found among the materials and
-// groups of the mesh file. Made once at load.
+// Surface patches of a mesh: those that a scene declares, found among the materials and groups of
+// the mesh file. Made once at load.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,22 @@ namespace reckon::haptics {
 
 class SurfaceMesh;
 
-/// How a place of a surface feels. Without friction both coefficients are 0.
+/// Felt parameters at a place of a surface. Without friction both coefficients are 0.
 struct SurfaceFeel {
   Surface surface;
   Friction friction{0.0, 0.0};
 };
 
-/// One patch of a mesh, or what is in none.
+/// One patch of a mesh, or the object's own surface.
 struct PlannedPatch {
   std::string name;  ///< empty for the object's own surface
   SurfaceFeel feel;
   std::size_t triangles = 0;
 };
 
-/// The patches of one mesh, numbered from 1 in the order in which its file first says their names:
-/// the same for all who read the same file, in whatever order a scene declares them. Number 0 is
-/// what the object declares, for all triangles that are in none.
+/// The patches of one mesh, numbered from 1 in the order in which its file first names them. So the
+/// numbers are the same for all readers of the file, in whatever order a scene declares the
+/// patches. Number 0 is the object's own surface, for all triangles in no patch.
 struct SurfacePatches {
   std::vector<PlannedPatch> patches;       ///< by number; at least one
   std::vector<std::uint16_t> of_triangle;  ///< as SurfaceMesh::triangles()
@@ -43,13 +43,13 @@ struct SurfacePatches {
   }
 };
 
-/// Where a triangle has a material and a group that are both patches, the material counts.
-/// @return null for an object that declares no patch.
+/// If both the material and the group of a triangle are patches, the material counts.
+/// @return null for an object without patches.
 /// @throws std::invalid_argument naming the patch, the value and the remedy.
 [[nodiscard]] std::shared_ptr<const SurfacePatches> plan_patches(const SceneObject& object,
                                                                  const SurfaceMesh& mesh);
 
-/// What a person should look at, a sentence each: names that are not found, triangles in no patch.
+/// Remarks for the user, a sentence each: names that are not found, triangles in no patch.
 [[nodiscard]] std::vector<std::string> patch_notes(const SurfacePatches& patches);
 
 }  // namespace reckon::haptics
