@@ -14,7 +14,7 @@ namespace {
 // In tree units (1 = diagonal of all boxes): four times the sum of a query's rounding errors.
 constexpr double kRoundingPad = 2e-6;
 constexpr int kBins = 16;
-// Below this level splits halve the items, so that the depth is bounded for any input.
+// Below this level a split halves the items, so that the depth is bounded for any input.
 constexpr int kSurfaceAreaLevels = 20;
 
 double half_area(const Eigen::AlignedBox3d& box) {
@@ -25,7 +25,7 @@ double half_area(const Eigen::AlignedBox3d& box) {
 
 }  // namespace
 
-/// Top-down: each node takes the four ranges that a surface-area heuristic splits off.
+/// Builds top-down: each node takes the four ranges that a surface-area heuristic splits off.
 struct BoundingVolumeTree::Builder {
   struct Range {
     std::uint32_t begin, end;
@@ -142,7 +142,7 @@ struct BoundingVolumeTree::Builder {
       node.count[lane] = leaf ? parts[lane].count() : 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<Eigen::Index>(axis);
-        // An unused lane gets NaN, for which every comparison of a query is false.
+        // An unused lane is NaN, so that every comparison of a query is false.
         constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
         node.lower[axis][lane] = used ? static_cast<float>(parts[lane].box.min()[i]) : kNone;
         node.upper[axis][lane] = used ? static_cast<float>(parts[lane].box.max()[i]) : kNone;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which of many boxes lie along a short way, near a point or in a box: a tree of four-wide
-// axis-aligned boxes in single precision. The boxes are padded above the rounding of every number a
-// query computes, so that an answer may hold too many boxes but never too few.
+// Search of many boxes: those along a short path, near a point or in a box. A tree of four-wide
+// axis-aligned boxes in single precision. The padding of the boxes exceeds the rounding of all
+// numbers in a query, so that a result may have too many boxes but never too few.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,12 @@
 
 namespace reckon::haptics {
 
-/// Built once; queries allocate nothing, take any finite input and may run on many threads.
+/// Built once. Queries do not allocate, accept any finite input and may run on many threads.
 class BoundingVolumeTree {
  public:
   BoundingVolumeTree() = default;
 
-  /// For a search that wants no word of the runs it will visit later.
+  /// For a search without prefetch: it ignores the runs to be visited later.
   struct NoNews {
     void operator()(std::uint32_t /*first*/, std::uint32_t /*count*/) const noexcept {}
   };
@@ -30,11 +30,11 @@ class BoundingVolumeTree {
   /// @param padding [m] added on all sides, on top of the padding for rounding
   BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxes, double padding);
 
-  /// Items in the order of the leaves: a query names places in this list.
+  /// Items in the order of the leaves. Queries return places in this list.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept { return order_; }
 
-  // `soon(first, count)` of the searches below tells a run as it is found, before it is visited or
-  // dropped: time to fetch what a visit reads from the cache's next level.
+  // The searches below call `soon(first, count)` for a run as it is found, before it is visited or
+  // dropped: a time to prefetch the data of a visit from the cache's next level.
 
   /// Visits runs of items whose boxes, grown by `radius` [m], lie along origin + t step, t in
   /// [0, limit], roughly nearest first. `visit(first, count)` gets places in order() and may lower
@@ -43,8 +43,9 @@ class BoundingVolumeTree {
   void along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
                      const double& limit, Visit&& visit, Soon&& soon = {}) const;
 
-  /// Visits runs of items that a ball of `radius` [m] about origin + t step may meet, t in
-  /// [0, limit], roughly first met first; `visit` as above. Made for a ball larger than its step.
+  /// Visits runs of items that a ball of `radius` [m] about origin + t step may meet, t in [0,
+  /// limit], roughly in the order of the meetings; `visit` as above. For a ball larger than its
+  /// step.
   template <class Visit, class Soon = NoNews>
   void along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
                   const double& limit, Visit&& visit, Soon&& soon = {}) const;
@@ -55,8 +56,8 @@ class BoundingVolumeTree {
   void near_point(const Eigen::Vector3d& p, const double& limit, Visit&& visit,
                   Soon&& soon = {}) const;
 
-  /// Visits runs of items, `visit(first, count)` with places in order(), that hold every item whose
-  /// box meets `box` [m] or touches it, and a few more.
+  /// Visits runs of items, `visit(first, count)` with places in order(). They contain every item
+  /// whose box meets or touches `box` [m], and a few more.
   template <class Visit>
   void overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const;
 
@@ -70,7 +71,8 @@ class BoundingVolumeTree {
   static constexpr int kMaxDepth = 60;
   static constexpr std::size_t kStack = (kWidth - 1) * kMaxDepth + kWidth;
 
-  /// Four children. count 0: child is a node; else a leaf of count items from place child on.
+  /// Four children. With count 0 the child is a node, else a leaf of count items from place child
+  /// on.
   struct alignas(64) Node {
     std::array<Float4, 3> lower;
     std::array<Float4, 3> upper;
@@ -82,17 +84,17 @@ class BoundingVolumeTree {
     std::uint32_t count;
     float key;  // time or distance at which the child's box begins
   };
-  /// A segment cut to the root box, in tree units.
+  /// A segment clipped to the root box, in tree units.
   struct Ray {
     std::array<Float4, 3> origin;
     std::array<Float4, 3> inverse;
-    double first = 0.0;   // t of the cut segment's begin
+    double first = 0.0;   // t at the begin of the clipped segment
     double length = 1.0;  // its share of t
   };
   struct Builder;
 
   static Float4 broadcast(float x) noexcept { return Float4{x, x, x, x}; }
-  // Both give b where either is NaN.
+  // Both return b if either is NaN.
   static Float4 lesser(Float4 a, Float4 b) noexcept { return a < b ? a : b; }
   static Float4 greater(Float4 a, Float4 b) noexcept { return a > b ? a : b; }
   static Float4 root(Float4 a) noexcept {
@@ -142,10 +144,10 @@ void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eige
                                        Soon&& soon) const {
   Ray ray;
   if (nodes_.empty() || !clip(origin, step, radius, ray)) return;
-  // The margin is above the rounding of an origin that far out.
+  // The margin exceeds the rounding of an origin at this distance.
   const Float4 grow = broadcast(static_cast<float>(radius * scale_) * 1.00001f);
 
-  // A little late, so that rounding of the time never drops the box of a nearer hit.
+  // Slightly late, so that rounding of the time never drops the box of a nearer hit.
   const auto last = [&] {
     return static_cast<float>((limit - ray.first) / ray.length) * 1.00001f + 1e-5f;
   };
@@ -173,8 +175,8 @@ void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eige
   }
 }
 
-// The distance of a box from a moving point is a convex function of time: it stays above its
-// tangent at the start, whose way down to the radius is the key.
+// The distance of a box from a moving point is a convex function of time, and so stays above its
+// tangent at the start. The key is the time at which the tangent falls to the radius.
 template <class Visit, class Soon>
 void BoundingVolumeTree::along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                                     double radius, const double& limit, Visit&& visit,
@@ -199,7 +201,7 @@ void BoundingVolumeTree::along_ball(const Eigen::Vector3d& origin, const Eigen::
     }
     const Node& node = nodes_[entry.child];
     Float4 squared = broadcast(0.0f);
-    Float4 rate = broadcast(0.0f);  // of half the squared distance
+    Float4 rate = broadcast(0.0f);  // derivative of half the squared distance
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);
       const Float4 low = broadcast(q[i]) - node.lower[axis];
@@ -211,7 +213,7 @@ void BoundingVolumeTree::along_ball(const Eigen::Vector3d& origin, const Eigen::
     const Float4 distance = root(squared);
     const Float4 left = distance * (distance - reach);
     const Float4 fall = greater(rate_error - rate, broadcast(1e-30f));
-    // An unused lane keeps its NaN.
+    // An unused lane stays NaN.
     push_sorted(node, left <= broadcast(0.0f) ? broadcast(0.0f) : left / fall, broadcast(end),
                 stack, top, soon);
   }
@@ -246,8 +248,8 @@ void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limi
   }
 }
 
-// Every number goes through the same roundings as those of the boxes did, none of which can turn
-// "not above" into "above".
+// Every number has the same roundings as those of the boxes, and none of them can turn "not above"
+// into "above".
 template <class Visit>
 void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const {
   if (nodes_.empty()) return;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The planes that hold a surface contact point in one move, and the nearest point to the device
-// that they allow: the quadratic program min |x - device|^2, normal_i . x >= level_i, solved
-// exactly.
+// The planes that hold a surface contact point in one move, and the nearest allowed point to the
+// device: the quadratic program min |x - device|^2, normal_i . x >= level_i, solved exactly.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +16,8 @@ struct ConstraintPlane {
   Eigen::Vector3d normal;  ///< unit, towards the free side
   double level;            ///< [m]: normal . x >= level
   std::uint32_t triangle;
-  std::uint32_t object;  ///< where there are several
-  bool on_face;          ///< of the triangle's flat; else touching round an edge or a corner
+  std::uint32_t object;  ///< number of the object, if there are several
+  bool on_face;          ///< on the flat of the triangle; else a contact round an edge or a corner
 };
 
 /// Solution of the program.
@@ -31,12 +30,12 @@ struct ConstraintSolution {
   std::size_t active_count = 0;
 };
 
-/// Up to eight planes; all work is on the stack.
+/// Up to eight planes. All memory is on the stack.
 class ConstraintPlanes {
  public:
   static constexpr std::size_t kMax = 8;
 
-  ConstraintPlanes() noexcept {}  // NOLINT: the places of planes are filled when they are added
+  ConstraintPlanes() noexcept {}  // NOLINT: planes are initialised when they are added
 
   void clear() noexcept { count_ = 0; }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
@@ -44,12 +43,12 @@ class ConstraintPlanes {
     return planes_[i];
   }
 
-  /// Adds a plane. When full, the one that is farthest below `at` makes room.
+  /// Adds a plane. If the set is full, it replaces the plane that is farthest below `at`.
   void add(const ConstraintPlane& plane, const Eigen::Vector3d& at) noexcept;
 
-  /// Solves by going through all sets of at most three planes and checking optimality of each.
-  /// @param tolerance [m] by which rounding may break a plane
-  /// @return false when rounding leaves none, which only near-parallel planes can cause.
+  /// Solves by enumeration of all sets of at most three planes, with an optimality test for each.
+  /// @param tolerance [m], greatest violation of a plane by rounding
+  /// @return false if rounding leaves no solution, which only near-parallel planes can cause.
   [[nodiscard]] bool solve(const Eigen::Vector3d& device, double tolerance,
                            ConstraintSolution& out) const noexcept;
 

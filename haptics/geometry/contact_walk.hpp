@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a surface contact point (SCP) gets to where it settles: straight towards the device until a
-// sweep stops it, then along the planes it has met, until nothing moves any more.
+// Motion of a surface contact point (SCP) to its settled place: straight towards the device until a
+// sweep stops it, then along the met planes until it no longer moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,24 +13,24 @@
 
 namespace reckon::haptics {
 
-/// One update of an SCP. Every move is swept, and leads towards the nearest point to the device of
-/// a convex set that the SCP is in: it passes no surface, and |device - p| never grows.
+/// One update of an SCP. Every move is swept. It leads towards the point nearest to the device in a
+/// convex set that contains the SCP. So it passes no surface, and |device - p| never grows.
 ///
 /// Obstacles, all noexcept, in the frame of p [m]:
 ///   bool sweep(p, step, SweepHit&)    first surface on the way
-///   bool within(p)                    overlapped by a solid that is not met from within
-///   bool holds(ConstraintPlane, p)    the face of this plane is right below p (false: not known)
-///   double clearance()                at which it settles; 1e-3 of it counts as no move
+///   bool within(p)                    p overlaps a solid that cannot be met from within
+///   bool holds(ConstraintPlane, p)    the plane's face is right below p (false: unknown)
+///   double clearance()                clearance of a settled p; a move below 1e-3 of it is none
 ///   double size()                     for the rounding of the planes
-///   double held(lateral, planes, solution, sliding)   how far from its goal friction keeps it
+///   double held(lateral, planes, solution, sliding)   distance from the goal left by friction
 template <class Obstacles>
 struct ContactWalk {
   using Vector3d = Eigen::Vector3d;
-  /// Most sweeps of one update; a way that needs more is finished in the next ones.
+  /// Greatest number of sweeps in one update; later updates finish a longer path.
   static constexpr int kMaxMoves = 256;
-  /// Most times that it slides over a curved surface or comes down on one, nearer to where it
-  /// settles each time, by a share that is the depth over the radius of curvature; the rest is for
-  /// the next updates.
+  /// Greatest number of slides over a curved surface or landings on one in an update. Each comes
+  /// nearer to the settled place, by a share equal to the depth over the radius of curvature. Later
+  /// updates finish the rest.
   static constexpr int kMostLandings = 48;
 
   const Obstacles& obstacles;
@@ -42,9 +42,9 @@ struct ContactWalk {
   Vector3d released_at = Vector3d::Zero();
   bool released = false;
   int landings = 0;
-  double slide_share = 1.0;  ///< of what the planes left free, in the last slide over a surface
+  double slide_share = 1.0;  ///< share of the allowed motion in the last slide over a surface
 
-  /// Goes on until nothing moves any more. @return whether p reached the device freely.
+  /// Moves until nothing changes. @return whether p reached the device freely.
   [[nodiscard]] bool run() noexcept {
     if (walk()) return true;
     if (landings > 0) press();
@@ -85,17 +85,17 @@ struct ContactWalk {
     return false;
   }
 
-  // Shortest move worth making, in clearances: below it the SCP counts as settled.
+  // Shortest useful move, in clearances. The SCP counts as settled below it.
   static constexpr double kTinyMove = 1e-3;
-  // Cosine between the normals of one smooth surface, here and a little on.
+  // Least cosine between the normals at two near places of one smooth surface.
   static constexpr double kSameSurface = 0.9;
-  static constexpr double kGrazing = 1e-5;  // cosine: a plane so steep bars no more than is barred
+  static constexpr double kGrazing = 1e-5;  // cosine: a steeper plane restricts p no further
   static constexpr double kLeastGain = 2.0 * (1.0 - kStopShare);
-  static constexpr double kShortestSlide = 1.0 / 128.0;  // of what the planes leave free
+  static constexpr double kShortestSlide = 1.0 / 128.0;  // share of the allowed motion
 
   [[nodiscard]] double tiny() const noexcept { return kTinyMove * obstacles.clearance(); }
 
-  // Stops p a margin before the surface and notes the plane that it met there.
+  // Stops p a margin before the surface and adds the plane that it met.
   void stop_at(const SweepHit& hit, const Vector3d& step) noexcept {
     const double level = hit.normal.dot(p + hit.t * step) + hit.margin;
     const double approach = -hit.normal.dot(step);
@@ -105,8 +105,8 @@ struct ContactWalk {
         {hit.normal, std::min(level, hit.normal.dot(p)), hit.triangle, hit.object, hit.on_face}, p);
   }
 
-  // A surface that p slides on already, as it goes on from there: another plane on it would bar
-  // all but a tiny way.
+  // Whether the hit is on a surface along which p slides already. Another plane on it would bar all
+  // but a tiny move.
   [[nodiscard]] bool runs_along(const SweepHit& hit) const noexcept {
     if (!hit.curved || planes.size() == 0) return false;
     for (std::size_t i = 0; i < solution.active_count; ++i) {
@@ -115,14 +115,15 @@ struct ContactWalk {
     return false;
   }
 
-  // What a slide by `step` would bring p nearer to the device, on a flat surface, is less than how
-  // exactly the surface is met: 0.1 um at 2 mm of depth.
+  // Whether the gain of a slide by `step` on a flat surface is below the precision of a contact:
+  // 0.1 um at 2 mm of depth.
   [[nodiscard]] bool is_negligible(const Vector3d& step) const noexcept {
     return step.squaredNorm() <= kLeastGain * obstacles.clearance() * (device - p).norm();
   }
 
-  // Over it in two swept legs, up and forward down again, shorter ones while that leads nowhere.
-  // Swept from above, the first leg soon comes to where p is known to be free.
+  // Slides over the surface in two swept legs, up and then forward and down, and tries shorter ones
+  // if that brings p no nearer. The first leg is swept from above and soon reaches the known free
+  // p.
   [[nodiscard]] bool slide_over(const Vector3d& step) noexcept {
     const Vector3d up = solution.push.normalized();
     const double before = (p - device).squaredNorm();
@@ -148,8 +149,8 @@ struct ContactWalk {
     return false;
   }
 
-  // A way that ran along a curved surface may have ended above it: straight down, as far as the
-  // device is.
+  // A move along a curved surface may end above it. So p moves straight down, at most by the
+  // distance of the device.
   void press() noexcept {
     const Vector3d down = -solution.push;
     SweepHit hit;
@@ -165,7 +166,7 @@ struct ContactWalk {
     if (planes.size() > 0) sliding = true;
   }
 
-  // Where the planes and friction let p go; false when it need not or may not move.
+  // Step that the planes and friction allow; false if p need not or cannot move.
   [[nodiscard]] bool next_step(Vector3d& step) noexcept {
     const double tolerance = 1e-12 * (obstacles.size() + (device - p).norm());
     if (!planes.solve(device, tolerance, solution)) {
@@ -173,7 +174,7 @@ struct ContactWalk {
       return false;
     }
     step = solution.point - p;
-    if (planes.size() == 0) return p != device;  // however short: only a sweep may let it pass
+    if (planes.size() == 0) return p != device;  // even if short: only a sweep may let it pass
     const double lateral = step.norm();
     const double held = obstacles.held(lateral, planes, solution, sliding);
     if (held > 0.0) {
@@ -182,7 +183,8 @@ struct ContactWalk {
     return step.squaredNorm() > tiny() * tiny();
   }
 
-  // All planes that carry load belong to faces right below p: it is settled, not past an edge.
+  // Whether all planes with load belong to faces right below p: then p is settled, and not past an
+  // edge.
   [[nodiscard]] bool held_by_faces() const noexcept {
     if (solution.active_count == 0) return false;
     for (std::size_t i = 0; i < solution.active_count; ++i) {
@@ -191,7 +193,7 @@ struct ContactWalk {
     return true;
   }
 
-  // Forgets all planes to see which still hold p; false when that was done here before.
+  // Drops all planes to find which still hold p; false if that was done here before.
   [[nodiscard]] bool release() noexcept {
     if (released && released_at == p) return false;
     released = true;

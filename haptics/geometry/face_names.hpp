@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh file calls its faces: the place where patches of a surface take hold.
+// Names of a mesh file for its faces, to which the patches of a surface refer.
 #pragma once
 
 #include <cstdint>

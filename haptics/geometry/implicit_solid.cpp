@@ -17,16 +17,18 @@ using Eigen::Vector3d;
 
 constexpr double kLeastClearance = 4e-10;     // [m]
 constexpr double kImplicitClearance = 1e-10;  // of the size
-constexpr double kReached = 2e-3;             // [clearances] above where a sweep is to stop
-constexpr double kFloorShare = 0.5;           // of the clearance: nearer nothing is let pass
-constexpr double kLeastApproach = 1e-6;       // share of a way that its obstacle's normal has
-constexpr double kCutRoom = 1e-3;             // of the size, about the bounds
-constexpr double kLongestStretch = 4.0;       // [sizes], where an SCP is looked for outside
+constexpr double kReached = 2e-3;             // [clearances] above the stop of a sweep
+constexpr double kFloorShare = 0.5;           // of the clearance: no nearer place lets anything
+                                              // pass
+constexpr double kLeastApproach = 1e-6;       // least share of a path along its obstacle's normal
+constexpr double kCutRoom = 1e-3;             // of the size, around the bounds
+constexpr double kLongestStretch = 4.0;       // [sizes], range of the search for an SCP outside
 constexpr int kMostClimbs = 64;
-// A way that is so slow at first runs along a surface: what is left of the samples would not help.
+// Samples after which a path that is slow at first counts as one along a surface: the remaining
+// samples would not help.
 constexpr int kFirstSamples = 6;
 constexpr double kSlow = 1e-3;
-constexpr double kSteep = 0.2;  // a way down at such a slope gets there in those that are left
+constexpr double kSteep = 0.2;  // at such a slope the remaining samples suffice
 
 void need(bool holds, const char* remedy) {
   if (!holds) throw std::invalid_argument(remedy);
@@ -136,8 +138,8 @@ ImplicitSolid::ImplicitSolid(const EllipsoidShape& shape)
 ImplicitSolid::ImplicitSolid(const CsgShape& shape)
     : ImplicitSolid(function_of(shape), named(shape)) {}
 
-// The solid is also its intersection with a box about it: outside of that the distance from the box
-// is a bound, too, and the better one beside a sharp mitre.
+// The solid is also its intersection with a box around it. Outside the box the distance from the
+// box is a bound too, and the better one beside a sharp mitre.
 SignedSample ImplicitSolid::sample(const Vector3d& p) const noexcept {
   const SignedSample own = function_.sample(p);
   if (function_.exact_outside() || cut_.contains(p)) return own;
@@ -166,7 +168,7 @@ bool ImplicitSolid::contains(const Vector3d& p, double radius) const noexcept {
 
 double ImplicitSolid::distance_below(const Vector3d& p) const noexcept { return sample(p).value; }
 
-// Newton's method along the gradient, which is shorter than 1 in rounded edges.
+// Newton's method along the gradient, which is shorter than 1 at rounded edges.
 bool ImplicitSolid::climb_out(Vector3d& p, double radius) const noexcept {
   for (int i = 0; i < kMostClimbs; ++i) {
     const SignedSample here = sample(p);
@@ -178,7 +180,7 @@ bool ImplicitSolid::climb_out(Vector3d& p, double radius) const noexcept {
   return sample(p).value >= radius + kFloorShare * clearance_;
 }
 
-// Where the gradient leads nowhere, as in the very middle: back from outside, along an axis.
+// If the gradient leads nowhere, as at the very centre: inwards from outside, along an axis.
 Vector3d ImplicitSolid::nearest_outside(const Vector3d& p, double radius) const noexcept {
   Vector3d climbed = p;
   if (climb_out(climbed, radius)) return climbed;
@@ -197,8 +199,8 @@ Vector3d ImplicitSolid::nearest_outside(const Vector3d& p, double radius) const 
   return best;
 }
 
-// Goes on by what f proves to be free until f is down to the stop. Where that is so at once,
-// rounding may have brought the SCP there: only the way nearer is barred.
+// Advances by the distance that f proves to be free until f is down to the stop. If it is so at the
+// start, rounding may have moved the SCP there, and only motion towards the surface is barred.
 bool ImplicitSolid::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                           SweepHit& hit) const noexcept {
   const double length = step.norm();

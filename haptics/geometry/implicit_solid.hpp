@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A solid that is a signed function f, as a surface contact point (SCP) meets it: swept without a
-// gap, since f is never more than the distance.
+// A solid given by a signed function f, for a surface contact point (SCP). A sweep misses nothing,
+// because f never exceeds the distance.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,43 +14,43 @@
 
 namespace reckon::haptics {
 
-/// Solid where f < 0, object axes [m]. A probe of radius r touches where f = r: its ball lies on
-/// the surface where f is the distance, and stays up to the mitre away from it at the convex edges
-/// of intersections and differences, where f is less.
+/// Solid where f < 0, object axes [m]. A probe of radius r touches where f = r. Where f is the
+/// distance, its ball then lies on the surface. At convex edges of intersections and differences f
+/// is less, and the ball stays up to the mitre away.
 ///
-/// The SCP settles at one clearance above that: 0.4 nm, of objects above 4 m 1e-10 of their size.
+/// The SCP settles at one clearance above that: 0.4 nm, or 1e-10 of the size for objects above 4 m.
 class ImplicitSolid {
  public:
-  /// @param what it is called where a plan is printed, "cylinder"
-  /// @throws std::invalid_argument for a function that leaves nothing solid
+  /// @param what name for the print of a plan, "cylinder"
+  /// @throws std::invalid_argument for a function without a solid part
   ImplicitSolid(SignedFunction function, std::string what);
-  /// @throws std::invalid_argument for measures that make no solid
+  /// @throws std::invalid_argument for dimensions without a solid
   explicit ImplicitSolid(const CylinderShape& shape);
   explicit ImplicitSolid(const ConeShape& shape);
   explicit ImplicitSolid(const TorusShape& shape);
   explicit ImplicitSolid(const EllipsoidShape& shape);
   explicit ImplicitSolid(const CsgShape& shape);
 
-  /// f at p, and its gradient; the normal of the surface where |f| is small. About 5 to 40 ns a
-  /// primitive.
+  /// f at p, and its gradient, which is the normal of the surface where |f| is small. About 5 to 40
+  /// ns a primitive.
   [[nodiscard]] SignedSample sample(const Eigen::Vector3d& p) const noexcept;
-  /// True where a probe at p overlaps the solid.
+  /// Whether a probe at p overlaps the solid.
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double radius = 0.0) const noexcept;
-  /// A point near p, which is inside, at which an SCP may rest.
+  /// A point near p at which an SCP may rest; p is inside.
   [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p,
                                                 double radius = 0.0) const noexcept;
-  /// First time at which a probe that goes from `origin` by `step` meets the surface; one that
-  /// overlaps it already is stopped only where it would come closer. It may stop short of a surface
-  /// that it runs along (SweepHit::curved). At most kMostSamples evaluations of f.
-  /// @return false for a free way
+  /// First time at which a probe that moves from `origin` by `step` meets the surface. A probe that
+  /// overlaps it already is stopped only if it would come closer. The sweep may stop early at a
+  /// surface that runs along the path (SweepHit::curved). At most kMostSamples evaluations of f.
+  /// @return false for a free path
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                            double radius, SweepHit& hit) const noexcept;
-  /// At most the distance of p from the solid [m]; 0 or below within it.
+  /// Lower bound of the distance of p from the solid [m]; 0 or below inside it.
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] double clearance() const noexcept { return clearance_; }
-  /// Infinite where the solid may have no end.
+  /// Infinite if the solid may be unbounded.
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return cut_; }
-  /// Diagonal of the bounds [m]; 1 where they are infinite.
+  /// Diagonal of the bounds [m]; 1 if they are infinite.
   [[nodiscard]] double size() const noexcept { return size_; }
   [[nodiscard]] const SignedFunction& function() const noexcept { return function_; }
   /// "torus", "solid of 5 parts".
@@ -70,7 +70,7 @@ class ImplicitSolid {
   std::string what_;
   double size_ = 1.0;
   double clearance_ = 0.0;
-  Eigen::AlignedBox3d cut_;  // the solid is within it, and so are the mitres, but for the radius
+  Eigen::AlignedBox3d cut_;  // contains the solid, and its mitres except for the radius
 };
 
 }  // namespace reckon::haptics

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Boundary loops, by OpenMesh's half-edges.
+// Boundary loops, from OpenMesh's half-edges.
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 
@@ -17,7 +17,7 @@ HalfEdges half_edges_of(const TriangleSoup& soup) {
   const std::size_t triangles = soup.triangles.size();
   mesh.reserve(soup.vertices.size(), 3 * triangles / 2, triangles);
   for (std::size_t i = 0; i < soup.vertices.size(); ++i) mesh.new_vertex();
-  omerr().disable();  // it prints each face that it cannot join
+  omerr().disable();  // it prints every face that it cannot join
   for (const SoupTriangle& triangle : soup.triangles) {
     const auto vertex = [&](std::size_t i) {
       return HalfEdges::VertexHandle(static_cast<int>(triangle.corners[i]));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Triangles made ready to be touched: equal positions welded, what has no area or is there twice
-// dropped, neighbours made to face the same side, closed pieces outwards. What is done is counted
-// in a MeshReport. Private to SurfaceMesh.
+// Repair of a triangle set for contact. Equal positions are welded, degenerate and repeated
+// triangles dropped. Neighbours are turned to face the same side, and closed pieces outwards. A
+// MeshReport counts all changes. Private to SurfaceMesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,22 +28,23 @@ struct TriangleSoup {
   std::vector<std::string> names;  ///< as SurfaceMesh::names()
 };
 
-/// Vertices at the same position become one; the others stay, unused.
+/// Merges vertices at the same position; the unused ones stay in the list.
 void weld(TriangleSoup& soup, MeshReport& report);
 
-/// Triangles with equal corners. A thin one of three corners still joins its neighbours: it stays.
+/// Drops triangles with equal corners. A thin one with three corners stays, because it still joins
+/// its neighbours.
 void drop_collapsed(TriangleSoup& soup, MeshReport& report);
 
-/// Of triangles with the same three corners, either way round, the first stays.
+/// Keeps the first of several triangles with the same three corners in either direction.
 void drop_duplicates(TriangleSoup& soup, MeshReport& report);
 
-/// Counts edges, holes and pieces; turns triangles so that neighbours run opposite ways along their
-/// edge, in an open piece as the larger area did, in a closed one so that its volume is positive. A
-/// closed piece within the box of another that was drawn consistently keeps its side: it may be a
-/// cavity. Sorts 3 n edges.
+/// Counts edges, holes and pieces. Turns triangles so that neighbours run in opposite directions
+/// along their common edge: in an open piece as the larger area was drawn, in a closed one so that
+/// its volume is positive. A closed piece that was drawn consistently and lies within the box of
+/// another keeps its side, because it may be a cavity. Sorts 3 n edges.
 void orient(TriangleSoup& soup, MeshReport& report);
 
-/// Loops of edges that have one triangle, of a surface whose edges have two at most.
+/// Number of loops of edges with one triangle, for a surface with at most two triangles at an edge.
 [[nodiscard]] std::size_t count_holes(const TriangleSoup& soup);
 
 }  // namespace reckon::haptics

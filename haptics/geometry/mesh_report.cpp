@@ -9,9 +9,9 @@ namespace reckon::haptics {
 
 namespace {
 
-// A hand moves within about a metre, the largest desk-top devices within half a one.
+// A hand moves within about a metre, and within half of that on the largest desk-top devices.
 constexpr double kLargest = 10.0;
-// A tenth of the smallest probe that a hand is shown as.
+// A tenth of the smallest probe radius of a hand.
 constexpr double kSmallest = 1e-3;
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles share an edge, which pieces they make, and which way round each should run.
+// Topology of a mesh: which triangles share an edge, which pieces they form, and which of them must
+// be turned.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
@@ -16,7 +17,7 @@ using Eigen::Vector3d;
 
 /// One side of one triangle.
 struct EdgeUse {
-  std::uint64_t edge;  // its two vertices, the smaller one above
+  std::uint64_t edge;  // its two vertices, the smaller one in the upper half
   std::uint32_t triangle;
   std::uint32_t side;  // from corner `side` to the next
   auto operator<=>(const EdgeUse&) const = default;
@@ -25,18 +26,18 @@ struct EdgeUse {
 struct Piece {
   std::uint32_t begin = 0, end = 0;  // in Topology::order_
   Eigen::AlignedBox3d box;
-  double volume = 0.0;  // signed, the triangles run as turned
-  double area = 0.0;    // of all
+  double volume = 0.0;  // signed, with the triangles as turned
+  double area = 0.0;    // of all triangles
   double turned_area = 0.0;
   bool closed = true;     // no boundary
-  bool two_sided = true;  // its triangles can agree
-  bool as_drawn = true;   // they did agree
+  bool two_sided = true;  // its triangles can be turned to agree
+  bool as_drawn = true;   // they agreed before turning
 };
 
-// A piece is looked for in the boxes of so many others, the largest.
+// Number of the largest pieces whose boxes are searched for an enclosed piece.
 constexpr std::size_t kEnclosing = 256;
 
-constexpr std::uint32_t kNone = 0xffffffffu;  // a boundary
+constexpr std::uint32_t kNone = 0xffffffffu;  // a boundary edge
 constexpr std::uint32_t kMany = kNone - 1;    // an edge of three or more
 
 class Topology {
@@ -64,7 +65,8 @@ class Topology {
     return soup_.vertices[triangles_[triangle].corners[i]];
   }
 
-  /// Neighbour over each side, whether it runs the same way, and how many corners are one vertex.
+  /// Finds the neighbour over each side, whether it runs in the same direction, and the corners
+  /// that share a vertex.
   void join() {
     const std::vector<EdgeUse> uses = sorted_uses();
     neighbour_.assign(uses.size(), kNone);
@@ -125,7 +127,7 @@ class Topology {
     fan_[fan_of(a)] = static_cast<std::uint32_t>(fan_of(b));
   }
 
-  /// Vertices whose triangles do not hang together over edges.
+  /// Counts vertices whose triangles are not connected over edges.
   void count_meeting_points() {
     std::vector<std::uint32_t> fan(soup_.vertices.size(), kNone);
     for (std::size_t corner = 0; corner < fan_.size(); ++corner) {
@@ -189,7 +191,7 @@ class Topology {
     }
   }
 
-  /// Turns the piece as a whole where it is the wrong way round.
+  /// Turns the whole piece if it faces the wrong side.
   void settle_side(const Piece& piece) {
     bool over = 2.0 * piece.turned_area > piece.area;
     if (piece.closed && piece.two_sided) over = faces_inwards(piece);
@@ -203,8 +205,8 @@ class Topology {
     }
   }
 
-  /// Whether it has to be turned to face outwards. One that was drawn inside another the other way
-  /// round than most of the surface is a cavity.
+  /// Whether it must be turned to face outwards. A piece inside another one is a cavity if it was
+  /// drawn in the opposite direction to most of the surface.
   [[nodiscard]] bool faces_inwards(const Piece& piece) {
     const bool inverse = drawn_volume() < 0.0;
     const bool odd_one = (piece.volume < 0.0) != inverse;
@@ -212,7 +214,7 @@ class Topology {
     return piece.volume < 0.0;
   }
 
-  /// Of all closed pieces that were drawn consistently.
+  /// Volume of all closed pieces that were drawn consistently.
   double drawn_volume() {
     if (!drawn_known_) {
       for (const Piece& piece : pieces_) {
@@ -261,7 +263,8 @@ class Topology {
   std::vector<SoupTriangle>& triangles_;
   MeshReport& report_;
   std::vector<std::uint32_t> neighbour_;  // of each side, kNone or kMany
-  std::vector<bool> same_way_;            // of each side: the neighbour runs along it as this one
+  std::vector<bool> same_way_;            // of each side: the neighbour runs along it in the same
+                                          // direction
   std::vector<std::uint32_t> fan_;        // of each corner: another of the same fan, or itself
   std::vector<bool> turned_;              // of each triangle
   std::vector<std::uint32_t> order_;      // triangles, piece by piece

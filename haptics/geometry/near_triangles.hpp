@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The triangles near a probe, kept from one sweep to the next: a hand that strokes a surface sweeps
-// many times within the length of a few triangles, and need not descend a tree each time.
+// The triangles near a probe, kept between sweeps. A hand that strokes a surface sweeps many times
+// within the length of a few triangles, and the list replaces the search of the tree.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,13 @@
 
 namespace reckon::haptics {
 
-/// Filled and used by SurfaceMesh::sweep or SurfaceMesh::closest_near, of one mesh; it changes the
-/// cost of a query, never its outcome. One per probe and query, servo thread only.
+/// Filled and used by SurfaceMesh::sweep or SurfaceMesh::closest_near of one mesh. It changes the
+/// cost of a query, never its result. One per probe and query, servo thread only.
 class NearTriangles {
  public:
   static constexpr std::size_t kMost = 48;
 
-  /// Forgets the mesh, too.
+  /// Discards the list and the margin of its mesh.
   void clear() noexcept {
     reach_ = -1.0;
     margin_ = 0.0;
@@ -27,10 +27,10 @@ class NearTriangles {
  private:
   friend class SurfaceMesh;
 
-  // How far from the centre the list tells what a probe meets that stops at `stop` [m].
+  // Distance from the centre up to which the list is complete for a probe that stops at `stop` [m].
   [[nodiscard]] double room(double stop) const noexcept { return (1.0 - 1e-9) * (reach_ - stop); }
 
-  // Ascending by distance. False where there is no room.
+  // Inserts in ascending order of distance. False if the list is full.
   bool add(std::uint32_t triangle, float away) noexcept {
     if (count_ == kMost) return false;
     std::size_t place = count_++;
@@ -45,12 +45,12 @@ class NearTriangles {
   }
 
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  // [m]
-  // [m]: all triangles nearer to the centre are listed; < 0: there is no list
+  // [m]: all triangles nearer to the centre are in the list; < 0: there is no list
   double reach_ = -1.0;
-  double margin_ = 0.0;        // [m] that the next list reaches beyond the probe; 0: not known yet
-  std::uint32_t nearest_ = 0;  // of the last point
+  double margin_ = 0.0;        // [m], reach of the next list beyond the probe; 0: not known yet
+  std::uint32_t nearest_ = 0;  // triangle of the last nearest point
   std::size_t count_ = 0;
-  std::array<float, kMost> away_{};  // [m], at most the distance from the centre
+  std::array<float, kMost> away_{};  // [m], lower bounds of the distance from the centre
   std::array<std::uint32_t, kMost> triangles_{};
 };
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Shapes as a scene declares them, plain structs; shapes.hpp makes of them what a contact is
-// computed with.
+// Shapes as a scene declares them, plain structs. shapes.hpp converts them for contacts.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,23 +12,23 @@
 
 namespace reckon::haptics {
 
-/// A half space: solid below the plane through the object's origin, free above it.
+/// A half space: solid below the plane through the object's origin.
 struct PlaneShape {
   Eigen::Vector3d normal =
       Eigen::Vector3d::UnitZ();  ///< object axes, out of the solid; any length > 0
 };
 
-/// A solid ball about the object's origin.
+/// A solid ball around the object's origin.
 struct SphereShape {
   double radius = 0.05;  ///< [m], > 0
 };
 
-/// A solid box about the object's origin, edges along the object's axes.
+/// A solid box around the object's origin, edges along the object's axes.
 struct BoxShape {
   Eigen::Vector3d size = Eigen::Vector3d::Constant(0.1);  ///< whole edge lengths [m], each > 0
 };
 
-/// A solid cylinder about the object's origin, its axis along z.
+/// A solid cylinder around the object's origin, its axis along z.
 struct CylinderShape {
   double radius = 0.03;  ///< [m], > 0
   double height = 0.1;   ///< [m], > 0
@@ -37,27 +36,27 @@ struct CylinderShape {
 
 /// A solid cone, or a frustum, its axis along z, the origin at half its height.
 struct ConeShape {
-  double radius = 0.03;     ///< of the base, which is below [m], >= 0
+  double radius = 0.03;     ///< of the lower base [m], >= 0
   double top_radius = 0.0;  ///< of the upper face [m], >= 0; 0 is a tip. Not both 0
   double height = 0.1;      ///< [m], > 0
 };
 
-/// A solid ring about the object's z axis.
+/// A solid ring around the object's z axis.
 struct TorusShape {
-  double radius = 0.04;  ///< of the circle that is the middle of its tube [m], > tube
+  double radius = 0.04;  ///< of the centre line of its tube [m], > tube
   double tube = 0.01;    ///< radius of the tube [m], > 0
 };
 
-/// A solid ellipsoid about the object's origin.
+/// A solid ellipsoid around the object's origin.
 struct EllipsoidShape {
   Eigen::Vector3d semi_axes = Eigen::Vector3d(0.06, 0.04, 0.03);  ///< along x, y, z [m], each > 0
 };
 
-/// What a part does to those before it.
+/// Operation of a part on the parts before it.
 enum class CsgOperation : std::uint8_t {
   add,        ///< union
-  subtract,   ///< difference: what the part fills is taken away
-  intersect,  ///< intersection: only what the part fills is left
+  subtract,   ///< difference: the part is removed
+  intersect,  ///< intersection: only the common volume stays
 };
 
 /// One step of constructive solid geometry (CSG).
@@ -69,20 +68,19 @@ struct CsgPart {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the part's origin, object axes [m]
   Eigen::Quaterniond orientation =
       Eigen::Quaterniond::Identity();  ///< part -> object; normalised on use
-  double rounding = 0.0;               ///< radius of the edges that the operation makes [m], >= 0
+  double rounding = 0.0;               ///< radius of the edges from the operation [m], >= 0
 };
 
-/// A solid made of parts, one after the other: 1 to SignedFunction::kMostLeaves.
+/// A solid from a sequence of parts: 1 to SignedFunction::kMostLeaves.
 struct CsgShape {
   std::vector<CsgPart> parts;
 };
 
 /// A triangle mesh from a file (OBJ, PLY, STL, OFF).
 struct MeshShape {
-  std::filesystem::path
-      file;  ///< as it can be opened; a scene reader resolves it against the scene file
-  double scale_to =
-      0.0;  ///< bounding-box diagonal after uniform scaling [m]; 0 keeps the file's units as metres
+  std::filesystem::path file;  ///< path to open; a scene reader resolves it against the scene file
+  double scale_to = 0.0;  ///< bounding-box diagonal after uniform scaling [m]; 0 keeps the file's
+                          ///< coordinates as metres
   bool centre = false;  ///< moves the centre of the bounding box to the object's origin
 };
 

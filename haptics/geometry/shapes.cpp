@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How far from its goal friction leaves an SCP that lies `lateral` from it, under `load`.
+// Distance from the goal at which friction holds an SCP that lies `lateral` from it, under `load`.
 double stay(FrictionCone* friction, double lateral, double load) {
   if (friction == nullptr) return 0.0;
   const double held = friction->held(lateral, load, friction->sliding());
@@ -23,12 +23,12 @@ double stay(FrictionCone* friction, double lateral, double load) {
   return held;
 }
 
-// [m], of a surface without a size.
+// [m], for a surface without a size.
 constexpr double kPlaneClearance = 1e-9;
-// Share of the clearance that is left between where a sweep stops and where the SCP settles.
+// Share of the clearance between the stop of a sweep and the settled SCP.
 constexpr double kMargin = 1.0 - kStopShare;
 
-// Onto a sphere about the origin.
+// Projects onto a sphere around the origin.
 Vector3d radially(const Vector3d& p, double reach) {
   const double distance = p.norm();
   return distance > 0.0 ? Vector3d(p * (reach / distance)) : Vector3d(0.0, 0.0, reach);
@@ -59,7 +59,7 @@ SettledPoint HalfSpace::settle(const Vector3d& scp, const Vector3d& device, Fric
                                double radius) const noexcept {
   const double depth = radius - normal_.dot(device);
   if (!(depth > 0.0)) return free_at(device, friction);
-  // Coming from free space it lands where the straight way meets the plane.
+  // From free space the SCP lands where the straight path meets the plane.
   const double height = std::max(normal_.dot(scp) - radius, 0.0);
   const Vector3d landed = nearest_outside(scp + height / (height + depth) * (device - scp), radius);
   const Vector3d goal = nearest_outside(device, radius);
@@ -69,7 +69,7 @@ SettledPoint HalfSpace::settle(const Vector3d& scp, const Vector3d& device, Fric
   return {goal + held / lateral * (landed - goal), normal_, true};
 }
 
-// Its inside has no end: however deep, a probe is found to overlap and goes no deeper.
+// Its inside is unbounded: a probe at any depth overlaps it and goes no deeper.
 bool HalfSpace::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                       SweepHit& hit) const noexcept {
   const double height = normal_.dot(origin) - radius;
@@ -103,7 +103,7 @@ Vector3d Ball::nearest_outside(const Vector3d& p, double radius) const noexcept 
   return radially(p, radius_ + radius);
 }
 
-// First point of the way that lies on the ball.
+// First point of the path that lies on the ball.
 bool Ball::lands(const Vector3d& from, const Vector3d& to, double reach,
                  Vector3d& at) const noexcept {
   const Vector3d way = to - from;
@@ -132,8 +132,9 @@ SettledPoint Ball::settle(const Vector3d& scp, const Vector3d& device, FrictionC
     return {radially(device, reach), device / distance, true};
   }
 
-  // In the plane of landed and device, at the angle between them: tangential d sin a, normal
-  // R - d cos a. Sliding stops where the first is the kinetic share of the second.
+  // In the plane of landed and device, at the angle between them: tangential d sin a, normal R - d
+  // cos a. Sliding stops where the tangential part is the kinetic coefficient times the normal
+  // part.
   const Vector3d up = landed / reach;
   const double height = device.dot(up);
   const Vector3d across = device - height * up;
@@ -191,7 +192,7 @@ Vector3d Block::nearest_outside(const Vector3d& p, double radius) const noexcept
   return out;
 }
 
-// Axis of the face through which the way enters the box grown by 0.99 clearances; -1 for none.
+// Axis of the face through which the path enters the box grown by 0.99 clearances; -1 for none.
 int Block::entry_axis(const Vector3d& from, const Vector3d& step) const noexcept {
   double enter = 0.0;
   double leave = 1.0;
@@ -219,8 +220,8 @@ SettledPoint Block::settle(const Vector3d& scp, const Vector3d& device,
   const int axis = entry_axis(scp, step);
   if (axis < 0) return free_at(device, friction);
 
-  // Land one clearance above the face, slide on that plane; past the face's border all is free,
-  // for there the device is beyond the border too.
+  // Land one clearance above the face and slide on that plane. Beyond the face's border the SCP is
+  // free, because the device is beyond it too.
   const double sign = scp[axis] < 0.0 ? -1.0 : 1.0;
   const double level = half_[axis] + clearance_;
   const double back = std::max(0.0, (scp[axis] * sign - level) / (-step[axis] * sign));
@@ -237,7 +238,7 @@ SettledPoint Block::settle(const Vector3d& scp, const Vector3d& device,
   return {at, sign * Vector3d::Unit(axis), true};
 }
 
-// Its faces as triangles: what is beside an edge or a corner is round it.
+// Sweeps its faces as triangles, which round the edges and corners.
 bool Block::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                   SweepHit& hit) const noexcept {
   const double stop = kStopShare * clearance_;

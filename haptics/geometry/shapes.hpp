@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Shapes with a closed form for where the surface contact point (SCP) settles: half space, ball and
-// block. All in object axes, metres. Meshes are in surface_mesh.hpp, signed
-// functions in implicit_solid.hpp. A probe is a ball of some
-// radius [m] >= 0; the SCP is its centre.
+// Shapes with a closed form for the settled surface contact point (SCP): half space, ball and
+// block. All in object axes, metres. Meshes are in surface_mesh.hpp, signed functions in
+// implicit_solid.hpp. A probe is a ball of some radius [m] >= 0, and the SCP is its centre.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,10 +21,10 @@ namespace reckon::haptics {
 class ImplicitSolid;
 class SurfaceMesh;
 
-/// Where an SCP is and what holds it there.
+/// An SCP and the normal of its contact.
 struct SettledPoint {
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero when free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero if free
   bool in_contact = false;
 };
 
@@ -34,21 +33,22 @@ class HalfSpace {
  public:
   /// @throws std::invalid_argument for a zero or non-finite normal.
   explicit HalfSpace(const PlaneShape& shape);
-  /// True where a probe at p overlaps the solid.
+  /// Whether a probe at p overlaps the solid.
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double radius = 0.0) const noexcept;
-  /// A point near p, which is inside, at which an SCP may rest: the nearest one where radius is 0.
+  /// A point near p at which an SCP may rest; p is inside. The nearest such point for a radius of
+  /// 0.
   [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p,
                                                 double radius = 0.0) const noexcept;
   /// Moves the SCP from `scp` to where it settles for `device`; friction may be null.
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
                                     FrictionCone* friction, double radius = 0.0) const noexcept;
-  /// First time at which a probe that goes from `origin` by `step` meets the surface; one that
-  /// overlaps it already is stopped only where it would come closer. @return false for a free way.
+  /// First time at which a probe that moves from `origin` by `step` meets the surface. A probe that
+  /// overlaps it already is stopped only if it would come closer. @return false for a free path.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                            double radius, SweepHit& hit) const noexcept;
-  /// At most the distance of p from the solid [m]; below 0 within some of them.
+  /// Lower bound of the distance of p from the solid [m]; below 0 inside some solids.
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
-  /// What rounding of a settled SCP may cost [m].
+  /// Greatest error of a settled SCP by rounding [m].
   [[nodiscard]] double clearance() const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
@@ -56,7 +56,7 @@ class HalfSpace {
   Eigen::Vector3d normal_;
 };
 
-/// Solid where |x| < radius. An SCP pushed beyond the centre slides round to the other side.
+/// Solid where |x| < radius. An SCP pushed beyond the centre slides to the other side.
 class Ball {
  public:
   /// @throws std::invalid_argument unless radius is finite and > 0.
@@ -103,7 +103,7 @@ class Block {
   double clearance_;
 };
 
-/// What a contact is computed with.
+/// A shape in the form that contacts use.
 using ContactShape = std::variant<HalfSpace, Ball, Block, std::shared_ptr<const SurfaceMesh>,
                                   std::shared_ptr<const ImplicitSolid>>;
 

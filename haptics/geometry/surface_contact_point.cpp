@@ -22,7 +22,7 @@ template <class Held>
 inline constexpr bool kIsShared =
     std::is_same_v<Held, MeshPointer> || std::is_same_v<Held, ImplicitPointer>;
 
-// How far above a face it may hover and still be held by it, in clearances.
+// Greatest height above a face that still counts as held by it, in clearances.
 constexpr double kHeldHeight = 1.01;
 
 template <class Function>
@@ -47,7 +47,7 @@ bool within_solid(const Solid& solid, const Vector3d& p, double radius) {
   }
 }
 
-// What a ContactWalk meets on one object.
+// One object as the obstacle of a ContactWalk.
 template <class Solid>
 struct OneObstacle {
   const Solid& solid;
@@ -83,8 +83,8 @@ struct OneObstacle {
   }
 };
 
-// A face that p hovers over within the clearance, and that lies between p and the device, holds it
-// without any search.
+// A face holds p without a search if p is within the clearance above it and the device is on its
+// other side.
 void add_held(const SurfaceMesh& mesh, std::uint32_t triangle, double radius,
               ContactWalk<OneObstacle<SurfaceMesh>>& walk) {
   const Triangle& t = mesh.triangles()[triangle];
@@ -185,8 +185,8 @@ bool clear_of(const SurfaceMesh& mesh, const Vector3d& p, double radius) {
   return !mesh.closest(p, radius + mesh.sweep_radius(), near) && !mesh.contains(p);
 }
 
-// Lifts a surface point by `height` above the face it lies on, and above each other face that is
-// then too near: at a concave crease or corner these are two or three and more.
+// Lifts a surface point by `height` above its face, and above each other face that is then too
+// near: several at a concave crease or corner.
 bool lift(const SurfaceMesh& mesh, const Vector3d& foot, double radius, const ConstraintPlane& face,
           Vector3d& out) {
   const double height = radius + mesh.clearance();
@@ -207,8 +207,8 @@ bool lift(const SurfaceMesh& mesh, const Vector3d& foot, double radius, const Co
   return false;
 }
 
-// Where the SCP starts: at the device, or above the nearest surface point when that is too near or
-// the device is inside.
+// Start of the SCP: the device, or a place above the nearest surface point if the device is too
+// near or inside.
 Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, double radius,
                        bool was_inside) {
   const double height = radius + mesh.clearance();
@@ -223,7 +223,7 @@ Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, double r
            {normal, normal.dot(t.a) + height, nearest.triangle, 0, true}, lifted)) {
     return lifted;
   }
-  // A tangle: straight out in growing steps.
+  // If faces are tangled: straight out in growing steps.
   for (double reach = height; reach < 2.0 * (mesh.size() + radius); reach *= 2.0) {
     lifted = nearest.point + reach * normal;
     if (clear_of(mesh, lifted, radius)) break;
@@ -254,7 +254,8 @@ bool SurfaceContactPoint::overlaps(const ContactShape& shape, const Vector3d& p)
       ClosestPoint near;
       return solid.closest(p, radius_ + 0.5 * solid.sweep_radius(), near) || solid.contains(p);
     } else {
-      // Within a block a sweep would meet its faces from behind; an implicit solid is met nowhere.
+      // Inside a block a sweep would meet its faces from behind; an implicit solid is never met
+      // from inside.
       constexpr double kNearest =
           std::is_same_v<Solid, Block> || std::is_same_v<Solid, ImplicitSolid> ? 0.5 : -0.25;
       return solid.contains(p, radius_ + kNearest * solid.clearance());

@@ -17,33 +17,33 @@
 
 namespace reckon::haptics {
 
-/// SweepHit of a shape, whichever it is; see there.
+/// First contact of a sweep with any shape, see SweepHit.
 [[nodiscard]] bool sweep_shape(const ContactShape& shape, const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& step, double radius, SweepHit& hit) noexcept;
-/// True where a probe at p overlaps a solid out of which a sweep is free: any but a mesh, whose
+/// Whether a probe at p overlaps a solid that sweeps can leave freely: any shape but a mesh, whose
 /// faces are met from both sides.
 [[nodiscard]] bool is_within(const ContactShape& shape, const Eigen::Vector3d& p,
                              double radius) noexcept;
 /// Clearance of a shape [m].
 [[nodiscard]] double clearance_of(const ContactShape& shape) noexcept;
-/// At most the distance of p from the shape [m]; 0 or below within it.
+/// Lower bound of the distance of p from the shape [m]; 0 or below inside it.
 [[nodiscard]] double distance_below(const ContactShape& shape, const Eigen::Vector3d& p) noexcept;
 
-/// State of one probe, a ball about the device point, against one shape, object axes. The SCP is
-/// its centre. Another shape begins with a reset.
+/// State of one probe, a ball around the device point, against one shape, object axes. The SCP is
+/// its centre. A change of the shape needs a reset.
 ///
-/// Invariants, whatever the device does: the SCP keeps the probe's radius and at least half of
+/// Invariants for any motion of the device. The SCP keeps the probe's radius and at least half of
 /// kRelativeClearance of the object's size from every triangle, and half an
-/// ImplicitSolid::clearance() from every implicit surface, so it cannot pass a surface; an
-/// update never raises |device - scp|, since every move is towards the nearest point of a convex
-/// set that the SCP is in.
+/// ImplicitSolid::clearance() from every implicit surface. So it cannot pass a surface. An update
+/// never raises |device - scp|, since every move leads towards the nearest point of a convex set
+/// that contains the SCP.
 class SurfaceContactPoint {
  public:
   /// @param radius of the probe [m], >= 0
   explicit SurfaceContactPoint(double radius = 0.0) noexcept : radius_(radius) {}
 
-  /// Puts the SCP at `device`, or, where the probe overlaps the solid there, at a place outside
-  /// near by. @return true when `device` was inside.
+  /// Puts the SCP at `device`, or at a place outside nearby if the probe overlaps the solid there.
+  /// @return true if `device` was inside.
   bool reset(const ContactShape& shape, const Eigen::Vector3d& device) noexcept;
 
   /// Settles for `device`; friction may be null. No allocation; bounded work
@@ -51,16 +51,16 @@ class SurfaceContactPoint {
   void update(const ContactShape& shape, const Eigen::Vector3d& device,
               FrictionCone* friction) noexcept;
 
-  /// True where a probe whose centre is at p [m] would overlap the solid.
+  /// Whether a probe with its centre at p [m] overlaps the solid.
   [[nodiscard]] bool overlaps(const ContactShape& shape, const Eigen::Vector3d& p) const noexcept;
 
-  /// Follows a device that is known to touch nothing on its way.
+  /// Follows a device whose path is known to be free.
   void set_free(const Eigen::Vector3d& device) noexcept;
 
   [[nodiscard]] const Eigen::Vector3d& scp() const noexcept { return point_.scp; }
   [[nodiscard]] const Eigen::Vector3d& normal() const noexcept { return point_.normal; }
   [[nodiscard]] bool in_contact() const noexcept { return point_.in_contact; }
-  /// Of a mesh in contact: the triangle that bears most of the load.
+  /// Of a mesh in contact: the triangle with most of the load.
   [[nodiscard]] std::uint32_t triangle() const noexcept { return triangle_; }
 
  private:

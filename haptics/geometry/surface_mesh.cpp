@@ -20,9 +20,10 @@ using Index3 = std::array<std::uint32_t, 3>;
 
 // Thinner triangles have no usable normal; the sweep radius of their neighbours covers them.
 constexpr double kRelativeThinnest = 1e-10;
-// Margins of a list of near triangles: a sweep that begins farther from the last one is a leap.
+// Greatest distance between sweeps for a list of near triangles, in margins; a greater one is a
+// jump.
 constexpr double kNearby = 4.0;
-// Margins that its centre lies ahead.
+// Distance of the list's centre ahead of the probe, in margins.
 constexpr double kAhead = 0.5;
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
@@ -58,7 +59,7 @@ MeshReport report_of(const std::vector<Index3>& indices) {
   return report;
 }
 
-// Their neighbours cover the place.
+// Drops thin triangles; their neighbours cover the place.
 void drop_thin(TriangleSoup& soup, double thinnest, MeshReport& report) {
   std::erase_if(soup.triangles, [&](const SoupTriangle& triangle) {
     const auto& t = triangle.corners;
@@ -123,12 +124,11 @@ void SurfaceMesh::plant(const TriangleSoup& soup) {
 namespace {
 
 // The distance from a triangle is a convex function of time and so stays above its tangent at the
-// start: of the triangles near a ball most are ruled out so, by one point instead of seven
-// features.
+// start. That excludes most triangles near a ball by one point instead of seven features.
 bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexcept {
   const Vector3d gap = way.origin - closest_on_triangle(triangle, way.origin);
   const double distance = gap.norm();
-  // By more than rounding, so that what is met does not depend on what was met before.
+  // More than rounding, so that the hit does not depend on earlier ones.
   const double room = distance - (1.0 + 1e-11) * way.radius;
   if (!(room > 0.0)) return false;
   const double fall = -gap.dot(way.step) * limit;
@@ -137,7 +137,7 @@ bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexc
 
 }  // namespace
 
-/// The first of the triangles that a sweep meets, whatever order they come in.
+/// The first triangle that a sweep meets, for any order of the candidates.
 struct SurfaceMesh::FirstHit {
   const SurfaceMesh& mesh;
   Sweep way;
@@ -145,9 +145,9 @@ struct SurfaceMesh::FirstHit {
   SweepHit& hit;
   double limit;
   bool found = false;
-  TriangleBounds::Segment segment;  // of a point's way
-  TriangleBounds::Place from;       // of a ball's
-  double reach = 0.0;               // of a ball, on its way [m]
+  TriangleBounds::Segment segment;  // path of a point
+  TriangleBounds::Place from;       // start of a ball
+  double reach = 0.0;               // [m], range of a ball on its path
 
   FirstHit(const SurfaceMesh& on, const Vector3d& origin, const Vector3d& step, double radius,
            double most, SweepHit& out) noexcept
@@ -207,8 +207,8 @@ bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double rad
 
 namespace {
 
-// Where the way from `offset` by `step` leaves the ball of `radius` about the origin that it begins
-// in: share of the step, at most 1.
+// Share of the step, at most 1, after which the path from `offset` by `step` leaves the ball of
+// `radius` around the origin. The path begins inside.
 double share_within(const Vector3d& offset, const Vector3d& step, double radius) noexcept {
   if ((offset + step).squaredNorm() <= radius * radius) return 1.0;
   const double along = offset.dot(step);
@@ -219,8 +219,8 @@ double share_within(const Vector3d& offset, const Vector3d& step, double radius)
 
 }  // namespace
 
-// The list tells what is met as long as the probe is within its reach. Of a way no point is farther
-// from the centre than the farther of its ends.
+// The list is complete while the probe is within its reach. No point of the path is farther from
+// the centre than the farther end.
 bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                         NearTriangles& near, SweepHit& hit) const noexcept {
   const double stop = radius + sweep_radius();
@@ -239,8 +239,8 @@ bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double rad
   return first.found || (within < 1.0 && sweep(origin, step, radius, hit));
 }
 
-// A list pays where sweeps begin near each other, and where few triangles are near: the margin
-// finds out how far that goes. Its centre lies ahead, for a hand goes on as it went.
+// A list pays if sweeps begin near each other and few triangles are near. The margin adapts to
+// that. The centre of the list lies ahead, because a hand mostly continues its motion.
 bool SurfaceMesh::list_near(const Vector3d& p, double stop, NearTriangles& near) const noexcept {
   const double usual = size_ / std::sqrt(static_cast<double>(triangles_.size()));
   if (near.margin_ == 0.0) near.margin_ = usual;
@@ -288,7 +288,7 @@ bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint, ClosestPoi
   return closest_below(p, out.distance, precision, true, out);
 }
 
-// Once a point is found, what is not nearer by more than the precision is not looked at.
+// After a first point, only points nearer by more than the precision are examined.
 bool SurfaceMesh::closest_below(const Vector3d& p, double limit, double precision, bool found,
                                 ClosestPoint& out) const noexcept {
   const TriangleBounds::Place place = triangle_bounds_.place(p);
@@ -348,7 +348,7 @@ bool SurfaceMesh::odd_crossings(const Vector3d& p, const Vector3d& ray) const no
 
 bool SurfaceMesh::contains(const Vector3d& p) const noexcept {
   if (!report_.closed || !bounds_.contains(p)) return false;
-  // Directions along no likely symmetry; a ray through an edge may err, two of three may not.
+  // Directions along no likely symmetry: a ray through an edge may fail, but not two of three.
   const std::array<Vector3d, 3> rays{Vector3d(0.5417, 0.6231, 0.5641),
                                      Vector3d(-0.7309, 0.1847, 0.6570),
                                      Vector3d(0.2213, -0.8713, 0.4381)};

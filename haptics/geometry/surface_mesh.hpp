@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A triangle surface that can be touched: read from a file, mended, and searched through a
-// BoundingVolumeTree. Queries allocate nothing and may run on many threads.
+// A touchable triangle surface: read from a file, repaired, and searched through a
+// BoundingVolumeTree. Queries do not allocate and may run on many threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,18 +32,18 @@ struct ClosestPoint {
   std::uint32_t triangle = 0;
 };
 
-/// A shell when it is open: then both sides can be touched and nothing counts as inside.
+/// An open surface is a shell: both sides can be touched and nothing counts as inside.
 class SurfaceMesh {
  public:
-  /// Reads a file (OBJ, PLY, STL, OFF), scales and centres it as the shape says. One that lies far
-  /// from its origin is kept relative to origin(), with every digit of the file.
-  /// @throws std::runtime_error naming the file, the line where there is one, and the remedy: not
+  /// Reads a file (OBJ, PLY, STL, OFF), scales and centres it according to the shape. A mesh far
+  /// from its file's origin is stored relative to origin(), with every digit of the file.
+  /// @throws std::runtime_error naming the file, the line if there is one, and the remedy: not
   /// readable, no usable triangle, a vertex that is not finite, a corner that does not exist.
   [[nodiscard]] static SurfaceMesh load(const MeshShape& shape);
 
   /// Builds from indexed triangles [m]. Equal positions are welded, degenerate and repeated
-  /// triangles dropped, neighbours made to face the same side and closed pieces outwards; report()
-  /// counts it all. 1 us a triangle.
+  /// triangles dropped. Neighbours are turned to face the same side, and closed pieces outwards.
+  /// report() counts all changes. 1 us a triangle.
   /// @throws std::runtime_error without a usable triangle, or on a non-finite position or bad
   /// index.
   SurfaceMesh(std::vector<Eigen::Vector3d> vertices,
@@ -51,56 +51,56 @@ class SurfaceMesh {
 
   [[nodiscard]] const MeshReport& report() const noexcept { return report_; }
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return bounds_; }
-  /// Where the axes of this mesh begin, in the axes of its shape [m]. Zero, but for a file whose
-  /// middle lies more than 100 of its sizes away from its own origin: then that middle.
+  /// Origin of this mesh's axes, in the axes of its shape [m]. Zero, except for a file whose middle
+  /// lies more than 100 of its sizes from the file's own origin: then that middle.
   [[nodiscard]] const Eigen::Vector3d& origin() const noexcept { return origin_; }
   /// Diagonal of the bounding box [m].
   [[nodiscard]] double size() const noexcept { return size_; }
-  /// Distance at which a settled SCP hovers [m]: kRelativeClearance x size.
+  /// Distance of a settled SCP from the surface [m]: kRelativeClearance x size.
   [[nodiscard]] double clearance() const noexcept { return clearance_; }
-  /// Radius of a point's sweep [m]: 0.99 x clearance, so that one at the clearance may slide
+  /// Radius of a point's sweep [m]: 0.99 x clearance, so that a point at the clearance slides
   /// freely.
   [[nodiscard]] double sweep_radius() const noexcept { return kStopShare * clearance_; }
   /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
 
-  /// Of the file's materials and groups, in the order in which it first says them.
+  /// Names of the file's materials and groups, in the order of their first appearance.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
-  /// Of each triangle, in the tree's order; empty where the file names nothing.
+  /// Names of each triangle, in the tree's order; empty if the file has none.
   [[nodiscard]] const std::vector<FaceNames>& face_names() const noexcept { return face_names_; }
 
-  /// First time at which the centre of a probe of `radius` [m] >= 0 that goes from `origin` by
-  /// `step` comes within radius + sweep_radius() of the surface. One that is within already is
-  /// stopped only where it would come closer. Never misses a triangle, by padding far above
-  /// rounding; of those met at once it is the first in triangles(). @return false when the way is
-  /// free.
+  /// First time at which the centre of a probe of `radius` [m] >= 0 that moves from `origin` by
+  /// `step` comes within radius + sweep_radius() of the surface. A probe that is within already is
+  /// stopped only if it would come closer. The padding far exceeds rounding, so that no triangle is
+  /// missed. Of several met at once, the hit is the first in triangles(). @return false for a free
+  /// path.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                            double radius, SweepHit& hit) const noexcept;
 
-  /// The same to the last bit, sooner for one that begins near where the last one did: a probe that
-  /// strokes the surface meets the few triangles in `near`, its own, instead of the tree.
+  /// The same result to the last bit, faster if the sweep begins near the last one. A probe that
+  /// strokes the surface tests the few triangles in `near`, its own list, instead of the tree.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                            double radius, NearTriangles& near, SweepHit& hit) const noexcept;
 
-  /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
-  /// @param precision [m] >= 0: a surface point is good enough that is so much farther away than
-  /// the nearest at most. 0 is exact; the more, the sooner the descent of the tree ends: from about
-  /// the size of a triangle on, it goes down but once. Sweeps know no precision: what keeps the
-  /// contact point outside does not depend on it.
+  /// Nearest surface point to p within `limit` [m]. @return false if there is none.
+  /// @param precision [m] >= 0: the result may be farther away than the nearest point by at most
+  /// this. 0 is exact. With a higher value the search of the tree ends sooner, and from about the
+  /// size of a triangle it descends only once. Sweeps have no such precision, so that it cannot let
+  /// the contact point pass a surface.
   [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit, ClosestPoint& out,
                              double precision = 0.0) const noexcept;
 
-  /// The same without a limit, with a triangle that is likely near, as the one that was nearest a
+  /// The same without a limit, with a triangle that is probably near, such as the nearest one a
   /// tick ago: its distance is the first bound of the search. Always true.
   bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out,
                     double precision = 0.0) const noexcept;
 
-  /// Nearest surface point to p, exact, sooner for a point near which the last one was: `near`, its
-  /// own, keeps the triangles around it. Always true.
+  /// Nearest surface point to p, exact, faster if p is near the last one: `near`, its own list,
+  /// keeps the triangles around it. Always true.
   bool closest_near(const Eigen::Vector3d& p, NearTriangles& near,
                     ClosestPoint& out) const noexcept;
 
-  /// At most the distance of p from the surface [m]: that from its bounding box.
+  /// Lower bound of the distance of p from the surface [m]: its distance from the bounding box.
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept {
     return bounds_.exteriorDistance(p);
   }
@@ -108,7 +108,7 @@ class SurfaceMesh {
   /// Inside of a closed surface, by the vote of three rays; false for a shell.
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
 
-  /// True where the foot of p on the triangle's plane lies in the triangle.
+  /// Whether the foot of p on the triangle's plane lies in the triangle.
   [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
 
  private:

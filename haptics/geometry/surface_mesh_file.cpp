@@ -15,15 +15,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-// In sizes of the mesh, between its middle and its origin: beyond, rounding of the coordinates
-// would be felt before that of the shape.
+// Distance of the mesh's middle from its origin, in sizes, beyond which rounding of the coordinates
+// would be felt before the shape.
 constexpr double kFarAway = 100.0;
 
 std::runtime_error mesh_error(const MeshShape& shape, const std::string& what) {
   return std::runtime_error("mesh " + shape.file.string() + ": " + what);
 }
 
-/// Scales and centres. @return where the vertices' origin is now, in the shape's axes [m].
+/// Scales and centres. @return the new origin of the vertices, in the shape's axes [m].
 Vector3d place(const MeshShape& shape, std::vector<Vector3d>& vertices) {
   if (!std::isfinite(shape.scale_to) || shape.scale_to < 0.0) {
     throw mesh_error(shape, "scale_to must be a length > 0, or 0 to keep the file's metres");

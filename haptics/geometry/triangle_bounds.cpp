@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// In sizes: a normal that is off by more than this, as a sliver's may be, bounds nothing.
+// [sizes], greatest error of a normal: a sliver's normal may be worse, and bounds nothing.
 constexpr double kFlattest = 1e-7;
 
 }  // namespace
@@ -23,8 +23,8 @@ TriangleBounds::TriangleBounds(std::span<const Triangle> triangles, const Vector
   for (const Triangle& triangle : triangles) ways_.push_back(ways_of(triangle, centre_, scale_));
 }
 
-// Offsets hold for all three corners, however the directions are rounded. The directions across the
-// sides are at right angles to the normal: the squares of both ways add up.
+// The offsets hold for all three corners, whatever the rounding of the directions. The directions
+// across the sides are at right angles to the normal, so that the squares of both distances add up.
 TriangleBounds::Ways TriangleBounds::ways_of(const Triangle& triangle, const Vector3d& centre,
                                              double scale) {
   const std::array<Vector3d, 3> corners{

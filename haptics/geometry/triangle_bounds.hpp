@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far triangles are from a point at least, in one cache line and a few instructions each: tells
-// most of the triangles near a point from the nearest, before anything is computed in doubles.
+// Lower bounds of the distance of triangles from a point, in one cache line and a few instructions
+// each. They exclude most triangles near a point before any computation in doubles.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace reckon::haptics {
 
-/// Made once from a mesh's triangles; 64 bytes each. Queries allocate nothing and may run on many
+/// Made once from a mesh's triangles; 64 bytes each. Queries do not allocate and may run on many
 /// threads.
 class TriangleBounds {
  public:
@@ -25,7 +25,7 @@ class TriangleBounds {
     float slack;  ///< above the rounding of a distance
   };
 
-  /// A straight way and how near to it counts as met.
+  /// A straight path, and the distance at which a triangle counts as met.
   struct Segment {
     Eigen::Vector3f from, to;
     float reach;  ///< above the rounding of a distance
@@ -33,8 +33,8 @@ class TriangleBounds {
 
   TriangleBounds() = default;
 
-  /// @param centre about which, and `size` [m] in whose unit, single precision is enough: those of
-  /// a box round all of them
+  /// @param centre origin of the bounds  @param size [m], their unit. For single precision, both
+  /// belong to a box around all triangles
   TriangleBounds(std::span<const Triangle> triangles, const Eigen::Vector3d& centre, double size);
 
   /// Any finite p [m].
@@ -44,29 +44,29 @@ class TriangleBounds {
   [[nodiscard]] Segment segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                 double radius) const noexcept;
 
-  /// Has the processor fetch what these triangles need, which are looked at soon.
+  /// Prefetches these triangles, which are examined soon.
   void fetch(std::size_t first, std::size_t count) const noexcept {
     for (std::size_t i = first; i < first + count; ++i) __builtin_prefetch(&ways_[i]);
   }
 
-  /// True only where no point of triangle `index` is within the radius of the segment: both ends
-  /// lie beyond the same side of it, or of its plane.
+  /// True only if no point of triangle `index` is within the radius of the segment: both ends lie
+  /// beyond the same side of it, or of its plane.
   [[nodiscard]] bool beside(std::size_t index, const Segment& segment) const noexcept;
 
-  /// At most the distance of triangle `index` [m]: less for those nearest by a corner, and by 1e-6
-  /// sizes.
+  /// Lower bound of the distance of triangle `index` [m]. It is too low for a triangle that is
+  /// nearest at a corner, and by up to 1e-6 sizes.
   [[nodiscard]] float distance_below(std::size_t index, const Place& place) const noexcept {
     return std::sqrt(squared_below(index, place)) * static_cast<float>(0.99999 / scale_);
   }
 
-  /// True only where no point of triangle `index` is nearer than `limit` [m], >= 0 or infinite;
-  /// false may be either. Misses those nearest by a corner, and by 1e-6 sizes.
+  /// True only if no point of triangle `index` is nearer than `limit` [m], >= 0 or infinite. May be
+  /// false for a triangle beyond the limit that is nearest at a corner, or within 1e-6 sizes of it.
   [[nodiscard]] bool beyond(std::size_t index, const Place& place, double limit) const noexcept;
 
  private:
   using Float4 = float __attribute__((vector_size(16)));
-  /// Lane 0 is the way from the plane, lanes 1 to 3 are the ways out across the sides, within the
-  /// plane: x p.x + y p.y + z p.z - offset.
+  /// Lane 0 is the distance from the plane, lanes 1 to 3 are the distances beyond the sides, within
+  /// the plane: x p.x + y p.y + z p.z - offset.
   struct alignas(64) Ways {
     Float4 x, y, z, offset;
   };
@@ -118,7 +118,7 @@ inline float TriangleBounds::squared_below(std::size_t index, const Place& place
 inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
                                    double limit) const noexcept {
   const float most = static_cast<float>(limit * scale_);
-  // Not "at least", for the square of a short limit may round to nothing.
+  // Not ">=", because the square of a short limit may round to zero.
   return 0.99999f * squared_below(index, place) > most * most;
 }
 

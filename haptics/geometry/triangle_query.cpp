@@ -18,7 +18,8 @@ struct Approach {
   Vector3d way;
 };
 
-// First time at which |offset + t way| falls to the radius; see Sweep::slack for a start within it.
+// First time at which |offset + t way| falls to the radius. Sweep::slack describes a start within
+// it.
 bool enters(const Approach& approach, const Sweep& sweep, double limit, double& t,
             Vector3d& normal) {
   const double inward = -approach.offset.dot(approach.way);
@@ -66,7 +67,7 @@ void try_corner(const Vector3d& corner, const Sweep& sweep, double limit, Triang
   found |= sweep_corner(corner, sweep, found ? hit.t : limit, hit);
 }
 
-// True where both points are farther than `radius` beyond the same side of the triangle.
+// Whether both points are farther than `radius` beyond the same side of the triangle.
 bool beside(const Triangle& triangle, const Vector3d& p, const Vector3d& q, double radius) {
   const std::array<const Vector3d*, 4> corners{&triangle.a, &triangle.b, &triangle.c, &triangle.a};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -99,7 +100,7 @@ bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
   change *= side;
   if (begin >= r && begin + change >= r) return false;
 
-  // The flat: entered from outside, or, within already, only where the way leads nearer.
+  // The flat: entered from outside. A start within it counts only if the path leads nearer.
   double slab_enter = 0.0;
   if (begin >= r) {
     slab_enter = (begin - r) / -change;
@@ -115,7 +116,7 @@ bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
     return true;
   }
 
-  // Else the way can only enter round an edge or a corner, and only within the slab.
+  // Otherwise the path can only enter round an edge or a corner, within the slab.
   const double slab_leave = change < 0.0 ? std::min(1.0, (begin + r) / -change) : 1.0;
   if (beside(triangle, sweep.origin + slab_enter * sweep.step,
              sweep.origin + slab_leave * sweep.step, 1.001 * r)) {

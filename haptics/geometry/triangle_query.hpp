@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Exact queries against one triangle, free of any absolute length: a swept point against the
+// Exact queries against one triangle, without any absolute length: a swept point against the
 // triangle rounded by a radius, the nearest point, and a ray crossing.
 #pragma once
 
@@ -15,14 +15,14 @@ struct Triangle {
   Eigen::Vector3d normal;  ///< along (b - a) x (c - a)
 };
 
-/// Way of a point and how near it may come.
+/// Path of a point, and the distances at which it stops.
 struct Sweep {
   Eigen::Vector3d origin;  ///< [m]
   Eigen::Vector3d step;    ///< [m]
   double radius;           ///< [m], > 0
-  double floor;            ///< [m], below the radius: nearer than this nothing is let pass
-  /// Inward way [m] that is let pass for a point that starts between floor and radius, so that
-  /// sliding along a surface is not stopped by rounding.
+  double floor;            ///< [m], below the radius: nothing nearer is let pass
+  /// Inward motion [m] allowed for a point that starts between floor and radius, so that rounding
+  /// does not stop a slide along a surface.
   double slack;
 };
 
@@ -33,12 +33,12 @@ struct TriangleHit {
   bool on_face;            ///< flat of the triangle; else round an edge or a corner
 };
 
-/// First time, before `limit`, at which the swept point comes within the radius of the triangle.
-/// One that starts within it is stopped (t = 0) only where the step leads nearer.
+/// First time, before `limit`, at which the swept point comes within the radius of the triangle. A
+/// point that starts within it is stopped (t = 0) only if the step leads nearer.
 [[nodiscard]] bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
                                   TriangleHit& hit) noexcept;
 
-/// The same for a single point, `corner` [m]; nothing is done to `hit` unless it is met.
+/// The same for a single point, `corner` [m]; `hit` stays unchanged without a contact.
 [[nodiscard]] bool sweep_corner(const Eigen::Vector3d& corner, const Sweep& sweep, double limit,
                                 TriangleHit& hit) noexcept;
 
@@ -46,14 +46,14 @@ struct TriangleHit {
 [[nodiscard]] Eigen::Vector3d closest_on_triangle(const Triangle& triangle,
                                                   const Eigen::Vector3d& p) noexcept;
 
-/// True where the foot of p on the triangle's plane lies in the triangle, border included.
+/// Whether the foot of p on the triangle's plane lies in the triangle, border included.
 [[nodiscard]] inline bool is_over(const Triangle& t, const Eigen::Vector3d& p) noexcept {
   return t.normal.dot((t.b - t.a).cross(p - t.a)) >= 0.0 &&
          t.normal.dot((t.c - t.b).cross(p - t.b)) >= 0.0 &&
          t.normal.dot((t.a - t.c).cross(p - t.c)) >= 0.0;
 }
 
-/// True where the ray p + s direction, s > 0, crosses the triangle.
+/// Whether the ray p + s direction, s > 0, crosses the triangle.
 [[nodiscard]] bool ray_crosses(const Triangle& triangle, const Eigen::Vector3d& p,
                                const Eigen::Vector3d& direction) noexcept;
 
