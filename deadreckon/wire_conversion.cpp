@@ -73,7 +73,7 @@ Error check_surface(const ForceModel& m) {
   return m.restitution >= 0 && m.restitution <= 1 ? Error::none : Error::restitution_range;
 }
 
-// Round shapes need no normal of their own: zero means "none stated".
+// Round shapes need no normal: zero means "not stated".
 bool may_lack_normal(Kind kind) {
   return kind == Kind::none || kind == Kind::sphere || kind == Kind::field;
 }
@@ -99,15 +99,15 @@ pdu::DeadReckoningAlgorithm algorithm_of(const pdu::EntityState& pdu) {
   return still ? pdu::DeadReckoningAlgorithm::static_ : pdu.dead_reckoning.algorithm;
 }
 
-// What turns one reading of a state's acceleration into the other: w x V with RVB. RPB sends no
-// acceleration, the F models have no w.
+// Difference between the two readings of a state's acceleration: w x V for RVB. RPB sends no
+// acceleration, and the F models have no w.
 Vector3d turning_share(const KinematicState& state, AccelerationReading reading) {
   const bool differs = reading == AccelerationReading::inertial &&
                        state.algorithm == pdu::DeadReckoningAlgorithm::rvb;
   return differs ? state.angular_velocity.cross(state.velocity) : Vector3d(0, 0, 0);
 }
 
-// The state as the wire has it, in W, with our reading of the acceleration.
+// The received state in W, with our reading of the acceleration.
 KinematicState world_state(const pdu::EntityState& pdu, AccelerationReading reading) {
   KinematicState world;
   world.algorithm = algorithm_of(pdu);

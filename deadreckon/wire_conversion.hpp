@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From wire records to models and back. Everything a peer could send to upset the mathematics is
-// refused here, once, with a reason that can be counted.
+// Conversion of wire records to models and back. All values that could upset the mathematics are
+// refused here, with a reason that is counted.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace reckon::deadreckon {
 
-/// Why a record was not taken.
+/// Why a record was refused.
 enum class ConversionError : std::uint8_t {
   none,
   not_finite,          ///< A NaN or an infinity.
@@ -48,31 +48,31 @@ inline constexpr double kLargestFriction = 10;          ///< Coefficient.
 inline constexpr double kLargestSize = 1e4;             ///< Radius, distance of the point [m].
 
 /// Motion of a received Entity State in the scene frame. A frozen or deactivated entity becomes
-/// static. `reading`: what the sender means by the acceleration of RVB; `out` has ours, the rate of
-/// the components. On an error `out` is untouched. Any thread, no allocation.
+/// static. `reading` is the sender's meaning of the acceleration of RVB; `out` has ours, the rate
+/// of the components. On an error `out` is unchanged. Any thread, no allocation.
 [[nodiscard]] ConversionError from_wire(
     const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
     AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
-/// The same in the geocentric frame of the wire itself, W: for who listens and has no scene.
+/// The same in the geocentric frame W of the wire, for listeners without a scene.
 [[nodiscard]] ConversionError from_wire(
     const pdu::EntityState& pdu, KinematicState& out,
     AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
-/// Fills location, orientation, velocity and the dead-reckoning fields of `pdu`; the rest is left.
-/// Rounds to the wire's float32: pass the result through from_wire to have what peers will have.
-/// Angular velocity is sent as 0 with models that do not turn. `reading`: how the receivers read
-/// the acceleration of RVB. The same checks as from_wire; on an error `pdu` is untouched.
+/// Sets location, orientation, velocity and the dead-reckoning fields of `pdu`. Other fields stay.
+/// Rounds to the wire's float32: from_wire() of the result gives the state that peers will have.
+/// Angular velocity is sent as 0 with models without rotation. `reading` is the receivers' meaning
+/// of the acceleration of RVB. The same checks as from_wire; on an error `pdu` is unchanged.
 [[nodiscard]] ConversionError to_wire(
     const KinematicState& state, const LocalFrame& frame, pdu::EntityState& pdu,
     AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
-/// A received force model, normal made exactly unit (a sphere or field may leave it zero). On an
-/// error `out` is untouched.
+/// Converts a received force model. The normal becomes exactly unit; a sphere or field may leave it
+/// zero. On an error `out` is unchanged.
 [[nodiscard]] ConversionError from_wire(const pdu::HapticRecord& record, ForceModel& out) noexcept;
 
-/// The record of a model, validity rounded up to whole milliseconds (65.535 s at most). The same
-/// checks as from_wire; on an error `record` is untouched.
+/// Converts a model to its record, with the validity rounded up to whole milliseconds (65.535 s at
+/// most). The same checks as from_wire; on an error `record` is unchanged.
 [[nodiscard]] ConversionError to_wire(const ForceModel& model, pdu::HapticRecord& record) noexcept;
 
 }  // namespace reckon::deadreckon

@@ -18,7 +18,7 @@ void AdaptiveOrder::clear() noexcept {
   scores_.fill(0);
   chosen_ = 0;
   told_error_ = interval_ = 0;
-  // Before anything is known: the highest one-step order that the updates allow.
+  // At the start: the highest one-step order that the updates allow.
   for (std::size_t i = 0; i < kExtrapolators.size(); ++i)
     if (takes_part(i) && kExtrapolators[i].updates == 1) chosen_ = i;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The receiver's choice of extrapolator, per entity: the one that would have predicted its recent
-// updates best. Thesis 4.4, adaptive order.
+// The receiver's choice of extrapolator for each entity: the one with the smallest error on its
+// recent updates. Thesis 4.4, adaptive order.
 #pragma once
 
 #include <array>
@@ -13,51 +13,50 @@ namespace reckon::deadreckon {
 
 struct AdaptiveSettings {
   StepLimits limits;
-  /// Share of an extrapolator's score that an update leaves, 0 to < 1. Default 0.5: a handful of
-  /// updates decide. Higher is steadier and slower to follow a change of the motion.
+  /// Share of an extrapolator's score that stays after an update, 0 to < 1. Default 0.5: a handful
+  /// of updates decide. A higher value is steadier and follows a change of the motion more slowly.
   double memory = 0.5;
-  /// The present choice is kept while another's score is not below its own by this factor, 0 to 1,
-  /// so that two equally good ones do not alternate. Default 0.8.
+  /// The present choice stays until another score is below its own by this factor, 0 to 1, so that
+  /// two equally good extrapolators do not alternate. Default 0.8.
   double better_by = 0.8;
-  /// What the sender's updates hold; extrapolators that need more do not take part.
+  /// Rates in the sender's updates; extrapolators that need more are excluded.
   SentRates sent = SentRates::acceleration;
 };
 
 /// History and choice for one entity. No allocation; not synchronised. An update costs a few
-/// hundred ns, a prediction what its extrapolator costs.
+/// hundred ns, a prediction the cost of its extrapolator.
 class AdaptiveOrder {
  public:
   explicit AdaptiveOrder(const AdaptiveSettings& settings = {}) noexcept;
 
-  /// Takes an update; what each extrapolator had predicted for its instant is scored first. False
-  /// where the history refuses it.
+  /// Takes an update, and first scores the prediction of each extrapolator for its time. False if
+  /// the history refuses it.
   bool add(const MotionSample& sample) noexcept;
-  /// Takes an update for which the update before had `sent` this pose: what prediction as sent was
-  /// off by then bounds how far the choice may later stray from it.
+  /// Takes an update. `sent` is the pose that the update before predicts for this time. Its error
+  /// limits how far the choice may later depart from that prediction.
   bool add(const MotionSample& sample, const Pose& sent) noexcept;
-  /// The pose `tau` seconds after the newest update, by the present choice, wherever that leads.
+  /// The pose `tau` seconds after the newest update, by the present choice, without a limit.
   [[nodiscard]] Pose predict(double tau) const noexcept;
-  /// The same, kept near `sent`, the pose that the newest update states for this instant. An owner
-  /// that sends by a threshold and is silent says by that: I am where I said, but for the
-  /// threshold. So the choice is followed as far as the last updates have shown prediction as sent
-  /// to be off, and given up in the course of a silence much longer than theirs.
-  /// |pose - sent| <= stray(tau); the orientation follows the choice, and comes back alike.
+  /// The same, limited to the neighbourhood of `sent`, the pose that the newest update predicts for
+  /// this time. An owner that sends at a threshold crossing and is silent is within the threshold
+  /// of `sent`. So the choice is followed as far as that prediction was off at the last updates. It
+  /// is abandoned gradually in a silence much longer than theirs. |pose - sent| <= stray(tau); the
+  /// orientation follows the choice and returns in the same way.
   [[nodiscard]] Pose predict_near(const Pose& sent, double tau) const noexcept;
-  /// The most that predict_near() goes from what was sent [m]: what prediction as sent was off by,
-  /// growing with the third power of time as the error of a second order does; 0 from kGivenUp
-  /// intervals on.
+  /// Greatest distance of predict_near() from `sent` [m]: the recent error of the sent prediction,
+  /// times the third power of time, like the error of a second order; 0 from kGivenUp intervals on.
   [[nodiscard]] double stray(double tau) const noexcept;
 
   [[nodiscard]] const Extrapolator& chosen() const noexcept { return kExtrapolators[chosen_]; }
   [[nodiscard]] const MotionHistory& history() const noexcept { return history_; }
   void clear() noexcept;
 
-  /// Room for errors that grow a little faster than the last ones did.
+  /// Factor for errors that grow a little faster than the last ones.
   static constexpr double kSpare = 1.25;
-  /// Silence, in intervals between updates: three updates in a row may be lost. From
-  /// then on the choice is followed less,
+  /// Silence, in intervals between updates, from which the choice is followed less: three updates
+  /// in a row may be lost.
   static constexpr double kFollowed = 4.5;
-  /// and from here on not at all.
+  /// Silence from which the choice is not followed.
   static constexpr double kGivenUp = 6;
 
  private:
@@ -70,8 +69,8 @@ class AdaptiveOrder {
   MotionHistory history_;
   std::array<double, kExtrapolators.size()> scores_{};  // mean squared error, decaying [m^2]
   std::size_t chosen_ = 0;
-  double told_error_ = 0;  // [m], largest of late of the predictions as sent
-  double interval_ = 0;    // [s], largest of late between updates
+  double told_error_ = 0;  // [m], largest recent error of the sent predictions
+  double interval_ = 0;    // [s], largest recent interval between updates
 };
 
 }  // namespace reckon::deadreckon

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of the extrapolators that work from a history of updates. A new one is a header and a
-// row here; tests, benches and the adaptive choice follow from the row.
+// THE list of the extrapolators that use a history of updates. A new one is a header and a row
+// here; tests, benches and the adaptive choice use the list.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace reckon::deadreckon {
 
-/// What an extrapolator needs of a sender.
+/// Highest rate that an extrapolator needs from a sender.
 enum class SentRates : std::uint8_t { position, velocity, acceleration };
 
 struct Extrapolator {
   std::string_view name;
   int order;            ///< Exact for motions that are polynomials in time of this degree...
-  std::size_t updates;  ///< ...once it has so many updates.
-  SentRates needs;      ///< The highest rate that has to be in the update.
+  std::size_t updates;  ///< ...with at least this number of updates.
+  SentRates needs;      ///< Highest rate that the update must have.
   Pose (*predict)(const MotionHistory&, double tau, const StepLimits&) noexcept;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Position and its rate after t seconds at this velocity and acceleration.
+// Position and velocity after t seconds at this velocity and acceleration.
 Pose along(const MotionSample& from, const Vector3d& velocity, const Vector3d& acceleration,
            double t) {
   return {from.position + t * velocity + (0.5 * t * t) * acceleration, from.orientation,
@@ -31,7 +31,7 @@ Pose one_step(const MotionHistory& history, const Vector3d& acceleration, double
   return pose;
 }
 
-// Angular velocity from the two newest orientations; a gap of less than half a turn is assumed.
+// Angular velocity from the two newest orientations, for less than half a turn between them.
 Vector3d turn_rate(const MotionHistory& history, double gap) {
   return logarithm(history[1].orientation.conjugate() * history[0].orientation) / gap;
 }
@@ -80,7 +80,7 @@ Pose second_order_two_step(const MotionHistory& history, double tau,
   const double accelerated = std::min(t, limits.most_gaps * gap);
   const Vector3d acceleration = (history[0].velocity - history[1].velocity) / gap;
   Pose pose = along(history[0], history[0].velocity, acceleration, accelerated);
-  pose.position += (t - accelerated) * pose.velocity;  // the velocity was sent and goes on
+  pose.position += (t - accelerated) * pose.velocity;  // the sent velocity continues
   turn(pose, turn_rate(history, gap), accelerated);
   if (accelerated < t) pose.angular_velocity = Vector3d::Zero();
   return pose;
@@ -92,7 +92,7 @@ Pose third_order_two_step(const MotionHistory& history, double tau,
   if (gap == 0) return second_order_one_step(history, tau, limits);
   Pose pose = one_step(history, history[0].acceleration, tau);
   const double t = std::min(bounded_tau(tau), limits.most_gaps * gap);
-  const double after = bounded_tau(tau) - t;  // what the jerk has done by then goes on
+  const double after = bounded_tau(tau) - t;  // after it the velocity from the jerk continues
   const Vector3d jerk = (history[0].acceleration - history[1].acceleration) / gap;
   const Vector3d velocity = (0.5 * t * t) * jerk;
   pose.position += (t * t * t / 6) * jerk + after * velocity;

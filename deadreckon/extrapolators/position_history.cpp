@@ -22,8 +22,8 @@ Pose position_history(const MotionHistory& history, double tau, const StepLimits
   const double size = acceleration.norm();
   if (!(size >= cutoffs.minimal && size <= cutoffs.substantial)) return pose;
 
-  // The mean velocity over the gap is that of its middle; half a gap later it has grown. The
-  // positions are to pass through x'' too, hence the same half gap in the way.
+  // The mean velocity over the gap is the velocity at its middle, and changes in the half gap until
+  // its end. The position has the same half gap, so that the parabola passes through x'' too.
   const double bounded = bounded_tau(tau);
   const double t = std::min(bounded, limits.most_gaps * gap);
   pose.position += (0.5 * t * (gap + t)) * acceleration;

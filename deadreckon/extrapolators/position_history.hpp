@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Position-history-based dead reckoning (PHBDR): only positions travel, and the receiver takes
+// Position-history-based dead reckoning (PHBDR): only positions are sent, and the receiver derives
 // velocity and acceleration from the last three. Thesis 4.4, after Singhal and Cheriton.
 #pragma once
 
@@ -8,20 +8,20 @@
 
 namespace reckon::deadreckon {
 
-/// Between which accelerations the second order is used.
+/// Range of accelerations for the second order.
 struct AccelerationCutoffs {
-  /// Below this [m/s^2] acceleration is noise and the first order is taken. Default 0.1, >= 0.
+  /// A lower acceleration [m/s^2] is noise: first order. Default 0.1, >= 0.
   double minimal = 0.1;
-  /// Above this [m/s^2] the motion is taken for abrupt, a turn on the spot or a jump, which does
-  /// not go on; first order. Default 20, > minimal.
+  /// A higher acceleration [m/s^2] is an abrupt motion that does not continue, such as a turn on
+  /// the spot or a jump: first order. Default 20, > minimal.
   double substantial = 20.0;
 };
 
-/// x' + v tau + a tau^2 / 2 with v and a of the parabola through the last three positions; the
-/// first order through the last two where |a| is minimal or substantial (the thesis names that case
-/// only; the second order between the cut-offs is the method as its authors use it). Fewer samples,
-/// short gaps and long silences: as first_order_two_step, which holds without a usable gap where no
-/// velocity is sent. Any thread, no allocation.
+/// x' + v tau + a tau^2 / 2, with v and a of the parabola through the last three positions. The
+/// first order through the last two is used where |a| is minimal or substantial. (The thesis names
+/// only that case; the second order between the cut-offs is the method of its authors.) With fewer
+/// samples, short gaps or long silences as in first_order_two_step, which holds without a usable
+/// gap if no velocity is sent. Any thread, no allocation.
 [[nodiscard]] Pose position_history(const MotionHistory& history, double tau,
                                     const StepLimits& limits,
                                     const AccelerationCutoffs& cutoffs) noexcept;

@@ -37,9 +37,9 @@ Contact region_contact(const Vector3d& point, const Vector3d& normal, double rad
 
 }  // namespace
 
-// Depth is continuous everywhere, so the spring has a potential and entering sideways gains
-// nothing. Concave: (a + b) / 2 is, and a convex function of a - b is taken away; the side's depth
-// is less a convex function of the way from the axis, blunt next to it.
+// Depth is continuous everywhere, so that the spring has a potential and a sideways entry gains no
+// energy. It is also concave: it is (a + b) / 2 less a convex function of a - b, and the depth from
+// the side is less a convex function of the distance from the axis, which is blunt near the axis.
 PegDepth peg_depth(double face, double reach, const Vector3d& normal,
                    const Vector3d& lateral) noexcept {
   const double width = std::min(kEdgeWidth, 0.5 * reach);
@@ -51,7 +51,7 @@ PegDepth peg_depth(double face, double reach, const Vector3d& normal,
   if (!(width > 0) || !(ahead > -width)) return {std::min(face, side), normal, 1.0};
 
   const double overlap = std::max(0.0, width - std::abs(ahead));
-  const double share = std::min(1.0, 0.5 * (1.0 + ahead / width));  // of the side
+  const double share = std::min(1.0, 0.5 * (1.0 + ahead / width));  // share of the side
   const Vector3d outwards = lateral / std::max(distance, width);
   const Vector3d gradient = (1.0 - share) * normal + share * outwards;
   const double slope = gradient.norm();
@@ -82,7 +82,7 @@ Vector3d evaluate(const ForceModel& model, const Pose& entity, const Vector3d& p
   const Contact touch = contact(model, entity, probe_position, probe_radius);
   if (!(touch.depth > 0)) return Vector3d::Zero();
 
-  // The entity's surface where it meets the probe moves with the body and turns with it.
+  // The touched surface of the entity translates and rotates with the body.
   const Vector3d arm = probe_position - entity.position;
   const Vector3d spin = entity.orientation * entity.angular_velocity;
   const Vector3d surface_velocity = entity.velocity + spin.cross(arm);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The predictor of force: a force model on a dead-reckoned entity, with an end to its validity.
+// The predictor of force: a force model on a dead-reckoned entity, with a limited validity.
 //
-// The owner keeps one filled with what it sent, so it knows the force that its peers compute and
-// sends again when that differs from its true model by more than a threshold in newtons.
+// The owner runs one with the model that it sent. So it knows the force that its peers compute, and
+// sends again if that differs from its true model by more than a threshold in newtons.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,20 +14,20 @@
 
 namespace reckon::deadreckon {
 
-/// After its validity a model's force goes to zero over this time [s].
+/// Time [s] in which the force falls to zero after the validity.
 inline constexpr double kForceDecay = 0.1;
 
-/// A force model as last sent or received, on its entity. Times are seconds of one steady clock of
-/// the caller's choice. Not synchronised: one thread, or copies. No allocation.
+/// A force model as last sent or received, on its entity. Times are seconds of one steady clock,
+/// which the caller chooses. Not synchronised: one thread, or copies. No allocation.
 class ForcePredictor {
  public:
-  /// Takes a new model and the entity state that came with it, both of the instant `now` [s].
+  /// Takes a new model and its entity state, both of the time `now` [s].
   void update(const ForceModel& model, const KinematicState& entity, double now) noexcept;
 
-  /// Takes a new entity state alone; the model keeps its own age.
+  /// Takes a new entity state; the age of the model continues.
   void update_entity(const KinematicState& entity, double now) noexcept;
 
-  /// Forgets the model: no force from now on.
+  /// Discards the model: no force from now on.
   void clear() noexcept { has_model_ = false; }
 
   /// Force on the probe at `now` [N], reference axes; zero without a model or after its end.
@@ -36,24 +36,24 @@ class ForcePredictor {
   /// Pose of the entity at `now`.
   [[nodiscard]] Pose entity(double now) const noexcept;
 
-  /// Share of the force that still counts at `now`: 1 while valid, then down to 0 within
-  /// kForceDecay by a cubic, so that the force has no step in its rate. 0 without a model.
+  /// Share of the force at `now`: 1 while valid, then down to 0 within kForceDecay by a cubic, so
+  /// that the force has no step in its rate. 0 without a model.
   [[nodiscard]] double weight(double now) const noexcept;
 
-  /// True once the model counts for nothing more.
+  /// Whether the model no longer has a force.
   [[nodiscard]] bool expired(double now) const noexcept { return weight(now) <= 0; }
 
   /// Largest difference [N] over the probes between the predicted force and the owner's true one.
   [[nodiscard]] double error(const ForceModel& true_model, const Pose& true_entity,
                              std::span<const ProbeState> probes, double now) const noexcept;
 
-  /// Whether peers are off by more than `threshold` [N] at any of the probes. A model never sent,
-  /// or expired, counts as no force.
+  /// Whether the peers' force is off by more than `threshold` [N] at any of the probes. A model
+  /// that was never sent, or has expired, counts as no force.
   [[nodiscard]] bool should_send(const ForceModel& true_model, const Pose& true_entity,
                                  std::span<const ProbeState> probes, double now,
                                  double threshold) const noexcept;
 
-  /// The model as last taken.
+  /// The last model.
   [[nodiscard]] const ForceModel& model() const noexcept { return model_; }
 
  private:

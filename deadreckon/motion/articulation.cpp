@@ -18,7 +18,7 @@ constexpr std::uint32_t kMetricBits = 5;
 constexpr std::uint32_t kMetrics = 1U << kMetricBits;
 constexpr auto kLastMetric = static_cast<std::uint32_t>(PartMetric::rotation);
 
-// In (-pi, pi].
+// Wraps to (-pi, pi].
 double wrapped(double angle) {
   const double rest = std::remainder(angle, kTurn);
   return rest <= -std::numbers::pi ? rest + kTurn : rest;
@@ -41,7 +41,7 @@ std::uint8_t counted_on(std::uint8_t change) {
   return change == 255 ? std::uint8_t{1} : static_cast<std::uint8_t>(change + 1);
 }
 
-// One record of an articulated part: whose, and whether it is the value or the rate.
+// One record of an articulated part: its part, and whether it is a value or a rate.
 struct WirePart {
   PartParameter place;
   bool is_rate;
@@ -119,7 +119,7 @@ void PartState::remove(std::uint32_t part, PartMetric metric) noexcept {
   size_ = static_cast<std::size_t>(kept - parameters_.begin());
 }
 
-// Values first, then the rates of those that are there: on the wire either may come first.
+// Stores values first, then the rates for them: the wire may have them in any order.
 struct PartReader {
   PartState& out;
   PartReading& reading;
@@ -197,7 +197,7 @@ bool should_send(const PartState& truth, const PartState& sent, double since,
     const PartParameter* last = sent.find(is.part, is.metric);
     if (last == nullptr || last->attached_to != is.attached_to) return true;
     const double off = difference(is.metric, is.value, predict(*last, since, longest).value);
-    // Negated, so that what is not a number is sent too.
+    // Negated, so that NaN is sent too.
     if (!(std::abs(off) <= threshold(is.metric, thresholds))) return true;
   }
   return false;

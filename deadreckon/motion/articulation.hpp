@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Dead reckoning of articulated parts: turrets, guns, flaps, gear. An Entity State carries for each
-// part a few numbers and their rates; peers go on from them, the owner compares, and what is shown
-// converges, as with the pose.
+// Dead reckoning of articulated parts: turrets, guns, flaps, gear. An Entity State has a few
+// numbers and their rates for each part. Peers extrapolate them, the owner compares, and the shown
+// values converge, as for the pose.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 
 namespace reckon::deadreckon {
 
-/// What of a part moves: SISO UID 58. The metric of its rate is one more.
+/// Moving quantity of a part: SISO UID 58. The metric of its rate is one more.
 enum class PartMetric : std::uint8_t {
-  position = 1,    ///< Share of the part's way, 0 to 1.
+  position = 1,    ///< Share of the part's travel, 0 to 1.
   extension = 3,   ///< [m]
   x = 5,           ///< [m]
   y = 7,           ///< [m]
@@ -31,38 +31,39 @@ enum class PartMetric : std::uint8_t {
   return metric >= PartMetric::azimuth;
 }
 
-/// One number of one part, with its rate, as an update stated it.
+/// One number of one part, with its rate, from an update.
 struct PartParameter {
   std::uint32_t part = 0;         ///< Class of the part, SISO UID 59, without the metric.
   std::uint16_t attached_to = 0;  ///< 0 = the entity itself, else a part.
   PartMetric metric = PartMetric::azimuth;
-  std::uint8_t change = 0;  ///< Change indicator of the wire: counts changes, 1 again after 255.
-  double value = 0;         ///< Unit as the metric says.
-  double rate = 0;          ///< The unit a second.
+  std::uint8_t change = 0;  ///< Change indicator of the wire: number of changes; 255 is followed by
+                            ///< 1.
+  double value = 0;         ///< Unit according to the metric.
+  double rate = 0;          ///< In this unit a second.
 };
 
-/// The same part and metric; each occurs once.
+/// Whether part and metric are the same; each pair occurs once.
 [[nodiscard]] constexpr bool same_place(const PartParameter& a, const PartParameter& b) noexcept {
   return a.part == b.part && a.metric == b.metric;
 }
 
-/// All that one update says of an entity's parts. Fixed capacity, no allocation.
+/// The articulated parts in one update. Fixed capacity, no allocation.
 class PartState {
  public:
   static constexpr std::size_t kCapacity = 32;
 
-  /// Adds a parameter or replaces the one of its part and metric; angles are wrapped, and `change`
-  /// is counted on where the value, rate or attachment is another than before. False, and nothing
-  /// changes, for numbers that are not finite and where there is no room.
+  /// Adds a parameter or replaces the one of its part and metric. Angles are wrapped. `change`
+  /// advances if the value, rate or attachment differs. Returns false, without a change, for
+  /// numbers that are not finite and without room.
   bool set(const PartParameter& parameter) noexcept;
-  /// Takes one out; nothing happens where it is not there.
+  /// Removes a parameter, if it is there.
   void remove(std::uint32_t part, PartMetric metric) noexcept;
   void clear() noexcept { size_ = 0; }
 
   [[nodiscard]] std::span<const PartParameter> parameters() const noexcept {
     return {parameters_.data(), size_};
   }
-  /// Null where there is none.
+  /// Null if there is none.
   [[nodiscard]] const PartParameter* find(std::uint32_t part, PartMetric metric) const noexcept;
 
  private:
@@ -73,83 +74,83 @@ class PartState {
   std::size_t size_ = 0;
 };
 
-/// What became of the records of one update.
+/// Counts for the records of one update.
 struct PartReading {
-  std::size_t taken = 0;       ///< Values and rates that count.
+  std::size_t taken = 0;       ///< Accepted values and rates.
   std::size_t not_finite = 0;  ///< NaN or infinity.
-  std::size_t unknown = 0;     ///< A metric that is not in the list.
-  std::size_t no_value = 0;    ///< A rate of something that has no value.
-  std::size_t no_room = 0;     ///< Past PartState::kCapacity.
+  std::size_t unknown = 0;     ///< Metric that is not in the list.
+  std::size_t no_value = 0;    ///< Rate without a value.
+  std::size_t no_room = 0;     ///< Beyond PartState::kCapacity.
 };
 
-/// The parts that the variable parameter records of an Entity State tell: `out` is what they say
-/// and nothing else. Records that are no articulated part are passed over, bad ones left out and
-/// counted; of two that say the same the last one wins, and a value without a rate stands still.
-/// `records`: 16 octets each, what is left over is ignored. Any octets; no allocation.
+/// Reads the parts in the variable parameter records of an Entity State into `out`, which is
+/// replaced. Records other than articulated parts are skipped, bad ones left out and counted. The
+/// last of two for the same place is used, and a value without a rate has the rate zero. `records`:
+/// 16 octets each, a remainder is ignored. Any octets; no allocation.
 PartReading from_wire(std::span<const std::byte> records, PartState& out) noexcept;
 
-/// Octets that to_wire writes: a record for each value and one for each rate.
+/// Octets that to_wire writes: one record for each value and one for each rate.
 [[nodiscard]] std::size_t wire_size(const PartState& state) noexcept;
 
-/// Writes the records, values rounded to float32: read them back to have what peers have. The rate
-/// is written where it is zero too, for receivers that would keep an old one. Returns the octets, 0
-/// when `out` is too small.
+/// Writes the records, values rounded to float32: read them back for the values that peers have. A
+/// zero rate is written too, for receivers that would keep an old one. Returns the octets, 0 if
+/// `out` is too small.
 [[nodiscard]] std::size_t to_wire(const PartState& state, std::span<std::byte> out) noexcept;
 
-/// A parameter at one instant.
+/// A parameter at one time.
 struct PartMotion {
   double value = 0;
   double rate = 0;
 };
 
-/// The rates of an update are believed for this long [s] where nothing else is said: the time-out
-/// of an entity with a heartbeat of 5 s.
+/// Default time [s] for which the rates of an update are used: the time-out of an entity with a
+/// heartbeat of 5 s.
 inline constexpr double kLongestPartMotion = 12.0;
 
-/// The parameter `tau` seconds after its update: value + rate tau, for `longest` seconds at most;
-/// then it stands. Angles wrapped. NaN tau counts as 0. About 10 ns.
+/// The parameter `tau` seconds after its update: value + rate tau, for `longest` seconds at most,
+/// after which it holds. Angles wrapped. NaN tau counts as 0. About 10 ns.
 [[nodiscard]] PartMotion predict(const PartParameter& parameter, double tau,
                                  double longest = kLongestPartMotion) noexcept;
 
-/// a - b: for angles the shorter way round, in (-pi, pi].
+/// a - b; for angles the shorter way, in (-pi, pi].
 [[nodiscard]] double difference(PartMetric metric, double a, double b) noexcept;
 
-/// By how much parts may be off before an update is sent.
+/// Errors of parts above which an update is sent.
 struct PartThresholds {
-  /// [rad], default 3 degrees, that of the orientation of an entity.
+  /// [rad], default 3 degrees, as for the orientation of an entity.
   double angle = 0.05235987755982989;
   /// [m], default 0.1: 3 degrees at the end of a part of 2 m.
   double length = 0.1;
-  /// Of metric `position`, a share of the part's way; default 0.05.
+  /// For the metric `position`, a share of the part's travel; default 0.05.
   double share = 0.05;
 };
 
-/// Whether peers that have `sent`, `since` seconds old, are wrong about `truth`: a part is off by
-/// more than its threshold, has come, gone or been attached elsewhere. `sent` is what peers
-/// decoded, `longest` what they hold rates for.
+/// Whether peers that have `sent`, `since` seconds old, differ from `truth`: a part is off by more
+/// than its threshold, or was added, removed or attached elsewhere. `sent` is the state that peers
+/// decoded, `longest` the time for which they use rates.
 [[nodiscard]] bool should_send(const PartState& truth, const PartState& sent, double since,
                                const PartThresholds& thresholds = {},
                                double longest = kLongestPartMotion) noexcept;
 
-/// The parts of one remote entity as shown: predicted, plus an error that goes to zero by the curve
-/// of the convergence. Value and rate are continuous at an update with the cubic. Large errors get
-/// more time as those of a pose do: lengths by gentle_speed, angles by gentle_turn. Nothing is
-/// carried over of the acceleration of an error under way, so the quintic is for updates that come
-/// more slowly than its duration. Times are seconds of one steady clock of the caller's. Not
-/// synchronised, no allocation.
+/// The shown parts of one remote entity: the prediction, plus an error that decays by the curve of
+/// the convergence. With the cubic, value and rate are continuous at an update. Large errors get
+/// more time, as for a pose: lengths by gentle_speed, angles by gentle_turn. The acceleration of an
+/// earlier error is not carried over, so that the quintic suits only updates at longer intervals
+/// than its duration. Times are seconds of one steady clock of the caller. Not synchronised, no
+/// allocation.
 class PartConvergence {
  public:
   explicit PartConvergence(const ConvergenceSettings& settings = {},
                            double longest = kLongestPartMotion) noexcept
       : settings_(settings), longest_(longest) {}
 
-  /// An update of the instant `time` takes over at `now`. Parts that are new or attached elsewhere
-  /// are shown as received at once, so are lengths off by more than the teleport distance; parts
-  /// that are not in it are gone.
+  /// The update of the time `time` replaces the one before at `now`. New or reattached parts are
+  /// shown as received at once, and lengths off by more than the teleport distance. Parts that are
+  /// not in the update are removed.
   void update(const PartState& state, double time, double now) noexcept {
     update(state, time, now, longest_);
   }
-  /// The same; rates are believed for `longest` seconds from this update on.
+  /// The same; rates are used for `longest` seconds from this update on.
   void update(const PartState& state, double time, double now, double longest) noexcept;
 
   /// The newest update.
@@ -159,7 +160,7 @@ class PartConvergence {
 
  private:
   struct Error {
-    PartMotion off;       // shown minus predicted when the update took over
+    PartMotion off;       // shown minus predicted at the update
     double duration = 0;  // [s]
   };
   [[nodiscard]] Error error_for(const PartParameter& next, double time, double now,
@@ -170,7 +171,7 @@ class PartConvergence {
   double longest_;
   PartState state_;
   double time_ = 0;   // of the newest update
-  double start_ = 0;  // when it took over
+  double start_ = 0;  // when it was taken
   std::array<Error, PartState::kCapacity> errors_{};
 };
 

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Times the interval between updates that an error is given.
+// Duration of an error, in intervals between updates.
 constexpr double kIntervals = 1.5;
 
 ConvergenceWeights linear_weights(double u, double duration) {
@@ -46,7 +46,7 @@ ConvergenceWeights quintic_weights(double u, double duration) {
       0.5 * duration * duration * u * u * cube, 0.5 * duration * u * left * left * (2.0 - 5.0 * u)};
 }
 
-// Second derivative of the quintic's error, of this e0, f0 and g0.
+// Second derivative of the quintic's error, for this e0, f0 and g0.
 Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
                               const Vector3d& rate, const Vector3d& acceleration) {
   const double left = 1.0 - u;
@@ -55,22 +55,22 @@ Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
                  (1.0 + u * (-8.0 + 10.0 * u)) * acceleration);
 }
 
-// An error goes away before it could grow by so many H at its present rate, and by its
-// acceleration: with these the curves keep their near_bound.
+// Limits of the duration: an error decays before it could grow by this many H at its present rate,
+// and by its acceleration. With these limits the curves keep their near_bound.
 constexpr double kRegrowth = 2.0, kCarried = 3.0;
-// An update that moves the prediction by more thresholds is none of an owner that keeps them, or
-// another was lost: what is shown then comes after it without a step.
+// An update that moves the prediction by more thresholds comes from an owner that exceeds them, or
+// another was lost. The shown pose then follows without a step.
 constexpr double kKept = 2.0;
 
-// What there is of an error when an update comes, and how it moves: position or turn.
+// An error at an update, and its motion: position or rotation.
 struct ErrorAtUpdate {
   Vector3d& error;
   const Vector3d &rate, &acceleration;
-  double left;        // of the error before
-  double innovation;  // what the update has moved the prediction by
+  double left;        // remainder of the previous error
+  double innovation;  // change of the prediction by the update
 };
 
-// Keeps an error near; returns the longest Tc for that. `most`: see ConvergingError.
+// Keeps an error near the prediction; returns the longest Tc for that. `most`: see ConvergingError.
 double keep_near(const ErrorAtUpdate& at, double threshold, double& most) {
   const double bound = std::max({threshold, at.innovation, std::min(most, at.left)});
   const double size = at.error.norm();
@@ -80,7 +80,8 @@ double keep_near(const ErrorAtUpdate& at, double threshold, double& most) {
                   std::sqrt(kCarried * most / at.acceleration.norm()));
 }
 
-// Tc of an error and a turn of this size [m], [rad], so long after the last one [s].
+// Tc for an error and a rotation of this size [m], [rad], with this interval since the last one
+// [s].
 double gentle_duration(const ConvergenceSettings& settings, double error, double turn, double speed,
                        double interval) {
   const double least = std::clamp(
@@ -113,7 +114,7 @@ ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,
   return {};
 }
 
-// What the error under way accelerates by at `now`, to be taken over; else nothing.
+// Takes over the acceleration of the present error at `now`, if there is one.
 void ConvergingError::carry_acceleration(double now) noexcept {
   if (curve_ != ConvergenceCurve::quintic || !converging(now)) {
     acceleration_.setZero();
@@ -139,15 +140,15 @@ void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& s
   error_rate_ = shown.velocity - predicted.velocity;
   turn_ = logarithm(predicted.orientation.conjugate() * shown.orientation);
 
-  // shown = predicted * exp(turn): the shown angular velocity is the predicted one, seen from the
-  // shown axes, plus that of the turn itself.
+  // shown = predicted * exp(turn): the shown angular velocity is the predicted one in the shown
+  // axes, plus that of `turn`.
   const Quaterniond turn = exponential(turn_);
   const Vector3d carried = turn.conjugate() * predicted.angular_velocity;
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
   duration_ =
       gentle_duration(settings, error_.norm(), turn_.norm(), predicted.velocity.norm(), interval);
   if (is_kept_near) keep_near(settings, turn, left);
-  // An angle of pi may come out an ulp above it.
+  // An angle of pi may be an ulp larger after rounding.
   active_ = settings.duration > 0 && error_.norm() <= settings.teleport_distance &&
             turn_.norm() <= settings.teleport_angle + 1e-9 && error_rate_.allFinite() &&
             turn_rate_.allFinite() && std::isfinite(duration_);
@@ -155,7 +156,7 @@ void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& s
 
 void ConvergingError::keep_near(const ConvergenceSettings& settings, const Quaterniond& turn,
                                 const Left& left) noexcept {
-  // The turn that the update tells is the present one without what was left of the one before.
+  // The rotation of this update alone is the present one without the remainder of the previous one.
   const double turned = logarithm(turn * exponential(left.turn).conjugate()).norm();
   duration_ = std::min(
       {duration_,

@@ -48,7 +48,7 @@ Pose extrapolate_reference(const KinematicState& s, const DrmTerms& terms, doubl
   return pose;
 }
 
-// FPB and FVB: the frame does not turn, so R1 = t I and R2 = t^2/2 I.
+// FPB and FVB: the frame does not rotate, so R1 = t I and R2 = t^2/2 I.
 Pose extrapolate_fixed_body(const KinematicState& s, const DrmTerms& terms, double t) {
   Vector3d way = t * s.velocity;
   Vector3d velocity = s.velocity;

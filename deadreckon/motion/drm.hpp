@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dead-reckoning models 0 to 9 of IEEE 1278.1: a pose from the last update and the time since.
 //
-// Always from the last update, never from the last frame: rounding does not add up over time.
+// The input is always the last update and never the last frame, so that rounding does not
+// accumulate.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,25 +14,25 @@
 
 namespace reckon::deadreckon {
 
-/// The two readings of the acceleration of RVB that are in use; over a turn they differ by w x v.
+/// The two readings of the acceleration of RVB that are in use. They differ by w x v during a
+/// rotation.
 enum class AccelerationReading {
-  component_rate,  ///< A_b = dVb/dt, the rate of the body components of velocity. Reckon's own.
+  component_rate,  ///< A_b = dVb/dt, rate of the body components of velocity. Reckon's reading.
   inertial         ///< A_b = a - w x Vb, with `a` the inertial acceleration in body axes.
 };
 
-/// Extrapolation is not carried beyond this many seconds either way; longer times give this one's
-/// pose.
+/// Limit of the extrapolation [s], in both directions; longer times give the pose of this one.
 inline constexpr double kLongestExtrapolation = 1e6;
 
-/// `tau` within that bound; NaN becomes 0, so that a bad clock shows the pose of the update.
+/// `tau` limited to that bound; NaN becomes 0, so that a bad clock shows the pose of the update.
 [[nodiscard]] double bounded_tau(double tau) noexcept;
 
-/// What the letters of a model's name say.
+/// Meaning of the letters in a model's name.
 struct DrmTerms {
   bool velocity;      ///< The position moves (FPW and up).
   bool acceleration;  ///< The velocity changes (second letter V).
-  bool rotation;      ///< The orientation turns (first letter R).
-  bool body_axes;     ///< Velocity and acceleration are held in body axes (third letter B).
+  bool rotation;      ///< The orientation rotates (first letter R).
+  bool body_axes;     ///< Velocity and acceleration are in body axes (third letter B).
 };
 
 /// THE list of the models, by number.
@@ -54,10 +55,10 @@ inline constexpr std::array<DrmTerms, 10> kDrmTerms = {{
   return row < kDrmTerms.size() ? kDrmTerms[row] : kDrmTerms[0];
 }
 
-/// Nothing that the model of `state` uses moves it.
+/// Whether no term that the model of `state` uses moves it.
 [[nodiscard]] bool stands_still(const KinematicState& state) noexcept;
 
-/// Pose `tau` seconds after (or, negative, before) the update.
+/// Pose `tau` seconds after the update, or before it if negative.
 ///
 /// Position: P0 + V t + A t^2/2 in reference axes, P0 + R0 (R1 Vb + R2 Ab) in body axes, with R1
 /// and R2 as power series in (w t)^2 below w t = 1 and in closed form above: exact at zero rate, no

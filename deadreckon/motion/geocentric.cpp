@@ -55,8 +55,8 @@ Euler euler_from_quaternion(const Eigen::Quaterniond& q) noexcept {
   double sum = std::atan2(q.x() + q.z(), q.w() - q.y());
   double difference = std::atan2(q.z() - q.x(), q.w() + q.y());
   constexpr double kRounding = 1e-15;
-  if (minus < kRounding) sum = difference;  // looking straight up: phi = 0
-  if (plus < kRounding) difference = sum;   // straight down: phi = 0
+  if (minus < kRounding) sum = difference;  // facing straight up: phi = 0
+  if (plus < kRounding) difference = sum;   // facing straight down: phi = 0
   return {wrapped(sum + difference), 2.0 * std::atan2(plus, minus) - 0.5 * std::numbers::pi,
           wrapped(sum - difference)};
 }

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // WGS84: from latitude and longitude to the geocentric frame W of the wire, and from W to the scene
-// frame S, the plane that touches the ellipsoid's normal at the scene's origin (x east, y north, z
-// up).
+// frame S. S is the tangent plane of the ellipsoid at the scene's origin (x east, y north, z up).
 #pragma once
 
 #include <Eigen/Geometry>
 
 namespace reckon::deadreckon {
 
-/// Orientation as the wire carries it: W is turned about z by psi, then about the new y by theta,
-/// then about the new x by phi, which gives the body axes (x forward, y right, z down). [rad]
+/// Orientation on the wire: W is rotated about z by psi, then about the new y by theta, then about
+/// the new x by phi, which gives the body axes (x forward, y right, z down). [rad]
 struct Euler {
   double psi = 0;
   double theta = 0;
@@ -20,12 +19,12 @@ struct Euler {
 /// Unit quaternion, body to reference, of these angles. Any finite angles.
 [[nodiscard]] Eigen::Quaterniond quaternion_from_euler(const Euler& euler) noexcept;
 
-/// Angles of unit q: psi and phi in (-pi, pi], theta in [-pi/2, pi/2]. Loses no accuracy near
-/// theta = +-pi/2; exactly there only psi -+ phi is defined, and phi = 0 is taken.
+/// Angles of unit q: psi and phi in (-pi, pi], theta in [-pi/2, pi/2]. Accurate near theta = +-pi/2
+/// too. Exactly there only psi -+ phi is defined, and phi is set to 0.
 [[nodiscard]] Euler euler_from_quaternion(const Eigen::Quaterniond& q) noexcept;
 
-/// Geocentric position [m] of a geodetic one. latitude [rad] north, longitude [rad] east, height
-/// [m] above the WGS84 ellipsoid.
+/// Geocentric position [m] from geodetic coordinates: latitude [rad] north, longitude [rad] east,
+/// height [m] above the WGS84 ellipsoid.
 [[nodiscard]] Eigen::Vector3d geocentric_position(double latitude, double longitude,
                                                   double height) noexcept;
 
@@ -33,7 +32,7 @@ struct Euler {
 class LocalFrame {
  public:
   /// Origin: latitude [rad] in [-pi/2, pi/2], longitude [rad], height [m] within +-1e8.
-  /// @throws std::invalid_argument, with the value, outside of these.
+  /// @throws std::invalid_argument with the value outside these ranges.
   LocalFrame(double latitude, double longitude, double height);
 
   /// A point of S [m] in geocentric coordinates [m].

@@ -7,7 +7,7 @@
 namespace reckon::deadreckon {
 
 bool is_finite(const KinematicState& state) noexcept {
-  // Written so that a NaN norm fails too.
+  // Negated form, so that a NaN norm fails too.
   const bool unit = std::abs(state.orientation.norm() - 1.0) <= 1e-6;
   return unit && state.position.allFinite() && state.velocity.allFinite() &&
          state.acceleration.allFinite() && state.angular_velocity.allFinite();

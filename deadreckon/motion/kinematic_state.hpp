@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What an owner sends about the motion of an entity, and the pose that everyone computes from it.
+// The motion that an owner sends for an entity, and the pose that all peers compute from it.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,11 +11,10 @@ namespace reckon::deadreckon {
 
 /// The motion of an entity at the instant of an update: the predictor of its pose.
 ///
-/// All quantities are in one "reference" frame, which the caller chooses (Reckon uses the scene
-/// frame S, metres) or in the entity's body frame B (x forward, y right, z down). SI units.
+/// Quantities are in one "reference" frame, which the caller chooses (Reckon uses the scene frame
+/// S, metres), or in the entity's body frame B (x forward, y right, z down). SI units.
 struct KinematicState {
-  /// Which terms take part in the prediction, and whether velocity is held in reference or body
-  /// axes.
+  /// The terms of the prediction, and whether velocity is in reference or body axes.
   pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::static_;
   /// Origin of B, reference axes [m].
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -23,13 +22,13 @@ struct KinematicState {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   /// [m/s]; reference axes for DRM 2 to 5, body axes for DRM 6 to 9.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  /// [m/s^2]; axes as for velocity. In body axes it is the rate of the body components of velocity.
+  /// [m/s^2]; the same axes as velocity. In body axes it is the rate of the velocity's components.
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
   /// [rad/s], body axes for every DRM.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
 };
 
-/// Where an entity is at one instant, whatever model that came from.
+/// Pose of an entity at one time, from any model.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< Reference axes [m].
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< Unit, body to reference.
@@ -37,10 +36,10 @@ struct Pose {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< Body axes [rad/s].
 };
 
-/// True when every number of `state` is finite and its quaternion has length 1 within 1e-6.
+/// Whether every number of `state` is finite and its quaternion has length 1 within 1e-6.
 [[nodiscard]] bool is_finite(const KinematicState& state) noexcept;
 
-/// True when every number of `pose` is finite.
+/// Whether every number of `pose` is finite.
 [[nodiscard]] bool is_finite(const Pose& pose) noexcept;
 
 }  // namespace reckon::deadreckon

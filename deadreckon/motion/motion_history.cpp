@@ -21,7 +21,7 @@ MotionSample motion_sample(const KinematicState& state, double time) noexcept {
   if (terms.velocity)
     sample.velocity = terms.body_axes ? state.orientation * state.velocity : state.velocity;
 
-  // Body components change at A_b, and their axes turn: a = A_b + w x v.
+  // Body components change at A_b, and their axes rotate: a = A_b + w x v.
   Eigen::Vector3d a = terms.acceleration ? state.acceleration : Eigen::Vector3d(0, 0, 0);
   if (terms.body_axes) {
     if (terms.rotation) a += state.angular_velocity.cross(state.velocity);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The last three updates of one remote entity: what predictors work from that look farther back
-// than the last update.
+// The last three updates of one remote entity, for predictors that use more than the last one.
 #pragma once
 
 #include <array>
@@ -11,10 +10,10 @@
 
 namespace reckon::deadreckon {
 
-/// The motion that one update stated, all in reference axes but the angular velocity. A sender that
-/// sends positions alone leaves the rates at zero.
+/// The motion in one update. All in reference axes except the angular velocity. A sender of
+/// positions alone leaves the rates at zero.
 struct MotionSample {
-  double time = 0;                                     ///< Of the sender's instant [s].
+  double time = 0;                                     ///< Time of the state at the sender [s].
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< Unit, body to reference.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< [m/s]
@@ -22,14 +21,14 @@ struct MotionSample {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< Body axes [rad/s].
 };
 
-/// True when every number of `sample` is finite.
+/// Whether every number of `sample` is finite.
 [[nodiscard]] bool is_finite(const MotionSample& sample) noexcept;
 
-/// The state of an update as a sample: rates in body axes are turned into reference axes.
+/// The state of an update as a sample: body-axis rates are converted to reference axes.
 [[nodiscard]] MotionSample motion_sample(const KinematicState& state, double time) noexcept;
 
-/// A motion as an update of this model tells it; rates that the model does not use are zero. The
-/// other way round from motion_sample: body acceleration is the rate of the body components.
+/// A motion as an update of this model states it; rates that the model does not use are zero. The
+/// inverse of motion_sample: body acceleration is the rate of the body components.
 [[nodiscard]] KinematicState kinematic_state(const MotionSample& sample,
                                              pdu::DeadReckoningAlgorithm algorithm) noexcept;
 
@@ -38,11 +37,11 @@ class MotionHistory {
  public:
   static constexpr std::size_t kLength = 3;
 
-  /// Takes a sample that is newer than all. One of the newest's instant replaces it (a correction);
-  /// an older one, or one that is not finite, is refused with false: a late packet must not turn
-  /// the history back.
+  /// Adds a sample that is newer than all others. A sample with the newest's time replaces it (a
+  /// correction). An older one, or one that is not finite, is refused with false: a late packet
+  /// must not reverse the history.
   bool add(const MotionSample& sample) noexcept;
-  /// Forgets everything, as after a jump on purpose.
+  /// Discards all samples, as after a jump on purpose.
   void clear() noexcept { size_ = 0; }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

@@ -8,12 +8,12 @@ namespace reckon::deadreckon {
 
 namespace {
 
-// Below this angle the differences in the Jacobians cancel; the first terms of their series, with
-// x = angle^2, are then exact to rounding.
+// Below this angle the differences in the Jacobians cancel. The first terms of their series, with x
+// = angle^2, are then exact to rounding.
 constexpr double kSmallAngle = 0.05;
 
-// Below this half angle, or tangent of it, series with x = its square are exact to rounding too,
-// and what an update moves is mostly less: sines and arc tangents cost more than all the rest.
+// Below this half angle, or its tangent, series in its square are exact to rounding too. Most
+// updates move by less, and sines and arc tangents would cost more than all the rest.
 constexpr double kSmallHalf = 0.03;
 
 // sin h / h and cos h.
@@ -30,7 +30,7 @@ HalfTurn half_turn(double x) {
   return {std::sin(half) / half, std::cos(half)};
 }
 
-// The half angle over its sine s, of a quaternion with sine s and cosine c >= 0 of it; 1 at zero.
+// Half angle over its sine s, for a quaternion with sine s and cosine c >= 0 of it; 1 at zero.
 double half_over_sine(double s, double c) {
   if (s < kSmallHalf * c) {
     const double x = (s / c) * (s / c);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rotations by vectors: the exponential map, its inverse and their rates, safe at zero angle.
+// Rotation vectors: the exponential map, its inverse and their rates, safe at zero angle.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,18 +10,17 @@ namespace reckon::deadreckon {
 /// Unit quaternion of the rotation by |v| rad about v. Exact at zero, any finite angle.
 [[nodiscard]] Eigen::Quaterniond exponential(const Eigen::Vector3d& rotation_vector) noexcept;
 
-/// Rotation vector [rad] of the shorter way of unit q, so that exponential(v) is q or -q; |v| <=
+/// Rotation vector [rad] of unit q by the shorter way, so that exponential(v) is q or -q; |v| <=
 /// pi.
 [[nodiscard]] Eigen::Vector3d logarithm(const Eigen::Quaterniond& q) noexcept;
 
-/// True angle [rad] in [0, pi] between two orientations; q and -q are the same orientation. The
-/// arc tangent keeps it accurate for small angles, where an arc cosine of |a.b| has 1e-8 rad of
-/// noise.
+/// Angle [rad] in [0, pi] between two orientations; q and -q are the same orientation. The arc
+/// tangent is accurate for small angles, where an arc cosine of |a.b| has 1e-8 rad of noise.
 [[nodiscard]] double angle_between(const Eigen::Quaterniond& a,
                                    const Eigen::Quaterniond& b) noexcept;
 
-/// Angular velocity, in the axes of the rotated frame, of exponential(v) while v changes at `rate`.
-/// (The right Jacobian of the rotation group applied to the rate.)
+/// Angular velocity, in the axes of the rotated frame, of exponential(v) while v changes at `rate`
+/// (the right Jacobian of the rotation group times the rate).
 [[nodiscard]] Eigen::Vector3d angular_velocity_of(const Eigen::Vector3d& rotation_vector,
                                                   const Eigen::Vector3d& rate) noexcept;
 

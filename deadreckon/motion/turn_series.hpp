@@ -9,7 +9,8 @@
 
 namespace reckon::deadreckon {
 
-// Series in (w t)^2 below this angle [rad]; kSeriesTerms leave 1e-17 there.
+// The series in (w t)^2 are used below this angle [rad], where kSeriesTerms leave an error of
+// 1e-17.
 inline constexpr double kSeriesAngle = 1.0;
 inline constexpr std::size_t kSeriesTerms = 9;
 using Series = std::array<double, kSeriesTerms>;
@@ -40,7 +41,7 @@ inline constexpr Series kPositionTwice = series(4, 2, 3);  // (x^2/2 - cos x - x
 }
 
 // With u = |r|, r = w t: R1 v = t (f1 v + h1 r x v + g1 r (r.v)) and R2 a = t^2 (f2 a + h2 r x a +
-// g2 r (r.a)); q = exp(r/2). No division by |w| is left, so zero rate is no special case.
+// g2 r (r.a)); q = exp(r/2). There is no division by |w|, so that zero rate is no special case.
 struct TurnTerms {
   double f1, h1, g1;
   double f2, h2, g2;

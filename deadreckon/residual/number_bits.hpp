@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers by their lowest bits: how many are sent, and which number was meant. Under the residual
-// form; pure functions, inline so that nothing goes through memory. Any thread.
+// Numbers by their lowest bits: how many bits are sent, and how the number is restored. Used by the
+// residual form. Pure functions, inline so that values stay in registers. Any thread.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace reckon::deadreckon::residual {
 
-/// Bits of each number of a field; a field says which by its place here.
+/// Bits of each number of a field; a field's code is an index into this table.
 inline constexpr std::array<unsigned, 16> kWidths = {0,  2,  4,  5,  6,  7,  8,  9,
                                                      10, 11, 12, 13, 14, 16, 18, 22};
-/// The highest place there.
+/// The highest code.
 inline constexpr unsigned kHighest = 15;
 
-/// Narrowest code of at least so many bits.
+/// Narrowest code with at least this number of bits.
 inline constexpr auto kCodeOf = [] {
   std::array<std::uint8_t, kWidths.back() + 1> code{};
   for (unsigned bits = 0; bits < code.size(); ++bits)
@@ -25,22 +25,23 @@ inline constexpr auto kCodeOf = [] {
   return code;
 }();
 
-/// Of each axis what `of` says: what never lies in memory as an array is half the work.
+/// Array of of(0), of(1), of(2). The array never lies in memory, which halves the work.
 template <typename Of>
 [[gnu::always_inline]] inline auto each_axis(Of of) noexcept {
   return std::array{of(0U), of(1U), of(2U)};
 }
 
-/// Narrowest code whose numbers reach `distance` either way; above kHighest where none does.
+/// Narrowest code whose numbers reach `distance` in both directions; above kHighest if there is
+/// none.
 [[nodiscard]] inline unsigned code_for(double distance) noexcept {
-  const double wanted = 2.0 * distance + 2.0;  // numbers
+  const double wanted = 2.0 * distance + 2.0;  // count of numbers
   if (!(wanted <= static_cast<double>(1U << kWidths.back()))) return kHighest + 1;
   const auto below = static_cast<std::uint32_t>(wanted);
   const std::uint32_t is_whole = static_cast<double>(below) == wanted ? 1 : 0;
   return kCodeOf[static_cast<unsigned>(std::bit_width(below - is_whole))];
 }
 
-/// The same; 0 where there is no distance.
+/// The same; 0 for the distance 0.
 [[nodiscard]] inline unsigned code_for(std::int32_t distance) noexcept {
   if (distance >= 1 << (kWidths.back() - 1)) return kHighest + 1;
   const auto reached = static_cast<std::uint32_t>(distance);
@@ -53,7 +54,7 @@ template <typename Number>
   return larger < c ? c : larger;
 }
 
-/// The number with these lowest bits, nearest to `predicted`; of any others it wraps.
+/// The number with these lowest bits that is nearest to `predicted`. Others wrap.
 template <typename Number>
 [[gnu::always_inline]] inline Number restored(std::uint64_t bits, Number predicted,
                                               unsigned width) noexcept {

@@ -22,7 +22,7 @@ using namespace residual;
 constexpr unsigned kCodeBits = 4, kAlgorithmBits = 4, kCheckBits = 16, kAxisBits = 3;
 enum Field : std::size_t { kOrientation, kTurnRate, kAcceleration, kVelocity, kLocation, kFields };
 
-constexpr double kTick = 3600.0 / 4294967294.0;  // [s] of a timestamp with its lowest bit
+constexpr double kTick = 3600.0 / 4294967294.0;  // [s] of a timestamp's lowest bit
 
 double seconds_between(std::uint32_t from, std::uint32_t to) noexcept {
   return kTick * static_cast<std::int32_t>(to - from);
@@ -32,8 +32,8 @@ double farthest(const Vector& a) noexcept {
   return largest(std::abs(a[0]), std::abs(a[1]), std::abs(a[2]));
 }
 
-// Body to world by the angles of DIS, as the wire has them. By value, as nothing here that is
-// looked at by address: what is stays in memory, and is waited for.
+// Body to world by the angles of DIS in wire units. Arguments by value, as everywhere here: values
+// with an address would stay in memory and cost waits.
 Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   const double cp = std::cos(unit * angles[0]), sp = std::sin(unit * angles[0]);
   const double ct = std::cos(unit * angles[1]), st = std::sin(unit * angles[1]);
@@ -57,7 +57,7 @@ Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   return {numbers, velocity, acceleration};
 }
 
-// The velocity that the accelerations at both ends lead to [quanta].
+// Velocity predicted from the accelerations at both ends [quanta].
 [[gnu::always_inline]] inline Vector predicted_velocity(const StateNumbers& from,
                                                         const StateNumbers& to,
                                                         const StateScale& scale) noexcept {
@@ -69,7 +69,7 @@ Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   });
 }
 
-// The way since `from` [quanta]: the cubic through both ends' velocities and accelerations.
+// Displacement since `from` [quanta]: the cubic through both ends' velocities and accelerations.
 [[gnu::always_inline]] inline Vector predicted_way(const ResidualReference& from,
                                                    const ResidualReference& to) noexcept {
   const double t = seconds_between(from.numbers.timestamp, to.numbers.timestamp);
@@ -79,7 +79,8 @@ Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   });
 }
 
-// A sum of products with odd factors: its high bits differ for any two states but by chance.
+// A sum of products with odd factors. Its high bits are equal for two different states only by
+// chance.
 [[gnu::always_inline]] inline std::uint64_t hash_of(const StateNumbers& n,
                                                     std::uint64_t key) noexcept {
   constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15ULL;
@@ -108,7 +109,7 @@ Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   return static_cast<unsigned>(hash_of(numbers, key) >> (64 - kCheckBits));
 }
 
-// Of all that the key holds for the updates after it.
+// Hash of all key data that later updates need.
 std::uint64_t key_hash_of(const pdu::EntityState& key) noexcept {
   std::uint64_t hash = key.entity_id.key();
   const auto add = [&hash](std::uint64_t value) {
@@ -138,7 +139,7 @@ template <typename Number>
   return restored(in.take_three(width), predicted, width);
 }
 
-// Within `most` of 0.
+// Nearest integer, within `most` of 0.
 [[gnu::always_inline]] inline std::int64_t nearest(double value, double most) noexcept {
   const double bounded = std::min(std::max(value, -most), most);
   return static_cast<std::int64_t>(bounded + std::copysign(0.5, bounded));
@@ -166,7 +167,7 @@ template <typename Number>
   });
 }
 
-// What a body says to who has `last`; whole where it is a body.
+// A body decoded against `last`. `whole`: the octets are exactly one body.
 struct Reading {
   ResidualReference now;
   unsigned check;
@@ -270,7 +271,7 @@ bool ResidualEncoder::note_key(const pdu::EntityState& state) noexcept {
   return writer.finish();
 }
 
-// Whether who has the last state comes to the same numbers.
+// Whether a receiver with the last state restores the same numbers.
 bool ResidualEncoder::restores(const Widths& widths, const StateNumbers& now,
                                const std::array<double, 3>& velocity,
                                const std::array<double, 3>& way) const noexcept {
@@ -294,7 +295,7 @@ bool ResidualEncoder::restores(const Widths& widths, const StateNumbers& now,
   return (any | differ(now.location, place_after(old, way), kLocation)) == 0;
 }
 
-// Half of the window is filled; when it is full it becomes the older half.
+// Fills the younger half of the window; a full one becomes the older half.
 void ResidualEncoder::note(const ResidualReference& sent) noexcept {
   const auto values = turning(sent.numbers);
   if (noted_ == kWindow) {
@@ -314,8 +315,8 @@ void ResidualEncoder::note(const ResidualReference& sent) noexcept {
   last_ = sent;
 }
 
-// Enough for who has any update of the window: exactly so for what is predicted by itself, and
-// a quarter more than its ends need for place and velocity.
+// Widths for a receiver that has any update of the window: exact for the numbers predicted as
+// constant, and a quarter more than the window's ends need for location and velocity.
 ResidualEncoder::Widths ResidualEncoder::widths_for(
     const ResidualReference& now, const std::array<double, 3>& velocity_from_last,
     const std::array<double, 3>& way_from_last) const noexcept {

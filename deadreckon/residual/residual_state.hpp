@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The residual form of an Entity State: of each number of its motion only the lowest bits, as many
-// as the dead-reckoned prediction of a receiver can be wrong by. What seldom changes stays in the
-// key, a plain Entity State now and then. About 26 octets of 144.
+// The residual form of an Entity State. Of each number of its motion it has only the lowest bits,
+// enough for the greatest error of a receiver's dead-reckoned prediction. Data that seldom change
+// stay in the key, a plain Entity State sent now and then. About 26 octets of 144.
 //
-// The sender counts on a receiver having any of the last kWindow updates or so, not the last one:
-// loss of some costs nothing beyond what was lost. A check of 16 bits over the whole state tells a
-// receiver that has none of them; it then waits for the next key.
+// The sender assumes that a receiver has any of about the last kWindow updates, and not the last
+// one: a loss of some has no further effect. A check of 16 bits over the whole state detects a
+// receiver that has none of them. It then waits for the next key.
 #pragma once
 
 #include <array>
@@ -18,47 +18,48 @@
 
 namespace reckon::deadreckon {
 
-/// Octets that any body fits into.
+/// Greatest number of octets of a body.
 inline constexpr std::size_t kMostResidual = 64;
 
-/// Where an entity was, in quanta, and how it moved in world axes: what a prediction starts from.
+/// Position of an entity in quanta, and its motion in world axes: the start of a prediction.
 struct ResidualReference {
   pdu::StateNumbers numbers;
   std::array<double, 3> velocity{};      ///< world axes [position quanta / s]
   std::array<double, 3> acceleration{};  ///< world axes [position quanta / s^2]
 };
 
-/// The sending end of one entity in one group. One thread; no allocation; below 1 KiB.
+/// The sending side of one entity in one group. One thread; no allocation; below 1 KiB.
 class ResidualEncoder {
  public:
-  /// Updates that a receiver may miss in a row, at least, and twice as many at most.
+  /// Number of updates in a row that a receiver may certainly miss; twice as many at most.
   static constexpr unsigned kWindow = 8;
 
   explicit ResidualEncoder(const pdu::StateScale& scale = {}) noexcept : scale_(scale) {}
 
-  /// Notes that `state` goes out plain, as the key of what follows. False where its motion cannot
-  /// be stated in quanta: then everything goes plain.
+  /// Stores `state`, which is sent plain, as the key of the following updates. False if its motion
+  /// cannot be stated in quanta: then all states are sent plain.
   bool note_key(const pdu::EntityState& state) noexcept;
 
-  /// Writes the body of `state`. Octets written; 0 where it has to go plain, as a key: there is no
-  /// key yet, something besides the motion has changed, a number is out of range, or who has the
-  /// last state would not come to the same numbers. Rounds to quanta: give it what pdu::quantise()
-  /// made, and it is exact. About 90 ns.
+  /// Writes the body of `state`. Returns its octets, or 0 if the state must be sent plain, as a
+  /// key: there is no key yet, data besides the motion have changed, a number is out of range, or a
+  /// receiver with the last state would not restore the same numbers. Rounds to quanta; exact for a
+  /// state from pdu::quantise(). About 90 ns.
   [[nodiscard]] std::size_t encode(const pdu::EntityState& state,
                                    std::span<std::byte, kMostResidual> out) noexcept;
 
  private:
-  // Least and most of the numbers that are predicted by themselves: the turning ones.
+  // Least and greatest of the numbers that are predicted as constant: the rotational ones.
   struct Extremes {
     std::array<std::int32_t, 9> least{}, most{};
   };
   struct Widths {
     std::array<unsigned, 5> code{};
-    unsigned turning = 0;  // a bit for each axis whose turn rate is sent
+    unsigned turning = 0;  // a bit for each axis whose angular velocity is sent
     bool fit = true;
   };
   void note(const ResidualReference& sent) noexcept;
-  // Of velocity and way: what who has the last state predicts [quanta].
+  // Bit widths. The arguments are the predictions of velocity and displacement from the last state
+  // [quanta].
   [[nodiscard]] Widths widths_for(const ResidualReference& now,
                                   const std::array<double, 3>& velocity_from_last,
                                   const std::array<double, 3>& way_from_last) const noexcept;
@@ -70,29 +71,29 @@ class ResidualEncoder {
   pdu::EntityState key_;
   std::uint64_t key_hash_ = 0;
   bool has_key_ = false;
-  unsigned noted_ = 0;  // updates in the younger half of the window
+  unsigned noted_ = 0;  // number of updates in the younger half of the window
   ResidualReference last_;
   std::array<ResidualReference, 2> first_;  // of the younger and of the older half
   std::array<Extremes, 2> extremes_;        // of the same
 };
 
-/// What became of a body.
+/// Result of decoding a body.
 enum class ResidualVerdict : std::uint8_t {
   good,
   no_key,     ///< no plain Entity State of this entity yet, or all too old: wait for the next
-  malformed,  ///< no body
+  malformed,  ///< not a body
 };
 
-/// The receiving end of one entity. One thread; no allocation, never throws; below 1 KiB.
+/// The receiving side of one entity. One thread; no allocation, never throws; below 1 KiB.
 class ResidualDecoder {
  public:
   explicit ResidualDecoder(const pdu::StateScale& scale = {}) noexcept : scale_(scale) {}
 
-  /// A plain Entity State came: the key from now on. Its variable parameters are not kept.
+  /// Stores a received plain Entity State as the key, without its variable parameters.
   void note_plain(const pdu::EntityState& state) noexcept;
 
-  /// Restores a state into `out`, which is touched only where the verdict is good. `timestamp` of
-  /// the PDU around the body, at most 1.5 s after the state's. Any octets may come. About 50 ns.
+  /// Restores a state into `out`, which changes only if the verdict is good. `timestamp` is that of
+  /// the PDU around the body, at most 1.5 s after the state's. Any octets. About 50 ns.
   [[nodiscard]] ResidualVerdict decode(std::span<const std::byte> body, std::uint32_t timestamp,
                                        pdu::EntityState& out) noexcept;
 

@@ -8,9 +8,10 @@
 namespace reckon::deadreckon {
 namespace {
 
-// Packets of rivals are forgotten with this time constant [s].
+// Time constant [s] with which packets of rivals are forgotten.
 constexpr double kMemory = 1.0;
-// The other model takes over where it needs fewer packets by this factor: no alternating.
+// The other model replaces the present one if it needs fewer packets by this factor, which prevents
+// alternation.
 constexpr double kBetterBy = 0.9;
 
 std::size_t index_of(SignalModel model) { return static_cast<std::size_t>(model); }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sampled signal, a force or a velocity, sent only where a person could feel the difference: the
-// Weber deadband. What lies between is predicted, by holding the value or along a line, whichever
-// has needed fewer packets for this signal lately.
+// A sampled signal, a force or a velocity, that is sent only if a person could feel the difference:
+// the Weber deadband. Between updates it is predicted, as a held value or along a line. The model
+// that recently needed fewer packets is used.
 //
-// This is for signals that have no model: a contact is better sent as its force model.
+// For signals without a model: a contact is better sent as its force model.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,23 +16,23 @@
 
 namespace reckon::deadreckon {
 
-/// How large a difference may be before it is sent.
+/// Difference above which an update is sent.
 struct Deadband {
   /// Share of the signal's size, 0 to 1. Default 0.1: people notice force changes of 7 to 10 %.
   double weber = 0.1;
-  /// Difference [unit of the signal] that is never sent, >= 0; else noise about zero would be sent
-  /// whole. Default 0.05, for newtons.
+  /// Difference [unit of the signal] that is never sent, >= 0. Without it, noise around zero would
+  /// be sent whole. Default 0.05, for newtons.
   double floor = 0.05;
 };
 
-/// The widest difference that may go unsent for this value.
+/// The greatest difference that is not sent for this value.
 [[nodiscard]] double deadband_width(const Deadband& deadband,
                                     const Eigen::Vector3d& value) noexcept;
 
 enum class SignalModel : std::uint8_t { hold, line };
 [[nodiscard]] std::string_view name(SignalModel model) noexcept;
 
-/// What travels: a value and, for a line, its rate (zero for a held value).
+/// Content of an update: a value and, for a line, its rate (zero for a held value).
 struct SignalUpdate {
   double time = 0;                                  ///< [s]
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< Any unit.
@@ -40,31 +40,31 @@ struct SignalUpdate {
   SignalModel model = SignalModel::hold;
 };
 
-/// A line is followed for this long [s]; then its last value holds, so that a lost update cannot
+/// Time [s] for which a line is followed. Then its last value holds, so that a lost update cannot
 /// run away.
 inline constexpr double kLongestLine = 0.25;
 
-/// The signal at `time` [s] as every receiver has it. Before the update's time: its value.
+/// The signal at `time` [s] at every receiver. Before the update's time: its value.
 [[nodiscard]] Eigen::Vector3d predict(const SignalUpdate& update, double time) noexcept;
 
 /// The sender of one signal. Not synchronised, no allocation; some 100 ns a sample.
 class DeadbandSender {
  public:
   explicit DeadbandSender(const Deadband& deadband = {}) noexcept : deadband_(deadband) {}
-  /// Always with this model: for comparison.
+  /// Always uses this model: for comparison.
   DeadbandSender(const Deadband& deadband, SignalModel only) noexcept
       : deadband_(deadband), model_(only), chooses_(false) {}
 
-  /// Takes the sample of `time` [s]; returns the update to send, or nothing where receivers are
-  /// within the deadband. Times that do not grow and values that are not finite are passed over.
+  /// Takes the sample of `time` [s]. Returns the update to send, or nothing if receivers are within
+  /// the deadband. Ignores times that do not increase and values that are not finite.
   std::optional<SignalUpdate> sample(double time, const Eigen::Vector3d& value) noexcept;
 
   /// The model that the next update will use.
   [[nodiscard]] SignalModel model() const noexcept { return model_; }
 
  private:
-  /// What sending with one model alone would have cost: its own last update, and its packets over
-  /// the last second or so.
+  /// State of a sender with one model alone: its last update, and its packets over about the last
+  /// second.
   struct Rival {
     SignalUpdate update;
     double packets = 0;

@@ -19,12 +19,13 @@ bool is_off(const MotionSample& truth, const Pose& seen, const Thresholds& thres
          !(angle_between(truth.orientation, seen.orientation) <= thresholds.angle);
 }
 
-// Which models are alike for a motion is seen from their poses after so long [s]...
+// Two models are alike for a motion if their poses after this time [s]...
 constexpr double kHorizon = 1.0;
-// ...being within this share of the thresholds.
+// ...differ by at most this share of the thresholds.
 constexpr double kAlike = 0.1;
 
-// A turn that is no more than that share after so long [s], longer than most updates last, is none.
+// A rotation of no more than that share after this time [s], longer than most update intervals,
+// counts as none.
 constexpr double kLongUpdate = 10.0;
 
 bool tells_turn(const MotionSample& truth, const Thresholds& thresholds) {
@@ -52,8 +53,8 @@ void ModelChoice::start(const MotionSample& truth, const Thresholds& thresholds)
   };
   chosen_ = 0;
   while (chosen_ + 1 < rivals_.size() && !is_alike(rivals_[chosen_])) ++chosen_;
-  // What says nothing of turns yet may turn later; where its orientation counts, the rate it then
-  // tells is that of its body and no guess from its path.
+  // A motion without a rotation may rotate later. If its orientation counts, the stated rate is
+  // then that of its body and not derived from its path.
   constexpr std::size_t kStraight = place_of(Model::fpw), kArc = place_of(Model::rpb);
   if (chosen_ == kStraight && thresholds.angle < std::numbers::pi) chosen_ = kArc;
   started_ = true;

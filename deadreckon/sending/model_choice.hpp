@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The owner's choice of dead-reckoning model, per entity: the one that would have needed the fewest
-// updates lately. Peers read it from each Entity State, as the standard has it. Thesis 4.4: the
-// order follows from the nature of the data.
+// The owner's choice of dead-reckoning model for each entity: the one that would recently have
+// needed the fewest updates. Peers read it from each Entity State, according to the standard.
+// Thesis 4.4: the order follows from the nature of the data.
 #pragma once
 
 #include <array>
@@ -13,44 +13,45 @@
 
 namespace reckon::deadreckon {
 
-/// The models that take part, simple ones first: of two that are equally good the first is kept.
-/// The others are never better: static is FPW at rest, FVW is RVW without a turn, FPB and FVB are
-/// FPW and FVW.
+/// The candidate models, simple ones first: the first of two equally good ones is used. The others
+/// are never better: static is FPW at rest, FVW is RVW without rotation, FPB and FVB are FPW and
+/// FVW.
 inline constexpr std::array<pdu::DeadReckoningAlgorithm, 5> kChosenModels{
     pdu::DeadReckoningAlgorithm::fpw, pdu::DeadReckoningAlgorithm::rpw,
     pdu::DeadReckoningAlgorithm::rvw, pdu::DeadReckoningAlgorithm::rpb,
     pdu::DeadReckoningAlgorithm::rvb};
 
 struct ModelChoiceSettings {
-  /// Share of the counts that an update of the present choice leaves, 0 to < 1. Default 0.95: some
-  /// twenty updates decide. Higher is steadier and slower to follow a change of the motion.
+  /// Share of the counts that stays after an update of the present choice, 0 to < 1. Default 0.95:
+  /// some twenty updates decide. A higher value is steadier and follows a change of the motion more
+  /// slowly.
   double memory = 0.95;
-  /// The present choice is kept while another's count is not below its own by this factor, 0
-  /// to 1...
+  /// The present choice stays until another's count is below its own by this factor, 0 to 1...
   double better_by = 0.8;
-  /// ...and by so many updates besides, >= 0. Default 2: one update more or less of the first few
-  /// says nothing of the motion. Higher is steadier and costs as many updates at each true change.
+  /// ...and by this number of updates besides, >= 0. Default 2, because one update more or less of
+  /// the first few means little. A higher value is steadier, and costs that many updates at each
+  /// true change.
   double margin = 2;
 };
 
-/// Runs all of kChosenModels beside each other, each from the updates it would have sent: their
-/// lateness is in the count, and so is their price, as updates of all models have one size. A
-/// switch is free: the model is named in an update that is due anyway. No allocation; not
-/// synchronised; some 0.3 us a call of note().
+/// Runs all of kChosenModels in parallel, each from the updates that it would have sent. The count
+/// so includes their delays and their price, as updates of all models have one size. A switch is
+/// free, because an update that is due anyway names the model. No allocation; not synchronised;
+/// some 0.3 us a call of note().
 class ModelChoice {
  public:
   explicit ModelChoice(const ModelChoiceSettings& settings = {}) noexcept : settings_(settings) {}
 
-  /// Takes the true motion of this tick, sample times growing. A sample that is not finite is
-  /// passed over.
+  /// Takes the true motion of this tick; sample times must increase. Ignores a sample that is not
+  /// finite.
   void note(const MotionSample& truth, const Thresholds& thresholds,
             const SendRule& rule = kDefaultSendRule) noexcept;
 
-  /// The model to send the latest sample with; FPW before the first. The first sample decides for
-  /// the simplest model whose pose a second later is that of RVB, which uses all that is sent.
-  /// Where that is FPW it decides for RPB if orientations count (a threshold below half a turn), so
-  /// that the first bend is sent too. While the sample tells no turn, FPW is named for RPB and RVW
-  /// for RVB: the same prediction in reference axes.
+  /// The model to send the latest sample with; FPW before the first. The first sample selects the
+  /// simplest model whose pose a second later is that of RVB, which uses all rates. If that is FPW,
+  /// RPB replaces it if orientations count (a threshold below half a turn), so that the first bend
+  /// is sent too. While the sample has no rotation, FPW is returned for RPB and RVW for RVB: the
+  /// same prediction in reference axes.
   [[nodiscard]] pdu::DeadReckoningAlgorithm chosen() const noexcept;
 
  private:
@@ -60,14 +61,14 @@ class ModelChoice {
   struct Rival {
     KinematicState sent;
     double time = 0;
-    double updates = 0;  // decaying
+    double updates = 0;  // decaying count
   };
 
   ModelChoiceSettings settings_;
   std::array<Rival, kChosenModels.size()> rivals_;
   std::size_t chosen_ = 0;
   bool started_ = false;
-  bool turns_ = false;  // as the latest sample tells
+  bool turns_ = false;  // the latest sample has a rotation
 };
 
 }  // namespace reckon::deadreckon

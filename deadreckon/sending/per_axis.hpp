@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The threshold on each axis by itself, a cube, as several other programs do it: up to 73 % more
-// error towards its corners than the threshold says. Here for comparison.
+// The threshold on each axis separately, a cube, as in several other programs. Towards its corners
+// the error is up to 73 % above the threshold. Here for comparison.
 #pragma once
 
 #include <string_view>

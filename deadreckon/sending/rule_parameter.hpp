@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // One row of a send rule's parameter table. Scene files, their error messages and the documentation
-// read these rows, so that a rule with a quantity of its own needs no code outside its header.
+// read these rows, so that a new parameter of a rule needs no code outside its header.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace reckon::deadreckon {
 
-/// A parameter of a rule whose values lie in the struct P.
+/// A parameter of a rule; its values are members of the struct P.
 template <class P>
 struct RuleParameter {
   std::string_view key;   ///< in scene files
@@ -17,11 +17,11 @@ struct RuleParameter {
   double P::*field;
   double minimum;
   double maximum;
-  double default_value;   ///< 0: a scene that names the rule has to give more
-  std::string_view help;  ///< what it is, as a row of a table says it
+  double default_value;   ///< 0: a scene that names the rule must give a greater value
+  std::string_view help;  ///< description for a row of a table
 };
 
-/// A rule that looks at the threshold alone.
+/// Parameters of a rule that only uses the threshold.
 struct NoRuleParameters {};
 inline constexpr std::array<RuleParameter<NoRuleParameters>, 0> kNoRuleParameters{};
 

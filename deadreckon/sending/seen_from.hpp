@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the nearest viewer can see: far away, an error below the eye's resolution is none.
+// The threshold according to the nearest viewer: at a distance, errors below the eye's resolution
+// do not count.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +13,11 @@
 
 namespace reckon::deadreckon {
 
-/// The threshold is `visual_angle` at `viewer_distance`, but not less than that of position.
+/// The threshold is `visual_angle` at `viewer_distance`, but at least that of position.
 struct SeenFrom {
   struct Parameters {
     double viewer_distance = 0;  ///< Of the nearest viewer [m], >= 0.
-    /// [rad]: what the eye resolves. Default 2.9e-4, one minute of arc.
+    /// [rad], resolution of the eye. Default 2.9e-4, one minute of arc.
     double visual_angle = 2.908882086657216e-4;
   };
   static constexpr std::string_view kName = "seen_from";

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of rules by which an owner holds its peers' error of position against the thresholds. A
-// new one is a header here and a row in SendRules: Thresholds and scene files take its parameters
-// from its own table.
+// THE list of rules that compare the position error at peers with the thresholds. A new rule is a
+// header here and a row in SendRules: Thresholds and scene files take its parameters from its own
+// table.
 #pragma once
 
 #include <array>
@@ -47,17 +47,17 @@ struct AllRuleValues<std::tuple<Rules...>> {
   using Type = std::tuple<RuleValues<Rules>...>;
 };
 
-/// The errors that peers may see before an update is sent. The only accuracy knobs of a user:
-/// smaller means more packets.
+/// The greatest errors at peers before an update is sent. The only accuracy settings of a user:
+/// smaller values mean more packets.
 struct Thresholds {
   double position = 1.0;  ///< True distance [m], a sphere; the standard's default. 1e-4 and up.
   double angle = 0.05235987755982989;  ///< True angle [rad]; the standard's default, 3 degrees.
-  double force = 0.1;                  ///< [N], at the places that are touched.
-  /// Share of the true force that may be missing too, 0 to 1: people notice 0.07 to 0.1. The larger
-  /// of both counts. Default 0: newtons alone.
+  double force = 0.1;                  ///< [N], at touched places.
+  /// Share of the true force that may be off, 0 to 1: people notice 0.07 to 0.1. The larger of both
+  /// thresholds counts. Default 0: newtons alone.
   double weber = 0;
 
-  /// What a rule looks at besides `position`: of<SeenFrom>().viewer_distance.
+  /// Parameters of a rule besides `position`: of<SeenFrom>().viewer_distance.
   template <class Rule>
   [[nodiscard]] constexpr typename Rule::Parameters& of() noexcept {
     return std::get<RuleValues<Rule>>(of_rules).values;
@@ -70,15 +70,15 @@ struct Thresholds {
   AllRuleValues<SendRules>::Type of_rules{};
 };
 
-/// Fingertips tell two points apart from about this distance on [m]: a threshold for what is
-/// touched without being held.
+/// Distance [m] from which fingertips separate two points: a threshold for objects that are touched
+/// without being held.
 inline constexpr double kFingertipResolution = 2.5e-3;
 
 /// A rule as a value.
 struct SendRule {
   std::string_view name;
   std::string_view meaning;
-  /// The error as a share of what is allowed: above 1, or not a number, is sent.
+  /// The error over the allowed error: a value above 1, or NaN, is sent.
   double (*share)(const PoseError&, const Thresholds&) noexcept;
 };
 

@@ -13,10 +13,10 @@ namespace reckon::deadreckon {
 
 namespace {
 
-constexpr double kQuick = 5.0;      // what flies or was launched [s]
-constexpr double kPlatform = 55.0;  // on land and sea [s]
-constexpr double kSlow = 60.0;      // life forms and fixed things [s]
-constexpr double kJitter = 0.1;     // each way
+constexpr double kQuick = 5.0;      // air, space and munitions [s]
+constexpr double kPlatform = 55.0;  // land and sea [s]
+constexpr double kSlow = 60.0;      // life forms and fixed objects [s]
+constexpr double kJitter = 0.1;     // in each direction
 
 double platform_heartbeat(pdu::EntityDomain domain) {
   switch (domain) {
@@ -64,7 +64,7 @@ SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_erro
   if (!has_sent_) return SendReason::first;
   if (event_) return SendReason::event;
 
-  // Negated, so that a prediction that is not a number is corrected too.
+  // Negated, so that a NaN prediction is corrected too.
   const Pose seen = predicted(now);
   const PoseError error{truth.position - seen.position, truth.velocity};
   if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When an owner has to send: its peers' prediction, which it repeats, is off by more than a
-// threshold, something happened, or the heartbeat is due.
+// When an owner has to send: the prediction of its peers, which it repeats, is off by more than a
+// threshold, an event occurred, or the heartbeat is due.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace reckon::deadreckon {
 
-/// Why to send, strongest first; `none` = do not.
+/// Reason to send, strongest first; `none` = do not send.
 enum class SendReason : std::uint8_t {
   none,
   first,
@@ -29,43 +29,42 @@ enum class SendReason : std::uint8_t {
 /// One word for counters and traces.
 [[nodiscard]] std::string_view name(SendReason reason) noexcept;
 
-/// Heartbeat of every entity with a force model [s], whatever its kind.
+/// Heartbeat of every entity with a force model [s], of any kind.
 inline constexpr double kHapticHeartbeat = 5.0;
 
-/// An event is said again after this [s] at the latest, where changes are said again at all: who
-/// missed the one datagram with it does not see it until then.
+/// Greatest time [s] until an event is repeated, if changes are repeated at all. A peer that missed
+/// its datagram does not see it until then.
 inline constexpr double kEventRepeat = 0.6;
 
-/// A peer is silent when nothing came for this many heartbeats.
+/// A peer times out after this number of heartbeats without a datagram.
 inline constexpr double kTimeoutMultiplier = 2.4;
 
-/// Seconds between Entity States of an entity with nothing to tell, after the DIS 7 defaults: 5 s
-/// for what flies, munitions, radios and supplies, 55 s on and under land and sea, 60 s for life
-/// forms, environment, cultural features and whatever stands still.
+/// Seconds between Entity States of an entity without a change, by the DIS 7 defaults: 5 s for air
+/// and space, munitions, radios and supplies, 55 s on and under land and sea, 60 s for life forms,
+/// environment, cultural features and all entities at rest.
 [[nodiscard]] double nominal_heartbeat(const pdu::EntityType& type,
                                        bool stationary = false) noexcept;
 
-/// `nominal` spread by up to +-10 %, always the same for the same entity, so that peers that
-/// started together do not send together.
+/// `nominal` varied by up to +-10 %, always the same for an entity, so that peers that started
+/// together do not send together.
 [[nodiscard]] double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept;
 
-/// Seconds of silence after which an entity of this nominal heartbeat is gone.
+/// Seconds of silence after which an entity of this nominal heartbeat is removed.
 [[nodiscard]] constexpr double timeout(double nominal) noexcept {
   return kTimeoutMultiplier * nominal;
 }
 
-/// The decision for one owned entity. The owner runs here the predictor that its peers run, from
-/// the same numbers. Times are seconds of one steady clock of the caller's. Not synchronised, no
-/// allocation.
+/// The decision for one owned entity. The owner runs the predictor of its peers from the same
+/// numbers. Times are seconds of one steady clock of the caller. Not synchronised, no allocation.
 class UpdatePolicy {
  public:
-  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it. `first_heartbeat` [s] > 0: silence after
-  /// a change until it is said again; each repetition waits twice as long as the one before, up to
-  /// `heartbeat`. A change that is lost on the way is so mended soon, for a few packets per change.
-  /// Default: no such repetitions. `rule`, which has to outlive the policy, says when a position is
-  /// off too far. `event_repeat` [s] > 0: the same as `first_heartbeat` after an event, where it is
-  /// shorter; the repetition after it waits as long as after any change, so that events cost no
-  /// more of them.
+  /// @param heartbeat [s] > 0, as from jittered_heartbeat
+  /// @param first_heartbeat [s] > 0, silence after a change until it is repeated. Each repetition
+  /// waits twice as long as the one before, up to `heartbeat`. So a lost change is repaired soon,
+  /// for a few packets per change. Default: no such repetitions
+  /// @param rule decides when a position is off too far; outlives the policy
+  /// @param event_repeat [s] > 0, replaces `first_heartbeat` after an event if it is shorter. The
+  /// next repetition waits as long as after any change, so that events have no more repetitions
   UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat,
                const SendRule& rule = kDefaultSendRule, double event_repeat = kNever) noexcept
       : thresholds_(thresholds),
@@ -77,26 +76,26 @@ class UpdatePolicy {
   UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
       : UpdatePolicy(thresholds, heartbeat, heartbeat) {}
 
-  /// Something abrupt happened (collision, new surface, appearance): the next decide() says so.
+  /// An abrupt event (collision, new surface, appearance): the next decide() returns it.
   void event() noexcept { event_ = true; }
 
-  /// Whether to send at `now`. `truth` is the entity's actual pose, `force_error` what
-  /// ForcePredictor::error found [N], `true_force` the size of the owner's own force there [N], for
+  /// Whether to send at `now`. `truth` is the entity's actual pose, `force_error` the result of
+  /// ForcePredictor::error [N], `true_force` the size of the owner's own force [N], for
   /// Thresholds::weber. A truth that is not finite is never sent: `none`.
   [[nodiscard]] SendReason decide(const Pose& truth, double now, double force_error = 0,
                                   double true_force = 0) const noexcept;
 
-  /// Records what went out at `now` and why: the state as peers will decode it, rounded to the
-  /// wire's floats, not as it was before encoding.
+  /// Records the sent state at `now` and its reason. The state is the one that peers will decode,
+  /// rounded to the wire's floats.
   void sent(const KinematicState& as_received, double now,
             SendReason reason = SendReason::event) noexcept;
 
-  /// What peers show at `now`, before their convergence. Valid after the first sent().
+  /// The prediction of peers at `now`, before their convergence. Valid after the first sent().
   [[nodiscard]] Pose predicted(double now) const noexcept;
 
   [[nodiscard]] const Thresholds& thresholds() const noexcept { return thresholds_; }
   [[nodiscard]] double heartbeat() const noexcept { return heartbeat_; }
-  /// Silence [s] after the last sent() at which decide() says `heartbeat`.
+  /// Silence [s] after the last sent() at which decide() returns `heartbeat`.
   [[nodiscard]] double silence() const noexcept { return has_sent_ ? wait_ : 0.0; }
 
  private:

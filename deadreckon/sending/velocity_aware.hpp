@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Fast entities may be off by more: over a delay of d a viewer is off by |v| d anyway, so an error
-// of that size is bought for nothing.
+// A larger threshold for fast entities: over a delay of d a viewer is off by |v| d anyway, and a
+// smaller error is not worth its packets.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace reckon::deadreckon {
 
-/// The threshold grows by `speed_allowance` seconds of the entity's true speed.
+/// The threshold increases by the distance that the entity covers at its true speed in
+/// `speed_allowance` seconds.
 struct VelocityAware {
   struct Parameters {
     double speed_allowance = 0;  ///< [s], >= 0

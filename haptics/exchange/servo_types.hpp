@@ -131,7 +131,7 @@ struct ServoSnapshot : AccountList {
                              ///< given
   /// [J], least value of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
   double port_energy_min = 0.0;
-  /// [J], greatest error of port_energy above the truth from encoder steps; 0 without encoder.
+  /// [J], greatest error of port_energy above the truth from encoder steps; 0 without them.
   double encoder_allowance = 0.0;
   double loan = 0.0;         ///< [J], loan not yet paid back, see exchange_energy(); <=
                              ///< kGreatestLoan
