@@ -15,8 +15,8 @@ bool BundleWriter::append_raw(std::span<const std::byte> pdu) noexcept {
   return true;
 }
 
-// Some senders start every PDU at a multiple of 8 octets; the octets between are zero, and no PDU
-// starts with a zero octet, so that nothing is lost by stepping over them.
+// Some senders start every PDU at a multiple of 8 octets, with zero octets in between. No PDU
+// starts with a zero octet, so that nothing is lost if they are skipped.
 std::size_t BundleCursor::behind_padding(std::size_t offset) const noexcept {
   const std::size_t boundary = std::min((offset + 7) / 8 * 8, datagram_.size());
   const auto padding = datagram_.subspan(offset, boundary - offset);
@@ -25,8 +25,9 @@ std::size_t BundleCursor::behind_padding(std::size_t offset) const noexcept {
   return zero ? boundary : offset;
 }
 
-// A length that fits is trusted. Octets of a version that is not read may be no PDU at all, so that
-// theirs must besides lead to where a PDU may begin: the end, a version that is read, or the same.
+// A length that fits is accepted. Octets of an unsupported version may not be a PDU at all. Their
+// length must therefore also lead to a possible PDU: the end, a supported version, or the same
+// version.
 bool BundleCursor::is_credible(const PduHeader& header) const noexcept {
   const std::size_t left = datagram_.size() - offset_;
   if (left < kHeaderSize || header.length < kHeaderSize || header.length > left) return false;
@@ -49,7 +50,7 @@ bool BundleCursor::next(BundledPdu& out) noexcept {
   if (is_credible(out.header)) {
     out.bytes = rest.first(out.header.length);
   } else {
-    // Without a length to trust there is no next PDU to step to.
+    // Without a credible length there is no next PDU.
     out.bytes = rest;
     const bool starts_like_a_pdu =
         !rest.empty() && is_supported_version(std::to_integer<std::uint8_t>(rest[0]));

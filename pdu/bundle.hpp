@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bundles: several whole PDUs one after another in one datagram. The writer keeps the order that
-// older receivers survive; the reader steps by length fields and never loses a good PDU to a bad
-// neighbour whose length can be trusted.
+// Bundles: several whole PDUs in one datagram. The writer keeps the order that older receivers
+// tolerate. The reader steps by length fields and never loses a good PDU because of a bad neighbour
+// with a credible length.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 
 namespace reckon::pdu {
 
-/// Where a PDU type may stand in a bundle: Entity State 0, other standard types 1, Attribute 2,
-/// experimental 3, datagram trailer 4; a unicast frame stands in front of all. Ranks never fall
-/// within a bundle.
+/// Place of a PDU type in a bundle: Entity State 0, other standard types 1, Attribute 2,
+/// experimental 3, datagram trailer 4; a unicast frame precedes all. Ranks never fall within a
+/// bundle.
 [[nodiscard]] constexpr std::uint8_t bundle_rank(PduType type) noexcept {
   if (type == PduType::entity_state || type == PduType::unicast_frame) return 0;
   if (type == PduType::attribute) return 2;
@@ -26,14 +26,14 @@ namespace reckon::pdu {
   return is_experimental(type) ? 3 : 1;
 }
 
-/// Puts PDUs one behind another into the caller's buffer, whose size is the limit of the datagram.
-/// A call that returns false has changed nothing. No heap; one thread.
+/// Appends PDUs to the caller's buffer, whose size is the limit of the datagram. A call that
+/// returns false has changed nothing. No heap; one thread.
 class BundleWriter {
  public:
   explicit BundleWriter(std::span<std::byte> buffer) noexcept : buffer_(buffer) {}
 
-  /// Encodes `pdu` at the end; false when it does not fit, would break the order, or a trailer is
-  /// in.
+  /// Encodes `pdu` at the end. False if it does not fit, would break the order, or follows a
+  /// trailer.
   template <Pdu T>
   [[nodiscard]] bool append(const T& pdu) noexcept {
     if (!in_order(T::kPduType)) return false;
@@ -42,10 +42,10 @@ class BundleWriter {
     accept(T::kPduType, written);
     return true;
   }
-  /// Copies one encoded PDU; false too when `pdu` is not exactly one PDU by its length field.
+  /// Copies one encoded PDU. Also false if `pdu` is not exactly one PDU by its length field.
   [[nodiscard]] bool append_raw(std::span<const std::byte> pdu) noexcept;
 
-  /// Would a PDU of this type and size be taken?
+  /// Whether a PDU of this type and size would be accepted.
   [[nodiscard]] bool accepts(PduType type, std::size_t octets) const noexcept {
     return in_order(type) && octets <= left();
   }
@@ -74,26 +74,26 @@ class BundleWriter {
   std::uint8_t rank_ = 0;
 };
 
-/// One PDU as it lies in a datagram.
+/// One PDU in a datagram.
 struct BundledPdu {
-  PduHeader header;                  ///< as far as it could be read
-  std::span<const std::byte> bytes;  ///< the PDU by its length field; all that is left when broken
+  PduHeader header;                  ///< as far as it was readable
+  std::span<const std::byte> bytes;  ///< the PDU by its length field; the whole rest if damaged
   std::size_t offset = 0;            ///< of its first octet in the datagram
   std::size_t index = 0;             ///< 0 for the first PDU
-  /// none, or version (stepped over by its length), or truncated, length, stray (nothing follows).
+  /// none, or version (skipped by its length), or truncated, length, stray (nothing follows).
   DecodeError error = DecodeError::none;
 };
 
-/// Steps through a datagram. Bodies are not looked at: decode() or visit() answers for those.
+/// Iterates over a datagram. It does not check bodies: decode() or visit() does.
 class BundleCursor {
  public:
   explicit BundleCursor(std::span<const std::byte> datagram) noexcept : datagram_(datagram) {}
   [[nodiscard]] bool next(BundledPdu& out) noexcept;
 
  private:
-  /// Where reading goes on from `offset`: behind zero octets up to the next multiple of 8.
+  /// Next place to read from `offset`: after zero octets up to the next multiple of 8.
   [[nodiscard]] std::size_t behind_padding(std::size_t offset) const noexcept;
-  /// May the length in `header`, which stands at offset_, be stepped by?
+  /// Whether the length in `header`, at offset_, leads to the next PDU.
   [[nodiscard]] bool is_credible(const PduHeader& header) const noexcept;
 
   std::span<const std::byte> datagram_;
@@ -102,8 +102,8 @@ class BundleCursor {
 };
 
 /// `for (const BundledPdu& pdu : BundleReader(datagram))`. Zero octets up to the next multiple of 8
-/// are accepted between PDUs and at the end. An empty datagram gives one truncated entry, as a
-/// header is missing; every reader sees at least one entry.
+/// are accepted between PDUs and at the end. An empty datagram gives one truncated entry, because a
+/// header is missing: every reader sees at least one entry.
 class BundleReader : public CursorRange<BundleCursor, BundledPdu> {
  public:
   explicit BundleReader(std::span<const std::byte> datagram) noexcept

@@ -19,7 +19,7 @@ struct Row {
 constexpr Row values(std::string_view field, SisoTable table) { return {field, {table, B::none}}; }
 constexpr Row bits(std::string_view field, SisoBits set) { return {field, {T::none, set}}; }
 
-/// THE list of fields whose numbers have names, in the order of the fields' names.
+/// THE list of fields whose values have names, sorted by field name.
 constexpr auto kFields = std::to_array<Row>({
     values("acoustic_function", T::acoustic_function),
     values("acoustic_system_name", T::acoustic_name),
@@ -54,7 +54,7 @@ constexpr auto kFields = std::to_array<Row>({
     values("detonation_result", T::detonation_result),
     values("emitter_function", T::emitter_function),
     bits("encoding_scheme", B::encoding_scheme),
-    // An update does not say what the entity is: these bits are the same for all.
+    // An update does not state the kind of the entity: these bits are the same for all.
     bits("entity_appearance", B::radio_appearance),
     bits("environment_status", B::environment_status),
     values("event_type", T::event_type),
@@ -145,14 +145,14 @@ SisoBits status_bits(PduType type) {
   }
 }
 
-/// The low bits of an encoding scheme name a code of audio only.
+/// The low bits of an encoding scheme are an audio code only for audio.
 template <typename Pdu>
 FieldMeaning in_signal(const Pdu& pdu, std::string_view field) {
   if (field == "encoding_scheme" && pdu.encoding_scheme >> 14U != 0) return bits_of(B::data_scheme);
   return field_meaning(field);
 }
 
-/// How the detail of a modulation is named, by the major modulation.
+/// Tables for the detail of a modulation, by the major modulation.
 constexpr std::array kModulationDetails{T::none,
                                         T::amplitude_detail,
                                         T::amplitude_angle_detail,

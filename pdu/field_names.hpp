@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which names the numbers of a field have: the printer asks here for every field that it shows, so
-// that a number of any PDU gets its name by one row in field_names.cpp. Most fields are known by
-// their own name; where the values mean something else in each record, or depend on other fields of
-// it, `meaning_in` is overloaded for that record.
+// Names of the values of a field. The printer uses them for every field, so that a value of any PDU
+// gets its name by one row in field_names.cpp. Most fields are identified by their own name.
+// `meaning_in` is overloaded for a record whose values have another meaning or depend on its other
+// fields.
 #pragma once
 
 #include <string_view>
@@ -13,7 +13,7 @@
 
 namespace reckon::pdu {
 
-/// What the number in a field stands for: a value with a name, or bits that are fields themselves.
+/// Meaning of a field's value: a value with a name, or bits that are separate fields.
 struct FieldMeaning {
   SisoTable values = SisoTable::none;
   SisoBits bits = SisoBits::none;
@@ -22,7 +22,7 @@ struct FieldMeaning {
 /// By the name of the field alone.
 [[nodiscard]] FieldMeaning field_meaning(std::string_view field) noexcept;
 
-/// In a record: the same for most.
+/// In a record: the same for most records.
 template <typename Record>
 [[nodiscard]] FieldMeaning meaning_in(const Record&, std::string_view field) noexcept {
   return field_meaning(field);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Looks for NaN and infinity in a decoded PDU. Decoding keeps such values, as an inspector must
-// show them; whoever computes with a PDU from the network asks here first.
+// Search for NaN and infinity in a decoded PDU. Decoding keeps such values, because an inspector
+// must show them. Code that computes with a received PDU checks it here first.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@
 
 namespace reckon::pdu {
 
-/// Visitor: remembers the name of the first field that is not finite.
+/// Visitor: stores the name of the first field that is not finite.
 class FiniteCheck {
  public:
   template <typename T>
@@ -29,7 +29,7 @@ class FiniteCheck {
     } else if constexpr (!Scalar<T> && !kIsStdArray<T>) {
       const bool finite = first_.empty();
       fields(*this, value);
-      // "entity_location" tells more than "x".
+      // "entity_location" is more useful than "x".
       if (finite && !first_.empty()) first_ = name;
     }
   }
@@ -63,8 +63,8 @@ class FiniteCheck {
   std::string_view first_;
 };
 
-/// The name of the first field of `value` (a PDU or a record) that holds NaN or infinity; "" when
-/// all are finite. Looks into variable parameters of known kinds, haptic and energy records too.
+/// The name of the first field of `value` (a PDU or a record) with NaN or infinity; "" if all are
+/// finite. Includes variable parameters of known kinds, and haptic and energy records.
 template <typename T>
 [[nodiscard]] std::string_view first_not_finite(const T& value) noexcept {
   FiniteCheck check;

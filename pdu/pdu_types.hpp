@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of PDU types with a field table, those of daily traffic first: all 72 of IEEE
-// 1278.1-2012 and our own ten. A new PDU is one header and one row here (and one golden sample
-// for the tests); codec, printer, JSON, tests and bench follow from it.
+// THE list of PDU types with a field table, the most frequent ones first: all 72 of IEEE
+// 1278.1-2012 and our own ten. A new PDU is one header and one row here (and one golden sample for
+// the tests). Codec, printer, JSON, tests and bench use the list.
 #pragma once
 
 #include <cstddef>
@@ -86,7 +86,7 @@ struct TypeList {
   static constexpr std::size_t kSize = sizeof...(T);
 };
 
-// One row a type, so that a new one is a line of its own.
+// One row a type, so that a new one is one line.
 // clang-format off
 using PduTypes = TypeList<
     EntityState,
@@ -173,7 +173,7 @@ using PduTypes = TypeList<
     CompressedStates>;
 // clang-format on
 
-/// True where the list holds the type.
+/// Whether the list has the type.
 template <typename... T>
 [[nodiscard]] constexpr bool is_listed(PduType type, TypeList<T...>) noexcept {
   return ((T::kPduType == type) || ...);
@@ -182,8 +182,8 @@ template <typename... T>
   return is_listed(type, PduTypes{});
 }
 
-/// Decodes `bytes` (one PDU or longer) as the type its header names and calls `f(const T&)`; on any
-/// error `f` is not called. unknown_type: not in the list, the octets are the caller's to keep.
+/// Decodes `bytes` (one PDU or longer) as the type in its header and calls `f(const T&)`. On any
+/// error `f` is not called. unknown_type: not in the list, and the caller may keep the octets.
 template <typename F, typename... T>
 [[nodiscard]] DecodeError visit(std::span<const std::byte> bytes, const PduHeader& header, F&& f,
                                 TypeList<T...>) {

@@ -12,7 +12,7 @@ void put_hex_octet(TextSink& sink, unsigned octet) {
   sink.text(kHexDigits[octet & 15U]);
 }
 
-// The octets of a PDU that has no field table, or is damaged: header and the rest as they are.
+// The octets of a PDU without a field table, or of a damaged one: header and the rest.
 struct RawPdu {
   PduHeader header;
   std::span<const std::byte> body;
@@ -38,7 +38,7 @@ DecodeError print_octets(std::span<const std::byte> octets, Print&& print) {
   return error != DecodeError::none ? error : visit(octets, header, print);
 }
 
-/// Calls `f(field, its value)` for the bit fields that are to be shown.
+/// Calls `f(field, its value)` for the bit fields to be shown.
 template <typename F>
 void each_bit_field(SisoBits set, std::uint32_t word, F&& f) {
   for (std::size_t i = 0; i < siso_size(set); ++i) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// PDUs for people and for other programs: a tree of fields, or JSON with the field names of the
-// standard in snake case. Both are visitors of the field tables; what numbers are called comes from
-// field_names.hpp.
+// PDUs as text for users and programs: a tree of fields, or JSON with the field names of the
+// standard in snake case. Both are visitors of the field tables. field_names.hpp has the names of
+// values.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ void put_json_string(TextSink& sink, std::string_view text);
 /// Two hexadecimal digits an octet, no spaces.
 void put_hex(TextSink& sink, std::span<const std::byte> octets);
 
-/// One scalar as JSON: NaN and infinities, which JSON does not know, become null.
+/// One scalar as JSON: NaN and infinity, which JSON lacks, become null.
 template <Scalar T>
 void put_json_number(TextSink& sink, T value) {
   if constexpr (std::is_enum_v<T>) {
@@ -55,12 +55,12 @@ void put_json_array(TextSink& sink, const std::array<T, n>& value) {
   }
 }
 
-/// True for what may have names: enumerations and whole numbers of up to 32 bits.
+/// Whether values of this type may have names: enumerations and whole numbers of up to 32 bits.
 template <typename T>
 inline constexpr bool kMayHaveNames = std::is_enum_v<T> ||
                                       (std::is_integral_v<T> && sizeof(T) <= sizeof(std::uint32_t));
 
-/// The name of a value by the meaning of its field, else by its own type; "" where it has none.
+/// The name of a value by the meaning of its field, else by its own type; "" if it has none.
 template <Scalar T>
 std::string_view name_in(const FieldMeaning& meaning, T value) {
   if (meaning.values != SisoTable::none)
@@ -69,12 +69,12 @@ std::string_view name_in(const FieldMeaning& meaning, T value) {
   return {};
 }
 
-/// "Platform Land United States Tank": kind, domain, country and category in words, numbers where
-/// there is no name; a country and a category of 0 (other) are left out.
+/// "Platform Land United States Tank": kind, domain, country and category as words, or as numbers
+/// if they have no name. A country or category of 0 (other) is left out.
 void put_type_in_words(TextSink& sink, const EntityType& type);
 
-/// Visitor: the members of one JSON object, without its braces. Given the meanings of the fields,
-/// each number that has a name is followed by it.
+/// Visitor: the members of one JSON object, without its braces. With the meanings of the fields,
+/// each named value is followed by its name.
 class JsonFields {
  public:
   explicit JsonFields(TextSink& sink) noexcept : sink_(sink) {}
@@ -132,7 +132,7 @@ class JsonFields {
   void hex(std::string_view name, std::span<const std::byte> octets);
 
  private:
-  /// Prints the members of a part of this object that is no record.
+  /// Prints the members of a part of this object that is not a record.
   [[nodiscard]] JsonFields part() const {
     return named_ ? JsonFields(sink_, FieldMeanings()) : JsonFields(sink_);
   }
@@ -195,7 +195,7 @@ class JsonFields {
   bool first_ = true;
 };
 
-/// Says whether a record holds only numbers and arrays, so that it prints on one line.
+/// Finds whether a record has only numbers and arrays, so that it prints on one line.
 class FlatCheck {
  public:
   template <typename T>
@@ -301,7 +301,7 @@ class TreeFields {
     }
   }
   void in_parentheses(std::string_view text);
-  /// Each bit field on a line of its own, or all in parentheses on this line.
+  /// Each bit field on its own line, or all in parentheses on this line.
   void bits(SisoBits set, std::uint32_t word);
   template <typename Record>
   void record(std::string_view name, std::span<const std::byte> octets, Record typed) {
@@ -324,9 +324,9 @@ void print_json(const T& value, TextSink& sink) {
   JsonFields(sink).object(value);
 }
 
-/// The same with names: behind a number that has one, `"country":225,"country_name":"United
-/// States"`, and behind one whose bits are fields, `"entity_appearance":8,"entity_appearance_bits":
-/// {"damage":"Slight Damage"}`.
+/// The same with names. A value with a name is followed by it,
+/// `"country":225,"country_name":"United States"`. A word of bit fields is followed by their names,
+/// `"entity_appearance":8,"entity_appearance_bits": {"damage":"Slight Damage"}`.
 template <typename T>
 void print_named_json(const T& value, TextSink& sink) {
   JsonFields(sink, FieldMeanings(value)).object(value);
@@ -339,8 +339,9 @@ void print_tree(const T& value, TextSink& sink) {
   fields(tree, value);
 }
 
-/// Decodes and prints one PDU of any type. One that cannot be decoded prints its header and "body"
-/// in hexadecimal. Returns what decoding said (unknown_type for a type without a field table).
+/// Decodes and prints one PDU of any type. A PDU that cannot be decoded prints its header and
+/// "body" in hexadecimal. Returns the result of decoding (unknown_type for a type without a field
+/// table).
 DecodeError print_pdu_json(std::span<const std::byte> pdu, TextSink& sink);
 DecodeError print_pdu_tree(std::span<const std::byte> pdu, TextSink& sink);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Between std::chrono at interfaces and double seconds in formulas, for all folders.
+// Conversion between std::chrono in interfaces and double seconds in formulas, for all folders.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@ namespace reckon::pdu {
   return std::chrono::duration<double>(time).count();
 }
 
-/// The nearest integer, halves away from zero, as std::llround; beyond +-9e18 the largest or least,
-/// of NaN the least. Without a call, for it is in the way of each update several times.
+/// The nearest integer, halves away from zero, as std::llround. Beyond +-9e18 the largest or least
+/// integer, for NaN the least. Inline, because each update needs it several times.
 [[nodiscard]] constexpr std::int64_t rounded(double value) noexcept {
   if (!(value > -9e18)) return std::numeric_limits<std::int64_t>::min();
   if (value > 9e18) return std::numeric_limits<std::int64_t>::max();

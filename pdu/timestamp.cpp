@@ -10,12 +10,12 @@ using std::chrono::nanoseconds;
 constexpr std::int64_t kHour = 3'600'000'000'000;  // ns
 constexpr std::int64_t kUnits = kTimestampUnitsPerHour;
 
-// 0 to kUnits - 1: a count of 2^31 - 1 is 0 again.
+// 0 to kUnits - 1: a count of 2^31 - 1 becomes 0.
 std::int64_t count_of(std::uint32_t timestamp) noexcept {
   return static_cast<std::int64_t>(timestamp >> 1) % kUnits;
 }
 
-// units x 3.6e12 / (2^31 - 1), rounded, without leaving 64 bits: the quotient 1676 and its rest.
+// units x 3.6e12 / (2^31 - 1), rounded, within 64 bits: the quotient 1676 and its remainder.
 nanoseconds duration_of(std::int64_t units) noexcept {
   constexpr std::int64_t quotient = kHour / kUnits;
   constexpr std::int64_t rest = kHour % kUnits;

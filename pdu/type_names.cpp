@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kTypes = 256;
 
-// Text made in place, so that naming never allocates; what is too long is cut.
+// Text built in place, so that naming never allocates. Longer text is truncated.
 struct ShortText {
   std::array<char, 48> text{};
   std::size_t size = 0;
@@ -73,7 +73,7 @@ constexpr bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 constexpr bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 constexpr bool is_plain(char c) { return is_upper(c) || is_lower(c) || (c >= '0' && c <= '9'); }
 
-// "Start/Resume-R" is start_resume_r, "IsPartOf" is_part_of.
+// "Start/Resume-R" becomes start_resume_r, "IsPartOf" is_part_of.
 ShortText in_snake_case(std::string_view name) {
   ShortText out;
   char last = ' ';

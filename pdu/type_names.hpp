@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What PDU types are called: those of the standard as in SISO's list, ours as their headers say.
+// Names of PDU types: those of the standard as in SISO's list, ours as in their headers.
 #pragma once
 
 #include <string_view>
@@ -9,11 +9,11 @@
 
 namespace reckon::pdu {
 
-/// "Entity State"; "unknown type 200" where there is no name. Static text, never empty.
+/// "Entity State"; "unknown type 200" if there is no name. Static text, never empty.
 [[nodiscard]] std::string_view name(PduType type) noexcept;
-/// The name in snake case, "entity_state"; "unknown_200" where there is no name.
+/// The name in snake case, "entity_state"; "unknown_200" if there is no name.
 [[nodiscard]] std::string_view snake_name(PduType type) noexcept;
-/// True for 0 to 72, which IEEE 1278.1-2012 defines, and for our own types.
+/// Whether the type has a name: 0 to 72, which IEEE 1278.1-2012 defines, and our own types.
 [[nodiscard]] bool is_named(PduType type) noexcept;
 
 }  // namespace reckon::pdu

@@ -18,7 +18,7 @@
 
 namespace reckon::pdu {
 
-/// Aggregates that do not send for themselves.
+/// Aggregates that do not send their own states.
 struct SilentAggregateSystem {
   std::uint16_t number_of_aggregates = 0;
   std::uint16_t padding = 0;
@@ -33,7 +33,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<SilentAggregateSystem> == 12);
 
-/// How a silent entity looks.
+/// Appearance of a silent entity.
 struct SilentAppearance {
   std::uint32_t entity_appearance = 0;
 };
@@ -43,7 +43,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("entity_appearance", record.entity_appearance);
 }
 
-/// Head of a group of entities that do not send for themselves; their appearances follow.
+/// Head of a group of entities that do not send their own states; their appearances follow.
 struct SilentEntitySystem {
   std::uint16_t number_of_entities = 0;
   std::uint16_t number_of_appearance_records = 0;
@@ -89,21 +89,21 @@ struct AggregateState {
   std::span<const std::byte> entity_ids;     ///< read with records_of<EntityId>
   std::uint16_t number_of_silent_aggregate_systems = 0;
   std::uint16_t number_of_silent_entity_systems = 0;
-  /// Padding, both lists of silent systems and the variable datums; taken apart where they fit, as
-  /// of recorded products one gives its datums a wrong length and one the whole PDU.
+  /// Padding, both lists of silent systems and the variable datums. They are shown by fields if
+  /// they fit: of recorded products one gives its datums a wrong length and one the whole PDU.
   RestOfPdu silent_systems_and_variable_datums;
 };
 
-/// What AggregateState::silent_systems_and_variable_datums holds.
+/// Content of AggregateState::silent_systems_and_variable_datums.
 struct SilentSystems {
   std::span<const std::byte> padding;  ///< up to a multiple of 4 octets
   std::span<const std::byte> aggregates;
   SizedRecords<SilentEntitySystem, std::uint16_t> entities;
   VariableDatums datums;
   bool datums_fit = false;            ///< else they and their number are in `behind`
-  std::span<const std::byte> behind;  ///< else nothing, but in PDUs of a later revision
+  std::span<const std::byte> behind;  ///< else empty, except in PDUs of a later revision
 
-  /// False where the octets do not hold the systems that the PDU announces.
+  /// False if the octets do not hold the systems that the PDU announces.
   [[nodiscard]] bool take(const AggregateState& pdu) noexcept;
 };
 
@@ -137,7 +137,7 @@ inline bool SilentSystems::take(const AggregateState& pdu) noexcept {
   return true;
 }
 
-/// Shows the silent systems by their fields; false, with nothing done, where they do not fit.
+/// Shows the silent systems by their fields. False, with nothing done, if they do not fit.
 template <typename Visitor>
 bool show_silent_systems(Visitor& visitor, const AggregateState& pdu) {
   SilentSystems silent;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What an aggregate of entities is.
+// Type of an aggregate of entities.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace reckon::pdu {
 
-/// As an EntityType, but with kinds, subcategories and specifics of its own (UID 206 to 209).
+/// Like an EntityType, but with its own kinds, subcategories and specifics (UID 206 to 209).
 struct AggregateType {
   std::uint8_t kind = 0;
   EntityDomain domain = EntityDomain::other;

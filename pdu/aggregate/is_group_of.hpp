@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// IsGroupOf PDU (type 34): entities that one simulation shows as a group; their descriptions are
+// IsGroupOf PDU (type 34): entities that one simulation shows as a group. Their descriptions are
 // kept as octets.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Transfer Ownership PDU (type 35): hands the simulation of an entity to another application.
+// Transfer Ownership PDU (type 35): transfers the simulation of an entity to another application.
 #pragma once
 
 #include <cstdint>

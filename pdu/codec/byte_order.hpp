@@ -31,7 +31,7 @@ struct UnsignedOf<8> {
   using Type = std::uint64_t;
 };
 
-/// The value with its octets in the order of the wire, or back.
+/// Converts a value between host order and wire order.
 template <std::unsigned_integral T>
 [[nodiscard]] constexpr T swap_to_big_endian(T value) noexcept {
   if constexpr (std::endian::native == std::endian::big || sizeof(T) == 1) return value;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Encoding and decoding of any PDU or record that has a field table. No heap, no exceptions; the
-// fixed part is checked once and then read at offsets known while compiling, variable parts are
-// walked with bounds and stay in the datagram as views.
+// Encoding and decoding of any PDU or record with a field table. No heap, no exceptions. The fixed
+// part is checked once and then read at compile-time offsets. Variable parts are read with bounds
+// and stay in the datagram as views.
 #pragma once
 
 #include <concepts>
@@ -37,7 +37,7 @@ inline constexpr std::size_t kWireSize = [] {
   return size.size();
 }();
 
-/// Visitor that reads. The caller has checked that the fixed part is there.
+/// Visitor that reads. The caller has checked the size of the fixed part.
 class Decoder {
  public:
   explicit Decoder(std::span<const std::byte> octets) noexcept
@@ -53,7 +53,7 @@ class Decoder {
       fields(*this, value);
     }
   }
-  // Announces n records: their octets are claimed here, checked and placed by records().
+  // Announces n records. Their octets are reserved here, and checked and located by records().
   template <typename Record, typename Count>
   [[gnu::always_inline]] void count(std::string_view, std::span<const std::byte>& view,
                                     Records<Record, Count>) noexcept {
@@ -102,8 +102,8 @@ class Decoder {
   DecodeError error_ = DecodeError::none;
 };
 
-/// Visitor that adds up the octets of a PDU with its variable parts, and checks that they can be
-/// said.
+/// Visitor that adds up the octets of a PDU with its variable parts, and checks that the fields can
+/// state them.
 class WireSize {
  public:
   template <typename T>
@@ -180,13 +180,13 @@ class Encoder {
   std::byte* cursor_;
 };
 
-/// A visitor that only looks at a PDU (prints it, searches it): it may be shown the records in a
-/// part that is read and written as octets.
+/// A visitor that only inspects a PDU (prints it, searches it). It may be given the records of a
+/// part that is encoded and decoded as octets.
 template <typename Visitor, typename Pdu>
 concept Looks = std::is_const_v<Pdu> && !std::same_as<Visitor, FixedSize> &&
                 !std::same_as<Visitor, WireSize> && !std::same_as<Visitor, Encoder>;
 
-/// Octets that `pdu` takes on the wire, as its length field will say.
+/// Octets of `pdu` on the wire, as in its length field.
 template <Pdu T>
 [[nodiscard]] std::size_t wire_size(const T& pdu) noexcept {
   WireSize size;
@@ -194,10 +194,9 @@ template <Pdu T>
   return kFixedSize<T> + size.variable();
 }
 
-/// Reads exactly one PDU from the start of `bytes`, which may go on behind it. Views in `out` point
-/// into `bytes`. Octets that the length field counts but no field takes are passed over (a later
-/// revision may add fields at the end). On an error `out` is as newly made. About 5 ns for an
-/// Entity State.
+/// Reads exactly one PDU from the start of `bytes`, which may be longer. Views in `out` point into
+/// `bytes`. Octets within the length field but beyond all fields are skipped, because a later
+/// revision may add fields at the end. On an error `out` is reset. About 5 ns for an Entity State.
 template <Pdu T>
 [[nodiscard]] DecodeError decode(std::span<const std::byte> bytes, T& out) noexcept {
   DecodeError error = check_header(bytes);
@@ -219,9 +218,9 @@ template <Pdu T>
   return error;
 }
 
-/// Writes one PDU and sets length, type and family in its octets. Returns the octets written; 0,
-/// with nothing written, when they do not fit into `out`, pass 65535, or when a block of records is
-/// not a whole number of records or more than its count field can say.
+/// Writes one PDU and sets length, type and family in its octets. Returns the octets written.
+/// Returns 0, with nothing written, if they do not fit into `out` or exceed 65535, or if a block of
+/// records is not a whole number of records or exceeds its count field.
 template <Pdu T>
 [[nodiscard]] std::size_t encode(const T& pdu, std::span<std::byte> out) noexcept {
   WireSize size;
@@ -236,7 +235,7 @@ template <Pdu T>
   return total;
 }
 
-/// Reads a record of fixed size from the start of `bytes`; false when there are too few octets.
+/// Reads a record of fixed size from the start of `bytes`; false if there are too few octets.
 template <typename Record>
 [[nodiscard]] bool load_record(std::span<const std::byte> bytes, Record& out) noexcept {
   if (bytes.size() < kFixedSize<Record>) return false;
@@ -245,7 +244,7 @@ template <typename Record>
   return true;
 }
 
-/// Writes a record of fixed size at the start of `out`; returns its octets, 0 when it does not fit.
+/// Writes a record of fixed size at the start of `out`; returns its octets, 0 if it does not fit.
 template <typename Record>
 [[nodiscard]] std::size_t store_record(const Record& record, std::span<std::byte> out) noexcept {
   if (out.size() < kFixedSize<Record>) return 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What can be wrong with octets from the network: one value, one rule name and one sentence each.
+// Errors of received octets: each has one value, one rule name and one sentence.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace reckon::pdu {
 
-/// Why octets are not a good PDU. `none` is the only success; `unknown_type` is a note,
-/// `not_finite` a warning that only `examine()` gives, all others mean that the PDU was refused.
+/// Reason why octets are not a valid PDU. `none` is the only success, `unknown_type` is a note, and
+/// `not_finite` is a warning that only `examine()` returns. All others refuse the PDU.
 enum class DecodeError : std::uint8_t {
   none,
-  truncated,     ///< fewer octets than the header needs, or than the length field says
+  truncated,     ///< fewer octets than the header needs or the length field states
   length,        ///< the length field is smaller than the fixed part of this PDU type
-  count,         ///< more records are announced than octets are left
+  count,         ///< the record count needs more octets than are left
   record,        ///< a record's own length is too small or runs past the PDU
   version,       ///< a protocol or record version that is not supported
   pdu_type,      ///< the octets are a PDU or record of another type than the caller asked for
@@ -52,7 +52,7 @@ enum class DecodeError : std::uint8_t {
   return "E-INTERNAL";
 }
 
-/// One English sentence for a person.
+/// One English sentence for users.
 [[nodiscard]] constexpr std::string_view sentence(DecodeError error) noexcept {
   switch (error) {
     case DecodeError::none:
@@ -79,7 +79,7 @@ enum class DecodeError : std::uint8_t {
   return "A value outside the list of decode errors.";
 }
 
-/// The number of values, for tables of counters.
+/// Number of values, for tables of counters.
 inline constexpr std::size_t kDecodeErrors = 10;
 
 }  // namespace reckon::pdu

@@ -23,7 +23,7 @@ constexpr auto list(Text... text) {
   return std::array<std::string_view, sizeof...(Text)>{text...};
 }
 
-/// An enumeration of SISO-REF-010 whose names stand in one table.
+/// An enumeration of SISO-REF-010 with all names in one table.
 template <typename Enumeration>
 std::string_view listed(SisoTable table, Enumeration value) {
   return siso_name(table, static_cast<std::uint32_t>(value));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Enumerations of SISO-REF-010 that the PDUs here use, named as there (reprinted with permission
-// from SISO Inc.), and our own values in the experimental ranges. Any octet value is kept: an
-// enumeration read from the wire may hold a value without a name.
+// Enumerations of SISO-REF-010 for the PDUs here, with its names (reprinted with permission from
+// SISO Inc.), and our own values in the experimental ranges. Any octet value is kept: a received
+// enumeration may have a value without a name.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace reckon::pdu {
 
-/// UID 4: the 72 PDU types of IEEE 1278.1-2012, and ours (129 to 255 are experimental by use).
-/// type_names.hpp says what they are called.
+/// UID 4: the 72 PDU types of IEEE 1278.1-2012, and ours (129 to 255 are experimental by common
+/// use). type_names.hpp has their names.
 enum class PduType : std::uint8_t {
   other = 0,
   entity_state = 1,
@@ -98,7 +98,7 @@ enum class PduType : std::uint8_t {
   compressed_states = 149,
 };
 
-/// UID 5. Experimental PDUs of this project travel in family 129.
+/// UID 5. Experimental PDUs of this project have family 129.
 enum class ProtocolFamily : std::uint8_t {
   other = 0,
   entity_information_interaction = 1,
@@ -221,7 +221,7 @@ enum class ForceModelKind : std::uint8_t {
   modal = 5,
 };
 
-/// How a scene is cut into cells (ours, in Presence).
+/// Division of a scene into cells (ours, in Presence).
 enum class CellScheme : std::uint8_t {
   none = 0,
   square = 1,
@@ -230,25 +230,25 @@ enum class CellScheme : std::uint8_t {
   locales = 4
 };
 
-/// How a Compressed States PDU holds Entity States (ours).
+/// Form of the Entity States in a Compressed States PDU (ours).
 enum class CompressedForm : std::uint8_t { none = 0, compact = 1, residual = 3 };
 
-/// What a CellMembership PDU says (ours).
+/// Action of a CellMembership PDU (ours).
 enum class MembershipAction : std::uint8_t {
   none = 0,
   join = 1,
   leave = 2,
   lead = 3,
   resign = 4,
-  join_near = 5,  ///< a near group of the cells, of the row that is stated
+  join_near = 5,  ///< a near group of the cells, of the stated row
 };
 
-/// 129 to 255: experimental by common use; these go last in a bundle.
+/// 129 to 255: experimental by common use; these come last in a bundle.
 [[nodiscard]] constexpr bool is_experimental(PduType type) noexcept {
   return static_cast<std::uint8_t>(type) >= 129;
 }
 
-/// Names as in the SISO document; "" where the value has none.
+/// Names as in the SISO document; "" if the value has none.
 [[nodiscard]] std::string_view name(ProtocolFamily value) noexcept;
 [[nodiscard]] std::string_view name(DeadReckoningAlgorithm value) noexcept;
 [[nodiscard]] std::string_view name(EntityKind value) noexcept;
@@ -264,7 +264,7 @@ enum class MembershipAction : std::uint8_t {
 [[nodiscard]] std::string_view name(CellScheme value) noexcept;
 [[nodiscard]] std::string_view name(CompressedForm value) noexcept;
 [[nodiscard]] std::string_view name(MembershipAction value) noexcept;
-/// The octet of EntityType means a platform domain only where the kind is a platform.
+/// The octet of EntityType is a platform domain only if the kind is a platform.
 [[nodiscard]] std::string_view name(EntityDomain value) noexcept;
 
 }  // namespace reckon::pdu

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The idea that drives this folder: every PDU and every record names its fields ONCE, in wire
-// order, in a function template `fields(visitor, value)`. Encoding, decoding, size, printing, JSON,
-// random test values and the tables in the documentation are visitors of that one description.
+// The central idea of this folder: every PDU and every record names its fields ONCE, in wire order,
+// in a function template `fields(visitor, value)`. Encoding, decoding, size, printing, JSON, random
+// test values and the tables in the documentation are visitors of that description.
 //
-// What a visitor offers:
+// Interface of a visitor:
 //   visitor("name", value)              a number, an enumeration, an array of octets or characters,
 //                                       or a record that has its own `fields`
 //   visitor.count("name", span, Records<T, Count>{})
@@ -13,9 +13,9 @@
 //                                       the records themselves: kFixedSize<T> octets each
 //   visitor.walked("name", view)        records of varying size; `view` has `count` and `bytes`
 //                                       and `static WalkResult walk(count, octets)`
-// and `when(present, visitor, "name", value)` is a field that is there only where others say so.
-// Fixed fields come before all variable parts and conditional fields, as in every PDU of the
-// standard; behind those even a field that is always there is a `when(true, ...)`.
+// `when(present, visitor, "name", value)` is a field that is present only if other fields say so.
+// Fixed fields precede all variable parts and conditional fields, as in every PDU of the standard.
+// After those, a field that is always present is a `when(true, ...)`.
 #pragma once
 
 #include <array>
@@ -29,11 +29,11 @@
 
 namespace reckon::pdu {
 
-/// T or const T: lets one `fields` serve readers and writers.
+/// T or const T: one `fields` serves readers and writers.
 template <typename Candidate, typename T>
 concept Is = std::same_as<std::remove_const_t<Candidate>, T>;
 
-/// One of several T, or const: for a list of fields that several records share.
+/// One of several T, or const: for field lists that several records share.
 template <typename Candidate, typename... T>
 concept IsOneOf = (Is<Candidate, T> || ...);
 
@@ -48,7 +48,7 @@ struct Records {
   using Count = CountType;
 };
 
-/// Octets that `count` records of varying size take, or why they do not fit.
+/// Octets of `count` records of varying size, or the reason why they do not fit.
 struct WalkResult {
   std::size_t size = 0;
   DecodeError error = DecodeError::none;
@@ -59,8 +59,9 @@ inline constexpr bool kIsStdArray = false;
 template <typename T, std::size_t n>
 inline constexpr bool kIsStdArray<std::array<T, n>> = true;
 
-/// A field that is on the wire only where `present` says so, from fields in front of it. Visitors
-/// that measure or read have a `when` of their own; the others see it as any field, or not at all.
+/// A field that is on the wire only if `present` is true, which follows from fields before it.
+/// Visitors that measure or read have their own `when`. For the others it is a normal field, or
+/// absent.
 template <typename Visitor, typename T>
 constexpr void when(bool present, Visitor& visitor, std::string_view name, T& value) {
   if constexpr (requires { visitor.when(present, name, value); }) {
@@ -70,7 +71,7 @@ constexpr void when(bool present, Visitor& visitor, std::string_view name, T& va
   }
 }
 
-/// A variable part that is there only where `present` says so.
+/// A variable part that is on the wire only if `present` is true.
 template <typename Visitor, typename View>
 constexpr void walked_when(bool present, Visitor& visitor, std::string_view name, View& view) {
   if (present) {
@@ -80,7 +81,7 @@ constexpr void walked_when(bool present, Visitor& visitor, std::string_view name
   }
 }
 
-/// Adds up the fixed part of a record or PDU; usable while compiling.
+/// Adds up the fixed part of a record or PDU; usable at compile time.
 class FixedSize {
  public:
   template <typename T>
@@ -113,7 +114,7 @@ class FixedSize {
   }
 
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
-  /// True while no fixed field came behind a variable part.
+  /// Whether no fixed field followed a variable part.
   [[nodiscard]] constexpr bool ordered() const { return ordered_; }
 
  private:
@@ -135,7 +136,7 @@ consteval std::size_t fixed_size() {
   return size.ordered() ? size.size() : throw "a fixed field stands behind a variable part";
 }
 
-/// Octets of the fixed part of a PDU, all octets of a record; known while compiling.
+/// Octets of the fixed part of a PDU, or of a whole record; a compile-time constant.
 template <typename T>
 inline constexpr std::size_t kFixedSize = fixed_size<T>();
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Variable parts that stay octets: a block whose length stands in the fixed part, and the rest of a
-// PDU whose layout depends on its content. Views for `visitor.walked`; printed in hexadecimal.
+// Variable parts that stay octets: a block whose length is in the fixed part, and the rest of a PDU
+// whose layout depends on its content. Views for `visitor.walked`; printed in hexadecimal.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,11 @@ namespace reckon::pdu {
 /// `count` octets.
 template <typename CountType>
 struct OctetBlock {
-  static constexpr std::string_view kUnit = "octets";  ///< of the count
+  static constexpr std::string_view kUnit = "octets";  ///< unit of the count
   CountType count = 0;
   std::span<const std::byte> bytes;
 
-  /// A block that says its own length.
+  /// A block with the count of its own octets.
   [[nodiscard]] static OctetBlock of(std::span<const std::byte> octets) noexcept {
     return {static_cast<CountType>(octets.size()), octets};
   }
@@ -36,12 +36,12 @@ struct OctetBlock {
   [[nodiscard]] std::span<const std::byte> value() const noexcept { return bytes; }
 };
 
-/// `count` bits in whole octets, padded to a multiple of 4 octets (which the end of the PDU may
-/// lack).
+/// `count` bits in whole octets, padded to a multiple of 4 octets (the padding may be missing at
+/// the end of the PDU).
 struct BitBlock {
-  static constexpr std::string_view kUnit = "bits";  ///< of the count
+  static constexpr std::string_view kUnit = "bits";  ///< unit of the count
   std::uint16_t count = 0;
-  std::span<const std::byte> bytes;  ///< with the padding
+  std::span<const std::byte> bytes;  ///< including the padding
 
   [[nodiscard]] static WalkResult walk(std::size_t count,
                                        std::span<const std::byte> octets) noexcept {
@@ -49,13 +49,13 @@ struct BitBlock {
     if (held > octets.size()) return {0, DecodeError::count};
     return {std::min((held + 3) / 4 * 4, octets.size()), DecodeError::none};
   }
-  /// The octets that hold the bits, without the padding.
+  /// The octets of the bits, without the padding.
   [[nodiscard]] std::span<const std::byte> value() const noexcept {
     return bytes.first(std::min((std::size_t{count} + 7) / 8, bytes.size()));
   }
 };
 
-/// All octets up to the end of the PDU, kept as they are.
+/// All octets up to the end of the PDU, unchanged.
 struct RestOfPdu {
   static constexpr std::string_view kUnit = "octets";
   static constexpr std::size_t count = 0;
@@ -67,14 +67,14 @@ struct RestOfPdu {
   [[nodiscard]] std::span<const std::byte> value() const noexcept { return bytes; }
 };
 
-/// A view that is shown as octets.
+/// A view that is printed as octets.
 template <typename View>
 concept OctetView = requires(const View& view) {
   { view.value() } -> std::same_as<std::span<const std::byte>>;
 };
 
-/// For a body that holds a `Record`, octets behind it included: the fields of that record, or all
-/// octets as "body" where there are too few for one.
+/// For a body with a `Record`, further octets included: the fields of that record. A body that is
+/// too short is shown as octets named "body".
 template <typename Record, typename Visitor>
 void show_as(Visitor& visitor, std::span<const std::byte> body) {
   Record record;
@@ -84,8 +84,7 @@ void show_as(Visitor& visitor, std::span<const std::byte> body) {
   if (!behind.empty()) visitor.walked("further_octets", RestOfPdu{behind});
 }
 
-/// A block shown as a `Record` where it has the size of one. False where it is not, and then
-/// nothing was done.
+/// Shows a block as a `Record` if it has the size of one. Otherwise returns false and does nothing.
 template <typename Record, typename Visitor, typename View>
 bool block_as(Visitor& visitor, std::string_view name, const View& block) {
   if (block.bytes.size() != kFixedSize<Record>) return false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The 12 octets with which every PDU begins (IEEE 1278.1-2012 6.2.66).
+// The first 12 octets of every PDU (IEEE 1278.1-2012 6.2.66).
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,18 @@
 
 namespace reckon::pdu {
 
-inline constexpr std::uint8_t kProtocolVersion = 7;        ///< IEEE 1278.1-2012, what we send
-inline constexpr std::uint8_t kOldestProtocolVersion = 5;  ///< IEEE 1278.1-1995, oldest we read
+inline constexpr std::uint8_t kProtocolVersion = 7;        ///< IEEE 1278.1-2012, the version that
+                                                           ///< we send
+inline constexpr std::uint8_t kOldestProtocolVersion = 5;  ///< IEEE 1278.1-1995, the oldest that we
+                                                           ///< read
 inline constexpr std::size_t kHeaderSize = 12;             ///< octets
-inline constexpr std::size_t kMaxPduSize = 65535;          ///< octets the length field can say
+inline constexpr std::size_t kMaxPduSize = 65535;          ///< octets, limit of the length field
 
 inline constexpr std::uint8_t kStatusTransferredEntity = 0x01;
 /// Coupled extension (CEI): an Attribute PDU in the same datagram extends this PDU.
 inline constexpr std::uint8_t kStatusCoupledExtension = 0x08;
 
-/// On encoding, length, pdu_type and protocol_family are written from the PDU itself.
+/// Encoding sets length, pdu_type and protocol_family from the PDU itself.
 struct PduHeader {
   std::uint8_t protocol_version = kProtocolVersion;
   std::uint8_t exercise_id = 1;
@@ -31,7 +33,7 @@ struct PduHeader {
   ProtocolFamily protocol_family = ProtocolFamily::other;
   /// 31 bits of 3600 s / (2^31 - 1), low bit 1 = absolute; see timestamp.hpp.
   std::uint32_t timestamp = 0;
-  /// Whole PDU, header included [octets].
+  /// Whole PDU including the header [octets].
   std::uint16_t length = 0;
   std::uint8_t pdu_status = 0;
   std::uint8_t padding = 0;
@@ -42,7 +44,7 @@ struct PduHeader {
   friend constexpr bool operator==(const PduHeader&, const PduHeader&) = default;
 };
 
-/// The header a PDU of type Pdu starts with.
+/// The initial header of a PDU of type Pdu.
 template <typename Pdu>
 [[nodiscard]] constexpr PduHeader header_of() noexcept {
   PduHeader header;
@@ -63,17 +65,18 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("padding", record.padding);
 }
 
-/// True for the versions whose layout is read here: IEEE 1278.1-1995, 1278.1A-1998 and 1278.1-2012.
+/// Whether the layout of this version is read here: IEEE 1278.1-1995, 1278.1A-1998 and 1278.1-2012.
 [[nodiscard]] constexpr bool is_supported_version(std::uint8_t protocol_version) noexcept {
   return protocol_version >= kOldestProtocolVersion && protocol_version <= kProtocolVersion;
 }
 
-/// True for the older versions, some of whose fields mean something else.
+/// Whether the version is an older one, in which some fields have another meaning.
 [[nodiscard]] constexpr bool is_before_dis7(const PduHeader& header) noexcept {
   return header.protocol_version < 7;
 }
 
-/// Checks version and length field against the octets at hand: truncated, version, length or none.
+/// Checks version and length field against the available octets: truncated, version, length or
+/// none.
 [[nodiscard]] inline DecodeError check_header(std::span<const std::byte> bytes) noexcept {
   if (bytes.size() < kHeaderSize) return DecodeError::truncated;
   if (!is_supported_version(load_big_endian<std::uint8_t>(bytes.data())))
@@ -83,8 +86,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
   return length > bytes.size() ? DecodeError::truncated : DecodeError::none;
 }
 
-/// Reads the header alone, with the checks of check_header. `out` is filled whenever 12 octets are
-/// there, whatever the answer, and is as newly made else.
+/// Reads only the header, with the checks of check_header. `out` is filled whenever there are 12
+/// octets, whatever the result; otherwise it is reset.
 [[nodiscard]] DecodeError decode_header(std::span<const std::byte> bytes, PduHeader& out) noexcept;
 
 }  // namespace reckon::pdu

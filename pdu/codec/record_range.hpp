@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Iteration over records that lie one after another in a datagram, without copying the block.
+// Iteration over consecutive records in a datagram, without a copy of the block.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace reckon::pdu {
 
-/// Range-for over anything with `bool next(Value&)`; the cursor is copied, so a range may be walked
-/// more than once.
+/// Range-for over any cursor with `bool next(Value&)`. The cursor is copied, so that a range can be
+/// iterated several times.
 template <typename Cursor, typename Value>
 class CursorRange {
  public:
@@ -22,7 +22,7 @@ class CursorRange {
     using difference_type = std::ptrdiff_t;
 
     explicit Iterator(const Cursor& cursor) noexcept : cursor_(cursor) { ++*this; }
-    // By value, so that `*range.begin()` never refers into an iterator that is gone.
+    // By value, so that `*range.begin()` never refers to an expired iterator.
     [[nodiscard]] Value operator*() const noexcept { return value_; }
     Iterator& operator++() noexcept {
       valid_ = cursor_.next(value_);

@@ -13,7 +13,7 @@
 
 namespace reckon::pdu {
 
-/// Site and application: one running simulation.
+/// Site and application: one simulation application.
 struct SimulationAddress {
   std::uint16_t site = 0;
   std::uint16_t application = 0;
@@ -21,14 +21,14 @@ struct SimulationAddress {
   friend constexpr auto operator<=>(const SimulationAddress&, const SimulationAddress&) = default;
 };
 
-/// Who an entity is: unique in an exercise. Written "site:application:entity".
+/// Entity identifier, unique in an exercise. Written "site:application:entity".
 struct EntityId {
   std::uint16_t site = 0;
   std::uint16_t application = 0;
   std::uint16_t entity = 0;
 
   [[nodiscard]] constexpr SimulationAddress simulation() const { return {site, application}; }
-  /// All three numbers in the lower 48 bits: no two IDs share it.
+  /// All three numbers in the lower 48 bits; unique for each ID.
   [[nodiscard]] constexpr std::uint64_t key() const noexcept {
     return std::uint64_t{site} << 32 | std::uint64_t{application} << 16 | entity;
   }
@@ -38,7 +38,7 @@ struct EntityId {
 /// Site 65535, application 65535, entity 65535: every entity of the exercise.
 inline constexpr EntityId kAllEntities{0xFFFF, 0xFFFF, 0xFFFF};
 
-/// Ties PDUs about one event together; numbered by the issuing simulation.
+/// Links the PDUs about one event; numbered by the issuing simulation.
 struct EventId {
   std::uint16_t site = 0;
   std::uint16_t application = 0;
@@ -47,7 +47,7 @@ struct EventId {
   friend constexpr auto operator<=>(const EventId&, const EventId&) = default;
 };
 
-/// What an entity is (SISO-REF-010).
+/// Type of an entity (SISO-REF-010).
 struct EntityType {
   EntityKind kind = EntityKind::other;
   EntityDomain domain = EntityDomain::other;
@@ -69,7 +69,7 @@ struct WorldCoordinates {
   friend constexpr bool operator==(const WorldCoordinates&, const WorldCoordinates&) = default;
 };
 
-/// Three 32-bit floats; unit and frame as the field says.
+/// Three 32-bit floats; unit and frame depend on the field.
 struct Vector3Float {
   float x = 0.0F;
   float y = 0.0F;

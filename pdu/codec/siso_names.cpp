@@ -9,14 +9,14 @@
 namespace reckon::pdu {
 namespace {
 
-// Where a table keeps its values: nowhere (they follow each other), or in one of two lists.
+// Storage of a table's values: none (they are consecutive), or one of two lists.
 enum class Values : std::uint8_t { dense, narrow, wide };
 
 struct Table {
   std::uint16_t first;  // name
   std::uint16_t count;
   Values values;
-  std::uint16_t place;  // the first value, or where it is in its list
+  std::uint16_t place;  // the first value, or its position in the list
 };
 
 struct BitRow {
@@ -48,7 +48,7 @@ std::size_t find(std::span<const Value> values, std::uint32_t value) {
   return static_cast<std::size_t>(found - values.begin());
 }
 
-/// The place of a value in its table; the size of the table where it has no name.
+/// Position of a value in its table; the size of the table if it has no name.
 std::size_t place_of(const Table& table, std::uint32_t value) {
   switch (table.values) {
     case Values::dense:
@@ -61,7 +61,7 @@ std::size_t place_of(const Table& table, std::uint32_t value) {
   return table.count;
 }
 
-/// By domain; beyond the list: none.
+/// By domain; none beyond the list.
 template <typename Choice>
 Choice by_domain(const std::array<Choice, 6>& choices, EntityDomain domain) {
   const auto i = static_cast<std::size_t>(domain);

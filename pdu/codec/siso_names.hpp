@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the values of SISO-REF-010 are called (reprinted with permission from SISO Inc.). The names
-// are listed in siso_names.txt, and make_siso_names.py makes tables of them when the project is
-// built. enumerations.hpp names the values that PDUs of this library use as types; here is the
-// rest.
+// Names of the values of SISO-REF-010 (reprinted with permission from SISO Inc.). They are listed
+// in siso_names.txt, and make_siso_names.py generates tables from them in the build.
+// enumerations.hpp has the values that PDUs of this library use as types; the others are here.
 #pragma once
 
 #include <cstddef>
@@ -202,7 +201,7 @@ enum class SisoTable : std::uint8_t {
   end_
 };
 
-/// One word whose bits are fields of their own; `none` has no fields.
+/// A word whose bits are separate fields; `none` has no fields.
 enum class SisoBits : std::uint8_t {
   none,
   land_appearance,
@@ -248,7 +247,7 @@ enum class SisoBits : std::uint8_t {
   end_
 };
 
-/// A value and what it is called.
+/// A value and its name.
 struct SisoEntry {
   std::uint32_t value = 0;
   std::string_view name;
@@ -266,30 +265,30 @@ struct SisoBitField {
   }
 };
 
-/// The name of a value, "" where it has none. Static text; no heap, at most 9 comparisons, and one
-/// for a table without gaps.
+/// The name of a value, "" if it has none. Static text; no heap, at most 9 comparisons, or one for
+/// a table without gaps.
 [[nodiscard]] std::string_view siso_name(SisoTable table, std::uint32_t value) noexcept;
 
-/// How many values have names.
+/// Number of values with names.
 [[nodiscard]] std::size_t siso_size(SisoTable table) noexcept;
-/// The i-th of them, ascending by value; i < siso_size(table).
+/// The i-th value with a name, ascending by value; i < siso_size(table).
 [[nodiscard]] SisoEntry siso_entry(SisoTable table, std::size_t i) noexcept;
 
-/// How many fields a word has that are named.
+/// Number of named fields of a word.
 [[nodiscard]] std::size_t siso_size(SisoBits bits) noexcept;
-/// The i-th of them; i < siso_size(bits).
+/// The i-th named field; i < siso_size(bits).
 [[nodiscard]] SisoBitField siso_bit_field(SisoBits bits, std::size_t i) noexcept;
-/// True where a field at 0 says something too, as a part's metric; else only others are shown.
+/// Whether a field with the value 0 is shown too, because 0 has a meaning, such as a part's metric.
 [[nodiscard]] bool shows_zeros(SisoBits bits) noexcept;
 
-/// Which table names the domain of an entity of this kind.
+/// Table of the domains for this kind of entity.
 [[nodiscard]] SisoTable domain_table(EntityKind kind) noexcept;
-/// Which table names the category of an entity of this kind and domain.
+/// Table of the categories for this kind and domain.
 [[nodiscard]] SisoTable category_table(EntityKind kind, EntityDomain domain) noexcept;
-/// Which fields the appearance of such an entity has; life forms of category 200 up are animals.
+/// Appearance fields of such an entity; life forms of category 200 and above are animals.
 [[nodiscard]] SisoBits appearance_bits(EntityKind kind, EntityDomain domain,
                                        std::uint8_t category) noexcept;
-/// Which fields the capabilities of such an entity have.
+/// Capability fields of such an entity.
 [[nodiscard]] SisoBits capability_bits(EntityKind kind, EntityDomain domain) noexcept;
 
 }  // namespace reckon::pdu

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Records of varying size that begin with a fixed head which says how long they are: emitter
-// systems, environment records, IFF layers, standard variable records. A head is a struct with a
-// field table and
-//   WalkResult extent(octets) const   octets that follow the head, padding included, of those at
-//                                     hand; the error where they do not fit
-//   std::size_t claim(n)              sets its length fields for a body of about n octets that
-//                                     holds no parts; returns the octets of the body
-//                                     (test values are made with it; not for a head only shown)
-// and, where the body has known parts, `parts(visitor, head, body)` in the way of `fields`.
+// Records of varying size with a fixed head that states their length: emitter systems, environment
+// records, IFF layers, standard variable records. A head is a struct with a field table and
+//   WalkResult extent(octets) const   octets after the head, padding included, that belong to the
+//                                     record; an error if they do not fit into `octets`
+//   std::size_t claim(n)              sets its length fields for a body of about n octets without
+//                                     parts; returns the octets of the body
+//                                     (for test values; not for a head that is only shown)
+// and, if the body has known parts, `parts(visitor, head, body)` with the signature of `fields`.
 #pragma once
 
 #include <cstddef>
@@ -21,20 +20,20 @@
 
 namespace reckon::pdu {
 
-/// One record as it lies in the datagram.
+/// One record in the datagram.
 template <typename HeadType>
 struct SizedRecord {
   HeadType head;
-  std::span<const std::byte> body;  ///< behind the head, with padding
+  std::span<const std::byte> body;  ///< after the head, with padding
 };
 
-/// Steps through `count` sized records with bounds.
+/// Iterates over `count` sized records with bounds.
 template <typename Head>
 class SizedRecordCursor {
  public:
   SizedRecordCursor(std::size_t count, std::span<const std::byte> rest) noexcept
       : count_(count), rest_(rest) {}
-  /// False at the end and at the first record that does not fit (then error() says why).
+  /// False at the end and at the first record that does not fit (then error() has the reason).
   [[nodiscard]] bool next(SizedRecord<Head>& out) noexcept {
     if (count_ == 0) return false;
     if (!load_record(rest_, out.head)) {
@@ -70,7 +69,7 @@ template <typename Head>
   return {octets.size() - cursor.rest().size(), cursor.error()};
 }
 
-/// `count` records, one behind another. `for (const auto& [head, body] : view.records())`
+/// `count` consecutive records. `for (const auto& [head, body] : view.records())`
 template <typename HeadType, typename CountType>
 struct SizedRecords {
   using Head = HeadType;
@@ -87,7 +86,7 @@ struct SizedRecords {
   }
 };
 
-/// Records up to the end of the PDU, which does not count them.
+/// Records up to the end of the PDU, which does not state their number.
 template <typename HeadType>
 struct SizedRecordsToEnd {
   using Head = HeadType;
@@ -103,8 +102,8 @@ struct SizedRecordsToEnd {
     }
     return {octets.size(), DecodeError::none};
   }
-  // Each record has a head of at least one octet, so that this count is never too small; the
-  // cursor ends where the octets do.
+  // Each record has a head of at least one octet, so that this count is never too small. The cursor
+  // ends with the octets.
   [[nodiscard]] auto records() const noexcept {
     return CursorRange<SizedRecordCursor<Head>, SizedRecord<Head>>(
         SizedRecordCursor<Head>(bytes.size(), bytes));
@@ -122,15 +121,15 @@ concept HasParts = requires(Visitor& visitor, const Head& head, std::span<const 
   parts(visitor, head, body);
 };
 
-/// The octets behind a head of `fixed` octets when the whole record takes `total`.
+/// The octets after a head of `fixed` octets if the whole record has `total`.
 [[nodiscard]] constexpr WalkResult behind_head(std::size_t total, std::size_t fixed) noexcept {
   if (total < fixed) return {0, DecodeError::record};
   return {total - fixed, DecodeError::none};
 }
 
-/// For a head of `fixed` octets whose body holds `count` sized parts: the body as long as the
-/// length field says, in units of 4 octets and with all parts in it, or, where that is 0, as the
-/// parts.
+/// Extent for a head of `fixed` octets whose body has `count` sized parts. The length field, in
+/// units of 4 octets, gives the body, and all parts must fit into it. If it is 0, the parts give
+/// the body.
 template <typename Part>
 [[nodiscard]] WalkResult extent_by_parts(std::size_t length_words, std::size_t fixed,
                                          std::size_t count,

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Records that several PDUs carry under a type of SISO-REF-010 (UID 66): their bodies are kept as
-// octets.
+// Records of several PDUs with a type of SISO-REF-010 (UID 66). Their bodies are kept as octets.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +33,8 @@ inline WalkResult StandardVariableRecord::extent(std::span<const std::byte>) con
   return behind_head(record_length, kFixedSize<StandardVariableRecord>);
 }
 
-/// Head of a record set of the reliability family and of Transfer Ownership: `record_count` equal
-/// values, padded to a multiple of 8 octets.
+/// Head of a record set of the reliability family and of Transfer Ownership: `record_count` values
+/// of equal size, padded to a multiple of 8 octets.
 struct RecordSet {
   std::uint32_t record_id = 0;
   std::uint32_t record_set_serial_number = 0;

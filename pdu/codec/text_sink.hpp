@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where printed text goes: a fixed buffer, which cuts and says so, or a string that grows.
+// Destination of printed text: a fixed buffer, which truncates and reports it, or a growing string.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace reckon::pdu {
 
-/// Takes text and numbers; with a buffer it allocates nothing. Never throws with a buffer.
+/// Takes text and numbers. With a buffer it neither allocates nor throws.
 class TextSink {
  public:
   explicit TextSink(std::span<char> buffer) noexcept : buffer_(buffer) {}
@@ -29,7 +29,7 @@ class TextSink {
     truncated_ = truncated_ || taken < value.size();
   }
   void text(char value) { text(std::string_view(&value, 1)); }
-  /// Shortest text that reads back as the same number.
+  /// Shortest text that converts back to the same number.
   template <typename T>
   void number(T value) {
     char digits[40];
@@ -37,9 +37,9 @@ class TextSink {
     text(std::string_view(digits, static_cast<std::size_t>(end - digits)));
   }
 
-  /// What the buffer holds; empty for a string sink.
+  /// Content of the buffer; empty for a string sink.
   [[nodiscard]] std::string_view view() const noexcept { return {buffer_.data(), size_}; }
-  /// True when the buffer was too small for all of it.
+  /// Whether the buffer was too small for the text.
   [[nodiscard]] bool truncated() const noexcept { return truncated_; }
 
  private:

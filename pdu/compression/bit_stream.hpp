@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of any width in bits, one behind another, the highest bit first: under the compressed
-// forms of an Entity State.
+// Consecutive numbers of any width in bits, highest bit first. Used by the compressed forms of an
+// Entity State.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace reckon::pdu {
 
-/// Three numbers of so many bits are put and taken at once.
+/// Greatest width at which three numbers are written and read at once.
 inline constexpr unsigned kThreeTogether = 18;
 
-/// Writes into octets of the caller; what does not fit is not written, and reported by finish().
+/// Writes into octets of the caller. Data that do not fit are not written, and finish() reports it.
 class BitWriter {
  public:
   explicit BitWriter(std::span<std::byte> out) noexcept : out_(out) {}
 
-  /// The lowest `bits` of `value`, 0 .. 56. Without a branch where 8 octets of room are left.
+  /// Writes the lowest `bits` of `value`, 0 .. 56. Without a branch if 8 octets of room are left.
   void put(std::uint64_t value, unsigned bits) noexcept {
     const unsigned count = count_ + bits;
     held_ |= (value & ((std::uint64_t{1} << bits) - 1)) << (63 - count) << 1;
@@ -35,7 +35,7 @@ class BitWriter {
     held_ <<= count / 8 * 8;
     count_ = count % 8;
   }
-  /// The lowest `bits` of each, 0 .. 56.
+  /// Writes the lowest `bits` of each, 0 .. 56.
   void put_three(const std::array<std::uint64_t, 3>& values, unsigned bits) noexcept {
     if (bits > kThreeTogether) [[unlikely]] {
       for (const std::uint64_t value : values) put(value, bits);
@@ -44,7 +44,7 @@ class BitWriter {
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     put(((values[0] & mask) << bits | (values[1] & mask)) << bits | (values[2] & mask), 3 * bits);
   }
-  /// Fills the last octet up with zeros; octets in all, or 0 where they did not fit.
+  /// Fills the last octet with zeros. Returns the number of octets, or 0 if they did not fit.
   [[nodiscard]] std::size_t finish() const noexcept {
     const std::size_t size = size_ + (count_ > 0 ? 1 : 0);
     return size <= out_.size() ? size : 0;
@@ -59,11 +59,11 @@ class BitWriter {
 
   std::span<std::byte> out_;
   std::size_t size_ = 0;    // whole octets
-  std::uint64_t held_ = 0;  // those behind them, the highest bits first
-  unsigned count_ = 0;      // of bits held, below 8
+  std::uint64_t held_ = 0;  // the bits after them, highest first
+  unsigned count_ = 0;      // number of bits held, below 8
 };
 
-/// Reads what a BitWriter wrote. Behind the end it gives zeros, and overran() says so.
+/// Reads the output of a BitWriter. Beyond the end it returns zeros, and overran() is true.
 class BitReader {
  public:
   explicit BitReader(std::span<const std::byte> in) noexcept
@@ -71,7 +71,7 @@ class BitReader {
     if (in.size() < few_.size()) std::ranges::copy(in, few_.begin());
   }
 
-  /// `bits` 0 .. 32.
+  /// Reads `bits` 0 .. 32.
   [[nodiscard]] std::uint32_t take(unsigned bits) noexcept {
     return static_cast<std::uint32_t>(take_wide(bits));
   }
@@ -81,7 +81,8 @@ class BitReader {
     at_ += bits;
     return word >> 1 >> (63 - bits);
   }
-  /// Three numbers in their lowest bits, `bits` 0 .. 56 of each; what is above those is any.
+  /// Reads three numbers into their lowest bits, `bits` 0 .. 56 of each; the bits above are
+  /// undefined.
   [[nodiscard]] std::array<std::uint64_t, 3> take_three(unsigned bits) noexcept {
     if (bits > kThreeTogether) [[unlikely]] {
       const std::uint64_t first = take_wide(bits), second = take_wide(bits);
@@ -96,11 +97,11 @@ class BitReader {
     return static_cast<std::int32_t>((take(bits) ^ half) - half);
   }
   [[nodiscard]] bool overran() const noexcept { return at_ > 8 * in_.size(); }
-  /// Whether nothing is left but the zeros that fill the last octet up.
+  /// Whether only the zeros that fill the last octet are left.
   [[nodiscard]] bool at_end() const noexcept { return !overran() && 8 * in_.size() - at_ < 8; }
 
  private:
-  // The 8 octets from there; beyond the end zeros.
+  // The 8 octets from there; zeros beyond the end.
   [[nodiscard]] std::uint64_t octets_at(std::size_t octet) const noexcept {
     const std::byte* octets = in_.size() < few_.size() ? few_.data() : in_.data();
     const std::size_t from = std::min(octet, last_);
@@ -109,9 +110,9 @@ class BitReader {
   }
 
   std::span<const std::byte> in_;
-  std::array<std::byte, 8> few_{};  // all there are where they are fewer than 8
-  std::size_t last_;                // where the last 8 octets begin
-  std::size_t at_ = 0;              // bits taken, those behind the end included
+  std::array<std::byte, 8> few_{};  // all octets, if there are fewer than 8
+  std::size_t last_;                // begin of the last 8 octets
+  std::size_t at_ = 0;              // bits read, including those beyond the end
 };
 
 }  // namespace reckon::pdu

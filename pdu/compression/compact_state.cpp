@@ -17,7 +17,7 @@ constexpr unsigned kAlgorithmBits = 8, kLocationWidth = 6, kWidth = 5;
 // The other fields, 8 octets in a number, the first one in its highest bits.
 using Rest = std::array<std::uint64_t, kGroups>;
 
-// What a body says; whole where it is a body.
+// Content of a body. `whole`: the octets are exactly one body.
 struct Content {
   StateNumbers numbers;
   Rest rest;
@@ -54,7 +54,7 @@ void set_rest(const Rest& rest, EntityState& state) noexcept {
   rest_fields(decoder, state);
 }
 
-// Which groups hold anything, which of their octets do, and these.
+// Writes which groups are not zero, which of their octets are not zero, and these octets.
 void put_rest(BitWriter& out, const Rest& rest) noexcept {
   unsigned groups = 0;
   for (std::size_t group = 0; group < kGroups; ++group) {
@@ -78,7 +78,7 @@ void put_rest(BitWriter& out, const Rest& rest) noexcept {
   }
 }
 
-// Of 8 bits; std::popcount() calls a function where the processor is any.
+// Number of ones in 8 bits; std::popcount() calls a function on a generic processor.
 unsigned ones_of(unsigned map) noexcept {
   const unsigned pairs = map - (map >> 1 & 0x55U);
   const unsigned fours = (pairs & 0x33U) + (pairs >> 2 & 0x33U);
@@ -103,7 +103,7 @@ Rest take_rest(BitReader& in) noexcept {
   return rest;
 }
 
-// Bits of two's complement that hold all three.
+// Bits of two's complement that suffice for all three.
 template <typename Number>
 unsigned width_of(const std::array<Number, 3>& numbers) noexcept {
   std::uint64_t all = 0;
@@ -123,7 +123,7 @@ void put_numbers(BitWriter& out, const Numbers3& numbers) noexcept {
                 width);
 }
 
-// Inline, as read() is, so that numbers go from register to register.
+// Inline, as read() is, so that numbers stay in registers.
 [[gnu::always_inline]] inline Numbers3 take_numbers(BitReader& in) noexcept {
   const unsigned width = in.take(kWidth);
   const std::array<std::uint64_t, 3> bits = in.take_three(width);

@@ -13,22 +13,22 @@ namespace {
 constexpr double kMostNumber = 4194304.0;           // 2^22: a float32 holds it and its half
 constexpr double kMostLocation = 17592186044416.0;  // 2^44
 
-// To the nearest: adding 1.5 * 2^52 leaves no fraction, and the number in the lowest bits. Good
-// below 2^51; else some number, for the difference wraps.
+// To the nearest integer: adding 1.5 * 2^52 leaves no fraction, and the number in the lowest bits.
+// Valid below 2^51; beyond it the result is wrong, because the difference wraps.
 std::int64_t rounded(double value) noexcept {
   constexpr double kShift = 6755399441055744.0;
   return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(value + kShift) -
                                    std::bit_cast<std::uint64_t>(kShift));
 }
 
-// Whether all are below that far from 0; no number is not.
+// Whether the magnitude of all is below the limit; false for NaN.
 bool within(const std::array<double, 3>& v, double most) noexcept {
   const int below =
       int{std::abs(v[0]) < most} & int{std::abs(v[1]) < most} & int{std::abs(v[2]) < most};
   return below != 0;
 }
 
-// False where one of them is too large or no number.
+// False if one of them is too large or NaN.
 bool round_each(const Vector3Float& v, double per, Numbers3& out) noexcept {
   const std::array<double, 3> scaled = {v.x * per, v.y * per, v.z * per};
   for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::int32_t>(rounded(scaled[i]));
@@ -42,7 +42,7 @@ bool round_location(const WorldCoordinates& v, double per,
   return within(scaled, kMostLocation);
 }
 
-// An angle of half a turn is the same as minus that.
+// An angle of half a turn is the same as its negative.
 bool round_angles(const EulerAngles& v, const StateScale& scale, Numbers3& out) noexcept {
   const unsigned unused = 32 - scale.turn_bits;
   const std::array<double, 3> scaled = {v.psi * scale.per_radian, v.theta * scale.per_radian,
@@ -61,7 +61,7 @@ std::optional<StateNumbers> numbers_of(const EntityState& state, const StateScal
   numbers.timestamp = state.header.timestamp;
   numbers.algorithm = state.dead_reckoning.algorithm;
   const auto& rates = state.dead_reckoning;
-  // All are looked at: a branch for each costs more.
+  // All are checked: a branch for each would cost more.
   const int good =
       int{round_location(state.location, scale.per_metre, numbers.location)} &
       int{round_each(state.linear_velocity, scale.per_speed, numbers.velocity)} &

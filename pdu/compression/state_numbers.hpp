@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The motion that an Entity State tells, as whole numbers of stated quanta: what the compressed
-// forms carry. Rounding is the only loss, at most half a quantum; all other fields stay exact.
+// The motion of an Entity State as whole numbers of stated quanta, for the compressed forms.
+// Rounding is the only loss, at most half a quantum. All other fields stay exact.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace reckon::pdu {
 
-/// Steps in which motion is sent. Raising one saves about a bit an axis each time it doubles, and
-/// shows that much more error. All finite and above 0.
+/// Steps in which motion is sent. Each doubling of one saves about a bit an axis and doubles its
+/// error. All finite and above 0.
 struct StateQuanta {
   double position = 1e-3;      ///< [m] 1e-6 .. 10
   double velocity = 1e-2;      ///< [m/s] 1e-6 .. 10
@@ -23,7 +23,7 @@ struct StateQuanta {
   double turn_rate = 5e-3;     ///< [rad/s] 1e-6 .. 1
 };
 
-/// Quanta with what is computed of them once; of the usual ones by the compiler.
+/// Quanta with derived values, computed once; at compile time for the usual ones.
 struct StateScale : StateQuanta {
   constexpr StateScale(const StateQuanta& quanta = {}) noexcept
       : StateQuanta(quanta),
@@ -39,7 +39,7 @@ struct StateScale : StateQuanta {
   double per_metre, per_speed, per_radian, per_acceleration, per_turn_rate;
 };
 
-/// Three numbers, as the axes of the field.
+/// Three numbers, in the axes of the field.
 using Numbers3 = std::array<std::int32_t, 3>;
 
 /// The motion of an Entity State in quanta.
@@ -47,7 +47,7 @@ struct StateNumbers {
   std::uint32_t timestamp = 0;  ///< as on the wire, exact
   DeadReckoningAlgorithm algorithm = DeadReckoningAlgorithm::other;
   std::array<std::int64_t, 3> location{};  ///< each below 2^44
-  Numbers3 velocity{};                     ///< each below 2^22, as the two rates
+  Numbers3 velocity{};                     ///< each below 2^22, as are the two rates
   Numbers3 orientation{};                  ///< -2^(turn_bits - 1) .. 2^(turn_bits - 1) - 1
   Numbers3 acceleration{};
   Numbers3 angular_velocity{};
@@ -55,13 +55,13 @@ struct StateNumbers {
   friend bool operator==(const StateNumbers&, const StateNumbers&) = default;
 };
 
-/// None where a number is not finite or beyond what the forms carry; an angle beyond a whole turn
-/// is. About 15 ns.
+/// No value if a number is not finite or beyond the range of the forms, such as an angle beyond a
+/// whole turn. About 15 ns.
 [[nodiscard]] std::optional<StateNumbers> numbers_of(const EntityState& state,
                                                      const StateScale& scale) noexcept;
 
-/// Writes the motion into `state`, and leaves its other fields. numbers_of() gives it back. Inline,
-/// so that numbers just read go from register to register.
+/// Writes the motion into `state`; its other fields stay. numbers_of() is the inverse. Inline, so
+/// that numbers just read stay in registers.
 [[gnu::always_inline]] inline void set_numbers(const StateNumbers& numbers, const StateScale& scale,
                                                EntityState& state) noexcept {
   const auto times = [](const Numbers3& of, double quantum) {
@@ -83,14 +83,14 @@ struct StateNumbers {
   state.dead_reckoning.angular_velocity = {p, q, r};
 }
 
-/// Rounds the motion of a state in place, so that every form carries it exactly. False, and nothing
-/// changes, where numbers_of() has none.
+/// Rounds the motion of a state in place, so that every form holds it exactly. False, without a
+/// change, if numbers_of() has no value.
 bool quantise(EntityState& state, const StateScale& scale) noexcept;
 
-/// Whether all but the motion agrees: header, id, types, appearance, marking and the rest.
+/// Whether all but the motion is equal: header, ID, types, appearance, marking and the rest.
 [[nodiscard]] bool is_alike(const EntityState& a, const EntityState& b) noexcept;
 
-/// A timestamp whose lowest 21 bits are `low`: the one from 1.5 s before `base` to 0.2 s after it.
+/// A timestamp from its lowest 21 bits `low`: the one from 1.5 s before `base` to 0.2 s after it.
 inline constexpr unsigned kTimestampBits = 21;
 [[nodiscard]] constexpr std::uint32_t timestamp_near(std::uint32_t low,
                                                      std::uint32_t base) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Designator PDU (type 24): a laser or other designator and the spot it makes.
+// Designator PDU (type 24): a laser or other designator and its spot.
 #pragma once
 
 #include <cstdint>

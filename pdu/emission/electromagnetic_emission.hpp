@@ -30,7 +30,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<TrackJamTarget> == 8);
 
-/// How a beam jams, as DIS 7 has it.
+/// Jamming technique of a beam in DIS 7.
 struct JammingTechnique {
   std::uint8_t beam_status = 0;
   std::uint8_t kind = 0;
@@ -67,7 +67,7 @@ struct BasicEmitterBeam {
   static constexpr std::string_view kSystemFunction = "emitter_function";
   static constexpr std::string_view kSystemNumber = "emitter_number";
 
-  std::uint8_t beam_data_length = 0;  ///< head and targets [4 octets]; 0 = too long to say
+  std::uint8_t beam_data_length = 0;  ///< head and targets [4 octets]; 0 = too long for the field
   std::uint8_t beam_number = 0;
   std::uint16_t beam_parameter_index = 0;
   float frequency = 0.0F;                   ///< [Hz]

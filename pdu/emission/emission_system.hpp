@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What emission PDUs share: the head of an emitting system, of a radar or of a sonar, which in
-// Electromagnetic Emission and Underwater Acoustic PDUs is the same but for names, and the scan of
-// a beam, of a radar or of an IFF system.
+// Common records of emission PDUs: the head of an emitting system and the scan of a beam. The heads
+// for radars and sonars differ only in names, in Electromagnetic Emission and Underwater Acoustic
+// PDUs. The scan is that of a radar or of an IFF system.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@
 
 namespace reckon::pdu {
 
-/// Where a beam looks; its fields stand among those of the record that has it.
+/// Scan of a beam; its fields are among those of the record that contains it.
 struct BeamData {
   float beam_azimuth_center = 0.0F;    ///< [rad]
-  float beam_azimuth_sweep = 0.0F;     ///< half of it [rad]
+  float beam_azimuth_sweep = 0.0F;     ///< half the sweep [rad]
   float beam_elevation_center = 0.0F;  ///< [rad]
-  float beam_elevation_sweep = 0.0F;   ///< half of it [rad]
+  float beam_elevation_sweep = 0.0F;   ///< half the sweep [rad]
   float beam_sweep_sync = 0.0F;        ///< [%]
 };
 
@@ -33,12 +33,12 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("beam_sweep_sync", record.beam_sweep_sync);
 }
 
-/// Head of a system; its beams follow. `Beam` names what differs: kSystemName, kSystemFunction,
-/// kSystemNumber.
+/// Head of a system; its beams follow. `Beam` has the names that differ: kSystemName,
+/// kSystemFunction, kSystemNumber.
 template <typename BeamType>
 struct EmissionSystem {
   using Beam = BeamType;
-  std::uint8_t system_data_length = 0;  ///< head and beams [4 octets]; 0 = too long to say
+  std::uint8_t system_data_length = 0;  ///< head and beams [4 octets]; 0 = too long for the field
   std::uint8_t number_of_beams = 0;
   std::uint16_t padding = 0;
   std::uint16_t name = 0;

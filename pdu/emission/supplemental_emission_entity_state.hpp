@@ -25,7 +25,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("engine_rpm", record.engine_rpm);
 }
 
-/// Where one nozzle points.
+/// Direction of one nozzle.
 struct VectoringNozzleSystem {
   float horizontal_deflection_angle = 0.0F;  ///< [deg]
   float vertical_deflection_angle = 0.0F;    ///< [deg]

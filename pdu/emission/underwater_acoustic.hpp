@@ -15,10 +15,10 @@
 
 namespace reckon::pdu {
 
-/// How fast a propeller shaft turns.
+/// Speed of a propeller shaft.
 struct ShaftRate {
-  std::int16_t current_rpm = 0;  ///< [1/min], below 0 astern
-  std::int16_t ordered_rpm = 0;  ///< [1/min], below 0 astern
+  std::int16_t current_rpm = 0;  ///< [1/min], negative astern
+  std::int16_t ordered_rpm = 0;  ///< [1/min], negative astern
   std::int32_t rate_of_change = 0;
 };
 
@@ -47,7 +47,7 @@ struct AcousticBeam {
   static constexpr std::string_view kSystemFunction = "acoustic_function";
   static constexpr std::string_view kSystemNumber = "acoustic_id_number";
 
-  std::uint8_t beam_data_length = 0;  ///< [4 octets]; 0 = not said
+  std::uint8_t beam_data_length = 0;  ///< [4 octets]; 0 = not stated
   std::uint8_t beam_number = 0;
   std::uint16_t padding = 0;
   std::uint16_t active_emission_parameter_index = 0;

@@ -81,7 +81,7 @@ DecodeError decode(const AttributeRecord& record, EnergyAccountRecord& out) noex
 AttributeWriter::AttributeWriter(std::span<std::byte> buffer, const Attribute& pdu) noexcept
     : buffer_(buffer.first(std::min(buffer.size(), kMaxPduSize))), pdu_(pdu) {}
 
-// Space for `octets` more, or nullptr.
+// Room for further `octets`, or nullptr.
 std::byte* AttributeWriter::grow(std::size_t octets) noexcept {
   if (size_ + octets > buffer_.size()) return nullptr;
   std::byte* at = buffer_.data() + size_;
@@ -138,8 +138,7 @@ bool AttributeWriter::add(std::uint32_t type, std::span<const std::byte> body) n
 
 std::size_t AttributeWriter::finish() noexcept {
   if (empty() || buffer_.size() < kAttributeFixedSize) return 0;
-  // The records are in place already, so only the fixed part is encoded and the length set after
-  // it.
+  // The records are already in place, so that only the fixed part is encoded and the length set.
   pdu_.record_sets = {sets_, {}};
   if (encode(pdu_, buffer_.first(kAttributeFixedSize)) == 0) return 0;
   store_big_endian(buffer_.data() + 8, static_cast<std::uint16_t>(size_));

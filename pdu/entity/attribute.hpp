@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Attribute PDU (type 72, IEEE 1278.1-2012 7.2.6): tagged records for entities, here the force
-// models and energy accounts. It travels behind the Entity States it extends, in the same datagram.
+// models and energy accounts. It follows the Entity States that it extends, in the same datagram.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@ namespace reckon::pdu {
 /// The action code of recorded VR-Forces traffic, and ours; the table of SISO-REF-010 names only 0.
 inline constexpr AttributeActionCode kAttributeActionUpdate{1};
 
-/// `count` record sets of varying size, walked by AttributeReader.
+/// `count` record sets of varying size, read with AttributeReader.
 struct AttributeRecordSets {
   std::uint16_t count = 0;
   std::span<const std::byte> bytes;
 
-  /// Steps through sets and records with bounds; at most one step for each 6 octets.
+  /// Checks sets and records with bounds; at most one step for each 6 octets.
   [[nodiscard]] static WalkResult walk(std::size_t count,
                                        std::span<const std::byte> octets) noexcept;
 };
@@ -37,7 +37,7 @@ struct Attribute {
   SimulationAddress originating_simulation;
   std::uint32_t padding_1 = 0;
   std::uint16_t padding_2 = 0;
-  PduType record_pdu_type = PduType::entity_state;  ///< type of PDU that is extended
+  PduType record_pdu_type = PduType::entity_state;  ///< type of the extended PDU
   std::uint8_t record_protocol_version = kProtocolVersion;
   std::uint32_t master_record_type = 0;  ///< 0: the records are of several types
   AttributeActionCode action_code = kAttributeActionUpdate;
@@ -66,7 +66,7 @@ inline constexpr std::size_t kAttributeFixedSize = kFixedSize<Attribute>;  ///< 
 inline constexpr std::size_t kAttributeSetHeaderSize = 8;     ///< entity id, number of records
 inline constexpr std::size_t kAttributeRecordHeaderSize = 6;  ///< type, length
 
-/// One record as it lies in the datagram.
+/// One record in the datagram.
 struct AttributeRecord {
   std::uint32_t type = 0;
   std::uint16_t length = 0;          ///< header, body and padding [octets]
@@ -76,13 +76,13 @@ struct AttributeRecord {
   }
 };
 
-/// Steps through the records of one set.
+/// Iterates over the records of one set.
 class AttributeRecordCursor {
  public:
   AttributeRecordCursor() = default;
   AttributeRecordCursor(std::size_t count, std::span<const std::byte> rest) noexcept
       : count_(count), rest_(rest) {}
-  /// False at the end and at the first record that does not fit (then error() says why).
+  /// False at the end and at the first record that does not fit (then error() has the reason).
   [[nodiscard]] bool next(AttributeRecord& out) noexcept;
   [[nodiscard]] DecodeError error() const noexcept { return error_; }
   [[nodiscard]] std::span<const std::byte> rest() const noexcept { return rest_; }
@@ -104,7 +104,7 @@ struct AttributeSet {
   }
 };
 
-/// Steps through the record sets of an Attribute PDU.
+/// Iterates over the record sets of an Attribute PDU.
 class AttributeSetCursor {
  public:
   AttributeSetCursor(std::size_t count, std::span<const std::byte> rest) noexcept
@@ -120,21 +120,21 @@ class AttributeSetCursor {
 };
 
 /// `for (const AttributeSet& set : AttributeReader(attribute)) for (const AttributeRecord& record :
-/// set.records()) ...`; the octets stay where they are.
+/// set.records()) ...`; the octets are not copied.
 class AttributeReader : public CursorRange<AttributeSetCursor, AttributeSet> {
  public:
   explicit AttributeReader(const Attribute& pdu) noexcept
       : CursorRange(AttributeSetCursor(pdu.record_sets.count, pdu.record_sets.bytes)) {}
 };
 
-/// Reads a HapticRecord; a longer body (a later version's) is read as far as version 1 goes only
-/// when it says version 1. Errors: pdu_type (another record), length, version.
+/// Reads a HapticRecord. Of a longer body (a later version's) the part of version 1 is read, but
+/// only if the record states version 1. Errors: pdu_type (another record), length, version.
 [[nodiscard]] DecodeError decode(const AttributeRecord& record, HapticRecord& out) noexcept;
 /// Reads an EnergyAccountRecord. Errors: pdu_type (another record), length.
 [[nodiscard]] DecodeError decode(const AttributeRecord& record, EnergyAccountRecord& out) noexcept;
 
-/// Calls `f` with the record in its own form where type, length and version are known here. Answers
-/// none when it did, else unknown_type, or why a record of a known type could not be read.
+/// Calls `f` with the record in its own type if its type, length and version are known here. Then
+/// returns none, else unknown_type, or the reason why a record of a known type could not be read.
 template <typename F>
 [[nodiscard]] DecodeError visit_attribute_record(const AttributeRecord& record, F&& f) {
   DecodeError error = DecodeError::unknown_type;
@@ -148,26 +148,26 @@ template <typename F>
   return error;
 }
 
-/// Builds an Attribute PDU in place. Each call that returns false has changed nothing. One thread.
+/// Builds an Attribute PDU in place. A call that returns false has changed nothing. One thread.
 class AttributeWriter {
  public:
-  /// `pdu` gives header and fixed fields; its record_sets are not looked at. `buffer` outlives the
-  /// writer.
+  /// @param pdu header and fixed fields; its record_sets are ignored
+  /// @param buffer outlives the writer
   AttributeWriter(std::span<std::byte> buffer, const Attribute& pdu) noexcept;
 
-  /// Opens the set of an entity; the records added next are this entity's.
+  /// Opens the set of an entity; the records added next belong to it.
   [[nodiscard]] bool begin_set(EntityId entity) noexcept;
   [[nodiscard]] bool add(const HapticRecord& record) noexcept;
   [[nodiscard]] bool add(const EnergyAccountRecord& record) noexcept;
-  /// Any record: type, length and padding to a multiple of 8 octets are set around `body`.
+  /// Adds any record: type, length and padding to a multiple of 8 octets are set around `body`.
   [[nodiscard]] bool add(std::uint32_t type, std::span<const std::byte> body) noexcept;
 
-  /// True when no set was begun.
+  /// Whether no set was begun.
   [[nodiscard]] bool empty() const noexcept { return sets_ == 0; }
   /// Octets so far, as finish() would return them.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// Writes the header and the counts; returns the octets of the PDU, 0 when it is empty or the
-  /// fixed part does not fit. Records may be added behind it, then finish again.
+  /// Writes the header and the counts. Returns the octets of the PDU, 0 if it is empty or the fixed
+  /// part does not fit. Further records and another finish() may follow.
   [[nodiscard]] std::size_t finish() noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Collision PDU (type 4, IEEE 1278.1-2012 7.2.3): two entities met, without rebound.
+// Collision PDU (type 4, IEEE 1278.1-2012 7.2.3): collision of two entities, without rebound.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Collision {
   std::uint8_t padding = 0;
   Vector3Float velocity;  ///< of the issuing entity, world axes [m/s]
   float mass = 0.0F;      ///< of the issuing entity [kg]
-  Vector3Float location;  ///< of the impact, body axes of the entity that was hit [m]
+  Vector3Float location;  ///< of the impact, body axes of the other entity [m]
 };
 
 template <typename Visitor, Is<Collision> Pdu>

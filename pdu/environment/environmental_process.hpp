@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Environmental Process PDU (type 41): weather, smoke, a plume: geometry and state records.
+// Environmental Process PDU (type 41): weather, smoke or a plume, as geometry and state records.
 #pragma once
 
 #include <cstddef>
@@ -109,8 +109,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<BoxGeometry> == 48);
 
-/// The geometries that recorded traffic holds, by their fields; others, and the state records of
-/// products, as octets.
+/// Shows the geometries of recorded traffic by their fields. Others, and the state records of
+/// products, stay octets.
 template <typename Visitor>
 void parts(Visitor& visitor, const EnvironmentRecord& record, std::span<const std::byte> body) {
   switch (record.record_type) {

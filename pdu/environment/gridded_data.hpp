@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Gridded Data PDU (type 42): values on a grid; axes and values are kept as octets.
+// Gridded Data PDU (type 42): values on a grid. Axes and values are kept as octets.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@
 
 namespace reckon::pdu {
 
-/// Head of a grid axis; a regular one (type 0) has no more, an irregular one (type 1) its points.
+/// Head of a grid axis. A regular axis (type 0) ends with it, an irregular one (type 1) has its
+/// points.
 struct GridAxis {
   double domain_initial_xi = 0.0;
   double domain_final_xi = 0.0;
@@ -45,7 +46,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<GridAxis> == 24);
 
-/// Of an irregular axis, in front of its points.
+/// Precedes the points of an irregular axis.
 struct GridAxisScale {
   double coordinate_scale_xi = 0.0;
   double coordinate_offset_xi = 0.0;
@@ -69,7 +70,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("value", record.value);
 }
 
-/// The first \p count numbers of `octets`, then their padding.
+/// Shows the first \p count numbers of `octets`, then their padding.
 template <typename Number, typename Visitor>
 void show_grid_values(Visitor& visitor, std::span<const std::byte> octets, std::size_t count) {
   const std::size_t size = count * sizeof(Number);
@@ -86,9 +87,9 @@ void parts(Visitor& visitor, const GridAxis& axis, std::span<const std::byte> bo
                                   axis.number_of_points_on_xi_axis);
 }
 
-/// Head of the samples of one quantity. Representation 0: a number of octets and the octets; 1:
-/// scale and offset (f32), a number of values and the values (u16); 2: a number of values, two
-/// octets of padding and the values (f32).
+/// Head of the samples of one quantity. Representation 0 has a number of octets and the octets.
+/// Representation 1 has scale and offset (f32), a number of values and the values (u16).
+/// Representation 2 has a number of values, two octets of padding and the values (f32).
 struct GridSamples {
   std::uint16_t sample_type = 0;
   std::uint16_t data_representation = 0;
@@ -98,7 +99,7 @@ struct GridSamples {
     constexpr std::array<std::size_t, 3> kLead{2, 10, 4};
     return kLead[data_representation];
   }
-  /// Of what `behind` begins with; 0 where there is none.
+  /// Number of values at the start of `behind`; 0 if there is none.
   [[nodiscard]] std::size_t number_of_values(std::span<const std::byte> behind) const noexcept {
     const std::size_t at = data_representation == 1 ? 8 : 0;
     return behind.size() < at + 2 ? 0 : load_big_endian<std::uint16_t>(behind.data() + at);
@@ -157,11 +158,11 @@ struct GriddedData {
   std::uint8_t vector_dimension = 0;
   std::uint8_t padding_1 = 0;
   std::uint16_t padding_2 = 0;
-  RestOfPdu grid_axes_and_data;  ///< taken apart where axes and samples take all of it
+  RestOfPdu grid_axes_and_data;  ///< shown by fields if axes and samples fill it exactly
 };
 
-/// Shows axes and samples by their fields; false, with nothing done, where they are not all of the
-/// octets, as public sources differ in the padding behind samples.
+/// Shows axes and samples by their fields. False, with nothing done, if they are not all of the
+/// octets: public sources differ in the padding after samples.
 template <typename Visitor>
 bool show_grid(Visitor& visitor, const GriddedData& pdu) {
   const std::span<const std::byte> all = pdu.grid_axes_and_data.bytes;

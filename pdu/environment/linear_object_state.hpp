@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Linear Object State PDU (type 44): a wall, a trench, a tape: segments in a row.
+// Linear Object State PDU (type 44): a wall, a trench or a tape, as a row of segments.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace reckon::pdu {
 
-/// One straight piece of a linear object; its size is in numbers of type `Size`.
+/// One straight segment of a linear object; its dimensions are numbers of type `Size`.
 template <typename SizeType>
 struct BasicLinearSegment {
   using Size = SizeType;

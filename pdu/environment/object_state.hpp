@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the three object state PDUs (types 43 to 45) share.
+// Common fields of the three object state PDUs (types 43 to 45).
 #pragma once
 
 #include "reckon/pdu/codec/codec.hpp"
@@ -8,7 +8,7 @@
 
 namespace reckon::pdu {
 
-/// The fields with which all three begin.
+/// The first fields of all three.
 template <typename Visitor, typename Pdu>
 constexpr void object_head_fields(Visitor& visitor, Pdu& pdu) {
   visitor("header", pdu.header);
@@ -18,7 +18,7 @@ constexpr void object_head_fields(Visitor& visitor, Pdu& pdu) {
   visitor("force_id", pdu.force_id);
 }
 
-/// Who asked for the object, and who is to make it.
+/// The requester and the receiver of the request for the object.
 template <typename Visitor, typename Pdu>
 constexpr void object_address_fields(Visitor& visitor, Pdu& pdu) {
   visitor("requester_simulation_address", pdu.requester_simulation_address);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Type of an object of the terrain, of the synthetic environment PDUs.
+// Type of a terrain object in the synthetic environment PDUs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace reckon::pdu {
 
-/// What a point, linear or areal object is.
+/// Type of a point, linear or areal object.
 struct ObjectType {
   std::uint8_t domain = 0;
   std::uint8_t kind = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Information Operations Report PDU (type 71): what an information operation did.
+// Information Operations Report PDU (type 71): the effect of an information operation.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Appearance PDU (type 47): what a live entity is and how it looks. The bits of its first flag
-// octet, from the lowest: force, type, alternative type, marking, capabilities, visual and infrared
-// appearance, second flag octet; of the second: electromagnetic and acoustic appearance. The schema
-// of opendis7 counts both octets as one field of 16 bits that is always there; here the second is
-// read where bit 7 says so, as in KDIS and as in LE Detonation.
+// Appearance PDU (type 47): type and appearance of a live entity. The bits of its first flag octet,
+// from the lowest: force, type, alternative type, marking, capabilities, visual and infrared
+// appearance, second flag octet. Those of the second: electromagnetic and acoustic appearance. The
+// schema of opendis7 counts both octets as one field of 16 bits that is always present. Here the
+// second is read only if bit 7 is set, as in KDIS and in LE Detonation.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // LE Detonation PDU (type 50): a munition of a live entity detonates. The bits of its first flag
-// octet are those of LE Fire, but bit 6 = the location is in coordinates of the target and not of
-// the world, bit 7 = there is a second flag octet; of that: munition orientation, event id.
-// The munition's orientation is three numbers of 16 bits as the 2012 text has it (the schema of
-// opendis7 marks that as odd), but of 8 bits in KDIS, as in a TSPI: it is read as 16 bits where the
-// PDU is long enough for them, else as 8.
+// octet are those of LE Fire, with two differences. Bit 6 means that the location is in coordinates
+// of the target and not of the world, bit 7 that there is a second flag octet. The bits of the
+// second: munition orientation, event ID. The munition's orientation has three numbers of 16 bits
+// in the 2012 text (the schema of opendis7 marks that as odd), but of 8 bits in KDIS, as in a TSPI.
+// It is read as 16 bits if the PDU is long enough for them, else as 8.
 #pragma once
 
 #include <cstddef>
@@ -29,17 +29,17 @@ struct LeDetonation {
   LiveShot shot;
   RelativeWorldCoordinates world_location;  ///< bit 6 not set
   LiveVector<std::int16_t> velocity;        ///< [dm/s]
-  /// Bit 0 of flags_2; on the wire three octets where `short_orientation`.
+  /// Bit 0 of flags_2; three octets on the wire if `short_orientation`.
   LiveEulerAngles<std::int16_t> munition_orientation;
   LiveEulerAngles<std::int8_t> short_munition_orientation;
   LiveVector<std::int16_t> entity_location;  ///< bit 6
   std::uint8_t detonation_result = 0;
-  bool short_orientation = false;  ///< not on the wire: which of the two orientations is there
+  bool short_orientation = false;  ///< not on the wire: which of the two orientations the PDU has
 
   [[nodiscard]] constexpr std::uint8_t more_flags() const noexcept {
     return has_flag(flags_1, 7) ? flags_2 : std::uint8_t{0};
   }
-  /// Octets of the PDU with the flags it has and an orientation of 16 bits, where it has one.
+  /// Octets of the PDU with its flags, with an orientation of 16 bits if it has one.
   [[nodiscard]] std::size_t full_size() const noexcept;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // LE Fire PDU (type 49): a live entity fires a weapon. The bits of its flag octet, from the lowest:
-// target id; the munition id has its own address; munition id; the event id has its own address;
+// target ID; the munition ID has its own address; munition ID; the event ID has its own address;
 // warhead and fuse; quantity and rate; location.
 #pragma once
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Records that the live entity PDUs (types 46 to 50, IEEE 1278.1-2012 clause 9) share. They are
-// short for radio links: ids of 4 octets, and fields that flag octets switch on and off. Order,
-// sizes and flags are as two public sources give them that agree but where a header says so: the
-// schema of opendis7, which follows the 2012 text, and KDIS. Fixed-point numbers are kept as the
-// integers they are, as neither source is sure of their binary point.
-// In the header of these PDUs octet 10 is a subprotocol number (UID 417), not a status.
+// Common records of the live entity PDUs (types 46 to 50, IEEE 1278.1-2012 clause 9). They are
+// short for radio links: IDs have 4 octets, and flag octets switch fields on and off. Order, sizes
+// and flags follow two public sources: the schema of opendis7, which follows the 2012 text, and
+// KDIS. The sources agree unless a header says otherwise. Fixed-point numbers are kept as integers,
+// because neither source is sure of their binary point. In the header of these PDUs octet 10 is a
+// subprotocol number (UID 417), not a status.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace reckon::pdu {
 
-/// True where bit `bit` (0 is the lowest) of a flag octet is set.
+/// Whether bit `bit` (0 is the lowest) of a flag octet is set.
 [[nodiscard]] constexpr bool has_flag(std::uint8_t flags, unsigned bit) noexcept {
   return ((flags >> bit) & 1U) != 0;
 }
@@ -26,7 +26,7 @@ struct LiveSimulationAddress {
   std::uint8_t application = 0;
 };
 
-/// Who a live entity is.
+/// Identifier of a live entity.
 struct LiveEntityId {
   std::uint8_t site = 0;
   std::uint8_t application = 0;
@@ -41,7 +41,7 @@ struct RelativeWorldCoordinates {
   std::int16_t delta_z = 0;
 };
 
-/// Three fixed-point numbers; unit as the field says.
+/// Three fixed-point numbers; the unit depends on the field.
 template <typename T>
 struct LiveVector {
   T x = 0;
@@ -107,7 +107,7 @@ struct LiveShot {
   std::uint16_t rate = 0;      ///< bit 5
 };
 
-/// Target, munition and event, as `flags` say; `event`: the event is there at all.
+/// Target, munition and event, according to `flags`; `event`: the event is present at all.
 template <typename Visitor, Is<LiveShot> Shot>
 constexpr void id_fields(Visitor& visitor, Shot& shot, std::uint8_t flags, bool event) {
   when(has_flag(flags, 0), visitor, "target_live_entity_id", shot.target_id);
@@ -119,7 +119,7 @@ constexpr void id_fields(Visitor& visitor, Shot& shot, std::uint8_t flags, bool 
   when(event, visitor, "event_number", shot.event_number);
 }
 
-/// The munition descriptor, as `flags` say.
+/// The munition descriptor, according to `flags`.
 template <typename Visitor, Is<LiveShot> Shot>
 constexpr void munition_fields(Visitor& visitor, Shot& shot, std::uint8_t flags) {
   when(true, visitor, "munition_type", shot.munition_type);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Resupply Cancel PDU (type 8): ends a resupply.
+// Resupply Cancel PDU (type 8): cancels a resupply.
 #pragma once
 
 #include "reckon/pdu/codec/codec.hpp"

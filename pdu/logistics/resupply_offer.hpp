@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Resupply Offer PDU (type 6): supplies that are offered.
+// Resupply Offer PDU (type 6): an offer of supplies.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Resupply Received PDU (type 7): supplies that were taken.
+// Resupply Received PDU (type 7): supplies that were received.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Service Request PDU (type 5): asks another entity for supplies or repair.
+// Service Request PDU (type 5): requests supplies or repair from another entity.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 
 namespace reckon::pdu {
 
-/// How much of what; the unit depends on the type.
+/// Type and quantity of a supply; the unit depends on the type.
 struct SupplyQuantity {
   EntityType supply_type;
   float quantity = 0.0F;

@@ -12,7 +12,7 @@
 
 namespace reckon::pdu {
 
-/// The answer; `request_id` is that of the PDU that is answered.
+/// The answer; `request_id` is that of the answered PDU.
 template <PduType type>
 struct BasicAcknowledge {
   static constexpr PduType kPduType = type;

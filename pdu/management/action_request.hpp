@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Action Request (type 16) and Action Request-R (56): asks a simulation for an action.
+// Action Request (type 16) and Action Request-R (56): requests an action of a simulation.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace reckon::pdu {
 
-/// Asks for an action.
+/// Requests an action.
 template <PduType type>
 struct BasicActionRequest {
   static constexpr PduType kPduType = type;

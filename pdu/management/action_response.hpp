@@ -24,7 +24,7 @@ struct BasicActionResponse {
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   std::uint32_t request_id = 0;
-  std::uint32_t request_status = 0;         ///< "response status" of the twin
+  std::uint32_t request_status = 0;         ///< "response status" in the reliable PDU
   std::span<const std::byte> fixed_datums;  ///< 8 n octets, read with records_of<FixedDatum>
   VariableDatums variable_datums;
 };

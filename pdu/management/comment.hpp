@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Comment (type 22) and Comment-R (62): text and other datums that ask for no answer.
+// Comment (type 22) and Comment-R (62): text and other datums without an answer.
 #pragma once
 
 #include <cstddef>

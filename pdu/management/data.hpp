@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Data (type 20, IEEE 1278.1-2012 7.5.11) and Data-R (60): tagged values in answer to a query, or
-// unasked. The twin has its reliability behind the request id, where Set Data-R has it in front: so
-// the schemas of opendis7 and xmlpg, KDIS and dis-rs.
+// without one. Data-R has its reliability after the request ID, Set Data-R before it, as in the
+// schemas of opendis7 and xmlpg, KDIS and dis-rs.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace reckon::pdu {
 
-/// Tagged values in answer to a query, or unasked.
+/// Tagged values in answer to a query, or without one.
 template <PduType type>
 struct BasicData {
   static constexpr PduType kPduType = type;

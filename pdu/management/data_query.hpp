@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Data Query (type 18) and Data Query-R (58): asks another simulation for data.
+// Data Query (type 18) and Data Query-R (58): requests data of another simulation.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace reckon::pdu {
 
-/// Asks for data by their ids.
+/// Requests data by their IDs.
 template <PduType type>
 struct BasicDataQuery {
   static constexpr PduType kPduType = type;

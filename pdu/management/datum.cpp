@@ -44,7 +44,7 @@ WalkResult VariableDatums::walk(std::size_t count, std::span<const std::byte> oc
 }
 
 bool VariableDatumWriter::add(std::uint32_t datum_id, std::span<const std::byte> value) noexcept {
-  constexpr std::size_t kMostOctets = 0x1FFFFFFF;  // what 32 bits of length in bits can say
+  constexpr std::size_t kMostOctets = 0x1FFFFFFF;  // limit of a 32-bit length in bits
   const std::size_t left = buffer_.size() - size_;
   if (value.size() > kMostOctets || left < kDatumHeaderSize + padded(value.size())) return false;
 

@@ -12,7 +12,7 @@
 
 namespace reckon::pdu {
 
-/// 8 octets; how the value is to be read depends on the id.
+/// 8 octets; the meaning of the value depends on the ID.
 struct FixedDatum {
   std::uint32_t datum_id = 0;
   std::uint32_t value = 0;
@@ -26,7 +26,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("fixed_datum_value", record.value);
 }
 
-/// 4 octets: what a query asks for.
+/// 4 octets: requested datum of a query.
 struct DatumId {
   std::uint32_t datum_id = 0;
 };
@@ -39,21 +39,21 @@ constexpr void fields(Visitor& visitor, Record& record) {
 using FixedDatums = Records<FixedDatum, std::uint32_t>;
 using DatumIds = Records<DatumId, std::uint32_t>;
 
-/// One record as it lies in the datagram.
+/// One record in the datagram.
 struct VariableDatum {
   std::uint32_t datum_id = 0;
   std::uint32_t length_bits = 0;     ///< of the value, without padding
-  std::span<const std::byte> value;  ///< the octets that hold length_bits bits
+  std::span<const std::byte> value;  ///< the octets of these bits
 };
 
-/// Steps through variable datums: 8 octets, the value, padding to a multiple of 8 octets (the last
-/// record may lack its padding). The claimed length is checked before it is used, so a length of
-/// 2^32 - 1 bits costs nothing.
+/// Iterates over variable datums: 8 octets, the value, padding to a multiple of 8 octets (the last
+/// record may lack its padding). The stated length is checked before use, so that a length of 2^32
+/// - 1 bits costs nothing.
 class VariableDatumCursor {
  public:
   VariableDatumCursor(std::size_t count, std::span<const std::byte> rest) noexcept
       : count_(count), rest_(rest) {}
-  /// False at the end and at the first record that does not fit (then error() says why).
+  /// False at the end and at the first record that does not fit (then error() has the reason).
   [[nodiscard]] bool next(VariableDatum& out) noexcept;
   [[nodiscard]] DecodeError error() const noexcept { return error_; }
   [[nodiscard]] std::span<const std::byte> rest() const noexcept { return rest_; }
@@ -64,7 +64,7 @@ class VariableDatumCursor {
   DecodeError error_ = DecodeError::none;
 };
 
-/// `count` variable datums, one behind another.
+/// `count` consecutive variable datums.
 struct VariableDatums {
   std::uint32_t count = 0;
   std::span<const std::byte> bytes;
@@ -77,7 +77,7 @@ struct VariableDatums {
   }
 };
 
-/// The datums with which most PDUs of simulation management end: both counts, then the records.
+/// The datums at the end of most PDUs of simulation management: both counts, then the records.
 template <typename Visitor, typename Pdu>
 constexpr void datum_fields(Visitor& visitor, Pdu& pdu) {
   visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, FixedDatums{});
@@ -86,14 +86,14 @@ constexpr void datum_fields(Visitor& visitor, Pdu& pdu) {
   visitor.walked("variable_datum_records", pdu.variable_datums);
 }
 
-/// Builds a block of variable datums in the caller's buffer. A call that returns false changed
+/// Builds a block of variable datums in the caller's buffer. A call that returns false has changed
 /// nothing.
 class VariableDatumWriter {
  public:
   explicit VariableDatumWriter(std::span<std::byte> buffer) noexcept : buffer_(buffer) {}
   /// Adds a datum of whole octets, with its padding.
   [[nodiscard]] bool add(std::uint32_t datum_id, std::span<const std::byte> value) noexcept;
-  /// The block so far, to be put into a PDU.
+  /// The block so far, to be assigned to a PDU.
   [[nodiscard]] VariableDatums datums() const noexcept { return {count_, buffer_.first(size_)}; }
 
  private:

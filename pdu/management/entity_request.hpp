@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Create Entity (type 11), Remove Entity (12) and their twins with reliability (51, 52): a
-// simulation manager asks the receiver to create or to remove an entity (IEEE 1278.1-2012 7.5).
+// Create Entity (type 11), Remove Entity (12) and their reliable versions (51, 52): a simulation
+// manager requests the receiver to create or to remove an entity (IEEE 1278.1-2012 7.5).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace reckon::pdu {
 
-/// Asks for an entity to be created or removed; the Acknowledge repeats `request_id`.
+/// Requests the creation or removal of an entity; the Acknowledge repeats `request_id`.
 template <PduType type>
 struct EntityRequest {
   static constexpr PduType kPduType = type;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Event Report (type 21) and Event Report-R (61): tells a manager that something happened.
+// Event Report (type 21) and Event Report-R (61): reports an event to a manager.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace reckon::pdu {
 
-/// Tells a manager that something happened.
+/// Reports an event to a manager.
 template <PduType type>
 struct BasicEventReport {
   static constexpr PduType kPduType = type;

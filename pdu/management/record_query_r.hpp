@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Record Query-R PDU (type 65): asks for records by their ids.
+// Record Query-R PDU (type 65): requests records by their IDs.
 #pragma once
 
 #include <cstddef>

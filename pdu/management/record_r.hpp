@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Record-R PDU (type 63): record sets in answer to a query, or unasked.
+// Record-R PDU (type 63): record sets in answer to a query, or without one.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the PDUs of simulation management (types 11 to 22) and their twins with reliability (51 to
-// 62) share. A twin has the same fields and says besides how reliably it is to be answered.
+// Common parts of the PDUs of simulation management (types 11 to 22) and their reliable versions
+// (51 to 62). A reliable version has the same fields, and states the reliability of the answer.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace reckon::pdu {
                            : ProtocolFamily::simulation_management;
 }
 
-/// What a twin says besides.
+/// Additional fields of a reliable version.
 struct ReliabilityService {
   std::uint8_t required_reliability_service = 0;  ///< 0 acknowledged, 1 unacknowledged
   std::uint8_t padding_1 = 0;
@@ -48,7 +48,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("padding", record.padding);
 }
 
-/// What stands in its place without reliability: nothing, or four octets of padding.
+/// Replacement in the version without reliability: nothing, or four octets of padding.
 struct NoService {};
 
 template <typename Visitor, Is<NoService> Record>
@@ -63,12 +63,12 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("padding", record.padding);
 }
 
-/// The service of a twin, else `Instead`. Its fields stand among those of the PDU:
+/// The service of a reliable version, else `Instead`. Its fields are among those of the PDU:
 /// `fields(visitor, pdu.reliability)`.
 template <PduType type, typename Instead = NoService>
 using ServiceOf = std::conditional_t<is_reliable(type), ReliabilityService, Instead>;
 
-/// The header and the ids with which all of them begin.
+/// The header and the IDs at the start of all of them.
 template <typename Visitor, typename Pdu>
 constexpr void management_fields(Visitor& visitor, Pdu& pdu) {
   visitor("header", pdu.header);

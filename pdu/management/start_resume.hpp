@@ -21,7 +21,7 @@ struct BasicStartResume {
   PduHeader header = header_of<BasicStartResume>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
-  ClockTime real_world_time;  ///< UTC at which to start
+  ClockTime real_world_time;  ///< UTC of the start
   ClockTime simulation_time;  ///< simulation time at that instant
   ServiceOf<type> reliability;
   std::uint32_t request_id = 0;

@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kFrozenRunInternalClock = 0x01;
 inline constexpr std::uint8_t kFrozenTransmitUpdates = 0x02;
 inline constexpr std::uint8_t kFrozenProcessUpdates = 0x04;
 
-/// Two octets where the twin has its reliability service.
+/// Two octets where the reliable version has its service.
 struct ShortPadding {
   std::uint16_t padding = 0;
 };
@@ -37,7 +37,7 @@ struct BasicStopFreeze {
   PduHeader header = header_of<BasicStopFreeze>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
-  ClockTime real_world_time;  ///< UTC at which to stop
+  ClockTime real_world_time;  ///< UTC of the stop
   StopFreezeReason reason = StopFreezeReason::other;
   std::uint8_t frozen_behavior = 0;
   std::conditional_t<is_reliable(type), ShortReliabilityService, ShortPadding> reliability;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Minefield Data PDU (type 39): single mines; what data_filter asks for is kept as octets.
+// Minefield Data PDU (type 39): single mines. The data selected by data_filter are kept as octets.
 #pragma once
 
 #include <cstddef>

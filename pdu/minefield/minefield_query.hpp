@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Minefield Query PDU (type 38): asks for the mines in a region.
+// Minefield Query PDU (type 38): requests the mines in a region.
 #pragma once
 
 #include <cstddef>

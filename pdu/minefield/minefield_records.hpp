@@ -22,7 +22,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("y", record.y);
 }
 
-/// A sensor that looks for mines.
+/// A sensor that detects mines.
 struct SensorType {
   std::uint16_t sensor_type = 0;
 };

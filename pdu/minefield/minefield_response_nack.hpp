@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Minefield Response NACK PDU (type 40): asks again for Minefield Data that got lost.
+// Minefield Response NACK PDU (type 40): requests lost Minefield Data again.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Minefield State PDU (type 37): where a minefield is and of what mines.
+// Minefield State PDU (type 37): place and mine types of a minefield.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Receiver PDU (type 27): a radio receiver and what it hears.
+// Receiver PDU (type 27): a radio receiver and its received transmitter.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Signal (type 26) and Intercom Signal (31): what a radio transmits, what is said on an intercom.
+// Signal (type 26) and Intercom Signal (31): content of a radio transmission or of an intercom
+// line.
 #pragma once
 
 #include <cstdint>

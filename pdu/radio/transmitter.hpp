@@ -13,7 +13,7 @@
 
 namespace reckon::pdu {
 
-/// How a radio modulates (UID 155 and those it leads to).
+/// Modulation of a radio (UID 155 and the lists that it refers to).
 struct ModulationType {
   std::uint16_t spread_spectrum = 0;
   std::uint16_t major_modulation = 0;
@@ -30,7 +30,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<ModulationType> == 8);
 
-/// What a radio is, in DIS 5 and 6.
+/// Type of a radio in DIS 5 and 6.
 struct RadioEntityType {
   EntityKind kind = EntityKind::other;
   EntityDomain domain = EntityDomain::other;
@@ -178,7 +178,7 @@ struct Transmitter {
   std::uint16_t padding_2 = 0;
 };
 
-/// Octets, or for who looks the record of a radio system that is known.
+/// Octets, or for an inspecting visitor the record of a known radio system.
 template <typename Visitor, Is<Transmitter> Pdu>
 constexpr void modulation_parameters_field(Visitor& visitor, Pdu& pdu) {
   constexpr std::string_view kName = "modulation_parameters";
@@ -239,7 +239,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("padding_2", pdu.padding_2);
   modulation_parameters_field(visitor, pdu);
   antenna_pattern_field(visitor, pdu);
-  // DIS 5 and 6 have no such records: their number is padding there.
+  // DIS 5 and 6 have no such records: the field of their number is padding.
   walked_when(!dis6, visitor, "variable_transmitter_parameters",
               pdu.variable_transmitter_parameters);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cell membership (experimental PDU 142): a peer joins or leaves cells, or takes and gives up their
-// lead.
+// Cell membership (experimental PDU 142): a peer joins or leaves cells, or takes or gives up their
+// leadership.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace reckon::pdu {
 
-/// A cell by its column and row; axial coordinates q and r in a hexagonal scheme.
+/// Column and row of a cell; axial coordinates q and r in a hexagonal scheme.
 struct CellIndex {
   std::int32_t column = 0;
   std::int32_t row = 0;
@@ -33,8 +33,9 @@ struct CellMembership {
   SimulationAddress simulation;
   std::uint32_t epoch = 0;
   MembershipAction action = MembershipAction::none;
-  std::uint8_t near_row = 0;  ///< of join_near: the row of channels, the nearest 0
-  std::uint64_t since = 0;    ///< UTC since 1970 when the membership began [ns]; the oldest leads
+  std::uint8_t near_row = 0;  ///< of join_near: the near row; the nearest is 0
+  std::uint64_t since = 0;    ///< UTC since 1970 at which the membership began [ns]; the oldest
+                              ///< leads
   std::span<const std::byte> cells;  ///< 8 n octets, read with records_of<CellIndex>
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Cell Roles (experimental PDU 145): in which cells a peer is, since when, which it leads, whom it
-// names as successor there, and what it lacks of a cell's snapshot. A leader says it every 0.5 s.
+// Cell Roles (experimental PDU 145): the cells of a peer and its time of entry, leadership and
+// successor in each, and the missing parts of a cell's snapshot. A leader sends it every 0.5 s.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,21 @@ namespace reckon::pdu {
 
 /// Bits of CellRole::flags.
 inline constexpr std::uint16_t kRoleLeads = 1, kRoleLeaves = 2, kRoleAsks = 4;
-/// Of the whole scene's role: the sender has heard a map of groups, or said one.
+/// In the role of the whole scene: the sender has received or sent a group map.
 inline constexpr std::uint16_t kRoleMapped = 8;
 
-/// What a peer is to one cell.
+/// Role of a peer in one cell.
 struct CellRole {
   std::int32_t column = 0;  ///< as in CellIndex; both -2^31: the whole scene
   std::int32_t row = 0;
-  std::uint64_t entered = 0;    ///< UTC since 1970 when it came [ns]; who came first leads
-  std::uint32_t successor = 0;  ///< life that is to lead after the sender; 0: none
-  std::uint32_t beacon = 0;     ///< tag by which the cell can be looked up; 0: none
+  std::uint64_t entered = 0;    ///< UTC since 1970 of the entry [ns]; the first peer leads
+  std::uint32_t successor = 0;  ///< epoch of the peer that leads after the sender; 0: none
+  std::uint32_t beacon = 0;     ///< tag under which the cell can be found; 0: none
   std::uint16_t flags = 0;      ///< kRoleLeads ..
-  std::uint16_t serial = 0;  ///< with kRoleAsks: of the snapshot that lacks parts; 0: of a new one
-  std::uint16_t first_part = 0;  ///< of `parts`
+  std::uint16_t serial = 0;  ///< with kRoleAsks: of the snapshot with missing parts; 0: a new one
+  std::uint16_t first_part = 0;  ///< first part in `parts`
   std::uint16_t padding = 0;
-  std::uint64_t parts = 0;  ///< bit i: lacks part first_part + i
+  std::uint64_t parts = 0;  ///< bit i: part first_part + i is missing
 
   friend constexpr auto operator<=>(const CellRole&, const CellRole&) = default;
 };

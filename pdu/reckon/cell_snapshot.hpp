@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Cell Snapshot (experimental PDU 147): the last states of the entities of a cell, relayed by its
-// leader to who has come late, in numbered parts.
+// leader to newcomers, in numbered parts.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@
 
 namespace reckon::pdu {
 
-/// Stands before each state of a snapshot.
+/// Precedes each state of a snapshot.
 struct SnapshotState {
-  std::uint32_t epoch = 0;   ///< life of the entity's owner
-  std::uint16_t length = 0;  ///< of what follows [octets]: an Entity State PDU, and the
-                             ///< HapticRecord of its force model where it has one
-  std::uint16_t age = 0;  ///< since the leader heard it [10 ms]; 65,535: that or longer
+  std::uint32_t epoch = 0;   ///< epoch of the entity's owner
+  std::uint16_t length = 0;  ///< of the following [octets]: an Entity State PDU, and the
+                             ///< HapticRecord of its force model if it has one
+  std::uint16_t age = 0;     ///< since the leader received it [10 ms]; 65,535: that or longer
 
   friend constexpr auto operator<=>(const SnapshotState&, const SnapshotState&) = default;
 };
@@ -37,7 +37,7 @@ struct CellSnapshot {
   std::uint16_t serial = 0;  ///< of the snapshot, from 1 on
   std::uint16_t part = 0;    ///< 0 .. parts - 1
   std::uint16_t parts = 0;
-  OctetBlock<std::uint16_t> states;  ///< each a SnapshotState and what it is of
+  OctetBlock<std::uint16_t> states;  ///< each a SnapshotState and its octets
 };
 
 template <typename Visitor, Is<SnapshotState> Record>

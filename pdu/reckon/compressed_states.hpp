@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Compressed States (experimental PDU 149): Entity States of one sender in fewer octets, many in
-// one PDU. docs/compression.md says what the forms are.
+// one PDU. docs/compression.md describes the forms.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct CompressedStates {
   PduHeader header = header_of<CompressedStates>();
   SimulationAddress simulation;  ///< of all entities
   CompressedForm form = CompressedForm::compact;
-  std::uint8_t layout = 1;  ///< of the bodies; others are not read
+  std::uint8_t layout = 1;  ///< of the bodies; other layouts are ignored
   std::uint16_t number_of_states = 0;
   RestOfPdu states;  ///< read with CompressedStateReader
 };
@@ -40,8 +40,8 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
 inline constexpr std::size_t kCompressedStatesSize = kFixedSize<CompressedStates>;
 static_assert(kCompressedStatesSize == 20);
 
-/// One state: an octet of its length, of which the highest bit says that the body is of the compact
-/// form whatever the PDU's, the entity's number (u16) and the body.
+/// One state: an octet of its length, the entity's number (u16) and the body. The highest bit of
+/// the length marks a body of the compact form, whatever the form of the PDU.
 inline constexpr std::size_t kCompressedHeadSize = 3;
 inline constexpr std::size_t kMostCompressedBody = 127;
 
@@ -51,8 +51,8 @@ struct CompressedState {
   std::span<const std::byte> body;
 };
 
-/// Writes head and body; octets written, 0 where the body is longer than kMostCompressedBody or
-/// there is no room.
+/// Writes head and body. Returns the octets written, 0 if the body is longer than
+/// kMostCompressedBody or there is no room.
 [[nodiscard]] inline std::size_t store_compressed(const CompressedState& state,
                                                   std::span<std::byte> out) noexcept {
   const std::size_t size = kCompressedHeadSize + state.body.size();
@@ -64,13 +64,13 @@ struct CompressedState {
   return size;
 }
 
-/// Steps through the states of a PDU with bounds: `while (reader.next(state))`.
+/// Iterates over the states of a PDU with bounds: `while (reader.next(state))`.
 class CompressedStateReader {
  public:
   explicit CompressedStateReader(const CompressedStates& states) noexcept
       : form_(states.form), count_(states.number_of_states), rest_(states.states.bytes) {}
 
-  /// False behind the last and at the first that does not fit.
+  /// False at the end and at the first state that does not fit.
   [[nodiscard]] bool next(CompressedState& out) noexcept {
     if (count_ == 0 || rest_.size() < kCompressedHeadSize) return false;
     const auto head = std::to_integer<unsigned>(rest_[0]);
@@ -83,7 +83,7 @@ class CompressedStateReader {
     --count_;
     return true;
   }
-  /// States that were announced and not read: not 0 at the end where the PDU is damaged.
+  /// Announced states that were not read: not 0 at the end of a damaged PDU.
   [[nodiscard]] std::size_t left() const noexcept { return count_; }
 
  private:

@@ -19,9 +19,9 @@ struct DatagramTrailer {
   static constexpr std::string_view kName = "Datagram Trailer";
 
   PduHeader header = header_of<DatagramTrailer>();
-  /// Counts the datagrams of one sender to one group, from 1; 2^32 - 1 is followed by 0.
+  /// Number of the sender's datagram to one group, from 1; 2^32 - 1 is followed by 0.
   std::uint32_t sequence = 0;
-  /// Of the sending process, as in its Presence; names the sender.
+  /// Epoch of the sending process, as in its Presence; names the sender.
   std::uint32_t epoch = 0;
   /// UTC in microseconds, modulo 2^32 (71.6 min); see trailer_time and trailer_age.
   std::uint32_t send_time = 0;
@@ -38,14 +38,14 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
 }
 static_assert(kFixedSize<DatagramTrailer> == kDatagramTrailerSize);
 
-/// The field for an instant of UTC.
+/// The field for a time of UTC.
 [[nodiscard]] constexpr std::uint32_t trailer_time(std::chrono::nanoseconds utc) noexcept {
   return static_cast<std::uint32_t>(
       static_cast<std::uint64_t>(utc.count() / 1000));  // modulo 2^32 by definition
 }
 
-/// Signed time from `send_time` to `utc_now`: the one-way delay plus the clocks' difference; right
-/// while it is within +-35 min.
+/// Signed time from `send_time` to `utc_now`: the one-way delay plus the clock offset; correct
+/// within +-35 min.
 [[nodiscard]] constexpr std::chrono::nanoseconds trailer_age(
     std::uint32_t send_time, std::chrono::nanoseconds utc_now) noexcept {
   const auto units = static_cast<std::int32_t>(trailer_time(utc_now) - send_time);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One side's account of the energy it passed to a counterpart in contact, carried as a record of
-// the Attribute PDU (24 octets). Running totals, so that a lost or doubled PDU makes no energy.
+// One side's account of the energy that it passed to a counterpart in contact, in a record of the
+// Attribute PDU (24 octets). It has running totals, so that a lost or duplicated PDU creates no
+// energy.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +23,11 @@ struct EnergyAccountRecord {
 
   std::uint32_t type = kType;
   std::uint16_t length = kLength;
-  EntityId counterpart;  ///< who may take it
-  double given = 0.0;    ///< total given to the counterpart since contact began, never falls [J]
-  /// What this side is short of to show its whole force [uJ]; 65,535 and more alike.
+  EntityId counterpart;  ///< the receiver of the energy
+  double given = 0.0;    ///< [J], total given to the counterpart since contact began; never falls
+  /// Lack of energy for the whole force of this side [uJ]; 65,535 for more too.
   std::uint16_t need = 0;
-  /// What it is short of to show a spring that also releases as one [uJ].
+  /// Lack of energy for a spring that also releases as one [uJ].
   std::uint16_t spring_need = 0;
 };
 
@@ -39,7 +40,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("need", record.need);
   visitor("spring_need", record.spring_need);
 }
-/// Joules as the record says them: rounded, at most what it holds; what is not a number as 0.
+/// Joules in the unit of the record: rounded and limited to its range; NaN becomes 0.
 [[nodiscard]] inline std::uint16_t to_microjoules(double joules) noexcept {
   return joules > 0 ? static_cast<std::uint16_t>(std::min(65535.0, std::round(1e6 * joules))) : 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Group Map (experimental PDU 146): which cell has which group, from who leads the scene. A map of
-// more cells than one PDU holds comes in parts of one version.
+// Group Map (experimental PDU 146): the groups of the cells, from the leader of the scene. A map
+// with more cells than one PDU holds is sent in parts of one version.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ namespace reckon::pdu {
 struct CellGroup {
   std::int32_t column = 0;  ///< as in CellIndex
   std::int32_t row = 0;
-  std::uint32_t beacon = 0;  ///< tag by which the cell can be looked up; 0: none
-  std::uint16_t group = 0;   ///< 1 .. pool; 0: the row is there for its beacon alone
+  std::uint32_t beacon = 0;  ///< tag under which the cell can be found; 0: none
+  std::uint16_t group = 0;   ///< 1 .. pool; 0: the row only has a beacon
   std::uint16_t padding = 0;
 
   friend constexpr auto operator<=>(const CellGroup&, const CellGroup&) = default;
@@ -35,10 +35,10 @@ struct GroupMap {
   PduHeader header = header_of<GroupMap>();
   SimulationAddress simulation;
   std::uint32_t epoch = 0;    ///< of the sender
-  std::uint32_t version = 0;  ///< of the map; a higher one takes the place of those before
+  std::uint32_t version = 0;  ///< of the map; a higher one replaces the earlier ones
   std::uint16_t part = 0;     ///< 0 .. parts - 1
   std::uint16_t parts = 0;
-  std::uint16_t pool = 0;             ///< groups that may be handed out
+  std::uint16_t pool = 0;             ///< number of groups for cells
   std::span<const std::byte> groups;  ///< 16 n octets, read with records_of<CellGroup>
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients of an entity's force model, carried as one record of the Attribute PDU (72 octets),
-// so that every peer can render the contact force of a remote entity locally.
+// Coefficients of an entity's force model in one record of the Attribute PDU (72 octets), so that
+// every peer can render the contact force of a remote entity locally.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kHapticRecordType = 0x48415001;  ///< "HAP", 1
 inline constexpr std::uint16_t kHapticRecordLength = 72;        ///< octets
 inline constexpr std::uint8_t kHapticRecordVersion = 1;
 
-/// Positions and directions are in body axes of the entity that the record set names (frame B). Any
-/// float may come from the wire, NaN too: check before use (deadreckon does).
+/// Positions and directions are in body axes of the entity in the record set (frame B). The wire
+/// may have any float, NaN too: check before use (deadreckon does).
 struct HapticRecord {
   static constexpr std::uint32_t kType = kHapticRecordType;
   static constexpr std::uint16_t kLength = kHapticRecordLength;
@@ -27,9 +27,11 @@ struct HapticRecord {
   std::uint8_t version = kVersion;
   ForceModelKind kind = ForceModelKind::none;
   std::uint8_t order = 0;         ///< order of the polynomial or of the reduced model
-  std::uint8_t flags = 0;         ///< no bit is defined in version 1; sent as 0, ignored when read
-  std::uint16_t surface = 0;      ///< surface id in the scene; 0 = not named
-  std::uint16_t validity_ms = 0;  ///< the model holds this long after the Entity State's time [ms]
+  std::uint8_t flags = 0;         ///< no bit is defined in version 1; sent as 0, ignored on
+                                  ///< reception
+  std::uint16_t surface = 0;      ///< surface id in the scene; 0 = not stated
+  std::uint16_t validity_ms = 0;  ///< the model is valid this long after the Entity State's time
+                                  ///< [ms]
   std::uint16_t padding = 0;
   float k1 = 0.0F;       ///< linear stiffness [N/m]
   float k3 = 0.0F;       ///< cubic stiffness [N/m^3]

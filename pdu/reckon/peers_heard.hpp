@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers Heard (experimental PDU 144): whom a peer hears, so that one whom it does not hear learns
-// of it. Each peer says it every second on the base group.
+// Peers Heard (experimental PDU 144): the peers that a peer receives, so that another one learns
+// that it is not received. Each peer sends it every second on the base group.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@
 
 namespace reckon::pdu {
 
-/// A life of a peer.
+/// Epoch of a peer.
 struct PeerEpoch {
   std::uint32_t epoch = 0;  ///< as in its Presence
 
   friend constexpr auto operator<=>(const PeerEpoch&, const PeerEpoch&) = default;
 };
 
-/// Of `continues`: there are others heard whose epochs are lower than the lowest listed, or higher
-/// than the highest; the list says nothing of them.
+/// For `continues`: the sender also receives peers whose epochs are lower than the lowest in the
+/// list, or higher than the highest. The list makes no statement about them.
 inline constexpr std::uint16_t kPeersHeardBelow = 0x0001, kPeersHeardAbove = 0x0002;
 
 struct PeersHeard {
@@ -35,7 +35,7 @@ struct PeersHeard {
   PduHeader header = header_of<PeersHeard>();
   SimulationAddress simulation;
   std::uint32_t epoch = 0;            ///< of the sender
-  std::uint16_t continues = 0;        ///< 0: these are all; else kPeersHeard...
+  std::uint16_t continues = 0;        ///< 0: the list is complete; else kPeersHeard...
   std::span<const std::byte> epochs;  ///< 4 n octets, read with records_of<PeerEpoch>
 };
 

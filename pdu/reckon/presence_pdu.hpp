@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Presence (experimental PDU 140): a peer says on the base group that it is there, what world it
-// runs, and how that world is cut into groups. 152 octets.
+// Presence (experimental PDU 140): a peer announces on the base group itself, its world, and the
+// division of that world into groups. 152 octets.
 #pragma once
 
 #include <array>
@@ -15,17 +15,18 @@
 namespace reckon::pdu {
 
 inline constexpr std::uint16_t kPresenceInterop = 0x0001;   ///< sends plain DIS without trailers
-inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last word of a peer that stops
+inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last announcement of a peer that
+                                                            ///< stops
 inline constexpr std::uint16_t kPresenceHaptic = 0x0004;    ///< has at least one haptic entity
 inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entities
-/// Has held its simulation address for two seconds: gives way to no newcomer.
+/// Has held its simulation address for two seconds and keeps it against newcomers.
 inline constexpr std::uint16_t kPresenceEstablished = 0x0010;
 
-/// The upper octet n: distances count as 2^(n / 16) times as long to this peer where entities are
-/// thinned out by distance, so that it can take what it gets. 0: as they are.
+/// The upper octet n: distances count as 2^(n / 16) times as long for this peer where entities are
+/// thinned out by distance. So it can limit the traffic that it receives. 0: unchanged.
 inline constexpr std::uint16_t kPresenceStretch = 0xFF00;
 
-/// `scene_peer` of a peer that has none yet and takes one within seconds.
+/// `scene_peer` of a peer that has none yet and will take one within seconds.
 inline constexpr std::uint8_t kScenePeerWanted = 255;
 
 /// A value of a chain of one-way functions.
@@ -38,7 +39,7 @@ struct Presence {
 
   PduHeader header = header_of<Presence>();
   SimulationAddress simulation;  ///< site and application
-  std::uint32_t epoch = 0;       ///< drawn anew at every start of the process
+  std::uint32_t epoch = 0;       ///< a new random number at every start of the process
   std::uint16_t pool_size = 0;   ///< multicast groups after the base group
   std::uint16_t port = 3000;     ///< UDP port of all groups
   std::uint64_t scene_hash = 0;  ///< peers with another hash are reported and not joined
@@ -46,29 +47,29 @@ struct Presence {
   /// The base group: an IPv6 address, or an IPv4 one as ::ffff:a.b.c.d.
   std::array<std::uint8_t, 16> base_group{};
   CellScheme cell_scheme = CellScheme::none;
-  /// Which peer of the scene this is, from 1: its devices, entities and operator are its own.
+  /// Number of the peer in the scene, from 1: it selects the peer's devices, entities and operator.
   std::uint8_t scene_peer = 0;  ///< 0: none; 255: not known yet
   std::uint16_t flags = 0;      ///< kPresence...; unknown bits are ignored
   float cell_size =
       0.0F;  ///< side of a square, or centre to corner of a hexagon; else of the smallest cell [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
-  float interest_radius = 0.0F;   ///< how far this peer's entities sense [m]
-  /// UTC second at which the process started; of two that claim an address anew the older keeps it.
+  float interest_radius = 0.0F;   ///< sensing range of this peer's entities [m]
+  /// UTC second of the start of the process. If two newcomers claim an address, the older keeps it.
   std::uint32_t started = 0;
-  std::array<char, 16> name{};  ///< short name for people, filled up with NUL
-  /// Announcements of this life before this one. The link that it opens, of which the function's
-  /// value is the link of the one before; all zero: it proves nothing.
+  std::array<char, 16> name{};  ///< short name for users, padded with NUL
+  /// Number of earlier announcements of this epoch, and the link that this one reveals. The
+  /// function's value of that link is the link of the announcement before. All zero: no proof.
   std::uint32_t chain_number = 0;
   std::uint32_t reserved = 0;  ///< 0
   ChainLink chain_link{};
-  ChainLink next_anchor{};  ///< the function's value of the first link of the next 256
+  ChainLink next_anchor{};  ///< the function's value of the first of the next 256 links
 
   /// The characters of `name` before the first NUL.
   [[nodiscard]] constexpr std::string_view name_view() const noexcept {
     const std::string_view all(name.data(), name.size());
     return all.substr(0, all.find('\0'));
   }
-  /// Sets `name`; what is longer than 16 characters is cut.
+  /// Sets `name`, truncated to 16 characters.
   constexpr void set_name(std::string_view value) noexcept {
     for (std::size_t i = 0; i < name.size(); ++i) name[i] = i < value.size() ? value[i] : '\0';
   }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Time exchange (experimental PDU 143): what each peer needs to know how far its clock and ours are
-// apart. It echoes the send time of the addressed peer's latest datagram and tells when that came.
+// Time exchange (experimental PDU 143): lets each peer compute the offset between its clock and
+// ours. It echoes the send time of the addressed peer's latest datagram and states when that
+// arrived.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +16,11 @@
 
 namespace reckon::pdu {
 
-/// One datagram heard of one peer.
+/// One datagram received from one peer.
 struct TimeEcho {
   std::uint32_t epoch = 0;  ///< of the addressed peer
   std::uint32_t sent = 0;   ///< `send_time` of its trailer
-  std::uint32_t heard = 0;  ///< when it arrived, on the clock that writes our trailers
+  std::uint32_t heard = 0;  ///< arrival time, on the clock of our trailers
 };
 
 struct TimeExchange {
@@ -29,8 +30,8 @@ struct TimeExchange {
   using Echoes = Records<TimeEcho, std::uint16_t>;
 
   PduHeader header = header_of<TimeExchange>();
-  SimulationAddress simulation;  ///< who heard
-  std::uint32_t epoch = 0;       ///< of the one who heard, as in its trailers
+  SimulationAddress simulation;  ///< the receiver
+  std::uint32_t epoch = 0;       ///< of the receiver, as in its trailers
   std::uint16_t padding = 0;
   std::span<const std::byte> echoes;  ///< 12 n octets, read with records_of<TimeEcho>
 };

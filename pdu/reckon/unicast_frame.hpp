@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Unicast frame (experimental PDU 148): stands in front of a datagram that goes to each address of
-// a list where there is no multicast, and says to which group it was said.
+// Unicast frame (experimental PDU 148): precedes a datagram that is sent to each address of a list
+// where there is no multicast, and states its group.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,8 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
 }
 static_assert(kFixedSize<UnicastFrame> == kUnicastFrameSize);
 
-/// The frame in front of a datagram; nothing where none is. What it stands in front of begins after
-/// `header.length` octets. 4 ns.
+/// The frame before a datagram, if there is one. The datagram itself begins after `header.length`
+/// octets. 4 ns.
 [[nodiscard]] inline std::optional<UnicastFrame> unicast_frame_of(
     std::span<const std::byte> datagram) noexcept {
   UnicastFrame frame;

@@ -24,7 +24,7 @@ struct Fire {
   WorldCoordinates location_in_world_coordinates;  ///< of the launch [m]
   MunitionDescriptor descriptor;
   Vector3Float velocity;  ///< of the munition, world axes [m/s]
-  float range = 0.0F;     ///< that the firing entity assumes; 0 = unknown [m]
+  float range = 0.0F;     ///< assumed by the firing entity; 0 = unknown [m]
 };
 
 template <typename Visitor, Is<Fire> Pdu>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What was fired: of Fire and Detonation PDUs, munition or expendable.
+// The munition or expendable of Fire and Detonation PDUs.
 #pragma once
 
 #include <cstdint>
