@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Collision-Elastic PDU (type 66, IEEE 1278.1-2012 7.2.4): an impact with all that is needed to
+// Collision-Elastic PDU (type 66, IEEE 1278.1-2012 7.2.4): a collision with all data for the
 // rebound.
 #pragma once
 
@@ -11,8 +11,7 @@
 
 namespace reckon::pdu {
 
-/// The six independent entries of the symmetric matrix that the standard's impact computation
-/// sends.
+/// The six independent entries of the symmetric matrix from the standard's collision computation.
 struct CollisionIntermediateResult {
   float xx = 0.0F;
   float xy = 0.0F;
@@ -36,7 +35,7 @@ struct CollisionElastic {
   std::uint16_t padding = 0;
   Vector3Float contact_velocity;  ///< of the contact point of the issuing entity, world axes [m/s]
   float mass = 0.0F;              ///< of the issuing entity [kg]
-  Vector3Float location_of_impact;  ///< body axes of the entity that was hit [m]
+  Vector3Float location_of_impact;  ///< body axes of the other entity [m]
   CollisionIntermediateResult intermediate_result;
   Vector3Float unit_surface_normal;  ///< at the impact, world axes
   float coefficient_of_restitution = 0.0F;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entity State PDU (type 1, IEEE 1278.1-2012 7.2.2): what an entity is, where, and how it moves.
+// Entity State PDU (type 1, IEEE 1278.1-2012 7.2.2): type, place and motion of an entity.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct DeadReckoningParameters {
   Vector3Float angular_velocity;     ///< body axes [rad/s]
 };
 
-/// Up to 11 characters, filled up with NUL.
+/// Up to 11 characters, padded with NUL.
 struct EntityMarking {
   MarkingCharacterSet character_set = MarkingCharacterSet::ascii;
   std::array<char, 11> text{};
@@ -35,7 +35,7 @@ struct EntityMarking {
     const std::string_view all(text.data(), text.size());
     return all.substr(0, all.find('\0'));
   }
-  /// Sets ASCII text; what is longer than 11 characters is cut.
+  /// Sets ASCII text, truncated to 11 characters.
   constexpr void set(std::string_view value) noexcept {
     character_set = MarkingCharacterSet::ascii;
     for (std::size_t i = 0; i < text.size(); ++i) text[i] = i < value.size() ? value[i] : '\0';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Variable parameter records of an Entity State PDU (IEEE 1278.1-2012 6.2.94): 16 octets each, the
-// first says which kind. Unknown kinds stay octets.
+// first of which is the kind. Unknown kinds stay octets.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace reckon::pdu {
 
-/// Any kind; `body` is what the kinds below name.
+/// Any kind; the kinds below name the fields of `body`.
 struct VariableParameter {
   VariableParameterType record_type = VariableParameterType::articulated_part;
   std::array<std::byte, 15> body{};
@@ -25,7 +25,7 @@ struct ArticulatedPart {
   std::uint8_t change_indicator = 0;
   std::uint16_t part_attached_to = 0;
   std::uint32_t parameter_type = 0;  ///< part class (multiple of 32) + metric
-  float parameter_value = 0.0F;      ///< unit as the metric says
+  float parameter_value = 0.0F;      ///< unit according to the metric
   std::uint32_t padding = 0;
 };
 
@@ -131,10 +131,10 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("group_number", record.group_number);
 }
 
-inline constexpr std::size_t kVariableParameterSize = 16;  ///< octets, whatever the kind
+inline constexpr std::size_t kVariableParameterSize = 16;  ///< octets, for any kind
 
-/// Calls `f` with the record in its own form, or as VariableParameter where the kind is unknown.
-/// `record` must hold 16 octets (it does when it comes from a decoded PDU); fewer call nothing.
+/// Calls `f` with the record in its own type, or as VariableParameter if the kind is unknown.
+/// `record` must have 16 octets, as in a decoded PDU; with fewer `f` is not called.
 template <typename F>
 void visit_variable_parameter(std::span<const std::byte> record, F&& f) {
   VariableParameter any;

@@ -8,7 +8,7 @@
 namespace reckon::tools {
 namespace view {
 
-// One for each view; defined beside its class.
+// One function for each view, defined in the file of its class.
 InspectViewKind tail();
 InspectViewKind stats();
 InspectViewKind check();

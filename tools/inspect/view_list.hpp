@@ -13,7 +13,7 @@ namespace reckon::tools {
 /// All views, in the order of --help.
 [[nodiscard]] std::span<const InspectViewKind> inspect_views();
 
-/// The kind of that name; of the first row where there is none.
+/// The kind with that name, or the first row if there is none.
 [[nodiscard]] const InspectViewKind& inspect_view_kind(std::string_view name);
 
 }  // namespace reckon::tools

@@ -18,7 +18,7 @@
 namespace reckon::tools {
 namespace {
 
-/// What the codec says under a code without a row is reported all the same.
+/// For a code of the codec without a row, so that it is reported all the same.
 constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};
 
 const CheckRule& rule_of(std::string_view code) {

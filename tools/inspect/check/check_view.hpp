@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `check`: every finding of every rule, and at the end how often each rule was broken.
+// The view `check`: every finding of every rule, and at the end the number of violations of each
+// rule.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ namespace reckon::tools {
 void append_check_rules(Format format, std::string& out);
 
 /// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some 250
-/// octets each; of others it checks each PDU by itself and says so.
+/// octets each. PDUs of further entities are checked individually, which is reported.
 class CheckView final : public View {
  public:
   static constexpr std::size_t kMostEntities = std::size_t{1} << 16;
@@ -31,13 +32,13 @@ class CheckView final : public View {
   explicit CheckView(Format format, bool colour = false, std::size_t most_entities = kMostEntities)
       : format_(format), colour_(colour), most_entities_(most_entities) {}
 
-  /// Titles, where the format has them.
+  /// Titles, if the format has them.
   void begin(std::string& out) override;
-  /// Before the PDUs of a datagram: looks ahead for what belongs together.
+  /// Called before the PDUs of a datagram: finds PDUs that belong together.
   void expect(const peer::SourceDatagram& datagram) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
            std::string& out) override;
-  /// At the end of the source: who has been silent for too long, and the counts.
+  /// At the end of the source: entities that have been silent for too long, and the counts.
   void finish(const InspectTally& tally, std::string& out) override;
 
   /// Findings of this status.
@@ -52,14 +53,14 @@ class CheckView final : public View {
     std::uint64_t frame;
     std::size_t pdu;
     std::size_t offset;  // of the PDU
-    std::size_t at;      // of the field at fault, in the datagram
+    std::size_t at;      // of the faulty field, in the datagram
     std::chrono::nanoseconds time;
     std::optional<pdu::EntityId> id;
     std::string_view reason;
   };
 
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
-  /// An unknown type is reported once and not for each of its PDUs.
+  /// True for an unknown type after its first PDU, so that each type is reported once.
   [[nodiscard]] bool is_reported_type(const PduRow& row);
   void check_pdu(const CheckedPdu& checked, std::string& out);
   void look_at_attribute(const PduRow& row);

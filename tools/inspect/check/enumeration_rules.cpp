@@ -15,7 +15,7 @@ namespace {
 
 using Fault = std::optional<RuleFault>;
 
-// Octets of an Entity State at which its fields begin.
+// Offsets of fields in an Entity State.
 constexpr std::size_t kForceAt = 18;
 constexpr std::size_t kKindAt = 20;
 constexpr std::size_t kDomainAt = 21;
@@ -28,7 +28,7 @@ Fault unknown_number(std::size_t offset, std::string_view field, pdu::SisoTable 
   return RuleFault{offset, fmt::format("{} is {}, named are 0 to {}", field, value, last.value)};
 }
 
-/// Visitor of the fixed fields of a PDU: finds the first number whose list does not name it.
+/// Visitor of the fixed fields of a PDU: finds the first value without a name in its list.
 class UnnamedValue {
  public:
   template <typename Record>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rules of `reckon inspect check` about numbers that stand for something: the standard, or
-// SISO-REF-010, has no name for them.
+// Rules of `reckon inspect check` about enumerations: values without a name in the standard or
+// SISO-REF-010.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace reckon::tools {
 [[nodiscard]] std::optional<RuleFault> unknown_drm(const CheckedPdu& checked);
 [[nodiscard]] std::optional<RuleFault> unknown_force(const CheckedPdu& checked);
 [[nodiscard]] std::optional<RuleFault> unknown_kind(const CheckedPdu& checked);
-/// Where the kind has a name.
+/// For kinds that have a name.
 [[nodiscard]] std::optional<RuleFault> unknown_domain(const CheckedPdu& checked);
-/// The first number among the fixed fields of a PDU whose list has no name for it, but for those of
-/// the rules above; of an entity's Entity States the first is looked at.
+/// The first value without a name among the fixed fields of a PDU, except those of the rules above.
+/// Only the first Entity State of an entity is checked.
 [[nodiscard]] std::optional<RuleFault> unnamed_value(const CheckedPdu& checked);
 
 }  // namespace reckon::tools

@@ -24,7 +24,7 @@ namespace {
 using std::chrono::nanoseconds;
 using Fault = std::optional<RuleFault>;
 
-// Octets of an Entity State at which its fields begin.
+// Offsets of fields in an Entity State.
 constexpr std::size_t kStatusAt = 10;
 constexpr std::size_t kIdAt = 12;
 constexpr std::size_t kVelocityAt = 36;
@@ -34,11 +34,11 @@ constexpr std::size_t kAngularVelocityAt = 116;
 
 constexpr std::size_t kLargestPdu = 8192;    // octets, MAX_PDU_SIZE of the standard
 constexpr double kDeepest = 6.34e6;          // polar radius less the deepest sea [m]
-constexpr double kShortestInterval = 0.05;   // below it positions round too much [s]
-constexpr double kLongestInterval = 5.0;     // beyond it motion may have changed unseen [s]
+constexpr double kShortestInterval = 0.05;   // [s], positions round too much below it
+constexpr double kLongestInterval = 5.0;     // [s], the motion may have changed unseen beyond it
 constexpr double kLeastContradiction = 2.0;  // [m]
-constexpr double kGrossly = 0.5;             // of the way
-constexpr std::uint8_t kContradictions = 2;  // in a row: a jump or a sharp turn gives one
+constexpr double kGrossly = 0.5;             // of the displacement
+constexpr std::uint8_t kContradictions = 2;  // in a row: a jump or a sharp turn causes one
 
 bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
@@ -48,7 +48,7 @@ Eigen::Vector3d position_of(const pdu::EntityState& pdu) {
   return {pdu.location.x, pdu.location.y, pdu.location.z};
 }
 
-/// The velocity in geocentric axes, whatever axes the model of dead reckoning holds it in.
+/// The velocity in geocentric axes, for any axes of the dead-reckoning model.
 Eigen::Vector3d velocity_of(const pdu::EntityState& pdu) {
   const Eigen::Vector3d velocity(pdu.linear_velocity.x, pdu.linear_velocity.y,
                                  pdu.linear_velocity.z);
@@ -131,8 +131,8 @@ Fault back_in_time(const CheckedPdu& checked) {
                                   -pdu::to_seconds(step), checked.memory->frame)};
 }
 
-/// How far the timestamp is off [s]: from UTC where it is absolute, else from the entity's own
-/// first, by the time of arrival. Nothing where the source knows no time.
+/// Error of the timestamp [s], by the time of arrival: from UTC if it is absolute, else from the
+/// entity's own first one. No value if the source has no time.
 std::optional<double> timestamp_error(const CheckedPdu& checked) {
   const nanoseconds arrival = checked.datagram.time;
   const std::uint32_t timestamp = checked.row.header.timestamp;
@@ -168,8 +168,8 @@ Fault missed_heartbeat(const CheckedPdu& checked) {
   return RuleFault{0, std::move(*clause)};
 }
 
-/// Another address at once; the same address with another port only when the first comes back, as
-/// a program that was started again speaks from a new port too.
+/// A different address counts at once. The same address with another port counts only when the
+/// first port returns, because a restarted program has a new port too.
 bool is_duplicate(const EntityMemory& memory, const peer::IpEndpoint& sender) {
   if (memory.reported_duplicate || sender == memory.sender) return false;
   return sender.octets != memory.sender.octets || sender == memory.earlier_sender;
@@ -184,8 +184,8 @@ Fault duplicate_id(const CheckedPdu& checked) {
                          checked.memory->sender.text(), checked.datagram.source.text())};
 }
 
-/// Metres between the way the entity went since the last update and the way its velocities say,
-/// where that is gross; else 0.
+/// Distance between the entity's displacement since the last update and the one from its velocities
+/// [m], if it is gross; else 0.
 double contradiction(const CheckedPdu& checked) {
   if (!has_history(checked)) return 0;
   const EntityMemory& memory = *checked.memory;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE rules of `reckon inspect check`: one row each with its code, what it means and what to do. A
-// new rule is one function and one row in check_rules.cpp (and one planted fault for the tests).
+// THE rules of `reckon inspect check`: one row each with its code, meaning and remedy. A new rule
+// is one function and one row in rules.cpp (and one injected fault for the tests).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,17 +20,18 @@
 
 namespace reckon::tools {
 
-/// What is remembered of an entity from its last Entity State; 0 updates: nothing yet.
+/// Memory of an entity from its last Entity State; 0 updates: empty.
 struct EntityMemory {
   std::uint64_t updates = 0;
   pdu::EntityId id;
   peer::IpEndpoint sender;
-  peer::IpEndpoint earlier_sender;  ///< before the sender changed last
+  peer::IpEndpoint earlier_sender;  ///< sender before the last change
   bool reported_duplicate = false;
   bool haptic = false;  ///< has had a force model: its heartbeat is 5 s
-  bool gone = false;    ///< said that it leaves: silence is no fault
+  bool gone = false;    ///< deactivated: silence is no fault
   bool out_of_tolerance = false;
-  std::uint8_t contradictions = 0;  ///< updates in a row whose velocity and way disagreed
+  std::uint8_t contradictions = 0;  ///< updates in a row with contradictory velocity and
+                                    ///< displacement
   std::chrono::nanoseconds first_time{};
   std::uint32_t first_timestamp = 0;
   std::chrono::nanoseconds time{};  ///< arrival
@@ -43,19 +44,19 @@ struct EntityMemory {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< geocentric axes [m/s]
 };
 
-/// What a rule looks at. Only PDUs that decode and hold finite numbers come here.
+/// Input of a rule. Only PDUs that decode and have finite numbers are checked.
 struct CheckedPdu {
   const PduRow& row;
   const peer::SourceDatagram& datagram;
   const DatagramSurvey& survey;
   std::uint8_t highest_rank;             ///< bundle_rank of the PDUs before it
   const pdu::EntityState* entity_state;  ///< null for other types
-  const EntityMemory* memory;            ///< of that entity; null where there was no room for one
+  const EntityMemory* memory;            ///< of that entity; null if there was no room for one
 };
 
-/// What a rule found.
+/// Finding of a rule.
 struct RuleFault {
-  std::size_t offset = 0;  ///< of the field at fault, from the PDU's first octet
+  std::size_t offset = 0;  ///< of the faulty field, from the PDU's first octet
   std::string reason;      ///< a clause without full stop
 };
 
@@ -63,27 +64,27 @@ using RuleFunction = std::optional<RuleFault> (*)(const CheckedPdu& checked);
 
 struct CheckRule {
   std::string_view code;        ///< E- error, W- warning, I- note
-  std::string_view sentence;    ///< what it means
-  std::string_view remedy;      ///< what to do about it
+  std::string_view sentence;    ///< meaning
+  std::string_view remedy;      ///< what the user can do
   RuleFunction look = nullptr;  ///< null: found by the codec, or by the view itself
 };
 
 /// All rules, those of the codec first.
 [[nodiscard]] std::span<const CheckRule> check_rules();
-/// The rule of a code; null where there is none.
+/// The rule of a code; null if there is none.
 [[nodiscard]] const CheckRule* find_check_rule(std::string_view code);
 
 inline constexpr std::string_view kHeartbeatRule = "W-HEARTBEAT";
 inline constexpr std::string_view kMemoryRule = "I-ENTITY-LIMIT";
 
-/// Timestamps may be off by so much.
+/// Greatest accepted error of timestamps.
 inline constexpr double kTimestampTolerance = 5.0;  // [s]
 
-/// Silence that is longer than 2.4 heartbeats, as a clause; nothing where it is not.
+/// Silence longer than 2.4 heartbeats, as a clause; no value if it is shorter.
 [[nodiscard]] std::optional<std::string> silence(const EntityMemory& memory,
                                                  std::chrono::nanoseconds now);
 
-/// Takes an Entity State into the memory of its entity, after the rules have looked at it.
+/// Stores an Entity State in the memory of its entity, after the rules have checked it.
 void remember(EntityMemory& memory, const CheckedPdu& checked);
 
 }  // namespace reckon::tools

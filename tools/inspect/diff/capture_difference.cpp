@@ -10,7 +10,7 @@
 namespace reckon::tools {
 namespace {
 
-/// "variable_parameters[2].value" counts under "variable_parameters[].value".
+/// "variable_parameters[2].value" is counted as "variable_parameters[].value".
 std::string without_indices(std::string_view path) {
   std::string name;
   bool inside = false;

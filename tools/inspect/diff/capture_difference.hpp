@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// In what two captures differ, gathered from their PDUs side by side: counts, fields, order, times.
+// Differences of two captures, gathered from their aligned PDUs: counts, fields, order, times.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@
 
 namespace reckon::tools {
 
-/// What one capture has of a type or an entity.
+/// Share of a type or an entity in one capture.
 struct CaptureShare {
   std::uint64_t pdus = 0;
   std::uint64_t octets = 0;
 };
 
-/// What an entity said of itself.
+/// Properties of an entity in its PDUs.
 struct EntityTraits {
   CaptureShare share;
   std::string marking;           ///< the last one sent
@@ -45,7 +45,7 @@ struct CaptureSurvey {
   std::map<std::string_view, CaptureShare> types;
   std::map<std::array<std::uint16_t, 3>, EntityTraits> entities;
 
-  /// Entities that are remembered; of more, only the sums count them.
+  /// Greatest number of stored entities; further ones count only in the sums.
   static constexpr std::size_t kMostEntities = 65536;
 
   void add(const HeldPdu& pdu);
@@ -53,9 +53,9 @@ struct CaptureSurvey {
   [[nodiscard]] double seconds() const;
 };
 
-/// Where a PDU stands in its capture.
+/// Place of a PDU in its capture.
 struct PduPlace {
-  std::uint64_t order = 0;  ///< of the step at which it was met, from 0
+  std::uint64_t order = 0;  ///< number of the step that found it, from 0
   std::uint64_t frame = 0;
   std::size_t pdu = 0;
   std::size_t offset = 0;
@@ -64,14 +64,14 @@ struct PduPlace {
   std::optional<pdu::EntityId> id;
 };
 
-/// A PDU that is in both, with other octets or at another place.
+/// A PDU in both captures with other octets or at another place.
 struct PduPair {
   PduPlace a;
   PduPlace b;
-  std::vector<FieldDifference> fields;  ///< empty where it only moved
+  std::vector<FieldDifference> fields;  ///< empty if it only moved
 };
 
-/// A field and how often it differs.
+/// A field and its number of differences.
 struct ChangedField {
   std::uint64_t pdus = 0;
   PduPlace a;  ///< the first of them
@@ -81,13 +81,13 @@ struct ChangedField {
 
 class CaptureDifference {
  public:
-  /// PDUs of one capture only that wait for their counterpart, in each; of more, that they only
-  /// moved is not found out.
+  /// Greatest number of PDUs of one capture, for each, that are pending until their counterpart is
+  /// found. Moves of further ones are not detected.
   static constexpr std::size_t kMostPending = 65536;
-  /// Fields that have a row.
+  /// Greatest number of fields with a row.
   static constexpr std::size_t kMostFields = 1024;
 
-  /// @param shift of B's times that is taken off; nothing: that of the first PDU in both.
+  /// @param shift subtracted from B's times; no value: that of the first PDU in both
   explicit CaptureDifference(std::optional<std::chrono::nanoseconds> shift) : shift_(shift) {}
 
   void add(const AlignedPdus& step);
@@ -106,12 +106,12 @@ class CaptureDifference {
   [[nodiscard]] const std::optional<PduPair>& first_moved() const { return first_moved_; }
   [[nodiscard]] const std::map<std::string, ChangedField>& fields() const { return fields_; }
 
-  /// Of B's times against A's; nothing where no PDU is in both.
+  /// Of B's times against A's; no value if no PDU is in both.
   [[nodiscard]] const std::optional<std::chrono::nanoseconds>& shift() const { return shift_; }
-  /// How far the arrivals of the same PDU are apart, the shift taken off [s].
+  /// Differences between the arrivals of the same PDU, less the shift [s].
   [[nodiscard]] const peer::ErrorHistogram& times() const { return times_; }
   [[nodiscard]] double greatest_time() const { return greatest_time_; }
-  /// True where all PDUs are the same and in the same order.
+  /// Whether all PDUs are the same and in the same order.
   [[nodiscard]] bool is_same() const {
     return changed_ + moved_ + count_only_a() + count_only_b() == 0;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon inspect diff A B`: what differs between two captures, and by how much.
+// `reckon inspect diff A B`: differences of two captures and their size.
 #pragma once
 
 #include <chrono>
@@ -14,20 +14,20 @@
 
 namespace reckon::tools {
 
-/// Runs the verb with the words behind `inspect diff`. 0: the same; 1: different; 2: a file that
+/// Runs the verb with the words after `inspect diff`. 0: the same; 1: different; 2: a file that
 /// cannot be read, or wrong usage.
 int run_inspect_diff(Arguments arguments, const Console& console);
 
-/// What was found, as it is written out.
+/// Findings of a run, to be written.
 struct DiffFindings {
   std::string path_a;
   std::string path_b;
-  std::string problem_a;  ///< why the capture ended early; else empty
+  std::string problem_a;  ///< reason if the capture ended early; else empty
   std::string problem_b;
   const CaptureDifference& difference;
   const MotionDifference& motion;
-  std::chrono::nanoseconds step{};  ///< of the motion's instants
-  /// Arrivals that are farther apart count as different; nothing: none does.
+  std::chrono::nanoseconds step{};  ///< between the times of the motion comparison
+  /// Difference of arrivals above which they count as different; no value: none does.
   std::optional<std::chrono::nanoseconds> tolerance;
 
   [[nodiscard]] bool is_same() const;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the forms of `inspect diff` share: names of places, traits of entities in both captures.
+// Common parts of the formats of `inspect diff`: names of places, properties of entities in both
+// captures.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,13 +21,13 @@ inline std::string key_text(const std::array<std::uint16_t, 3>& key) {
   return id_text({key[0], key[1], key[2]});
 }
 
-/// What one entity is in both captures; null where it is in one only.
+/// Properties of one entity in both captures; null if it is in one only.
 struct EntityInBoth {
   std::array<std::uint16_t, 3> key{};
   const EntityTraits* a = nullptr;
   const EntityTraits* b = nullptr;
 
-  /// True where counts, marking, force or dead reckoning differ.
+  /// Whether counts, marking, force or dead reckoning differ.
   [[nodiscard]] bool differs() const {
     if (a == nullptr || b == nullptr) return true;
     return a->share.pdus != b->share.pdus || a->share.octets != b->share.octets ||
@@ -48,7 +49,7 @@ inline std::vector<EntityInBoth> entities_of(const CaptureDifference& difference
   return out;
 }
 
-/// What both have of one type.
+/// Share of one type in both captures.
 struct TypeInBoth {
   CaptureShare a;
   CaptureShare b;
@@ -61,7 +62,7 @@ inline std::map<std::string_view, TypeInBoth> types_of(const CaptureDifference& 
   return all;
 }
 
-/// The number of every DRM that was sent.
+/// The numbers of all DRMs that were sent.
 inline std::vector<unsigned> algorithms_of(const EntityTraits& traits) {
   std::vector<unsigned> out;
   for (unsigned bit = 0; bit < 32; ++bit)

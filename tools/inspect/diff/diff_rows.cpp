@@ -161,7 +161,7 @@ void json_all(const DiffFindings& findings, std::string& out) {
 // CSV
 // ------------------------------------------------------------------------------------------------
 
-/// One row: a and b as text, the difference where it is a number.
+/// One row: a and b as text, the difference if it is a number.
 void csv_row(std::string_view what, std::string_view key, std::string_view a, std::string_view b,
              std::string_view difference, std::string& out) {
   out += what;

@@ -15,11 +15,11 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr auto kRight = TextTable::Align::right;
-/// Rows of a table; --json and --csv have more.
+/// Greatest number of rows in a table; --json and --csv have more.
 constexpr std::size_t kMostRows = 20;
 constexpr std::size_t kMostAlone = 5;
 
-/// A time with the unit that suits it.
+/// A time with a suitable unit.
 std::string time_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.3g} us", 1e6 * seconds);
   return seconds < 1 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.6g} s", seconds);
@@ -167,7 +167,7 @@ std::string algorithms_text(const EntityTraits& traits) {
   return out.empty() ? "-" : out;
 }
 
-/// One value where both agree, else both.
+/// One value if both are equal, else both.
 std::string both_text(const EntityInBoth& entity, std::string (*text)(const EntityTraits&)) {
   if (entity.a == nullptr || entity.b == nullptr)
     return text(entity.a != nullptr ? *entity.a : *entity.b);

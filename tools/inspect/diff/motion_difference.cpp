@@ -17,7 +17,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 void ReckonedCapture::take_pdu(const HeldPdu& pdu) {
   if (!pdu.decoded) return;
-  // As relative time: a capture that was replayed or shifted then gives what the original gives.
+  // As relative time: a replayed or shifted capture then gives the result of the original.
   std::vector<std::byte> relative = pdu.octets;
   relative[7] &= std::byte{0xFE};
   poses_.take_pdu(relative, pdu.header, pdu.time);
@@ -57,7 +57,7 @@ bool MotionDifference::advance() {
   compare_forces();
   now_ += step_;
   if (!a_.capture.poses().entities().empty() && !b_.capture.poses().entities().empty()) return true;
-  // Nothing to compare before the next arrival.
+  // There is nothing to compare before the next arrival.
   nanoseconds arrival = nanoseconds::max();
   for (const Side* side : {&a_, &b_})
     if (side->has_next) arrival = std::min(arrival, side->due());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far apart the entities of two captures are, and how much their contact forces differ: both
-// dead reckoned to common instants.
+// Distances between the entities of two captures, and differences of their contact forces: both are
+// dead reckoned to common times.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace reckon::tools {
 
-/// A distribution whose greatest value is exact and has a time.
+/// A distribution with its exact greatest value and the time of that.
 struct TimedSpread {
   peer::ErrorHistogram histogram;
   double max = 0;
@@ -36,32 +36,32 @@ struct PoseDifference {
   TimedSpread degrees;
 };
 
-/// Two pictures of one capture: poses of all entities, and forces of the haptic ones.
+/// Two models of one capture: poses of all entities, and forces of the haptic ones.
 class ReckonedCapture {
  public:
-  /// One PDU in order of arrival; timestamps give the times between the updates of an entity where
-  /// they run, else the arrivals do.
+  /// Takes one PDU in order of arrival. The timestamps give the times between the updates of an
+  /// entity if they advance, else the arrivals do.
   void take_pdu(const HeldPdu& pdu);
   void forget_silent(std::chrono::nanoseconds now) { poses_.forget_silent(now); }
   [[nodiscard]] const Listener& poses() const { return poses_; }
-  /// The forces at `time`; forgets the haptic entities that are silent by then.
+  /// The forces at `time`; removes the haptic entities that have timed out.
   [[nodiscard]] std::span<const ContactForce> forces_at(std::chrono::nanoseconds time);
 
  private:
   Listener poses_{kCaptureRules};
-  Listener haptic_{kPeerRules};  // its frame lies where the capture's entities are
+  Listener haptic_{kPeerRules};  // its frame lies near the capture's entities
   ContactForces forces_;
 };
 
 /// The comparison. One thread; run() once.
 class MotionDifference {
  public:
-  /// Entities and pairs that have a row; of more, the first ones.
+  /// Greatest number of entities and pairs with a row; the first ones are used.
   static constexpr std::size_t kMostRows = 1024;
   using EntityKey = std::array<std::uint16_t, 3>;
   using PairKey = std::array<std::uint16_t, 6>;  // on, by
 
-  /// @param shift of B's arrivals against A's, taken off  @param step > 0 between the instants
+  /// @param shift of B's arrivals against A's, subtracted  @param step > 0, time step
   MotionDifference(std::chrono::nanoseconds shift, std::chrono::nanoseconds step)
       : shift_(shift), step_(step) {}
 
@@ -89,7 +89,7 @@ class MotionDifference {
   };
 
   void begin(PduStream& a, PduStream& b);
-  /// One instant; false where both captures have ended.
+  /// One time step; false after the end of both captures.
   [[nodiscard]] bool advance();
   void compare_poses();
   void compare_forces();

@@ -9,7 +9,7 @@
 namespace reckon::tools {
 namespace {
 
-/// What makes two PDUs versions of one.
+/// Whether two PDUs can be versions of one.
 bool same_role(const HeldPdu& a, const HeldPdu& b) {
   return a.has_header == b.has_header && a.header.pdu_type == b.header.pdu_type && a.id == b.id;
 }
@@ -63,7 +63,7 @@ PduAlignment::Gap PduAlignment::find_gap() const {
 
 void PduAlignment::pair_up(Gap gap) {
   using Kind = AlignedPdus::Kind;
-  // One for one: its ID may be what has changed.
+  // One for one: its ID may have changed.
   const bool one_for_one =
       gap.a == 1 && gap.b == 1 && a_.window.front().type() == b_.window.front().type();
   if (one_for_one) return planned_.push_back({Kind::changed, a_.pop(), b_.pop()});

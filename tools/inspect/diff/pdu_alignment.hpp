@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which PDU of one capture is which of another: both in order, with a look ahead of bounded length
-// where they part.
+// Alignment of the PDUs of two captures: both in order, with a bounded look-ahead where they
+// differ.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 
 namespace reckon::tools {
 
-/// One step of two captures side by side.
+/// One step through two captures.
 struct AlignedPdus {
   enum class Kind : std::uint8_t {
-    same,     ///< octet for octet, in what counts
-    changed,  ///< of one type and entity, in one place, with other octets
-    only_a,   ///< not in B here; it may come at another place
+    same,     ///< octet for octet, except ignored fields
+    changed,  ///< the same type, entity and place, with other octets
+    only_a,   ///< not in B here; it may be at another place
     only_b
   };
   Kind kind = Kind::same;
@@ -25,16 +25,16 @@ struct AlignedPdus {
   HeldPdu b;  ///< not filled for only_a
 };
 
-/// Steps through two captures. Where they differ it seeks the nearest PDUs that are the same in the
-/// next kWindow of both; what lies before is changed where type and entity agree in order, else in
-/// one of them only. Memory: 2 x kWindow PDUs. One thread.
+/// Steps through two captures. Where they differ it searches the next kWindow PDUs of both for the
+/// nearest equal ones. PDUs before those count as changed if type and entity agree in order, else
+/// as in one capture only. Memory: 2 x kWindow PDUs. One thread.
 class PduAlignment {
  public:
   static constexpr std::size_t kWindow = 512;
-  /// PDUs that are paired by type and entity at once where nothing in the window is the same.
+  /// Number of PDUs that are at once paired by type and entity if nothing in the window is equal.
   static constexpr std::size_t kBlindBlock = 64;
 
-  /// Both streams outlive this.
+  /// Both streams outlive this object.
   PduAlignment(PduStream& a, PduStream& b, bool ignore_time)
       : a_{a, {}}, b_{b, {}}, ignore_time_(ignore_time) {}
 
@@ -48,7 +48,7 @@ class PduAlignment {
     void fill();
     [[nodiscard]] HeldPdu pop();
   };
-  /// PDUs in front of the next that are the same.
+  /// PDUs before the next equal ones.
   struct Gap {
     std::size_t a = 0;
     std::size_t b = 0;

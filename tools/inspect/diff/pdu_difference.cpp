@@ -19,7 +19,7 @@ namespace {
 
 using Octets = std::span<const std::byte>;
 
-/// Octets of a block that are written out; "..." stands for what follows.
+/// Greatest number of a block's octets to print; "..." replaces the rest.
 constexpr std::size_t kMostHex = 16;
 
 std::string hex_text(Octets octets) {
@@ -30,8 +30,8 @@ std::string hex_text(Octets octets) {
   return text;
 }
 
-/// Visitor that steps through the first PDU field by field and holds the same octets of the second
-/// against it. Reads inside both.
+/// Visitor that steps through the fields of the first PDU and compares the same octets of the
+/// second. Reads inside both.
 class Comparer {
  public:
   Comparer(Octets a, Octets b, std::size_t most) : a_(a), b_(b), most_(most) {}
@@ -109,12 +109,12 @@ class Comparer {
     at_ = offset_of(view.bytes) + view.bytes.size();
   }
 
-  /// What no field has covered.
+  /// The octets after all fields.
   void rest(std::string_view name) {
     const std::size_t begin = std::min(at_, std::max(a_.size(), b_.size()));
     compare(name, begin, std::max(a_.size(), b_.size()) - begin);
   }
-  /// Differing octets that no field has named, padding between records for one.
+  /// Differing octets that belong to no field, such as padding between records.
   void leftover() {
     if (!found_.empty()) return;
     const auto differ = std::ranges::mismatch(a_, b_);
@@ -130,14 +130,15 @@ class Comparer {
     path_ += name;
     return outer;
   }
-  /// Octets of a view of the first PDU; an empty one may point nowhere and stands where we are.
+  /// Offset of a view into the first PDU. An empty view may have any pointer and counts as the
+  /// present offset.
   [[nodiscard]] std::size_t offset_of(Octets part) const {
     return part.empty() ? at_ : static_cast<std::size_t>(part.data() - a_.data());
   }
   [[nodiscard]] static Octets part(Octets whole, std::size_t at, std::size_t size) {
     return at >= whole.size() ? Octets() : whole.subspan(at, std::min(size, whole.size() - at));
   }
-  /// True where the octets differ and there is room to tell.
+  /// Whether the octets differ and there is room for a finding.
   [[nodiscard]] bool differs(std::size_t at, std::size_t size) const {
     return found_.size() < most_ && !std::ranges::equal(part(a_, at, size), part(b_, at, size));
   }
@@ -148,7 +149,7 @@ class Comparer {
     };
     FieldDifference& difference = found_.emplace_back();
     difference = {path_, at, value(part(a_, at, size)), value(part(b_, at, size))};
-    // Payloads of NaN, letters behind a NUL: what people read is the same, the octets are not.
+    // Payloads of NaN, letters after a NUL: the text is equal, the octets are not.
     if (difference.a != difference.b) return;
     difference.a += " = 0x" + hex_text(part(a_, at, size));
     difference.b += " = 0x" + hex_text(part(b_, at, size));

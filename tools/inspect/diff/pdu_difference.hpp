@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// In which fields two PDUs differ: name, octet, both values, by the field tables of the codec.
+// Fields in which two PDUs differ: name, octet and both values, by the field tables of the codec.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ namespace reckon::tools {
 struct FieldDifference {
   std::string field;       ///< path, as "entity_location.x" or "variable_parameters[2].value"
   std::size_t offset = 0;  ///< of its first octet in the PDU
-  std::string a;           ///< value as text; "absent" where the PDU ends before it
+  std::string a;           ///< value as text; "absent" if the PDU ends before it
   std::string b;
 };
 
-/// The fields in which two PDUs differ, in wire order, at most `most`; empty where all octets are
-/// the same. The layout is that of `a`; where the two are of different types only the header is
-/// compared, and what has no field table is compared as octets under "body". Any octets will do.
+/// The fields in which two PDUs differ, in wire order, at most `most`; empty if all octets are
+/// equal. The layout is that of `a`. For two different types only the header is compared. Octets
+/// without a field table are compared as "body". Any octets.
 [[nodiscard]] std::vector<FieldDifference> pdu_differences(std::span<const std::byte> a,
                                                            std::span<const std::byte> b,
                                                            std::size_t most = 32);

@@ -18,15 +18,15 @@
 namespace reckon::tools {
 namespace {
 
-/// `value` in decimal, at least `digits` of them.
+/// `value` in decimal, with at least `digits` digits.
 void append_digits(std::string& out, std::uint64_t value, std::size_t digits) {
   const fmt::format_int text(value);
   if (text.size() < digits) out.append(digits - text.size(), '0');
   out.append(text.data(), text.size());
 }
 
-/// |value| in thousandths, rounded to the nearest and to even; for |value| < 2^52, whose last bit
-/// is 2^-1 or less.
+/// |value| in thousandths, rounded to nearest, ties to even; for |value| < 2^52, whose last bit is
+/// 2^-1 or less.
 std::uint64_t thousandths_of(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const auto exponent = static_cast<int>((bits >> 52) & 0x7FF);
@@ -40,7 +40,7 @@ std::uint64_t thousandths_of(double value) {
   return whole + ((rest > half || (rest == half && whole % 2 == 1)) ? 1 : 0);
 }
 
-/// Whether a spreadsheet would compute the cell: the full-width signs are signs there, too.
+/// Whether a spreadsheet would evaluate the cell as a formula: it accepts full-width signs too.
 bool is_formula(std::string_view cell) {
   constexpr std::array<std::string_view, 8> kSigns{"=",      "+",      "-",      "@",
                                                    "\uff1d", "\uff0b", "\uff0d", "\uff20"};

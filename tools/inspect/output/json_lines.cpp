@@ -16,13 +16,13 @@
 namespace reckon::tools {
 namespace {
 
-/// Appends a key (with all that stands before the number) and a whole number.
+/// Appends a key (with everything before the number) and a whole number.
 void append_member(std::string& out, std::string_view key, std::uint64_t value) {
   out += key;
   append_number(out, value);
 }
 
-/// Metres to the millimetre; null where JSON has no number for it.
+/// Metres to the millimetre; null if JSON has no such number.
 void append_millimetres(std::string& out, double metres) {
   if (std::isfinite(metres))
     append_thousandths(out, metres);
@@ -44,8 +44,7 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   append_member(out, "],\"drm\":", static_cast<unsigned>(pdu.dead_reckoning.algorithm));
 }
 
-/// The records of one type that an Attribute PDU holds, as an array under `key`; nothing where
-/// there is none.
+/// The records of one type in an Attribute PDU, as an array under `key`; nothing if there are none.
 template <typename Record>
 void append_records(std::string& out, std::string_view key, const pdu::Attribute& pdu) {
   bool first = true;
@@ -85,7 +84,7 @@ void append_body(std::string& out, const PduRow& row, bool full) {
   });
 }
 
-/// What can be shown of a PDU whose body cannot be read: the header, and the rest in hexadecimal.
+/// A PDU whose body cannot be read: the header, and the rest in hexadecimal.
 void append_raw_fields(std::string& out, const PduRow& row) {
   out += ",\"fields\":";
   pdu::TextSink sink(out);

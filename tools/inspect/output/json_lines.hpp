@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// JSON Lines of the inspector; every key is explained in docs/json_lines.md, and other tools rely
-// on them.
+// JSON Lines of the inspector. docs/json_lines.md explains every key, and other tools depend on
+// them.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace reckon::tools {
 
 /// Appends one line, newline included. `full` adds "fields" with every field of the PDU. Allocates
-/// only while `out` still grows.
+/// only while `out` grows.
 void append_json_line(std::string& out, const PduRow& row, bool full);
 
 }  // namespace reckon::tools

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the user asked of `reckon inspect`: filled from the command line, read by the views.
+// Options of `reckon inspect`: filled from the command line, read by the views.
 #pragma once
 
 #include <chrono>
@@ -16,9 +16,9 @@ namespace reckon::tools {
 struct InspectOptions {
   SourceChoice source;
   std::string view;   ///< empty: the default of the source
-  std::string by;     ///< stats: one table alone; empty: all
-  std::string where;  ///< filter; empty: everything
-  std::string key;    ///< key file; empty: what is sealed is counted alone
+  std::string by;     ///< stats: a single table; empty: all
+  std::string where;  ///< filter; empty: all PDUs
+  std::string key;    ///< key file; empty: sealed datagrams are only counted
   std::string svg;    ///< haptics: file for a plot; empty: none
   bool json = false;
   bool csv = false;

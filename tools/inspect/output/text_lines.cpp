@@ -26,12 +26,12 @@ void append_fault(std::string& out, const PduRow& row, bool colour) {
   out += row.reason;
 }
 
-/// A marking may hold any octets: what is not printable ASCII shows as a dot.
+/// A marking may have any octets: those that are not printable ASCII become dots.
 void append_printable(std::string& out, std::string_view text) {
   for (const char letter : text) out += letter < ' ' || letter > '~' ? '.' : letter;
 }
 
-/// Appends the name of a value or, if it has none, its kind and number: "Friendly", "force 77".
+/// Appends the name of a value, or its kind and number if it has none: "Friendly", "force 77".
 template <typename Enumeration>
 void append_name(std::string& out, std::string_view what, Enumeration value) {
   const std::string_view name = pdu::name(value);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The inspector's views for people: one line a PDU, or a tree of all its fields.
+// The inspector's text output: one line a PDU, or a tree of all its fields.
 #pragma once
 
 #include <chrono>
@@ -17,12 +17,12 @@ namespace reckon::tools {
 /// Titles of the columns of append_tail_line(), newline included.
 void append_tail_titles(std::string& out);
 
-/// Appends one line: frame, PDU, octet offset, seconds since `start`, type, length, id, and what
-/// the PDU says or what is wrong with it.
+/// Appends one line: frame, PDU, octet offset, seconds since `start`, type, length, ID, and the
+/// PDU's content or its error.
 void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseconds start,
                       bool colour);
 
-/// Appends a heading and one line for each field; of a PDU that cannot be read its header and
+/// Appends a heading and one line for each field; for a PDU that cannot be read its header and
 /// octets.
 void append_tree(std::string& out, const PduRow& row, bool colour);
 

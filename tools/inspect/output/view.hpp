@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a view of the inspector is. A new view = one file with a class that overrides the hooks it
-// needs and the row that makes it, and that row's name in view_list.cpp.
+// Interface of the inspector's views. A new view = one file with a class that overrides the hooks
+// it needs and the row that makes it, and that row's name in view_list.cpp.
 //
 //   class LengthsView final : public View {
 //     void pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds,
@@ -23,8 +23,8 @@
 
 namespace reckon::tools {
 
-/// Hooks in the order of a run, by one thread; what a view does not override does nothing. `out` is
-/// what goes to stdout, `start` the time of the first datagram [since 1970-01-01 UTC].
+/// Hooks in the order of a run, called by one thread. By default they do nothing. `out` goes to
+/// stdout; `start` is the time of the first datagram [since 1970-01-01 UTC].
 class View {
  public:
   View() = default;
@@ -32,39 +32,39 @@ class View {
   View& operator=(const View&) = default;
   virtual ~View() = default;
 
-  /// Titles, before anything is read.
+  /// Titles, before the first datagram.
   virtual void begin(std::string&) {}
   /// A datagram, before its PDUs.
   virtual void expect(const peer::SourceDatagram&) {}
-  /// Each of its PDUs, those that --where keeps out as well.
+  /// Each of its PDUs, including those that --where excludes.
   virtual void look(const PduRow&) {}
-  /// Each PDU that is to be shown.
+  /// Each PDU to be shown.
   virtual void pdu(const peer::SourceDatagram& /*datagram*/, const PduRow& /*row*/,
                    std::chrono::nanoseconds /*start*/, std::string& /*out*/) {}
-  /// After the PDUs, where one of them was to be shown,
+  /// After the PDUs, if at least one of them was to be shown,
   virtual void datagram(const peer::SourceDatagram& /*datagram*/,
                         std::chrono::nanoseconds /*start*/, std::string& /*out*/) {}
-  /// and where none was.
+  /// otherwise.
   virtual void skip() {}
   /// Live sources: after each datagram and every 0.1 s; `now` since 1970-01-01 UTC.
   virtual void tick(std::chrono::nanoseconds /*now*/, const peer::SourceReport& /*report*/,
                     std::string& /*out*/) {}
-  /// Whether the user ended it by the view's own means.
+  /// Whether the user ended the view itself, such as by a key.
   [[nodiscard]] virtual bool has_ended() const { return false; }
   /// The end of the source.
   virtual void finish(const InspectTally& /*tally*/, std::string& /*out*/) {}
-  /// Whether the verb's exit status is 1. A view that answers gives the counts of good and bad PDUs
-  /// itself; the others leave them to the verb.
+  /// Whether the verb's exit status is 1. A view that returns a value prints the counts of good and
+  /// bad PDUs itself. For other views the verb does.
   [[nodiscard]] virtual std::optional<bool> found_faults() const { return std::nullopt; }
 };
 
-/// A view's row.
+/// Row of a view.
 struct InspectViewKind {
   std::string_view name;
   std::string_view meaning;  ///< for --help
   bool takes_csv;
-  /// @throws UsageError where the options name what cannot be opened. They and the console outlive
-  /// the view.
+  /// @throws UsageError if the options name a file that cannot be opened. Options and console
+  /// outlive the view.
   std::unique_ptr<View> (*make)(const InspectOptions& options, const Console& console);
 };
 

@@ -31,7 +31,7 @@ std::string lower(std::string_view text) {
 std::string number(double value) { return json_number(value); }
 std::string truth(bool value) { return value ? "true" : "false"; }
 
-/// The domain of a platform, "haptic" where there is a force model, else the kind.
+/// The domain of a platform, "haptic" for an entity with a force model, else the kind.
 std::string kind(const Cell& cell) {
   if (cell.entity.is_haptic()) return "haptic";
   if (!cell.entity.has_state) return "-";
@@ -84,7 +84,7 @@ void append_force(std::string& out, const Cell& cell) {
   if (jumps->count() > 0) fmt::format_to(to, "  jump p99 {:.2g} N", jumps->percentile(kTail));
 }
 
-/// What a person has to know of the entity beside the numbers.
+/// Important states of the entity besides the numbers.
 void append_state(std::string& out, const Cell& cell) {
   const auto item = [&](std::string_view text) {
     if (!out.empty()) out += "  ";
@@ -106,14 +106,14 @@ std::string remarks(const Cell& cell) {
   return text;
 }
 
-/// Why the last update came, and where none comes any more, that.
+/// Reason of the last update, or that updates have stopped.
 std::string why(const Cell& cell) {
   if (cell.entity.gone) return "gone";
   if (cell.entity.is_silent(cell.now)) return "STALE";
   return cell.row.cause == UpdateCause::none ? "-" : std::string(name(cell.row.cause));
 }
 
-/// The last update's PDU, for members that need it.
+/// The PDU of the last update, for members that need it.
 pdu::EntityState state(const Cell& cell) { return cell.entity.entity_state(); }
 
 template <auto Get>

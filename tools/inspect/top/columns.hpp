@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE lists of what the view `top` tells of an entity: columns for people, members for programs. A
-// new one is one row in top_columns.cpp.
+// THE lists of the data that the view `top` shows of an entity: columns for users, members for
+// programs. A new one is one row in columns.cpp.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace reckon::tools {
 
-/// What a cell is made from.
+/// Input of a cell.
 struct TopCell {
   TopCell(const EntityTable& all, std::size_t place, std::chrono::nanoseconds when)
       : table(all), entity(all.entities()[place]), row(all.rows()[place]), now(when) {}
@@ -32,7 +32,7 @@ struct TopColumn {
   std::string_view title;
   TextTable::Align align;
   std::string (*text)(const TopCell& cell);
-  /// What rows are sorted by, largest first; null: not by this column.
+  /// Sort key, largest first; null: no sorting by this column.
   double (*order)(const TopCell& cell);
 };
 [[nodiscard]] std::span<const TopColumn> top_columns();
@@ -41,12 +41,12 @@ struct TopColumn {
 struct TopMember {
   std::string_view key;
   bool is_text;
-  std::string (*value)(const TopCell& cell);  ///< a number or "true"; empty: there is none
+  std::string (*value)(const TopCell& cell);  ///< a number or "true"; empty: no value
 };
 [[nodiscard]] std::span<const TopMember> top_members();
 
-/// Places of the rows in the order of the column; equal ones, and all of a column without order, by
-/// exercise and id. `reverse` turns the order round.
+/// Indices of the rows in the order of the column. Ties, and all rows of a column without a sort
+/// key, are ordered by exercise and ID. `reverse` reverses the order.
 [[nodiscard]] std::vector<std::size_t> top_order(const EntityTable& table,
                                                  std::chrono::nanoseconds now, std::size_t column,
                                                  bool reverse = false);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the screen of `top` shows beside its table: one entity in detail, how datagrams are filled,
-// and the rules that were broken.
+// Further panes of `top` besides its table: one entity in detail, the fill of datagrams, and broken
+// rules.
 #pragma once
 
 #include <span>
@@ -14,15 +14,15 @@
 
 namespace reckon::tools {
 
-/// Everything that is known of one entity, and a plot of its last jumps.
+/// All data of one entity, and a plot of its last jumps.
 [[nodiscard]] std::vector<ScreenLine> entity_pane(const TopCell& cell, std::size_t columns);
-/// How many PDUs datagrams held.
+/// Distribution of PDUs per datagram.
 [[nodiscard]] std::vector<ScreenLine> bundles_pane(const TopData& data);
-/// How often each rule was broken, with its remedy.
+/// Number of violations of each rule, with its remedy.
 [[nodiscard]] std::vector<ScreenLine> faults_pane(const TopData& data);
 
 /// Bars of `values`, oldest first, `rows` lines high: '#' for each full step of the largest, '.'
-/// for what is above zero and below the first step.
+/// for a value between zero and the first step.
 [[nodiscard]] std::vector<std::string> bar_plot(std::span<const double> values, std::size_t rows);
 
 }  // namespace reckon::tools

@@ -34,7 +34,7 @@ std::string span_text(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-/// What the simulation with the most octets has spent.
+/// Traffic of the simulation with the most octets.
 struct Spender {
   std::uint64_t octets = 0;
   std::size_t entities = 0;

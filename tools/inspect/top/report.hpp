@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the view `top` has collected, and how it is written where no terminal shows it: text, JSON
-// Lines, CSV.
+// Data of the view `top`, and its output without a terminal: text, JSON Lines, CSV.
 #pragma once
 
 #include <array>
@@ -19,33 +18,33 @@
 
 namespace reckon::tools {
 
-/// Everything that `top` shows.
+/// All data that `top` shows.
 struct TopData {
-  std::string source;  ///< as the user said it
+  std::string source;  ///< as the user entered it
   EntityTable entities;
   TrafficTotals totals;
   TrailerLoss loss;
   std::bitset<256> exercises;
-  std::array<std::uint64_t, 17> bundle_sizes{};      ///< datagrams by PDUs; the last: 16 and more
-  std::map<std::string_view, std::uint64_t> faults;  ///< PDUs by the rule that they broke
-  std::uint64_t dropped = 0;                         ///< by the kernel, before they reached us
-  std::chrono::nanoseconds
-      now{};  ///< ages are of this instant; that of the last datagram in a file
+  std::array<std::uint64_t, 17> bundle_sizes{};      ///< datagrams by number of PDUs; the last: 16
+                                                     ///< and more
+  std::map<std::string_view, std::uint64_t> faults;  ///< PDUs by the rule that they break
+  std::uint64_t dropped = 0;                         ///< by the kernel, before reception
+  std::chrono::nanoseconds now{};  ///< reference time of ages; in a file that of the last datagram
 };
 
 /// "capture.pcap   ex 1   0:42   1206 PDU/s   134 dgram/s   1.43 Mbit/s   9.0 PDU/dgram = 96.9 %
-/// payload   lost 0   bad 5". `lost` counts gaps of sequence numbers and what the kernel dropped.
+/// payload   lost 0   bad 5". `lost` counts gaps of sequence numbers and drops by the kernel.
 [[nodiscard]] std::string top_head(const TopData& data, const TrafficRates::Rates& rates);
 
-/// Who spends most octets, with the jumps that it does so for; empty below half of all octets or
-/// among few entities.
+/// The simulation that sends most octets, with its jumps. Empty below half of all octets or for few
+/// entities.
 [[nodiscard]] std::string top_advice(const TopData& data);
 
 /// Head and table.
 void append_top_text(std::string& out, const TopData& data, const TrafficRates::Rates& rates);
-/// One object an entity, then one with the sums.
+/// One object for each entity, then one with the sums.
 void append_top_json(std::string& out, const TopData& data, const TrafficRates::Rates& rates);
-/// Titles, then one line an entity.
+/// Titles, then one line for each entity.
 void append_top_csv(std::string& out, const TopData& data);
 
 }  // namespace reckon::tools

@@ -21,13 +21,13 @@ constexpr std::string_view kKeys =
     "[q] quit";
 constexpr std::string_view kPaneKeys = "[Esc] back  [space] freeze  [q] quit";
 
-/// The part of a line that a screen shows: from column `shift` on, `columns` wide.
+/// The visible part of a line: from column `shift` on, `columns` wide.
 std::string window_of(std::string_view text, std::size_t shift, std::size_t columns) {
   const auto begin = text.substr(std::min(shift, text.size()));
   return std::string(begin.substr(0, columns));
 }
 
-/// Breaks a line between its items, which three spaces part.
+/// Breaks a line between its items, which are separated by three spaces.
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std::size_t most) {
   constexpr std::string_view kPart = "   ";
   std::vector<std::string> lines{""};
@@ -58,7 +58,7 @@ std::string row_text(const std::vector<std::string>& cells,
   return line;
 }
 
-/// An entity as the filter sees it: as its last Entity State.
+/// Applies the filter to the last Entity State of an entity.
 bool passes(const Filter& filter, const HeardEntity& entity, const EntityRow& counts) {
   PduRow row;
   row.frame = counts.frame;
@@ -172,7 +172,7 @@ void TopScreen::take_filter() {
     editing_ = false;
     cursor_ = top_ = 0;
   } catch (const FilterError& error) {
-    // The first line says why; the others are for a terminal without a cursor.
+    // The first line has the reason; the others are for a terminal without a cursor.
     error_ = error.what();
     error_.resize(std::min(error_.find('\n'), error_.size()));
     error_column_ = error.column;
@@ -237,7 +237,7 @@ std::vector<ScreenLine> TopScreen::lines(const TopData& live, const TrafficRates
     if (!advice.empty()) foot.push_back({"advice: " + std::move(advice)});
   }
   footer(size, foot);
-  // On the smallest screens the table goes first, then the head.
+  // On the smallest screens the table is dropped first, then the head.
   const std::size_t used = out.size() + foot.size();
   const std::size_t room = size.rows > used ? size.rows - used : 0;
   if (pane_ == Pane::table)
@@ -270,7 +270,7 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
   const std::size_t end = std::min(places.size(), top_ + page_);
   for (std::size_t i = top_; i < end; ++i)
     rows.push_back(top_cells({data.entities, places[i], data.now}));
-  // Columns grow and never shrink, so that the table stands still.
+  // Columns grow and never shrink, so that the table does not move.
   widths_.resize(columns.size());
   for (const auto& cells : rows)
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -304,7 +304,7 @@ void TopScreen::pane(const TopData& data, ScreenSize size, std::vector<ScreenLin
 void TopScreen::footer(ScreenSize size, std::vector<ScreenLine>& out) const {
   if (editing_) {
     constexpr std::string_view kPrompt = "filter: ";
-    // A long filter shows its end, where it is written.
+    // Of a long filter the end is shown, where the user types.
     const std::size_t room = size.columns - std::min(size.columns, kPrompt.size() + 1);
     const std::size_t cut = edited_.size() - std::min(edited_.size(), room);
     out.push_back({std::string(kPrompt) + edited_.substr(cut) + "_", LineStyle::title});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The screen of `top` without a terminal: keys go in, lines come out.
+// The screen of `top` without a terminal: takes keys and returns lines.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@
 
 namespace reckon::tools {
 
-/// What the user has chosen to see, and the lines for it. One thread.
+/// The user's choices, and the lines for them. One thread.
 class TopScreen {
  public:
-  /// Takes a key. `data` is what would be shown now: space freezes it.
+  /// Takes a key. `data` is the present data, which space freezes.
   void press(KeyPress press, const TopData& data);
 
   /// The whole screen: at most `size.rows` lines of at most `size.columns` columns each.
   [[nodiscard]] std::vector<ScreenLine> lines(const TopData& data, const TrafficRates::Rates& rates,
                                               ScreenSize size);
 
-  /// Whether the user asked to end.
+  /// Whether the user asked to quit.
   [[nodiscard]] bool quit() const noexcept { return quit_; }
 
  private:
@@ -48,21 +48,21 @@ class TopScreen {
   Pane pane_ = Pane::table;
   bool quit_ = false;
   std::optional<Frozen> frozen_;
-  TrafficRates::Rates rates_;  // as shown last
+  TrafficRates::Rates rates_;  // as last shown
   std::size_t sort_ = 0;       // column
   bool reverse_ = false;
-  std::size_t cursor_ = 0;  // among the chosen rows
-  std::size_t top_ = 0;     // the first one shown
-  std::size_t shift_ = 0;   // columns that are scrolled out to the left
-  std::size_t page_ = 1;    // rows shown last
+  std::size_t cursor_ = 0;  // among the selected rows
+  std::size_t top_ = 0;     // first row shown
+  std::size_t shift_ = 0;   // columns scrolled out to the left
+  std::size_t page_ = 1;    // number of rows last shown
   std::vector<std::size_t> widths_;
   std::uint64_t followed_ = 0;  // key of the entity in its pane
   std::uint64_t under_cursor_ = 0;
   bool has_cursor_ = false;
 
   bool editing_ = false;
-  std::string edited_;    // the filter while it is written
-  std::string accepted_;  // the filter in force
+  std::string edited_;    // the filter being edited
+  std::string accepted_;  // the active filter
   std::optional<Filter> filter_;
   std::string error_;
   std::size_t error_column_ = 0;

@@ -61,7 +61,7 @@ void TopView::tick(nanoseconds now, const peer::SourceReport& report, std::strin
   if (format_ == Format::text) out += '\n';
 }
 
-// Takes the keys that were pressed and draws at once where there were some.
+// Takes the pressed keys and draws at once if there were any.
 void TopView::show(nanoseconds now) {
   next_keys_ = now + kLookForKeysEvery;
   while (const auto key = terminal_->key()) {

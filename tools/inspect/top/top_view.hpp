@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `top`: every entity with its rate, why it was sent and how far it jumped.
+// The view `top`: every entity with its rate, the reasons of its updates and its jumps.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ class TopView final : public View {
  public:
   TopView(const InspectOptions& options, const Console& console);
 
-  /// Takes the terminal, where there is one and the source goes on.
+  /// Takes over the terminal, if there is one and the source is live.
   void begin(std::string& out) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds,
            std::string&) override {
@@ -31,13 +31,12 @@ class TopView final : public View {
   }
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// Live sources: keys and the screen on a terminal, else the table each second where that was
-  /// asked for.
+  /// Live sources: keys and the screen on a terminal, else the table each second if requested.
   void tick(std::chrono::nanoseconds now, const peer::SourceReport& report,
             std::string& out) override;
-  /// Whether the user ended it by a key.
+  /// Whether the user ended it with a key.
   [[nodiscard]] bool has_ended() const override { return screen_.quit(); }
-  /// Gives the terminal back, or writes the table.
+  /// Restores the terminal, or writes the table.
   void finish(const InspectTally& tally, std::string& out) override;
 
  private:
@@ -46,13 +45,13 @@ class TopView final : public View {
 
   Format format_;
   bool follow_;
-  bool grows_;  // the source goes on
+  bool grows_;  // the source is live
   const Console& console_;
   TopData data_;
   TrafficRates rates_;
-  std::unique_ptr<TerminalScreen> terminal_;  // null where the output is none
+  std::unique_ptr<TerminalScreen> terminal_;  // null without a terminal
   TopScreen screen_;
-  std::size_t pdus_ = 0;  // of the datagram at hand
+  std::size_t pdus_ = 0;  // in the present datagram
   std::chrono::nanoseconds next_write_{};
   std::chrono::nanoseconds next_keys_{};
 };

@@ -15,7 +15,7 @@
 namespace reckon::tools {
 namespace {
 
-// Octets of the plain Entity States over those of what holds them.
+// Octets as plain Entity States over the octets of the PDUs that contain them.
 double ratio(std::size_t states, std::size_t octets) {
   return static_cast<double>(states * pdu::kFixedSize<pdu::EntityState>) /
          static_cast<double>(octets);
@@ -45,7 +45,7 @@ void BundlesView::look(const PduRow& row) {
   rank_ = std::max(rank, rank_);
 }
 
-// Those that are there, whatever the PDU says.
+// Counts the states that are present, whatever number the PDU states.
 void BundlesView::count_states(const PduRow& row, Run& run) {
   pdu::CompressedStates states;
   if (!row.decoded || pdu::decode(row.bytes, states) != pdu::DecodeError::none) return;

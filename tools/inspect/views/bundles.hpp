@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `bundles`: one line a datagram, what is in it and in which order.
+// The view `bundles`: one line a datagram with its PDUs in order.
 #pragma once
 
 #include <cstddef>
@@ -18,23 +18,23 @@ class BundlesView final : public View {
  public:
   explicit BundlesView(Format format) : format_(format) {}
 
-  /// Titles of the columns, where the format has them.
+  /// Titles of the columns, if the format has them.
   void begin(std::string& out) override;
-  /// One PDU of the datagram at hand.
+  /// Counts one PDU of the present datagram.
   void look(const PduRow& row) override;
-  /// The datagram's line; `start` is the time of the first datagram.
+  /// Writes the datagram's line; `start` is the time of the first datagram.
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// Instead of it, where the datagram is not to be shown.
+  /// Replaces datagram() for a datagram that is not to be shown.
   void skip() override;
 
  private:
-  /// PDUs of one type that stand side by side.
+  /// Adjacent PDUs of one type.
   struct Run {
     std::string_view type;
     std::size_t count;
     std::size_t states = 0;  ///< compressed ones
-    std::size_t octets = 0;  ///< of the PDUs that hold them
+    std::size_t octets = 0;  ///< of the PDUs that contain them
   };
 
   static void count_states(const PduRow& row, Run& run);

@@ -22,14 +22,15 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Silence of all is sampled for so long, the heartbeat of haptic entities: work stays bounded.
+/// Longest silence of all that is sampled, the heartbeat of haptic entities, so that the work is
+/// bounded.
 constexpr nanoseconds kLongestSilence = std::chrono::seconds(5);
 constexpr nanoseconds kLeastStep = std::chrono::microseconds(100);
-/// Plots in the terminal; the contacts of the greatest forces.
+/// Number of plots in the terminal: the contacts with the greatest forces.
 constexpr std::size_t kMostPlots = 3;
-/// Haptic entities whose coefficients are shown at the end.
+/// Number of haptic entities whose coefficients are shown at the end.
 constexpr std::size_t kMostEntities = kPeerRules.most_entities;
-/// Two directions of a contact are one curve where they differ by less than this share of the peak.
+/// Two directions of a contact are one curve if they differ by less than this share of the peak.
 constexpr double kSameCurve = 0.02;
 constexpr std::string_view kBeforeGate =
     "Forces that the models on the wire give, before the receivers' gates and without friction.";
@@ -86,7 +87,7 @@ void HapticsView::expect(const peer::SourceDatagram& datagram) {
   for (; next_ < until && !heard_.entities().empty(); next_ += step_) sample(next_);
   last_ = std::max(last_, time);
   if (next_ >= time) return;
-  // Nothing to ask until this datagram, however far it is.
+  // There are no samples to take until this datagram, at any distance.
   const auto steps = (time - next_ + step_ - nanoseconds(1)) / step_;
   number_ += static_cast<std::uint64_t>(steps);
   next_ += steps * step_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `haptics`: the contact forces between haptic entities over time, as the models on the
-// wire give them, before any receiver's gate.
+// The view `haptics`: the contact forces between haptic entities over time from the models on the
+// wire, before any receiver's gate.
 #pragma once
 
 #include <array>
@@ -23,18 +23,18 @@
 
 namespace reckon::tools {
 
-/// What one entity's model did to another.
+/// Course of the force of one entity's model on another entity.
 struct ContactCourse {
   explicit ContactCourse(std::chrono::nanoseconds step) : history(step) {}
 
   std::uint64_t samples = 0;             ///< in contact
-  std::uint64_t touches = 0;             ///< times that contact began
+  std::uint64_t touches = 0;             ///< number of beginnings of contact
   std::uint64_t last = 0;                ///< number of the last sample in contact
   double sum = 0;                        ///< [N]
   double peak = 0;                       ///< [N]
   std::chrono::nanoseconds peak_time{};  ///< since the first datagram
-  std::uint64_t updates = 0;             ///< that met the contact
-  peer::ErrorHistogram jumps;            ///< [N], by these updates
+  std::uint64_t updates = 0;             ///< received during contact
+  peer::ErrorHistogram jumps;            ///< [N], from these updates
   ForceHistory history;
 
   [[nodiscard]] double mean() const {
@@ -44,21 +44,22 @@ struct ContactCourse {
 
 class HapticsView final : public View {
  public:
-  /// Directed pairs whose course is kept; samples of others go out, but not into the tables.
+  /// Number of directed pairs whose course is kept. Samples of others are written, but not in the
+  /// tables.
   static constexpr std::size_t kMostContacts = 128;
   static constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(10);
 
-  /// @throws UsageError where options.svg cannot be written or the step is too small.
+  /// @throws UsageError if options.svg cannot be written or the step is too small.
   HapticsView(const InspectOptions& options, const PlotCanvas& canvas);
 
   void begin(std::string& out) override;
-  /// Samples up to the arrival of the next datagram, with what is known before it.
+  /// Samples up to the arrival of the next datagram, from the state before it.
   void expect(const peer::SourceDatagram& datagram) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
            std::string& out) override;
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// Samples that came up without a datagram to be shown go out.
+  /// Writes samples that are pending without a datagram to be shown.
   void tick(std::chrono::nanoseconds, const peer::SourceReport&, std::string& out) override {
     flush(out);
   }
@@ -90,7 +91,7 @@ class HapticsView final : public View {
   void json(std::string& out) const;
   void write_svg() const;
 
-  /// A curve of the plots: a contact, or two whose forces are the same both ways.
+  /// A curve of the plots: a contact, or two with equal forces in both directions.
   struct Curve {
     std::string name;
     const ContactCourse* course;
@@ -105,13 +106,13 @@ class HapticsView final : public View {
   ContactForces forces_;
   std::map<Key, ContactCourse> contacts_;
   std::map<std::array<std::uint16_t, 3>, Coefficients> entities_;
-  std::uint64_t crowded_contacts_ = 0;  // samples of contacts beyond the room
-  std::uint64_t number_ = 0;            // samples taken
+  std::uint64_t crowded_contacts_ = 0;  // samples of contacts without room
+  std::uint64_t number_ = 0;            // number of samples taken
   bool started_ = false;
   std::chrono::nanoseconds start_{};
   std::chrono::nanoseconds next_{};
   std::chrono::nanoseconds last_{};
-  std::string rows_;  // of samples, not yet handed out
+  std::string rows_;  // of samples, not yet written
 };
 
 }  // namespace reckon::tools

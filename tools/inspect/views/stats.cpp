@@ -28,7 +28,7 @@ void add(TrafficShare& to, const TrafficShare& share) {
 
 bool has_datagrams(std::string_view by) { return by == "sender" || by == "group"; }
 
-/// Of each second; null and "-" where no time passed.
+/// A rate per second; null and "-" if no time passed.
 std::string rate(double count, double seconds, Format format) {
   if (seconds > 0)
     return format == Format::text ? fmt::format("{:.1f}", count / seconds)

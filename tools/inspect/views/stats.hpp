@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `stats`: how much of what was sent by whom, how well datagrams were filled, and what was
-// lost on the way, counted from the sequence numbers in trailers.
+// The view `stats`: traffic by type and sender, fill of datagrams, and loss, which is counted from
+// the sequence numbers in trailers.
 #pragma once
 
 #include <array>
@@ -24,27 +24,27 @@ namespace reckon::tools {
 /// Sums of one row of the view.
 struct TrafficShare {
   std::uint64_t pdus = 0;
-  std::uint64_t octets = 0;     ///< of its PDUs, broken ones as far as they are there
-  std::uint64_t datagrams = 0;  ///< in which it occurs; senders and groups only
+  std::uint64_t octets = 0;     ///< of its PDUs; broken ones as far as they are present
+  std::uint64_t datagrams = 0;  ///< that contain it; senders and groups only
   std::uint64_t errors = 0;     ///< PDUs that could not be read
   std::int64_t lost = 0;        ///< datagrams, from trailers; senders and groups only
 };
 
-/// Counts datagrams; one thread. Memory is bounded: each table holds `most_rows` and counts what
-/// does not fit in one row "others".
+/// Counts datagrams; one thread. Memory is bounded: each table has `most_rows` rows and one row
+/// "others" for the rest.
 class StatsView final : public View {
  public:
   static constexpr std::size_t kMostRows = std::size_t{1} << 16;
 
-  /// `by`: "type", "sender", "group" or "entity" for one table alone and whole; empty for all, in
-  /// text at most 20 rows of each.
+  /// `by`: "type", "sender", "group" or "entity" for a single, complete table. Empty for all
+  /// tables, in text with at most 20 rows each.
   explicit StatsView(Format format, std::string by = {}, std::size_t most_rows = kMostRows);
 
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
            std::string& out) override;
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;
-  /// Writes everything.
+  /// Writes all tables.
   void finish(const InspectTally& tally, std::string& out) override;
 
   [[nodiscard]] const TrafficTotals& totals() const { return totals_; }
@@ -76,12 +76,12 @@ class StatsView final : public View {
   std::string by_;
   std::size_t most_rows_;
   TrafficTotals totals_;
-  std::array<TrafficShare, 257> types_{};  // by PDU type; the last for what has no header
+  std::array<TrafficShare, 257> types_{};  // by PDU type; the last for PDUs without a header
   EndpointTable senders_;
   EndpointTable groups_;
   Table<pdu::EntityId> entities_;
   TrailerLoss loss_;
-  TrafficShare datagram_;  // of the datagram at hand
+  TrafficShare datagram_;  // of the present datagram
 };
 
 }  // namespace reckon::tools

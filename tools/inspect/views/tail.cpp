@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `tail`: every PDU by itself, as a line, a tree of its fields or a JSON object.
+// The view `tail`: every PDU separately, as a line, a tree of its fields or a JSON object.
 #include <chrono>
 #include <memory>
 #include <string>
