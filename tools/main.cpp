@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program `reckon`: hands its arguments and streams to the verbs.
+// The program `reckon`: passes its arguments and streams to the verbs.
 #include "reckon/tools/command_line/verb_program.hpp"
 #include "reckon/tools/program.hpp"
 

@@ -12,7 +12,7 @@
 namespace reckon::tools {
 namespace verb {
 
-// One for each file of verbs/.
+// One function for each file of verbs/.
 Verb demo();
 Verb peer();
 Verb inspect();
@@ -35,7 +35,8 @@ namespace {
 int run_help(Arguments arguments, const Console& console);
 int run_list_completion(Arguments arguments, const Console& console);
 
-/// THE list of verbs, in the order of help. Two know the list itself, so that they stand here.
+/// THE list of verbs, in the order of help. Two verbs need the list itself and are therefore
+/// defined here.
 std::span<const Verb> list() {
   static const std::array kVerbs{
       verb::demo(),

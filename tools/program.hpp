@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program `reckon`: THE list of its verbs, in program.cpp, and how one of them is run. A new
-// verb is one file in verbs/ and one row of the list; help, manual page, completion and the
-// suggestion for a mistyped verb follow from the row.
+// The program `reckon`: THE list of its verbs, in program.cpp, and the function that runs one. A
+// new verb is one file in verbs/ and one row of the list. Help, manual page, completion and the
+// suggestion for a mistyped verb use the list.
 #pragma once
 
 #include <span>

@@ -10,7 +10,7 @@ namespace {
 constexpr char kEscape = '\x1b';
 
 void change_rate(ReplaySchedule& schedule, double factor, std::chrono::nanoseconds now) {
-  if (schedule.rate() <= 0) return;  // faster than as fast as it goes is not to be had
+  if (schedule.rate() <= 0) return;  // the rate is already unlimited
   const double rate = std::clamp(schedule.rate() * factor, ReplayKeys::kSlowest,
                                  std::max(ReplayKeys::kFastest, schedule.rate()));
   if (rate != schedule.rate()) schedule.set_rate(rate, now);
@@ -34,7 +34,7 @@ ReplayKeys::Demand ReplayKeys::press(char key, ReplaySchedule& schedule,
     return Demand::nothing;
   }
   if (state_ == State::sequence) {
-    // Numbers before the letter say which other keys were held.
+    // Numbers before the letter state which modifier keys were held.
     if ((key >= '0' && key <= '9') || key == ';') return Demand::nothing;
     state_ = State::plain;
     if (key == 'C') return leap(schedule, kLeap, now);

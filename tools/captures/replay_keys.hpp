@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the keys of a terminal do to a replay: the characters it sends, one by one, and the
-// schedule.
+// Keys of a replay: converts the characters of a terminal to changes of the schedule.
 #pragma once
 
 #include <chrono>
@@ -12,8 +11,8 @@
 
 namespace reckon::tools {
 
-/// Turns characters into changes of a schedule: space pauses and goes on, + and - double and halve
-/// the rate, the arrows right and left leap by 10 s, q ends. Others do nothing.
+/// Converts characters to changes of a schedule: space pauses and resumes, + and - double and halve
+/// the rate, the arrows right and left jump by 10 s, q ends. Others are ignored.
 class ReplayKeys {
  public:
   static constexpr std::chrono::seconds kLeap{10};
@@ -22,14 +21,15 @@ class ReplayKeys {
   static constexpr std::string_view kHelp =
       "keys: space pause, left and right 10 s, + and - speed, q end";
 
-  /// What the caller has to do.
+  /// Action that the caller has to take.
   enum class Demand : std::uint8_t {
     nothing,
-    read_again,  ///< the capture, from its beginning
+    read_again,  ///< read the capture again from its beginning
     end
   };
 
-  /// One character as the terminal sent it; an arrow is three (ESC [ C), at any times.
+  /// Takes one character from the terminal. An arrow is three (ESC [ C), which may arrive
+  /// separately.
   [[nodiscard]] Demand press(char key, ReplaySchedule& schedule, std::chrono::nanoseconds now);
 
  private:

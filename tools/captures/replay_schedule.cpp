@@ -24,7 +24,7 @@ void ReplaySchedule::next(nanoseconds time) {
 
 nanoseconds ReplaySchedule::due() const {
   if (rate_ <= 0) return anchor_;
-  // A damaged capture may put a datagram centuries away: it waits.
+  // A damaged capture may place a datagram centuries away; it waits.
   const double wait = std::clamp(count(at_ - anchor_place_) / rate_, -kCentury, kCentury);
   return anchor_ + nanoseconds(std::llround(wait));
 }
@@ -39,7 +39,7 @@ void ReplaySchedule::sent(nanoseconds now) {
 void ReplaySchedule::next_lap(nanoseconds now) {
   const nanoseconds length = latest_ - first_;
   const bool beyond = sought_ > lap_begin_ + length;
-  // A lap of one datagram has no spacing of its own: one a second.
+  // A lap of one datagram has no spacing: it is sent once a second.
   const auto gaps = static_cast<std::int64_t>(count_) - 1;
   lap_begin_ += length + (gaps > 0 ? length / gaps : nanoseconds(std::chrono::seconds(1)));
   count_ = 0;
@@ -100,7 +100,7 @@ nanoseconds ReplaySchedule::place(nanoseconds now) const {
   if (rate_ <= 0) return reached_;
   const nanoseconds by_clock =
       anchor_place_ + nanoseconds(std::llround(count(now - anchor_) * rate_));
-  // Where the machine does not keep up, the clock runs ahead of what was sent.
+  // If the machine cannot keep up, the clock is ahead of the sent datagrams.
   return std::min(by_clock, std::max(at_, anchor_place_));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where a replay sends: groups, hosts, broadcast addresses, and the sockets that reach them.
+// Destinations of a replay: groups, hosts, broadcast addresses, and the sockets for them.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace reckon::tools {
 
-/// Reads "udp://239.1.2.3:3000", "udp://192.168.1.255", "127.0.0.1:3000"; the port is 3000 unless
-/// it is said. @throws UsageError.
+/// Reads "udp://239.1.2.3:3000", "udp://192.168.1.255", "127.0.0.1:3000"; the default port is 3000.
+/// @throws UsageError.
 [[nodiscard]] peer::IpEndpoint parse_destination(const std::string& text);
 
 /// One IPv4 network of this host.
@@ -29,25 +29,25 @@ struct LocalNetwork {
   std::uint32_t address = 0;  ///< in host order
   std::uint32_t mask = 0;
 };
-/// All of them. @throws EnvironmentError.
+/// All IPv4 networks of this host. @throws EnvironmentError.
 [[nodiscard]] std::vector<LocalNetwork> local_networks();
 
-/// The interface that `to` is the broadcast address of; empty for 255.255.255.255, which is that of
-/// every one; nothing where `to` is no broadcast address.
+/// The interface with the broadcast address `to`. Empty for 255.255.255.255, which belongs to every
+/// interface. No value if `to` is not a broadcast address.
 [[nodiscard]] std::optional<std::string> broadcast_interface(
     const peer::IpEndpoint& to, std::span<const LocalNetwork> networks);
 
-/// The sockets of a replay: one for each address family, opened when it is needed.
+/// The sockets of a replay: one for each address family, opened on demand.
 class ReplaySenders {
  public:
   ReplaySenders(std::string interface, bool broadcast, const peer::Clock& clock)
       : interface_(std::move(interface)), broadcast_(broadcast), clock_(clock) {}
 
-  /// Opens the socket that reaches `to`. @throws EnvironmentError where that cannot be.
+  /// Opens the socket for `to`. @throws EnvironmentError if that fails.
   void prepare(const peer::IpEndpoint& to);
-  /// False where the kernel refused it. @throws as prepare().
+  /// False if the kernel refused it. @throws as prepare().
   bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes);
-  /// Of those refused, the ones above the MTU.
+  /// Number of refused datagrams above the MTU.
   [[nodiscard]] std::uint64_t too_big() const;
 
  private:

@@ -23,7 +23,7 @@ namespace {
 using std::chrono::nanoseconds;
 using Align = TextTable::Align;
 
-/// The longest tables for people end here; JSON has all.
+/// Greatest number of rows in the tables as text; JSON has all.
 constexpr std::size_t kMaxRows = 20;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
@@ -41,7 +41,7 @@ std::string seconds_text(nanoseconds time) {
   return fmt::format("{}.{:09}", time.count() / kSecond, time.count() % kSecond);
 }
 
-/// Keys in falling order of their counts.
+/// Keys in descending order of their counts.
 template <typename Map, typename Count>
 std::vector<const typename Map::value_type*> by_count(const Map& map, Count&& count) {
   std::vector<const typename Map::value_type*> rows;
@@ -95,7 +95,7 @@ void append_rules(std::string& out, const CaptureSummary& summary) {
   out += '\n' + table.text();
 }
 
-/// Adds a list of objects, one a row; `members(object, name, share)` fills each.
+/// Adds a list of objects, one for each row; `members(object, name, share)` fills each.
 template <typename Map, typename Members>
 void add_objects(JsonObject& to, std::string_view key, const Map& map, Members&& members) {
   to.array(key, map, [&](std::string& out, const auto& row) {

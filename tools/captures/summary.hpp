@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a capture holds: counts by type, sender, group, entity and fault.
+// Content of a capture: counts by type, sender, group, entity and fault.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace reckon::tools {
 
-/// How many of something, and how many octets they take.
+/// A count, and its octets.
 struct Share {
   std::uint64_t count = 0;
   std::uint64_t octets = 0;
@@ -25,7 +25,7 @@ struct Share {
   }
 };
 
-/// One entity as the capture shows it; times since the first datagram.
+/// One entity of the capture; times since the first datagram.
 struct EntityShare {
   Share pdus;
   std::string marking;
@@ -33,14 +33,14 @@ struct EntityShare {
   std::chrono::nanoseconds last{};
 };
 
-/// One rule that PDUs break.
+/// A rule that PDUs break.
 struct RuleShare {
   std::uint64_t count = 0;
   std::uint64_t first_frame = 0;
 };
 
-/// Counts datagrams and the PDUs in them. Memory grows with what differs, not with the length of
-/// the capture.
+/// Counts datagrams and their PDUs. Memory grows with the number of different keys, not with the
+/// length of the capture.
 class CaptureSummary {
  public:
   void add(const peer::SourceDatagram& datagram);
@@ -64,10 +64,10 @@ class CaptureSummary {
   DatagramInspector inspector_;
 };
 
-/// The summary as tables for people.
+/// The summary as text tables.
 [[nodiscard]] std::string summary_text(const std::string& name, const CaptureSummary& summary,
                                        const peer::SourceReport& report);
-/// The same, whole, as one JSON object on one line.
+/// The same without a limit, as one JSON object on one line.
 [[nodiscard]] std::string summary_json(const std::string& name, const CaptureSummary& summary,
                                        const peer::SourceReport& report);
 

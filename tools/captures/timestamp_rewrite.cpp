@@ -22,7 +22,7 @@ void rewrite_trailer(std::span<std::byte> octets, std::chrono::nanoseconds utc) 
   pdu::DatagramTrailer trailer;
   if (decode(octets, trailer) != pdu::DecodeError::none) return;
   trailer.send_time = pdu::trailer_time(utc);
-  // A trailer of a later version is longer than what is known of it, and is left alone.
+  // A trailer of a later version is longer than the known one, and stays unchanged.
   if (wire_size(trailer) == octets.size()) (void)encode(trailer, octets);
 }
 

@@ -19,7 +19,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Reads a value that CLI11 hands over as text; throws its ValidationError with the remedy.
+/// Reads a value from CLI11's text; throws its ValidationError with the remedy.
 std::chrono::nanoseconds duration_value(const std::string& name, const std::string& text) {
   if (const auto duration = parse_duration(text)) return *duration;
   throw CLI::ValidationError(
@@ -36,7 +36,7 @@ std::uint64_t count_value(const std::string& name, const std::string& text) {
   throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from 0 on", text));
 }
 
-/// Takes one of the words only; its name in the help is the list of them.
+/// Accepts only one of the words; their list is its name in the help.
 CLI::Validator one_of(const std::vector<std::string>& words) {
   const auto check = [words](const std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
@@ -58,7 +58,7 @@ double number_value(const std::string& name, const std::string& text) {
                              fmt::format("'{}' is not a number; write for example 0.5", text));
 }
 
-/// Whether `word` is one of `words`, blanks between.
+/// Whether `word` is one of `words`, which are separated by blanks.
 bool is_among(std::string_view word, std::string_view words) {
   while (!words.empty()) {
     const std::size_t end = std::min(words.find(' '), words.size());
@@ -78,7 +78,7 @@ std::string listed(std::string_view words) {
 
 std::vector<std::string> reversed(Arguments arguments) {
   std::vector<std::string> words(arguments.begin(), arguments.end());
-  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  std::reverse(words.begin(), words.end());  // the order that CLI11 needs
   return words;
 }
 
@@ -89,15 +89,15 @@ struct CommandLine::Parser {
   std::string verb;
   std::string summary;
   std::vector<std::string> examples;
-  std::map<std::string, std::vector<std::string>> choices;  // by the option's name
-  std::map<std::size_t, std::string> owners;  // by the number of the first option of theirs
+  std::map<std::string, std::vector<std::string>> choices;  // by option name
+  std::map<std::size_t, std::string> owners;  // owners, by the number of their first option
 
   Parser(std::string_view verb_, std::string_view summary_)
       : app(std::string(summary_), "reckon " + std::string(verb_)),
         verb(verb_),
         summary(summary_) {}
 
-  /// An option whose text `read` turns into the value.
+  /// An option whose text is converted by `read`.
   template <typename Read>
   void add(const std::string& name, const std::string& help, const std::string& kind, Read read) {
     app.add_option_function<std::string>(name, read, help)->type_name(kind);
@@ -111,7 +111,7 @@ struct CommandLine::Parser {
     return names;
   }
 
-  /// Each flag and word, with the choices behind it where there are some.
+  /// Each flag and word, followed by its choices if it has some.
   void list_flags(std::FILE* out) const {
     for (const CLI::Option* option : app.get_options()) {
       const auto& names = option->get_lnames();
@@ -134,13 +134,13 @@ struct CommandLine::Parser {
     return words + "[FLAGS]";
   }
 
-  /// The words below the verb that a flag belongs to, blanks between; empty: to all.
+  /// The words below the verb to which a flag belongs, separated by blanks; empty: all.
   [[nodiscard]] std::string_view owners_of(std::size_t option) const {
     const auto next = owners.upper_bound(option);
     return next == owners.begin() ? std::string_view() : std::prev(next)->second;
   }
 
-  /// The word below the verb that is meant, where flags belong to it; empty: none.
+  /// The word below the verb in the arguments, if flags belong to it; empty: none.
   [[nodiscard]] std::string_view word_of(Arguments arguments) const {
     for (const std::string_view word : arguments) {
       for (const auto& [first, words] : owners)
@@ -149,7 +149,7 @@ struct CommandLine::Parser {
     return {};
   }
 
-  /// What --help shows: flags by whom they belong to, and of a word below the verb its own alone.
+  /// Text of --help: flags grouped by their owner, or for a word below the verb only its own.
   [[nodiscard]] std::string help_of(std::string_view word) {
     std::size_t number = 0;
     for (CLI::Option* option : app.get_options()) {
@@ -179,8 +179,8 @@ struct CommandLine::Parser {
     return section;
   }
 
-  /// The sentence on the first word that looks like a flag and is none, or on a flag whose value is
-  /// missing, or nothing.
+  /// The error for the first word that resembles a flag but is not one, or for a flag without its
+  /// value; empty if there is none.
   [[nodiscard]] std::string wrong_flag(Arguments arguments) const {
     const CLI::Option* waits = nullptr;
     for (const std::string_view word : arguments) {
@@ -325,7 +325,7 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
                parser_->verb, sentence, parser_->verb);
     return exit_status(ExitCode::usage);
   };
-  // Looked for before CLI11, which would take the value behind an unknown flag for a word.
+  // Checked before CLI11, which would take the value after an unknown flag for a word.
   if (const std::string unknown = parser_->wrong_flag(arguments); !unknown.empty())
     return wrong(unknown);
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The flags of one verb: declared once, and from that parsed, checked, shown by `--help` and
-// completed by shells.
+// The flags of one verb. They are declared once; parsing, checks, `--help` and shell completion use
+// the declaration.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,8 @@
 
 namespace reckon::tools {
 
-/// Flags and words that one verb takes. Targets must outlive parse(); one that is not given keeps
-/// its value.
+/// Flags and words of one verb. Targets must outlive parse(). An option that is not given keeps the
+/// value of its target.
 ///
 ///     CommandLine line("demo", "Two peers on loopback.", "reckon demo --for 10s --json");
 ///     line.flag("--json", options.json, "one JSON object per line");
@@ -26,8 +26,8 @@ namespace reckon::tools {
 ///     if (const auto status = line.parse(arguments, console)) return *status;
 class CommandLine {
  public:
-  /// `verb` as typed after `reckon` ("scene check" for a word below a verb); `examples` one command
-  /// a line.
+  /// @param verb as typed after `reckon` ("scene check" for a word below a verb)
+  /// @param examples one command a line
   CommandLine(std::string_view verb, std::string_view summary, std::string_view examples);
   ~CommandLine();
   CommandLine(const CommandLine&) = delete;
@@ -36,8 +36,8 @@ class CommandLine {
   /// A switch: "--json" or "-j,--json".
   void flag(const std::string& name, bool& target, const std::string& help);
 
-  /// Options with a value. Durations take a unit ("10s", "5 ms"; bare: seconds); numbers are
-  /// checked whole.
+  /// Options with a value. Durations have a unit ("10s", "5 ms"; without one: seconds). A number
+  /// must be the whole word.
   void option(const std::string& name, std::string& target, const std::string& help);
   void option(const std::string& name, std::vector<std::string>& target, const std::string& help);
   void option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
@@ -47,7 +47,7 @@ class CommandLine {
   void option(const std::string& name, std::optional<std::uint64_t>& target,
               const std::string& help);
   void option(const std::string& name, double& target, const std::string& help);
-  /// One of a few words.
+  /// An option with one of a few words.
   void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
               const std::string& help);
 
@@ -56,18 +56,18 @@ class CommandLine {
   void words(const std::string& name, std::vector<std::string>& target, bool required,
              const std::string& help);
 
-  /// The flags declared from here on belong to this word below the verb alone, or to these, blanks
-  /// between; empty: to all. `--help` shows them apart, and behind the word nothing of others.
+  /// Flags declared from here on belong only to this word below the verb, or to these, separated by
+  /// blanks; empty: to all. `--help` shows them in a group, and after the word only its own.
   void only_for(std::string_view word);
-  /// After parse(): @throws UsageError with the first flag given that belongs to another word.
+  /// After parse(): @throws UsageError for the first given flag that belongs to another word.
   void check_for(std::string_view word) const;
 
   /// After parse(): the flags and words that were given, as declared ("--json", "FILE").
   [[nodiscard]] std::vector<std::string> given() const;
 
-  /// Fills the targets. Returns nothing where the verb should go on, else the exit status to
-  /// return: 0 after `--help` (shown on out), 2 for wrong usage (reported on err, with the nearest
-  /// flag or word where one was mistyped).
+  /// Fills the targets. Returns nothing if the verb should continue, else the exit status: 0 after
+  /// `--help` (shown on out), 2 for wrong usage (reported on err, with the nearest flag or word for
+  /// a mistyped one).
   [[nodiscard]] std::optional<int> parse(Arguments arguments, const Console& console);
 
  private:
@@ -75,11 +75,11 @@ class CommandLine {
   std::unique_ptr<Parser> parser_;
 };
 
-/// The flag that makes a verb list its flags and words on out, one a line with its choices behind
-/// it, for the completion scripts.
+/// Flag that makes a verb list its flags and words on out, one a line followed by its choices, for
+/// the completion scripts.
 inline constexpr std::string_view kListFlags = "--list-flags";
 
-/// The flag that makes a verb write its section of the manual page on out.
+/// Flag that makes a verb write its section of the manual page on out.
 inline constexpr std::string_view kManualSection = "--manual-section";
 
 }  // namespace reckon::tools

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A command as typed, for reports that say how they were made.
+// A command as typed, for reports that state how they were made.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 
 namespace reckon::tools {
 
-/// "reckon VERB WORDS", with quotes where a shell needs them.
+/// "reckon VERB WORDS", quoted where a shell needs it.
 [[nodiscard]] inline std::string command_text(std::string_view verb, Arguments arguments) {
   std::string text = fmt::format("reckon {}", verb);
   for (const std::string_view word : arguments) {

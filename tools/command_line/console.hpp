@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a verb of the program `reckon` is, and what it talks through: streams, exit codes, and the
-// errors that end it. The ground of tools/: everything may know it, it knows nothing.
+// Interface of a verb of the program `reckon`, its streams and exit codes, and the errors that end
+// it. The base of tools/: all rooms may include it, and it includes none of them.
 #pragma once
 
 #include <atomic>
@@ -13,30 +13,30 @@
 
 namespace reckon::tools {
 
-/// What the program's exit status tells a script.
+/// Exit status of the program, for scripts.
 enum class ExitCode : int {
-  good = 0,      ///< Done; also after Ctrl-C or SIGTERM.
-  findings = 1,  ///< A check found something, or the input was damaged and the answer is partial.
-  usage = 2,     ///< Wrong usage, or a file that cannot be read.
-  environment = 3,  ///< Network or device not usable.
-  internal = 4,     ///< A fault of our own.
+  good = 0,         ///< Done; also after Ctrl-C or SIGTERM.
+  findings = 1,     ///< A check has findings, or the input was damaged and the result is partial.
+  usage = 2,        ///< Wrong usage, or a file that cannot be read.
+  environment = 3,  ///< Network or device cannot be used.
+  internal = 4,     ///< An internal fault.
 };
 
-/// What an exit status means, for help and manual page.
+/// Meaning of an exit status, for help and manual page.
 struct ExitMeaning {
   ExitCode code;
   std::string_view meaning;
 };
 [[nodiscard]] std::span<const ExitMeaning> exit_meanings();
 
-/// The streams of one call and its stop signal; tests hand in their own.
+/// The streams of one call and its stop signal; tests pass their own.
 struct Console {
   std::FILE* out = stdout;  ///< Data only.
-  std::FILE* err = stderr;  ///< Everything that is talk: progress, warnings, errors.
-  bool colour = false;      ///< Whether `out` takes colour: a terminal, and NO_COLOR is not set.
+  std::FILE* err = stderr;  ///< Everything else: progress, warnings, errors.
+  bool colour = false;      ///< Whether `out` accepts colour: a terminal, and NO_COLOR is not set.
   const std::atomic<bool>* stop = nullptr;  ///< True once the user asked to end (Ctrl-C, SIGTERM).
 
-  /// Whether the verb should come to its end: stop was asked for, or nobody reads `out` any more.
+  /// Whether the verb should end: the user asked for it, or `out` has no reader any more.
   [[nodiscard]] bool stopped() const {
     return (stop != nullptr && stop->load(std::memory_order_relaxed)) || std::ferror(out) != 0;
   }
@@ -49,10 +49,11 @@ using Arguments = std::span<const std::string_view>;
 struct Verb {
   std::string_view name;
   std::string_view summary;  ///< One line, shown by `reckon help`.
-  /// Does it and returns the exit status (an ExitCode). May throw UsageError, EnvironmentError,
-  /// std::system_error (reported as an environment fault); anything else is reported as internal.
+  /// Runs the verb and returns the exit status (an ExitCode). May throw UsageError,
+  /// EnvironmentError, std::system_error (reported as an environment fault); anything else is
+  /// reported as internal.
   int (*run)(Arguments arguments, const Console& console);
-  bool elsewhere = false;  ///< It is part of another program, which `run` starts.
+  bool elsewhere = false;  ///< The verb is part of another program, which `run` starts.
 };
 
 /// Wrong usage or an unreadable file: reported on stderr, exit 2. The text names the value and the
@@ -61,7 +62,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Network or device not usable: reported on stderr, exit 3. The text names the remedy.
+/// Network or device cannot be used: reported on stderr, exit 3. The text names the remedy.
 struct EnvironmentError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

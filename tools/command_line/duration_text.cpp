@@ -30,7 +30,7 @@ std::string two_units(std::int64_t large, std::string_view large_unit, std::int6
 std::optional<std::chrono::nanoseconds> parse_duration(std::string_view text) {
   const peer::Quantity quantity = peer::parse_quantity(text, "s");
   if (!quantity.good() || std::signbit(quantity.value)) return std::nullopt;
-  // A number alone might be meant in seconds or in milliseconds; only of zero it is all the same.
+  // A number without a unit could mean seconds or milliseconds; only zero is unambiguous.
   if (quantity.value != 0 && text.find_first_of("smhnu") == text.npos) return std::nullopt;
   const std::chrono::nanoseconds duration = peer::to_nanoseconds(quantity.value);
   if (duration == std::chrono::nanoseconds::max()) return std::nullopt;

@@ -10,8 +10,9 @@
 
 namespace reckon::tools {
 
-/// Reads a number and its unit (ns, us, ms, s, min, h) as scene files do; a number alone is
-/// seconds. Nothing for a negative or non-finite one, one beyond 292 years, or anything else.
+/// Reads a number and its unit (ns, us, ms, s, min, h), as scene files do; a number without a unit
+/// is in seconds. No value for a negative or non-finite number, one beyond 292 years, or any other
+/// text.
 [[nodiscard]] std::optional<std::chrono::nanoseconds> parse_duration(std::string_view text);
 
 /// Short text of at most 4 digits and a unit, or two units: "5 ms", "1.25 s", "3 min 20 s", "2 h 5

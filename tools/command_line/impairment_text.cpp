@@ -62,7 +62,7 @@ constexpr std::array kKeys{
                                fmt::join(names, ", ")));
 }
 
-/// Reads a word into `law`, or notes the one of jitter.
+/// Reads a word into `law`, or stores the one of jitter.
 void take_word(std::string_view word, Law& law, std::optional<std::string_view>& jitter) {
   const std::size_t equals = word.find('=');
   const std::string_view name = word.substr(0, equals);

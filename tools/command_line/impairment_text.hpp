@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Damage to the network as typed on a command line.
+// Network impairment in the syntax of a command line.
 #pragma once
 
 #include <string_view>

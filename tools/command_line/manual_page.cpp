@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kColumns = 78;  // of the page's source
 
-/// Takes the next line off the text.
+/// Removes the next line from the text and returns it.
 std::string_view next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
@@ -23,7 +23,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// Words in lines of few columns; each sentence begins a line, as man pages are written.
+/// Words in short lines. Each sentence begins a line, as is usual in man pages.
 std::string filled(std::string_view text) {
   std::string out;
   std::size_t column = 0;
@@ -45,7 +45,7 @@ std::string filled(std::string_view text) {
   return out + '\n';
 }
 
-/// Prose, with indented lines kept as they are.
+/// Prose; indented lines stay unchanged.
 void print_prose(std::string_view text, std::FILE* out) {
   std::string paragraph;
   bool kept = false;

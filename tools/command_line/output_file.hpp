@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Files that a study writes.
+// Output files of a study.
 #pragma once
 
 #include <string>

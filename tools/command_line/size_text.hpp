@@ -10,8 +10,8 @@
 
 namespace reckon::tools {
 
-/// Reads a number and its unit: none or B, k, M, G (powers of 1000, with or without a B behind), or
-/// KiB, MiB, GiB. Nothing for anything else, for zero, and above 2^53.
+/// Reads a number and its unit: none or B, k, M, G (powers of 1000, with or without a B), or KiB,
+/// MiB, GiB. No value for other text, for zero, and above 2^53.
 [[nodiscard]] std::optional<std::uint64_t> parse_size(std::string_view text);
 
 /// Short text of at most 4 digits: "512 B", "1.25 MB".

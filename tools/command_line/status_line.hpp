@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a long run is doing, every few seconds in one line of the terminal.
+// Progress of a long run: one line of the terminal, updated every few seconds.
 #pragma once
 
 #include <chrono>
@@ -9,17 +9,17 @@
 
 namespace reckon::tools {
 
-/// One line on a terminal that is written over; says nothing where the stream is none.
+/// One line on a terminal that is overwritten; writes nothing if the stream is not a terminal.
 class StatusLine {
  public:
   static constexpr std::chrono::seconds kPeriod{5};
 
-  /// The first line is due a period after `now`, steady.
+  /// The first line is due a period after `now`, on the steady clock.
   StatusLine(std::FILE* file, std::chrono::nanoseconds now);
-  /// Whether it is time for the next line, on a terminal or elsewhere; `now` steady.
+  /// Whether the next line is due, on a terminal or elsewhere; `now` on the steady clock.
   [[nodiscard]] bool due(std::chrono::nanoseconds now) const { return now - shown_ >= kPeriod; }
   void show(const std::string& text, std::chrono::nanoseconds now);
-  /// Clears the line, so that the next words begin at the margin.
+  /// Clears the line, so that the next text begins at the margin.
   void clear();
 
  private:

@@ -53,7 +53,7 @@ int report_error(const Console& console, Arguments arguments, const std::excepti
   return exit_status(code);
 }
 
-// Nothing is allocated here.
+// This function does not allocate.
 int out_of_memory(const Console& console, Arguments arguments) {
   const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
   const auto length = static_cast<int>(verb.size());
@@ -82,8 +82,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 
 extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
 
-// Ctrl-C, SIGTERM and a terminal that closes end a verb in good order, a second one at once; a
-// reader that went away shows as a write error.
+// Ctrl-C, SIGTERM and a closed terminal end a verb in good order, and a second signal ends it at
+// once. A closed pipe shows as a write error.
 void take_signals() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
@@ -93,7 +93,7 @@ void take_signals() {
   struct sigaction hang_up = {};
   sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN)
-    sigaction(SIGHUP, &action, nullptr);  // under nohup it stays so
+    sigaction(SIGHUP, &action, nullptr);  // stays ignored under nohup
   std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -147,7 +147,7 @@ int run_verb_program(const VerbProgram& program, Arguments arguments,
   } catch (const EnvironmentError& error) {
     return report_error(console, arguments, error, ExitCode::environment);
   } catch (const std::system_error& error) {
-    // Nobody reads on, as behind `| head`: no fault of anybody.
+    // The reader is gone, as after `| head`: this is no error.
     if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
     if (std::ferror(console.out) != 0)
       return report_error(console, arguments, std::system_error(error.code(), "writing the output"),

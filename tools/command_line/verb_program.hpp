@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A program whose first word is a verb: finds the verb, runs it, and turns what it throws into one
+// A program whose first word is a verb. It finds the verb, runs it, and turns exceptions into one
 // line on stderr and an exit status. `reckon` is one, `reckon-bench` another.
 #pragma once
 
@@ -12,25 +12,25 @@
 namespace reckon::tools {
 
 struct VerbProgram {
-  std::string_view name;   ///< as it is typed
+  std::string_view name;   ///< as typed
   std::string_view title;  ///< first line of the overview
   std::span<const Verb> verbs;
 };
 
-/// Nothing where there is no such verb.
+/// The verb with this name; null if there is none.
 [[nodiscard]] const Verb* find_verb(const VerbProgram& program, std::string_view name);
 
-/// Usage, a line for each verb, and what the exit statuses mean.
+/// Usage, a line for each verb, and the meanings of the exit statuses.
 void print_overview(const VerbProgram& program, std::FILE* out);
 
-/// Says on stderr that there is no such verb, and which is the nearest. @return the exit status
+/// Reports on stderr that there is no such verb, with the nearest one. @return the exit status
 int refuse_verb(const VerbProgram& program, std::string_view name, const Console& console);
 
 /// Runs `PROGRAM ARGUMENTS` (without the program's name) and returns the exit status. Never throws.
 [[nodiscard]] int run_verb_program(const VerbProgram& program, Arguments arguments,
                                    const Console& console) noexcept;
 
-/// main() of such a program: signals, colour and streams of this process.
+/// main() of such a program: sets up signals, colour and streams of this process.
 /// @param run  as run_program() of tools/program.hpp
 [[nodiscard]] int run_process(int argc, char** argv,
                               int (*run)(Arguments arguments, const Console& console) noexcept);

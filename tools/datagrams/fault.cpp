@@ -20,15 +20,15 @@ namespace {
 
 using pdu::DecodeError;
 
-/// Most records of varying size that are counted to name the one at fault; an Attribute PDU holds
-/// fewer.
+/// Greatest number of records of varying size that are counted to name the faulty one; an Attribute
+/// PDU has fewer.
 constexpr std::size_t kMostRecords = 65535;
 
-/// Visitor that reads a PDU field by field and stops at the first that is not as it should be. Slow
-/// beside the codec, and only run where the codec refused or a value is not finite.
+/// Visitor that reads a PDU field by field and stops at the first faulty one. Slower than the
+/// codec; it only runs if the codec refused the PDU or a value is not finite.
 class FaultFinder {
  public:
-  /// What it looks for: all faults, or the place at which the octets end alone.
+  /// Goal of the search: any fault, or only the place where the octets end.
   enum class Search : std::uint8_t { any, end };
   explicit FaultFinder(std::span<const std::byte> octets, Search search = Search::any)
       : octets_(octets), search_(search) {}
@@ -73,8 +73,8 @@ class FaultFinder {
       at_ += whole.size;
       return;
     }
-    // The records before the fault are those that still walk: found by halving, as a datagram may
-    // hold thousands and each walk starts at the first.
+    // The records before the fault are those that can be walked. They are found by bisection,
+    // because a datagram may have thousands and each walk starts at the first.
     std::size_t good = 0;
     std::size_t bad = std::min<std::size_t>(view.count, kMostRecords);
     while (good + 1 < bad) {
@@ -106,7 +106,7 @@ class FaultFinder {
     const pdu::WalkResult whole = View::walk(view.count, all);
     at_ += whole.size;
     if (whole.error == DecodeError::none) return;
-    // At most as many records as octets; the one that does not fit ends the loop.
+    // At most as many records as octets. The one that does not fit ends the loop.
     pdu::SizedRecordCursor<typename View::Head> cursor(all.size(), all);
     std::size_t number = 1;
     for (pdu::SizedRecord<typename View::Head> record; cursor.next(record);) ++number;
@@ -148,7 +148,7 @@ class FaultFinder {
   [[nodiscard]] std::size_t offset_of(std::span<const std::byte> part) const {
     return static_cast<std::size_t>(part.data() - octets_.data());
   }
-  /// The record that breaks attribute record set `number`, whose octets start with `set`.
+  /// Finds the faulty record in attribute record set `number`, whose octets start with `set`.
   void attribute_record(std::size_t number, std::span<const std::byte> set) {
     const auto count = pdu::load_big_endian<std::uint16_t>(set.data() + 6);
     pdu::AttributeRecordCursor cursor(count, set.subspan(pdu::kAttributeSetHeaderSize));
@@ -189,11 +189,11 @@ class FaultFinder {
   Search search_;
   std::size_t at_ = 0;
   std::string path_;
-  std::vector<Counted> counts_;  // of the blocks that come behind the fixed part
+  std::vector<Counted> counts_;  // counts of the blocks after the fixed part
   PduFault fault_;
 };
 
-/// Runs the finder over the octets as the type that the header names.
+/// Runs the finder over the octets as the type in the header.
 template <typename... T>
 PduFault find_fault(std::span<const std::byte> octets, pdu::PduType type,
                     FaultFinder::Search search, pdu::TypeList<T...>) {
@@ -270,7 +270,7 @@ PduFault explain_fault(std::span<const std::byte> octets, const pdu::PduHeader& 
 PduFault explain_not_finite(std::span<const std::byte> octets, const pdu::PduHeader& header,
                             std::string_view field) {
   PduFault fault = find_fault(octets, header.pdu_type);
-  if (fault.error == DecodeError::none)  // it lies in a record behind the fixed fields
+  if (fault.error == DecodeError::none)  // the fault is in a record after the fixed fields
     fault = {DecodeError::not_finite, 0, fmt::format("NaN or infinity in {}", field)};
   return fault;
 }

@@ -34,13 +34,14 @@ std::string word_of(std::string_view name) {
   return word.starts_with("drm_") ? word.substr(4) : word;
 }
 
-/// Fields of entities go by their last word too: kind for entity.kind.
+/// Entity fields can be named by their last word too: kind for entity.kind.
 std::string_view short_name(std::string_view name) {
   const std::size_t dot = name.find('.');
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
-/// Whether `text` is `pattern`, in which * stands for any letters. Linear but for the stars.
+/// Whether `text` matches `pattern`, in which * stands for any letters. Linear, except for the
+/// stars.
 bool is_like(std::string_view text, std::string_view pattern) {
   std::size_t at = 0;
   std::size_t in = 0;
@@ -113,7 +114,7 @@ std::string text_with_mark(std::string_view text, std::size_t column, std::strin
 FilterError::FilterError(std::string_view text, std::size_t column_, std::string_view why)
     : UsageError(text_with_mark(text, column_, why)), column(column_) {}
 
-/// Recursive descent over the text of a filter.
+/// Recursive-descent parser of a filter.
 class FilterParser {
  public:
   FilterParser(std::string_view text, Filter& filter) : text_(text), filter_(filter) {}
@@ -177,7 +178,7 @@ class FilterParser {
     }
     fail(begin, "this letter has no meaning here; put text in quotes");
   }
-  /// Takes the token where it is one of these.
+  /// Takes the token if it is one of these.
   [[nodiscard]] bool take(std::string_view word, std::string_view sign) {
     const bool is = (token_.kind == TokenKind::word && lower(token_.text) == word) ||
                     (token_.kind == TokenKind::sign && token_.text == sign);
@@ -300,7 +301,7 @@ class FilterParser {
   }
   [[nodiscard]] double named_value(const FilterField& field) const {
     const std::string typed = word_of(token_.text);
-    std::string nearest;  // one at a time: there are hundreds of countries
+    std::string nearest;  // one at a time, because there are hundreds of countries
     for (const auto name_of : {field.value_name, field.short_name}) {
       for (unsigned value = 0; name_of != nullptr && value < field.values; ++value) {
         const std::string_view name = name_of(value);
@@ -315,14 +316,14 @@ class FilterParser {
                                 suggestion(typed, std::span(known).first(nearest.empty() ? 0 : 1),
                                            fmt::format("; it is {}", field.meaning))));
   }
-  /// Puts `word` in the place of the nearest so far where it is nearer to what was typed.
+  /// Replaces the nearest word so far if `word` is nearer to the typed one.
   static void keep_nearer(std::string_view typed, std::string word, std::string& nearest) {
     const std::array<std::string_view, 2> both{nearest, word};
     const auto candidates = std::span(both).subspan(nearest.empty() ? 1 : 0);
     if (peer::nearest_word(typed, candidates) == word) nearest = std::move(word);
   }
 
-  /// One part of an ID; `at` is where it begins in the token.
+  /// One part of an ID; `at` is its offset in the token.
   [[nodiscard]] std::optional<std::uint16_t> id_part(std::string_view part, std::size_t at) const {
     if (part == "*") return std::nullopt;
     std::uint16_t number = 0;
@@ -332,7 +333,7 @@ class FilterParser {
       fail(token_.at + at, fmt::format("'{}' is neither * nor a number from 0 to 65535", part));
     return number;
   }
-  /// "1:2:3" or "1-2-3", parts may be *.
+  /// "1:2:3" or "1-2-3"; parts may be *.
   [[nodiscard]] Filter::IdPattern id_pattern() const {
     const std::string_view text = token_.text;
     const std::size_t first = text.find_first_of(":-");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then asked for
-// each PDU. Fields are THE list in filter_fields.cpp; a new one is one row there.
+// The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then evaluated
+// for each PDU. The fields are THE list in filter_fields.cpp; a new one is one row there.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,21 @@
 
 namespace reckon::tools {
 
-/// Text that is no filter; what() says why, with the text and a mark under the column.
+/// Invalid filter text. what() has the reason and the text with a mark under the column.
 struct FilterError : UsageError {
   FilterError(std::string_view text, std::size_t column_, std::string_view why);
-  std::size_t column;  ///< from 1; one more than the text's length where it ends too early
+  std::size_t column;  ///< from 1; one more than the text's length if the text ends too early
 };
 
-/// What a field is read from.
+/// Input of a field.
 struct FilterSubject {
   const PduRow& row;
   const peer::SourceDatagram& datagram;
-  const pdu::EntityState* entity_state;  ///< null where the PDU is none
+  const pdu::EntityState* entity_state;  ///< null if the PDU is not an Entity State
 };
 
-/// A compiled filter. A comparison with a field that the PDU does not have is false, whatever the
-/// operator is. Any thread; a match allocates only for fields of text.
+/// A compiled filter. A comparison with a field that the PDU lacks is false for every operator. Any
+/// thread; a match allocates only for text fields.
 class Filter {
  public:
   /// Longest text [octets] and deepest nesting of parentheses and `not`.
@@ -44,7 +44,7 @@ class Filter {
   [[nodiscard]] bool matches(const PduRow& row, const peer::SourceDatagram& datagram) const;
 
   enum class Operator : std::uint8_t { equal, unequal, less, at_most, greater, at_least };
-  /// An entity ID whose parts may be any.
+  /// An entity ID with optional wildcards as parts.
   struct IdPattern {
     std::optional<std::uint16_t> site;
     std::optional<std::uint16_t> application;
@@ -61,7 +61,7 @@ class Filter {
  private:
   friend class FilterParser;
   enum class Kind : std::uint8_t { comparison, negation, conjunction, disjunction };
-  /// Operands are other nodes; of a comparison, `left` is its place among the comparisons.
+  /// Operands are other nodes. In a comparison, `left` is its index in the list of comparisons.
   struct Node {
     Kind kind;
     std::size_t left = 0;
@@ -70,11 +70,11 @@ class Filter {
 
   [[nodiscard]] bool evaluate(std::size_t node, const FilterSubject& subject) const;
 
-  std::vector<Node> nodes_;  // the last one is the whole
+  std::vector<Node> nodes_;  // the last one is the root
   std::vector<Comparison> comparisons_;
 };
 
-/// Names of all fields with what they are, for help: "kind  kind of the entity: platform, ...".
+/// Names and descriptions of all fields, for help: "kind  kind of the entity: platform, ...".
 [[nodiscard]] std::string filter_fields_text();
 
 }  // namespace reckon::tools

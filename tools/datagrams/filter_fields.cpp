@@ -25,7 +25,7 @@ template <pdu::SisoTable table>
 std::string_view listed_name(unsigned value) {
   return pdu::siso_name(table, value);
 }
-constexpr unsigned kCountries = 1024;  // those with names are below
+constexpr unsigned kCountries = 1024;  // values with names are below it
 
 std::string type_in_words(const pdu::EntityType& type) {
   std::string words;
@@ -42,7 +42,7 @@ std::string_view status_name(unsigned value) {
   return value < 4 ? name(static_cast<PduStatus>(value)) : "";
 }
 
-/// Getters of numbers: of any PDU with a header, and of Entity States.
+/// Getters of numbers: from any PDU with a header, and from Entity States.
 template <auto Get>
 Number from_header(const FilterSubject& subject) {
   if (!subject.row.has_header) return std::nullopt;

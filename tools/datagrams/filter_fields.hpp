@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of the fields that a filter knows: one row each in filter_fields.cpp.
+// THE list of the fields of a filter: one row each in filter_fields.cpp.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace reckon::tools {
 
-/// How the value of a field is written and compared.
+/// Syntax and comparison of a field's value.
 enum class ValueKind : std::uint8_t { number, name, id, text };
 
 /// One field.
@@ -24,8 +24,8 @@ struct FilterField {
   std::optional<double> (*number)(const FilterSubject&) = nullptr;     ///< number and name
   std::string_view (*value_name)(unsigned) = nullptr;                  ///< name: of each value
   std::optional<std::string> (*text)(const FilterSubject&) = nullptr;  ///< text
-  std::string_view (*short_name)(unsigned) = nullptr;  ///< name: another one that is taken too
-  unsigned values = 256;                               ///< name: those from here on have none
+  std::string_view (*short_name)(unsigned) = nullptr;  ///< name: an accepted alternative
+  unsigned values = 256;                               ///< name: values from here on have no name
 };
 
 [[nodiscard]] std::span<const FilterField> filter_fields();

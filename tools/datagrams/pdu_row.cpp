@@ -15,8 +15,8 @@ namespace {
 
 using pdu::DecodeError;
 
-/// Visitor that keeps the first entity's ID among the fields of a PDU; live entities have shorter
-/// ones.
+/// Visitor that stores the first entity ID among the fields of a PDU. Live entities have shorter
+/// IDs.
 class FirstId {
  public:
   template <typename T>
@@ -45,8 +45,7 @@ class FirstId {
   bool is_live_ = false;
 };
 
-/// The entity that a PDU is about or comes from; of an Attribute PDU, the one of its only record
-/// set.
+/// The subject or issuing entity of a PDU; for an Attribute PDU, the one of its only record set.
 template <typename Pdu>
 std::optional<pdu::EntityId> id_of(const Pdu& pdu) {
   if constexpr (std::same_as<Pdu, pdu::Attribute>) {
@@ -69,7 +68,7 @@ bool has_id_of_6_octets() {
   return first.is_of_6_octets();
 }
 
-/// The entity named behind the header of a broken PDU, where its type has an EntityId there.
+/// The entity after the header of a broken PDU, if its type has an EntityId there.
 template <typename... T>
 std::optional<pdu::EntityId> id_behind_header(std::span<const std::byte> octets, pdu::PduType type,
                                               pdu::TypeList<T...>) {

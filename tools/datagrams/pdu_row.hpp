@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the views of the inspector show: one row for each PDU of each datagram, good or bad, none
-// lost.
+// Input of the inspector's views: one row for each PDU of each datagram, good or bad, without
+// omissions.
 #pragma once
 
 #include <array>
@@ -21,29 +21,29 @@
 
 namespace reckon::tools {
 
-/// How good a PDU is; the first letter of its rule says the same.
+/// Quality of a PDU, as in the first letter of its rule.
 enum class PduStatus : std::uint8_t { ok, note, warning, error };
 [[nodiscard]] std::string_view name(PduStatus status) noexcept;
 /// By the rule's letter: E-, W-, I-; ok for none.
 [[nodiscard]] PduStatus status_of(std::string_view rule) noexcept;
 
-/// One PDU as it lies in a datagram.
+/// One PDU in a datagram.
 struct PduRow {
   std::uint64_t frame = 0;          ///< of the datagram in its source, from 1
   std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
   std::size_t pdu = 0;              ///< place in the datagram, from 1
   std::size_t offset = 0;           ///< of its first octet in the datagram
-  pdu::PduHeader header;            ///< as far as it could be read
+  pdu::PduHeader header;            ///< as far as it was readable
   std::span<const std::byte> bytes;
-  bool has_header = false;  ///< 12 octets were there
+  bool has_header = false;  ///< 12 octets were present
   bool decoded = false;     ///< the body can be read with pdu::visit
   PduStatus status = PduStatus::ok;
   std::string_view rule;         ///< empty when ok
   std::string reason;            ///< empty when ok
-  std::size_t fault_offset = 0;  ///< octet of the datagram that the reason is about
+  std::size_t fault_offset = 0;  ///< octet of the datagram to which the reason refers
   std::optional<pdu::EntityId> id;
-  /// The body of an Entity State that decodes, as most PDUs are one and every view looks into it;
-  /// null for the others. Valid as long as the row.
+  /// The body of an Entity State that was decoded, because most PDUs are one and every view reads
+  /// it; null for the others. Valid as long as the row.
   const pdu::EntityState* entity_state = nullptr;
 
   /// IEEE name in snake case; "unknown_200" without a name; "unreadable" without a header.
@@ -62,11 +62,11 @@ struct InspectTally {
   }
 };
 
-/// Steps through the PDUs of one datagram and decodes each once. The row is reused, and valid until
-/// the next PDU; a good PDU needs no heap.
+/// Iterates over the PDUs of one datagram and decodes each once. The row is reused, and valid until
+/// the next PDU. A good PDU needs no heap.
 class DatagramInspector {
  public:
-  /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all that were shown.
+  /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all shown PDUs.
   template <typename Show>
   bool inspect(const peer::SourceDatagram& datagram, Show&& show) {
     begin(datagram);
@@ -85,7 +85,7 @@ class DatagramInspector {
  private:
   void begin(const peer::SourceDatagram& datagram);
   void fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled);
-  /// Decodes and looks for values that receivers drop; `fault` says where such a one is.
+  /// Decodes, and searches for values that receivers reject; `fault` has their place.
   [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault);
   void fill_fragment(const peer::SourceDatagram& datagram);
   template <typename Show>
@@ -95,7 +95,7 @@ class DatagramInspector {
   }
 
   PduRow row_;
-  pdu::EntityState entity_state_;  // what row_ points to
+  pdu::EntityState entity_state_;  // referenced by row_
   InspectTally tally_;
 };
 

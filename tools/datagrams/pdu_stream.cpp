@@ -15,7 +15,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Octets of a PDU that say when it was sent.
+/// Octets of a PDU with its send time.
 struct TimeField {
   std::size_t at = 0;
   std::size_t size = 0;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The PDUs of a capture one by one, each with octets of its own, so that two captures can be held
-// against each other.
+// The PDUs of a capture in order, each with its own octets, so that two captures can be compared.
 #pragma once
 
 #include <chrono>
@@ -31,31 +30,31 @@ struct HeldPdu {
   bool decoded = false;
   bool ends_datagram = false;  ///< the last one of its datagram that passed the filter
   std::optional<pdu::EntityId> id;
-  std::uint64_t hash = 0;  ///< of what is compared
+  std::uint64_t hash = 0;  ///< of the compared octets
 
   /// Type as in the standard, snake case; "unreadable" without a header.
   [[nodiscard]] std::string_view type() const noexcept;
 };
 
-/// What to take of a capture, and what of a PDU counts.
+/// Selection from a capture, and the compared part of a PDU.
 struct PduStreamOptions {
   std::string path;
   std::string where;         ///< filter; empty: all PDUs
-  bool ignore_time = false;  ///< times inside PDUs do not count: header, trailer, presence
+  bool ignore_time = false;  ///< ignores times inside PDUs: header, trailer, Presence
 };
 
 /// A capture file, read once from begin to end. One thread.
 class PduStream {
  public:
-  /// @throws UsageError where the file cannot be read or the filter is none.
+  /// @throws UsageError if the file cannot be read or the filter is invalid.
   explicit PduStream(const PduStreamOptions& options);
 
   /// The next PDU that passes the filter; false at the end.
   [[nodiscard]] bool next(HeldPdu& out);
 
-  /// All so far, the filter's rest included.
+  /// Counts of all PDUs so far, including those that the filter excluded.
   [[nodiscard]] const InspectTally& tally() const { return inspector_.tally(); }
-  /// What the source met; `problem` where the file ended early.
+  /// Report of the source; `problem` if the file ended early.
   [[nodiscard]] const peer::SourceReport& report() const { return source_->report(); }
 
  private:
@@ -69,7 +68,7 @@ class PduStream {
   std::deque<HeldPdu> queue_;
 };
 
-/// Whether the two are the same in all that counts, octet for octet.
+/// Whether the two are equal octet for octet, except for ignored times.
 [[nodiscard]] bool same_octets(const HeldPdu& a, const HeldPdu& b, bool ignore_time);
 
 }  // namespace reckon::tools

@@ -15,7 +15,7 @@
 namespace reckon::tools {
 namespace {
 
-// A capture can name any number of senders; these are a flood.
+// A capture can name any number of senders; above this number they are a flood.
 constexpr std::size_t kMostKinds = 1024;
 constexpr std::size_t kMostKeys = 4096;
 
@@ -51,8 +51,8 @@ const peer::SealingKey* SealedDatagrams::key_of(const peer::EnvelopeHeader& head
   return &kept.key;
 }
 
-// A capture does not say of which exercise a sealed datagram is, and the tag covers it: the
-// sender's own is tried, else each, that of others first.
+// A capture does not state the exercise of a sealed datagram, and the tag covers it. The last
+// exercise of the sender is tried first, then each exercise, beginning with those of others.
 bool SealedDatagrams::unseal_for_any(const peer::SealingKey& key, const peer::GroupAddress& group,
                                      std::span<const std::byte> sealed, std::span<std::byte> plain,
                                      Count& count) {
@@ -69,7 +69,7 @@ bool SealedDatagrams::unseal_for_any(const peer::SealingKey& key, const peer::Gr
   return false;
 }
 
-// `front`: octets before the envelope, which say group and exercise.
+// `front`: octets before the envelope, which state group and exercise.
 bool SealedDatagrams::unseal(const peer::EnvelopeHeader& header, peer::SourceDatagram& datagram,
                              std::size_t front, Count& count) {
   const peer::SealingKey* key = key_of(header);

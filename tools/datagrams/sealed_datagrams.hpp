@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sealed datagrams of a capture or a live group: opened where there is a key, counted where not.
+// Sealed datagrams of a capture or a live group: opened with a key, else counted.
 #pragma once
 
 #include <compare>
@@ -16,23 +16,23 @@
 
 namespace reckon::tools {
 
-/// Looks at each datagram before it is read. It refuses no replay: a capture is one.
+/// Examines each datagram before it is read. It does not refuse replays, because a capture is one.
 class SealedDatagrams {
  public:
-  /// @param key_file empty: none. @throws UsageError where it cannot be used
+  /// @param key_file empty: none. @throws UsageError if it cannot be used
   explicit SealedDatagrams(const std::string& key_file);
 
-  /// Whether there is something to read: always for what is not sealed; what is sealed and opens
-  /// becomes what it carries, good until the next call.
+  /// Whether the datagram can be read: always if it is not sealed. A sealed one that opens is
+  /// replaced by its content, which is valid until the next call.
   [[nodiscard]] bool open(peer::SourceDatagram& datagram);
 
-  /// Datagrams that were left out, as they were sealed and could not be opened.
+  /// Sealed datagrams that could not be opened.
   [[nodiscard]] std::uint64_t unread() const noexcept { return unread_; }
-  /// Lines for the user: how many, of whom, suite and epoch; empty where none was sealed.
+  /// Lines for the user: number, senders, suite and epoch; empty if none was sealed.
   [[nodiscard]] std::string summary() const;
 
  private:
-  /// By which they are counted.
+  /// Key of the counts.
   struct Kind {
     peer::Sealer sealer;
     peer::SealingSuite suite;
@@ -41,9 +41,9 @@ class SealedDatagrams {
   };
   struct Count {
     std::uint64_t datagrams = 0, opened = 0, greetings = 0;
-    std::optional<std::uint8_t> exercise;  ///< for which it sealed what was opened
+    std::optional<std::uint8_t> exercise;  ///< exercise of its opened datagrams
   };
-  /// Of whom a key was made; the last one is kept.
+  /// Sender for which a key was derived; the last one is kept.
   struct Name {
     peer::Sealer sealer;
     std::uint16_t epoch, stream;
@@ -65,7 +65,7 @@ class SealedDatagrams {
   std::optional<peer::GroupKey> key_;
   std::map<Kind, Count> counts_;
   std::map<Name, Kept> keys_;
-  std::uint8_t exercise_ = 1;  // of the last one that was opened
+  std::uint8_t exercise_ = 1;  // of the last opened datagram
   std::vector<std::byte> plain_;
   std::uint64_t unread_ = 0;
 };

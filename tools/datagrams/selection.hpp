@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which datagrams of a capture a verb takes: a range of time, groups, types of PDU, entities, a
-// filter.
+// Selection of a capture's datagrams for a verb: time range, groups, PDU types, entities, filter.
 #pragma once
 
 #include <array>
@@ -20,27 +19,28 @@
 
 namespace reckon::tools {
 
-/// The user's words. Times count from the first datagram of the capture.
+/// The user's words. Times are relative to the first datagram of the capture.
 struct SelectionOptions {
   std::chrono::nanoseconds from{};
   std::optional<std::chrono::nanoseconds> to;
   std::vector<std::string> groups;    ///< 239.192.1.0 or 239.192.1.0:3000
-  std::vector<std::string> types;     ///< as inspect --json names them
+  std::vector<std::string> types;     ///< names of inspect --json
   std::vector<std::string> entities;  ///< site:application:entity, each a number or *
-  std::string where;                  ///< a filter as inspect takes it
+  std::string where;                  ///< a filter of inspect
 
-  /// Declares the flags but the one that ends the range.
+  /// Declares the flags except the one for the end of the range.
   void declare(CommandLine& line);
-  /// Of these, the one that needs no file.
+  /// Of these, declares the one that needs no file.
   void declare_filter(CommandLine& line);
 };
 
-/// Takes or leaves whole datagrams. Words of one kind widen it, words of different kinds narrow it.
+/// Selects whole datagrams. Several words of one kind are alternatives; words of different kinds
+/// must all match.
 class CaptureSelection {
  public:
   /// @throws UsageError with the word and the remedy.
   explicit CaptureSelection(const SelectionOptions& options);
-  /// Whether the datagram is taken. The first one that is asked for is the origin of time.
+  /// Whether the datagram is selected. The first one passed is the origin of time.
   [[nodiscard]] bool takes(const peer::SourceDatagram& datagram);
 
  private:
@@ -65,15 +65,14 @@ class CaptureSelection {
 /// that cannot be read.
 [[nodiscard]] std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name);
 
-/// Makes a name that ends in .zst mean compression, and compression a name that does.
+/// A name that ends in .zst enables compression, and compression adds that ending.
 void settle_compression(peer::CaptureWriterOptions& options);
 
-/// Opens a capture to write. @throws UsageError where it cannot be.
+/// Opens a capture for writing. @throws UsageError if that fails.
 [[nodiscard]] std::unique_ptr<peer::CaptureWriter> create_recording(
     const peer::CaptureWriterOptions& options);
 
-/// What a verb says of the places where the capture is damaged or incomplete; empty where it is
-/// not.
+/// Text of a verb about damaged or incomplete places of the capture; empty if there are none.
 [[nodiscard]] std::string damage_text(const peer::SourceReport& report);
 
 }  // namespace reckon::tools

@@ -34,13 +34,13 @@ peer::SceneFile scene_of_source(const std::string& source) {
       "{}: its 'peers' speak by unicast, which no group carries: inspect iface:NAME", source));
 }
 
-/// A base group and how many are joined behind it.
+/// A base group and the number of groups to join after it.
 struct Groups {
   peer::GroupAddress base;
   std::uint64_t size;
 };
 
-// Those of a scene: of cells, and where it has some those for what is felt.
+// Groups of a scene: those of cells, and of contacts if it has some.
 Groups groups_of_scene(const peer::SceneFile& scene, bool sealed) {
   const bool is_sealed = sealed || !scene.network.key.empty();
   return {is_sealed ? peer::sealed_group(scene.network.group) : scene.network.group,
@@ -66,7 +66,7 @@ peer::GroupAddress base_group(const SourceChoice& choice) {
   return *group;
 }
 
-/// Refuses words that look like a source but are none.
+/// Refuses words that resemble a source but are not one.
 void check_form(const std::string& source) {
   if (source == kRaw || source == kInterface)
     throw UsageError(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From the user's word for a source to the datagrams themselves.
+// Opens the datagram source that the user names.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,25 @@
 
 namespace reckon::tools {
 
-/// Where the datagrams come from, as the user said it.
+/// Source of the datagrams, as the user entered it.
 struct SourceChoice {
   std::string source;  ///< empty: the default groups; else udp://..., iface:..., raw:..., -, or a
                        ///< capture file
-  std::string interface;  ///< --iface for groups: name, address or index; empty: chosen by score
-  std::optional<std::uint64_t> pool;  ///< --pool: groups joined behind the base group
-  bool follow = false;                ///< --follow: a capture file that grows is no end
+  std::string interface;  ///< --iface for groups: name, address or index; empty: automatic
+  std::optional<std::uint64_t> pool;  ///< --pool: groups joined after the base group
+  bool follow = false;                ///< --follow: waits at the end of a growing capture file
   bool sealed = false;                ///< the default groups are those of a sealed exercise
 };
 
-/// The groups that the choice means: the base group and the pool behind it. Default base
-/// 239.192.1.0:3000 with 256 groups; a named `udp://GROUP[:PORT]` stands alone unless a pool is
-/// asked for. @throws UsageError.
+/// The groups of the choice: the base group and the pool after it. The default is 239.192.1.0:3000
+/// with 256 groups. A named `udp://GROUP[:PORT]` has no pool unless one is requested.
+/// @throws UsageError.
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice);
 
 /// Whether the choice means live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);
 
-/// Whether more may come at any time: live groups or an interface.
+/// Whether more datagrams may arrive at any time: live groups or an interface.
 [[nodiscard]] bool is_live(const SourceChoice& choice);
 
 /// Opens the source. @throws UsageError for a file that cannot be read, EnvironmentError for a

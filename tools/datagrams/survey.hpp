@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A look ahead into a datagram, for rules about PDUs that belong together.
+// Look-ahead into a datagram, for rules about PDUs that belong together.
 #pragma once
 
 #include <compare>
@@ -13,7 +13,7 @@
 
 namespace reckon::tools {
 
-/// What a datagram holds further on, found before its PDUs are checked one by one.
+/// PDUs that follow in a datagram, found before its PDUs are checked.
 struct DatagramSurvey {
   struct Place {
     std::uint64_t entity = 0;  ///< entity_key
@@ -22,7 +22,7 @@ struct DatagramSurvey {
   };
   std::vector<Place> attributes;  ///< sorted: the record sets of its Attribute PDUs
 
-  /// Fills it from the octets; what cannot be read is left out.
+  /// Fills the lists from the octets; unreadable parts are left out.
   void look_at(std::span<const std::byte> datagram);
   /// The places of one entity.
   [[nodiscard]] std::span<const Place> of(std::uint64_t entity) const;

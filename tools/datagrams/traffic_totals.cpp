@@ -9,7 +9,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Headers in front of the UDP payload: Ethernet 14, UDP 8, IPv4 20 or IPv6 40.
+/// Octets of headers before the UDP payload: Ethernet 14, UDP 8, IPv4 20 or IPv6 40.
 constexpr std::uint64_t kHeadersV4 = 42;
 constexpr std::uint64_t kHeadersV6 = 62;
 constexpr double kBitsAnOctet = 8;

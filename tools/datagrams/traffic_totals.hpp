@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sums over all datagrams of a run, and rates over the last seconds of it.
+// Sums over all datagrams of a run, and rates over its last seconds.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace reckon::tools {
 
-/// Sums of everything.
+/// Sums over all datagrams.
 struct TrafficTotals {
   std::uint64_t datagrams = 0;
   std::uint64_t pdus = 0;
-  std::uint64_t pdu_octets = 0;   ///< of PDUs that could be read
+  std::uint64_t pdu_octets = 0;   ///< of readable PDUs
   std::uint64_t octets = 0;       ///< UDP payload
   std::uint64_t wire_octets = 0;  ///< with the headers of Ethernet, IP and UDP
   std::uint64_t errors = 0;
@@ -25,13 +25,13 @@ struct TrafficTotals {
   void count(const PduRow& row) noexcept;
   void count(const peer::SourceDatagram& datagram) noexcept;
 
-  /// PDU octets of each octet on the wire, 0 to 1; 0 where nothing came.
+  /// PDU octets over octets on the wire, 0 to 1; 0 without traffic.
   [[nodiscard]] double efficiency() const noexcept;
   [[nodiscard]] double pdus_per_datagram() const noexcept;
   [[nodiscard]] double seconds() const noexcept;
 };
 
-/// Rates of totals that grow, over a window that slides with them.
+/// Rates of increasing totals, over a sliding window.
 class TrafficRates {
  public:
   struct Rates {
@@ -41,8 +41,8 @@ class TrafficRates {
   };
   static constexpr std::chrono::nanoseconds kWindow = std::chrono::seconds(2);
 
-  /// Over the last 2 to 4 s before `now`, or since the first call where that is shorter; 0 at
-  /// first. `now` never runs backwards.
+  /// Rates over the last 2 to 4 s before `now`, or since the first call if that is shorter; 0 at
+  /// first. `now` never decreases.
   [[nodiscard]] Rates at(const TrafficTotals& totals, std::chrono::nanoseconds now);
 
  private:

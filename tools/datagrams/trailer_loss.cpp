@@ -11,7 +11,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Groups beyond the bound share one number: then their losses cannot be distinguished.
+/// Groups beyond the bound share one number, so that their losses cannot be distinguished.
 constexpr std::size_t kSharedIndex = 0xFFFE;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams that were lost on the way, from the sequence numbers in trailers.
+// Lost datagrams, from the sequence numbers in trailers.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace reckon::tools {
 
-/// Follows the trailers of up to 4096 pairs of sender and group; one thread.
+/// Tracks the trailers of up to 4096 pairs of sender and group; one thread.
 class TrailerLoss {
  public:
-  /// A PDU of the datagram at hand; those that are no trailer are left.
+  /// Takes a PDU of the present datagram; ignores PDUs other than trailers.
   void pdu(const PduRow& row);
-  /// Ends the datagram: by how many the lost ones are more than before it. A late one makes them
-  /// fewer. 0 where it had no trailer.
+  /// Ends the datagram. Returns the increase of the number of lost datagrams; negative for a late
+  /// datagram, 0 without a trailer.
   std::int64_t datagram(const peer::SourceDatagram& datagram);
   [[nodiscard]] const aoim::SequenceCounts& counts() const { return sequences_.counts(); }
 
  private:
-  /// Where it went, and the group that a unicast frame says; -1 without one.
+  /// Destination, and the group in a unicast frame; -1 without one.
   using Place = std::pair<peer::IpEndpoint, std::int32_t>;
   [[nodiscard]] aoim::GroupIndex index_of(const Place& place);
 

@@ -12,7 +12,7 @@ using Octet = unsigned char;
 
 bool is_continuation(Octet octet) { return (octet & 0xC0U) == 0x80U; }
 
-/// Of three octets: separators of lines and paragraphs, marks and overrides of direction.
+/// Sequences of three octets: line and paragraph separators, directional marks and overrides.
 constexpr std::array<std::string_view, 13> kUnseen{"\u200e", "\u200f", "\u2028", "\u2029", "\u202a",
                                                    "\u202b", "\u202c", "\u202d", "\u202e", "\u2066",
                                                    "\u2067", "\u2068", "\u2069"};

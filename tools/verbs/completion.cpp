@@ -20,14 +20,14 @@ namespace {
 
 using Verbs = std::span<const Verb>;
 
-/// What a verb takes.
+/// Flags and words of a verb.
 struct Taken {
   std::vector<std::string> flags;             ///< "--json"
-  std::map<std::string, std::string> values;  ///< of flags with few values, spaces between
-  std::vector<std::string> words;  ///< choices of each word behind the verb; empty: a file
+  std::map<std::string, std::string> values;  ///< of flags with few values, separated by spaces
+  std::vector<std::string> words;  ///< choices of each word after the verb; empty: a file
 };
 
-/// What the verb writes about itself.
+/// The verb's description of itself.
 std::string asked(const Verb& verb) {
   char* text = nullptr;
   std::size_t size = 0;
@@ -48,7 +48,7 @@ std::string verb_names(Verbs verbs) {
   return names;
 }
 
-/// Asks the verb itself, so that no second list can fall behind.
+/// Asks the verb itself, so that there is no second list to maintain.
 Taken taken_by(const Verb& verb, Verbs verbs) {
   Taken taken;
   std::istringstream lines(asked(verb));
@@ -67,7 +67,7 @@ Taken taken_by(const Verb& verb, Verbs verbs) {
   return taken;
 }
 
-/// The text as a shell word: within single quotes.
+/// The text as a shell word in single quotes.
 std::string in_quotes(std::string_view text) {
   std::string word = "'";
   for (const char letter : text) {

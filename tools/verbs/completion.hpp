@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon completion SHELL`: a completion script made from the verb table and each verb's own
-// flags.
+// `reckon completion SHELL`: a completion script from the verb table and each verb's flags.
 #pragma once
 
 #include <span>
@@ -10,7 +9,7 @@
 
 namespace reckon::tools {
 
-/// `verbs`: the list, which stands at the door.
+/// `verbs`: the list in program.cpp.
 int run_completion(std::span<const Verb> verbs, Arguments arguments, const Console& console);
 
 }  // namespace reckon::tools

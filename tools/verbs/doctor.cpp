@@ -30,7 +30,7 @@ struct DoctorOptions {
   bool json = false;
 };
 
-/// How a level is written, and its ANSI colour.
+/// Text and ANSI colour of a level.
 struct LevelText {
   std::string_view word;
   std::string_view colour;
@@ -80,7 +80,7 @@ void print_summary(std::FILE* err, const std::vector<peer::Finding>& findings) {
              count(peer::FindingLevel::problem));
 }
 
-// What the scene would need, or a scene that says nothing.
+// Needs of the scene, or of an empty scene.
 peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& scene) {
   peer::HostNeeds needs;
   if (options.ipv6) needs.pool = peer::GroupPool::ipv6_default();

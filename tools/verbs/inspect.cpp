@@ -32,7 +32,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// A live source is asked again after so long, so that Ctrl-C and --for are heeded.
+/// Longest wait for a live source, so that Ctrl-C and --for take effect.
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 /// Text is written in pieces of about this size [octets], and as soon as a live source is quiet.
 constexpr std::size_t kWriteSize = std::size_t{1} << 16;
@@ -71,8 +71,7 @@ class Output {
   void write_if_large() {
     if (text_.size() >= kWriteSize) write();
   }
-  /// Throws where the file takes no more; a reader that went away is no fault and shows in
-  /// ferror().
+  /// Throws if the file is full. A closed pipe is no fault and shows in ferror().
   void write() {
     errno = 0;
     const std::size_t written = std::fwrite(text_.data(), 1, text_.size(), file_);
@@ -91,7 +90,7 @@ std::optional<Filter> filter_of(const InspectOptions& options) {
   return Filter(options.where);
 }
 
-/// One run of the verb: reads datagrams, hands them to the view, keeps the counts.
+/// One run of the verb: reads datagrams, passes them to the view, keeps the counts.
 class Inspection {
  public:
   Inspection(const InspectOptions& options, const Console& console)
@@ -122,7 +121,7 @@ class Inspection {
   }
   void read();
   void show(const peer::SourceDatagram& datagram);
-  /// Shows one PDU; false where it was the last one asked for.
+  /// Shows one PDU; false after the last requested one.
   bool show(const peer::SourceDatagram& datagram, const PduRow& row);
   void end_datagram(const peer::SourceDatagram& datagram, bool is_shown);
 
@@ -135,7 +134,7 @@ class Inspection {
   peer::SteadyClock clock_;
   DatagramInspector inspector_;
   std::unique_ptr<View> view_;
-  InspectTally shown_;  // what passed the filter
+  InspectTally shown_;  // PDUs that passed the filter
   nanoseconds start_{};
   bool full_ = false;
 };
@@ -164,7 +163,7 @@ void Inspection::show(const peer::SourceDatagram& datagram) {
   const std::uint64_t before = shown_.all_pdus();
   full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
   end_datagram(datagram, shown_.all_pdus() > before);
-  // A capture on stdin may still be growing, and its source cannot say when it is quiet.
+  // A capture on stdin may be growing, and its source cannot tell when it is quiet.
   if (options_.source.source == "-")
     output_.write();
   else
@@ -241,7 +240,7 @@ std::string views_with_csv() {
   return names;
 }
 
-/// A table that is renewed where somebody looks on; else what can go through a pipe.
+/// A table that is updated on a terminal; otherwise a format for pipes.
 std::string_view default_view(const InspectOptions& options, const Console& console) {
   const bool shown = isatty(fileno(console.out)) == 1 && !options.json && !options.csv;
   const bool tail = options.full || options.tree || options.count.has_value();
@@ -249,7 +248,7 @@ std::string_view default_view(const InspectOptions& options, const Console& cons
 }
 
 void check_combination(InspectOptions& options, const Console& console) {
-  // A view alone, as in `reckon inspect stats`, is of the live groups.
+  // A single word that is a view, as in `reckon inspect stats`, selects the live groups.
   if (options.view.empty() &&
       inspect_view_kind(options.source.source).name == options.source.source)
     options.view = std::exchange(options.source.source, "");

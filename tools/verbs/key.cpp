@@ -46,7 +46,7 @@ void make_file(const KeyOptions& options, const Console& console) {
   key.group = options.group;
   key.suite = suite_of(options);
   key.epochs.push_back(peer::draw_epoch(1, std::nullopt));
-  // What the reader would refuse is not written.
+  // Checks the key with the reader before it is written.
   static_cast<void>(peer::parse_group_key(peer::group_key_text(key), "--group"));
   peer::save_group_key(key, options.file, false);
   fmt::print(console.err,

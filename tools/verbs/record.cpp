@@ -26,7 +26,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// A quiet source is asked again after so long, and what came is on disk after so long.
+/// Longest wait for a quiet source, and longest time until received datagrams are on disk.
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
 constexpr std::string_view kSummary =
@@ -51,7 +51,7 @@ struct RecordOptions {
   peer::CaptureWriterOptions writer;
   std::string rotate_size;
   std::optional<nanoseconds> duration;
-  SelectionOptions selection;  ///< of it, the filter
+  SelectionOptions selection;  ///< only the filter of it
   std::string key;             ///< file; empty: none
   bool json = false;
 };
@@ -68,8 +68,8 @@ class Recording {
         writer_(create_recording(writer_options())),
         status_(console.err, begin_) {}
 
-  /// Records until it is asked to end. Throws EnvironmentError where the file takes no more; what
-  /// was recorded is reported in either case.
+  /// Records until it is asked to end. Throws EnvironmentError if the file is full. Reports the
+  /// recorded datagrams in either case.
   void run();
 
  private:
@@ -138,7 +138,8 @@ void Recording::record() {
 void Recording::take(const peer::SourceDatagram& datagram) {
   peer::SourceDatagram read = datagram;
   const bool is_read = sealed_.open(read);
-  // Greetings and what does not open are part of the exercise, where no filter asks for others.
+  // Greetings and datagrams that cannot be opened belong to the exercise, unless a filter excludes
+  // them.
   if (!options_.selection.where.empty() && !(is_read && selection_.takes(read))) {
     ++left_out_;
     return;

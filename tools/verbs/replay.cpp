@@ -36,10 +36,10 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// A long wait is cut into such pieces, so that Ctrl-C is heeded.
+/// A long wait is split into pieces of this length, so that Ctrl-C takes effect.
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
-/// How often the keys are looked at while datagrams follow each other closely.
+/// Interval between reads of the keys while datagrams follow each other closely.
 constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
 
 constexpr std::string_view kSummary =
@@ -61,7 +61,7 @@ struct ReplayOptions {
   std::vector<std::string> to;  ///< as given: a destination, the end of the range, or both
   std::optional<peer::IpEndpoint> destination;
   bool broadcast = false;
-  std::string interface;  ///< empty: lo, or the one of the broadcast address
+  std::string interface;  ///< empty: lo, or the interface of the broadcast address
   double rate = 1.0;
   std::uint64_t loop = 1;
   bool rewrite_time = false;
@@ -73,12 +73,12 @@ struct ReplayOptions {
 struct ReplayCounts {
   std::uint64_t sent = 0;
   std::uint64_t octets = 0;
-  std::uint64_t incomplete = 0;  ///< fragments and frames that the capture cut
+  std::uint64_t incomplete = 0;  ///< fragments and frames that the capture truncated
   std::uint64_t refused = 0;     ///< by the kernel
   nanoseconds latest{};          ///< greatest lateness
 };
 
-/// Whether a capture can be read from its beginning a second time: a pipe cannot.
+/// Whether a capture can be read a second time from its beginning: a pipe cannot.
 bool can_be_read_again(const std::string& file) {
   std::error_code none;
   return file.starts_with("raw:") || std::filesystem::is_regular_file(file, none);
@@ -125,10 +125,10 @@ class Replay {
   StatusLine status_;
   TerminalKeys terminal_;
   ReplayKeys keys_;
-  nanoseconds looked_{};                    ///< at the keys
+  nanoseconds looked_{};                    ///< last read of the keys
   std::optional<ReplaySchedule> schedule_;  ///< from the first datagram on
-  nanoseconds begin_{};                     ///< when the first datagram went out
-  nanoseconds end_{};                       ///< when the last one did
+  nanoseconds begin_{};                     ///< send time of the first datagram
+  nanoseconds end_{};                       ///< send time of the last datagram
   nanoseconds finished_{};
   bool read_again_ = false;
   bool ended_ = false;  ///< by a key
@@ -137,7 +137,7 @@ class Replay {
   std::vector<std::byte> buffer_;
 };
 
-// Keys are for people: they have a terminal, and see on it what the keys do.
+// Keys need a terminal, for input and for output.
 int Replay::keys_descriptor(const ReplayOptions& options, const Console& console) {
   const bool seen = isatty(fileno(console.err)) == 1;
   return seen && can_be_read_again(options.file) ? STDIN_FILENO : -1;
@@ -166,12 +166,13 @@ void Replay::play_lap() {
     else
       ++counts_.incomplete;
     if (!std::exchange(read_again_, false)) continue;
-    counts_.incomplete = 0;  // they will be met once more
+    counts_.incomplete = 0;  // they will be counted again
     source_ = open_recording(options_.file);
   }
 }
 
-// Whether there is something to send. What a key opens goes where it is plain: to the port below.
+// Whether there is a datagram to send. An opened datagram goes to its plain destination, the port
+// below.
 bool Replay::unseal(peer::SourceDatagram& datagram) {
   const std::span<const std::byte> sealed = datagram.bytes;
   const bool is_read = sealed_.open(datagram);
@@ -196,7 +197,7 @@ void Replay::play(const peer::SourceDatagram& datagram) {
   if (status_.due(end_)) show_status(end_);
 }
 
-// False where the datagram is not to be sent: leapt over, or the end was asked for.
+// False if the datagram is not to be sent: skipped by a jump, or the end was requested.
 bool Replay::wait_for_turn() {
   while (!has_ended() && !schedule_->is_skipped()) {
     const nanoseconds now = clock_.now();
@@ -265,7 +266,7 @@ std::string Replay::speed_text() const {
   const double rate = schedule_ ? schedule_->asked() : options_.rate;
   std::string text = rate > 0 ? fmt::format("asked {:.4g}x", rate) : "asked as fast as it goes";
   if (schedule_ && schedule_->is_changed()) text += " on average by keys";
-  // Without two datagrams sent there is no speed.
+  // There is no rate without two sent datagrams.
   if (counts_.sent < 2 || schedule_->kept() <= 0) return text;
   return text + fmt::format(", got {:.4g}x", schedule_->kept());
 }
@@ -325,7 +326,7 @@ ExitCode Replay::summarise() const {
   return whole || has_ended() ? ExitCode::good : ExitCode::findings;
 }
 
-/// Tells a destination from a time, and finds the interface of a broadcast address.
+/// Distinguishes a destination from a time, and finds the interface of a broadcast address.
 void settle_destination(ReplayOptions& options) {
   for (const std::string& text : options.to) {
     const auto end = parse_duration(text);
@@ -352,7 +353,7 @@ void check(const ReplayOptions& options) {
     throw UsageError(fmt::format(
         "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
         options.rate));
-  // What is not there is reported when it is opened.
+  // A missing file is reported when it is opened.
   std::error_code none;
   const bool is_pipe = options.file == "-" || (std::filesystem::exists(options.file, none) &&
                                                !can_be_read_again(options.file));

@@ -21,7 +21,7 @@ namespace {
 
 // --- check ---
 
-/// Of the scene, then of each mesh with its object's name.
+/// Notes of the scene, then of each mesh with its object's name.
 std::vector<std::string> all_notes(const LoadedScene& scene, const std::vector<MeshFacts>& meshes) {
   std::vector<std::string> notes = scene_notes(scene.file);
   for (const MeshFacts& mesh : meshes) {

@@ -25,7 +25,7 @@ namespace {
 
 using peer::format_quantity;
 
-/// An effect that an object does without, and what one would write to have it.
+/// An effect that an object lacks, and the line that would add it.
 struct LeftOut {
   std::string effect;
   std::string object;
@@ -43,7 +43,7 @@ std::string declaration_of() {
   return fmt::format("{} = {{ {} }}", Effect::kKey, inside);
 }
 
-/// All pairs of effect and object that the plan does not have.
+/// All pairs of effect and object that are not in the plan.
 std::vector<LeftOut> left_out(const LoadedScene& scene,
                               const std::vector<haptics::PlanStage>& stages) {
   std::vector<LeftOut> rows;
@@ -70,7 +70,8 @@ bool is_spring(std::string_view stage) {
   return is;
 }
 
-/// The stages with what becomes of springs that are stiffer than the devices of the scene can show.
+/// The stages, with the shown stiffness of springs that are stiffer than the scene's devices can
+/// show.
 std::vector<haptics::PlanStage> stages_of(const LoadedScene& scene,
                                           const std::vector<SceneDevice>& devices) {
   std::vector<haptics::PlanStage> stages = scene.plan.stages();
@@ -86,7 +87,7 @@ std::vector<haptics::PlanStage> stages_of(const LoadedScene& scene,
   return stages;
 }
 
-/// What is said of one thing stands below its name.
+/// Facts about one thing are listed below its name.
 TextTable peers_as_table(const std::vector<PeerFact>& facts) {
   TextTable table({{"PEER", TextTable::Align::right}, {"HAS"}, {""}, {""}});
   const PeerFact* last = nullptr;
@@ -100,7 +101,7 @@ TextTable peers_as_table(const std::vector<PeerFact>& facts) {
   return table;
 }
 
-/// Where each mesh comes from and what was found in it; a row for each thing found.
+/// Source and findings of each mesh; a row for each finding.
 TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
   TextTable table({{"MESH"}, {"FILE"}, {"FOUND"}});
   for (const MeshFacts& mesh : meshes) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `reckon scene explain` says of a scene: the stages of a servo step with their cost and what
-// is left out, what is between peers, how large things are made, and what each peer has.
+// Output of `reckon scene explain`: the stages of a servo step with their cost and the effects left
+// out, the settings between peers, the capacities, and the parts of each peer.
 #pragma once
 
 #include <cstdio>
@@ -10,9 +10,9 @@
 
 namespace reckon::tools {
 
-/// Tables for a person.
+/// Tables as text.
 void explain_as_text(const LoadedScene& scene, std::FILE* out);
-/// One JSON object a line; docs/json_lines.md has the keys.
+/// One JSON object a line; docs/json_lines.md describes the keys.
 void explain_as_json(const LoadedScene& scene, std::FILE* out);
 
 }  // namespace reckon::tools

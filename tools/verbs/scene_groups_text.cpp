@@ -13,7 +13,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Which cells are found by name, and which this peer looks for.
+/// Cells with a beacon, and the beacons that this peer follows.
 void add_beacons(const peer::SceneFile& file, SettingRows& rows) {
   std::string beacons;
   for (const peer::EntityConfig& entity : file.entities) {

@@ -15,7 +15,7 @@
 namespace reckon::tools {
 namespace {
 
-// Hands work about the origin of S [m]; what lies farther is more likely drawn elsewhere.
+// Hands work near the origin of S [m]; a mesh farther away was probably drawn elsewhere.
 constexpr double kFarFromHands = 100.0;
 
 void note_distance(const haptics::PlannedObject& object, std::vector<std::string>& notes) {
@@ -26,7 +26,7 @@ void note_distance(const haptics::PlannedObject& object, std::vector<std::string
       haptics::length_text(distance)));
 }
 
-// Those that have a number: a list of name and triangles.
+// Patches with a number: a list of name and triangles.
 void append_patches(std::string& out, const haptics::SurfacePatches* patches) {
   out += '[';
   for (std::size_t id = 1; patches != nullptr && id < patches->patches.size(); ++id) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `reckon scene check` and `scene explain` say of the meshes of a scene: how large they are,
-// and every repair.
+// Output of `reckon scene check` and `scene explain` about the meshes of a scene: their size and
+// every repair.
 #pragma once
 
 #include <memory>
@@ -15,23 +15,23 @@
 
 namespace reckon::tools {
 
-/// One object that is a mesh.
+/// One object with a mesh.
 struct MeshFacts {
   std::string object;
   std::string file;
   haptics::MeshReport report;
-  std::shared_ptr<const haptics::SurfacePatches> patches;  ///< null where none is declared
-  std::vector<std::string> notes;  ///< what a person should look at, without the object's name
+  std::shared_ptr<const haptics::SurfacePatches> patches;  ///< null if none is declared
+  std::vector<std::string> notes;  ///< remarks for the user, without the object's name
 };
 
-/// haptics::mesh_summary(), and the patches by number: with their triangles:
-/// "...; patches: 1 soft (12), 2 hard (4)".
+/// haptics::mesh_summary(), and the patches by number with their triangles: "...; patches: 1 soft
+/// (12), 2 hard (4)".
 [[nodiscard]] std::string mesh_line(const MeshFacts& facts);
 
-/// In the order of the scene.
+/// Facts in the order of the scene.
 [[nodiscard]] std::vector<MeshFacts> mesh_facts(const LoadedScene& scene);
 
-/// Appends the keys of docs/json_lines.md as one JSON object; `kind` is its first unless empty.
+/// Appends the keys of docs/json_lines.md as one JSON object; `kind` is its first key unless empty.
 void append_mesh_json(std::string& out, const MeshFacts& facts, std::string_view kind = {});
 
 }  // namespace reckon::tools

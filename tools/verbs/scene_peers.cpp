@@ -22,7 +22,7 @@ namespace {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// With three digits, for what is computed.
+/// A computed value with three digits.
 std::string about(double value, std::string_view unit) {
   if (value == 0 || !std::isfinite(value)) return peer::format_quantity(value, unit);
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
@@ -63,7 +63,7 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
   return config;
 }
 
-/// How fast its force may grow, and what becomes of what the file asks.
+/// Force rate limit of the device, and the shown share of the file's request.
 std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   const auto simulated = make_simulated_device(scene, device);
   const haptics::ServoLoop servo(*simulated, haptics::EffectPlan(), servo_of(scene, device));

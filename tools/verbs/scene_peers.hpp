@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `reckon scene explain` says of each peer of a scene.
+// Output of `reckon scene explain` about each peer of a scene.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace reckon::tools {
 
-/// One fact about something that a peer has.
+/// One fact about a part of a peer.
 struct PeerFact {
   std::uint32_t peer = 1;
   std::string has;   ///< "device 1", "entity TRUCK"
@@ -20,9 +20,9 @@ struct PeerFact {
   std::string how;   ///< "10 N, 2 m/s"
 };
 
-/// Every device and entity of every peer of `scene`, whose plan is `plan`. What a device shows is
-/// asked of the servo that would drive it. @throws std::runtime_error for a track or trace that
-/// cannot be read.
+/// Facts about every device and entity of every peer of `scene`, whose plan is `plan`. The
+/// stiffness that a device shows comes from the servo that would drive it. @throws
+/// std::runtime_error for a track or trace that cannot be read.
 [[nodiscard]] std::vector<PeerFact> peer_facts(const peer::SceneFile& scene,
                                                const haptics::EffectPlan& plan);
 

@@ -27,7 +27,7 @@ std::string duration_of(std::chrono::nanoseconds duration) {
   return format_quantity(pdu::to_seconds(duration), "s");
 }
 
-/// How remote entities are shown.
+/// Convergence of remote entities.
 std::string shown_as(const peer::ConvergenceConfig& config) {
   const auto& settings = config.settings;
   return fmt::format("{} in {}, at once from {}; follows {}", peer::word_of(settings.curve),
@@ -37,7 +37,7 @@ std::string shown_as(const peer::ConvergenceConfig& config) {
                                                                      : "the model as sent");
 }
 
-/// Multicast, or a list in its place.
+/// Multicast, or a list of addresses instead.
 std::string way_of(const peer::NetworkConfig& network) {
   if (network.group.is_broadcast()) return "broadcast";
   if (network.peers.empty()) return "multicast";
@@ -149,7 +149,7 @@ SettingRows scene_settings(const peer::SceneFile& file) {
 SettingRows scene_limits(const peer::SceneFile& file) {
   const peer::PeerOptions options;
   const bool adaptive = file.convergence.prediction == peer::Prediction::adaptive;
-  // A row, its sender's clock, its history, and its places in indices and columns.
+  // A row, its sender's clock, its history, and its entries in indices and columns.
   constexpr std::size_t kPlaces = 64;
   const std::size_t row = sizeof(peer::RemoteEntity) + sizeof(peer::SenderClock) + kPlaces +
                           (adaptive ? sizeof(deadreckon::AdaptiveOrder) : 0);

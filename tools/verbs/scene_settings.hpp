@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What `reckon scene explain` says of what is between peers, and how large things are made.
+// Output of `reckon scene explain` about the settings between peers, and about capacities.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ namespace reckon::tools {
 /// (what, how) rows.
 using SettingRows = std::vector<std::pair<std::string, std::string>>;
 
-/// What the scene asks of the network, of cells and of dead reckoning. Up to some seconds where the
-/// scene has a sample of places; asks the host how many groups it lets one join.
+/// The scene's settings for the network, cells and dead reckoning. Up to some seconds if the scene
+/// has a sample of positions. Asks the host how many groups it can join.
 [[nodiscard]] SettingRows scene_settings(const peer::SceneFile& file);
 
-/// How large things are made, and what is left out beyond.
+/// Capacities, and what is dropped beyond them.
 [[nodiscard]] SettingRows scene_limits(const peer::SceneFile& file);
 
 }  // namespace reckon::tools

@@ -18,7 +18,7 @@
 namespace reckon::tools {
 namespace {
 
-constexpr std::size_t kNamed = 3;  // of those that a sentence is about
+constexpr std::size_t kNamed = 3;  // names listed in a sentence
 
 // "a, b, c and 4 more"
 std::string names(const std::set<std::string>& all) {
@@ -35,7 +35,7 @@ std::string device_text(const Softened& row) {
   return fmt::format("{} of peer {}", row.device, row.peer);
 }
 
-// What one sentence is about: things of one kind that the same devices show alike.
+// Subject of one sentence: things of one kind that the same devices show alike.
 struct Group {
   Softened first;
   std::set<std::string> things, devices;

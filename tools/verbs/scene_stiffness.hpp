@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What of a scene is felt softer than it asks, by the devices that the scene has.
+// Parts of a scene that its devices show softer than the scene asks.
 #pragma once
 
 #include <cstdint>
@@ -13,44 +13,44 @@
 
 namespace reckon::tools {
 
-/// One device of a scene: a [[device]], or the one that a peer has where the scene names none.
+/// One device of a scene: a [[device]], or a peer's default one if the scene names none.
 struct SceneDevice {
   std::uint32_t peer = 1;
   std::string name;  ///< "device 1 LEFT"
   peer::DeviceStiffness stiffness;
 };
 
-/// Every device of every peer, asked of the servo that would drive it. @throws std::runtime_error
-/// for a trace that cannot be read.
+/// Every device of every peer, with limits from the servo that would drive it. @throws
+/// std::runtime_error for a trace that cannot be read.
 [[nodiscard]] std::vector<SceneDevice> devices_in(const peer::SceneFile& scene,
                                                   const haptics::EffectPlan& plan);
 
-/// Something that a device shows softer than the scene asks.
+/// A thing that a device shows softer than the scene asks.
 struct Softened {
   std::uint32_t peer = 1;
   std::string device;  ///< as SceneDevice::name
   std::string what;    ///< "object NAME", "hand", "entity MARKING"
   double shown = 0.0;  ///< [N/m]
-  double asked = 0.0;  ///< [N/m]; 0: a slope that grows by k3 for as long as it can be shown
-  double from = 0.0;   ///< [m] of depth, from which on it cannot
-  double alone = 0.0;  ///< [N/m] that would be shown, were there no damper beside it; 0: has none
+  double asked = 0.0;  ///< [N/m]; 0: a slope that grows by k3 up to the device's limit
+  double from = 0.0;   ///< [m], depth from which the device cannot show it
+  double alone = 0.0;  ///< [N/m], shown stiffness without the damper beside it; 0: there is none
   [[nodiscard]] bool is_hardening() const noexcept { return asked == 0.0; }
 };
 
-/// All of a scene.
+/// All softened things of a scene.
 [[nodiscard]] std::vector<Softened> softened(const peer::SceneFile& scene,
                                              const haptics::EffectPlan& plan,
                                              const std::vector<SceneDevice>& devices);
 
-/// The same in sentences, one for each kind of thing and devices that show it alike.
+/// The same as sentences, one for each kind of thing and set of devices that show it alike.
 [[nodiscard]] std::vector<std::string> softened_notes(const std::vector<Softened>& rows,
                                                       std::size_t devices);
 
 /// One row as a JSON object.
 void append_softened(std::string& out, const Softened& row);
 
-/// "felt with 1425 N/m", or "felt with 950 to 1425 N/m"; empty where an object of this stiffness
-/// [N/m] is felt as asked by all devices.
+/// "felt with 1425 N/m", or "felt with 950 to 1425 N/m"; empty if all devices show an object of
+/// this stiffness [N/m] as asked.
 [[nodiscard]] std::string felt_with(double asked, const std::vector<SceneDevice>& devices);
 
 }  // namespace reckon::tools

@@ -26,7 +26,7 @@ constexpr std::string_view kProgram = "reckon-bench";
 
 bool can_run(const std::filesystem::path& path) { return access(path.c_str(), X_OK) == 0; }
 
-/// Beside this program, else in a folder of PATH; empty where it is nowhere.
+/// Path of the program beside this one, else in a folder of PATH; empty if it is in neither.
 std::filesystem::path find_program() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -66,7 +66,7 @@ class Words {
                                      std::generic_category().message(error)));
 }
 
-/// Runs it with its output copied to `console.out`. @return its exit status
+/// Runs the program with its output copied to `console.out`. @return its exit status
 int run_copied(const std::filesystem::path& program, const Words& words, const Console& console) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -92,7 +92,7 @@ int run_copied(const std::filesystem::path& program, const Words& words, const C
   return WIFEXITED(status) ? WEXITSTATUS(status) : exit_status(ExitCode::internal);
 }
 
-/// What manual page and completion ask of each verb has an answer without the program.
+/// Answers without the program what manual page and completion ask of each verb.
 int answer_without_program(const StudyVerb& verb, Arguments arguments, const Console& console) {
   const std::string_view first = arguments.empty() ? std::string_view{} : arguments.front();
   if (first == kManualSection || first == kListFlags) {

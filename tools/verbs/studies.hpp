@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of the program `reckon-bench`, as the help of both programs has them. `reckon` lists
-// them too and starts it, as git starts its own; it is built and installed beside `reckon`.
+// The verbs of the program `reckon-bench`, as in the help of both programs. `reckon` lists them too
+// and starts that program, as git does with its own. It is built and installed beside `reckon`.
 #pragma once
 
 #include <string_view>
