@@ -24,7 +24,7 @@ constexpr double kOnBorder = 1e-10;
 constexpr double kOnePole = 1e-9;
 constexpr double kDefective = 1e-7;
 
-// s = scale (z - 1)/(z + 1) maps the axis on the circle; the scale puts the poles in the middle.
+// s = scale (z - 1)/(z + 1) maps the axis to the circle; the scale moves the poles to the middle.
 StateSpace bilinear(const StateSpace& s, double scale) {
   const Index n = s.order();
   const Eigen::PartialPivLU<MatrixXd> lu(scale * MatrixXd::Identity(n, n) - s.A);
@@ -33,7 +33,7 @@ StateSpace bilinear(const StateSpace& s, double scale) {
           std::sqrt(2 * scale) * s.C * M, s.D + s.C * M * s.B, 1.0};
 }
 
-// Geometric mean of the poles' sizes, those near 0 left out. Positive and no eigenvalue of A.
+// Geometric mean of the poles' magnitudes without those near 0. Positive and no eigenvalue of A.
 double middle_scale(const Eigen::VectorXcd& all) {
   const double greatest = all.size() == 0 ? 0.0 : all.cwiseAbs().maxCoeff();
   if (greatest == 0) return 1.0;
@@ -55,8 +55,8 @@ struct Group {
   Index count = 0;
 };
 
-// Poles of the given system, sorted by where they lie: judged before any mapping, which would bring
-// slow and fast ones close to the border.
+// Poles of the given system, sorted by their place. This is decided before any mapping, which would
+// move slow and fast poles close to the border.
 struct Sorted {
   std::vector<Group> border;  // on the circle
   std::optional<double> beyond;
@@ -82,8 +82,8 @@ Sorted sorted_poles(const Eigen::VectorXcd& all, double sample_period, double sc
   return sorted;
 }
 
-// Takes a semisimple pole out of the system: its projector V W^H gives the residue, its place in A
-// is moved to 0, where nothing reaches it any more.
+// Removes a semisimple pole from the system. Its projector V W^H gives the residue. Its eigenvalue
+// in A becomes 0, where it is no longer reached.
 BorderPole split_off(CircleSystem& s, const Group& group) {
   BorderPole pole{std::arg(group.place), {}, true};
   MatrixXcd shifted = s.A;
@@ -105,7 +105,7 @@ BorderPole split_off(CircleSystem& s, const Group& group) {
   return pole;
 }
 
-// Triangular: then a response costs O(n^2) and the poles are the diagonal.
+// Makes A triangular: then a response costs O(n^2) and the poles are the diagonal.
 void make_triangular(CircleSystem& s) {
   if (s.A.rows() == 0) return;
   const Eigen::ComplexSchur<MatrixXcd> schur(s.A);

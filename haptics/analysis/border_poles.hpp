@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a system does on the border of stability: the unit circle. Its poles there are split off, so
-// that the rest can be evaluated everywhere on it.
+// Behaviour of a system on the border of stability, the unit circle. The poles on it are split off,
+// so that the rest can be evaluated everywhere on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,28 +20,27 @@ struct BorderPole {
   bool simple = true;        ///< as many eigenvectors as its multiplicity; else Q is empty
 };
 
-/// A sampled system on the unit circle, its border poles apart.
+/// A sampled system on the unit circle, with its border poles split off.
 struct CircleSystem {
-  /// Without the border poles, which left -Q/2 in D. A is upper triangular.
+  /// Without the border poles, whose -Q/2 is in D. A is upper triangular.
   Eigen::MatrixXcd A, B, C, D;
   std::vector<BorderPole> border;
-  std::optional<double> beyond;  ///< frequency [rad/s] of a pole outside, where there is one
-  /// [1/s] Continuous systems come by s = scale (z - 1)/(z + 1), which keeps G on the border as it
-  /// is; 0 for sampled ones.
+  std::optional<double> beyond;  ///< frequency [rad/s] of a pole outside, if there is one
+  /// [1/s] Continuous systems are mapped by s = scale (z - 1)/(z + 1), which keeps the values of G
+  /// on the border; 0 for sampled ones.
   double scale = 0.0;
   double sample_period = 0.0;
 
-  /// Angular frequency [rad/s] of an angle: infinite at pi where the system was continuous.
+  /// Angular frequency [rad/s] of an angle: infinite at pi for a continuous system.
   [[nodiscard]] double frequency_of(double angle) const;
-  /// (G + G^H)/2 at e^{j angle}. A border pole whose Q is Hermitian adds a constant, which is in
-  /// it.
+  /// (G + G^H)/2 at e^{j angle}. It includes the constant that a border pole with Hermitian Q adds.
   [[nodiscard]] Eigen::MatrixXcd hermitian_part(double angle) const;
-  /// G without the border poles, -Q/2 in their place.
+  /// G with -Q/2 in place of the border poles.
   [[nodiscard]] Eigen::MatrixXcd response(double angle) const;
 };
 
-/// @throws std::invalid_argument as checked(), and where inputs and outputs are not as many;
-/// std::runtime_error where eigenvalues are not found
+/// @throws std::invalid_argument as checked(), and if the numbers of inputs and outputs differ;
+/// std::runtime_error if eigenvalues are not found
 [[nodiscard]] CircleSystem on_unit_circle(const StateSpace& system);
 
 }  // namespace reckon::haptics

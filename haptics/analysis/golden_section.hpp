@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The greatest value of a function of one variable between two places.
+// Greatest value of a function of one variable in an interval.
 #pragma once
 
 namespace reckon::haptics {
@@ -10,10 +10,10 @@ struct Greatest {
   double at;
 };
 
-/// By golden section: right where `of` rises to one maximum between `low` and `high` and falls
-/// behind it; elsewhere some value that it has there. 5 calls of `of` for each factor of ten.
-/// @param high > low  @param precision length of the stretch in which the place is known in the
-/// end, well above the rounding of `low` and `high`
+/// By golden section. Correct if `of` rises to one maximum between `low` and `high` and falls after
+/// it; otherwise some value of the function there. 5 calls of `of` for each factor of ten.
+/// @param high > low  @param precision width of the final interval, well above the rounding of
+/// `low` and `high`
 template <typename Of>
 [[nodiscard]] Greatest greatest_between(double low, double high, double precision, Of&& of) {
   constexpr double kGolden = 0.6180339887498949;

@@ -24,7 +24,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-11;
 constexpr int kRounds = 20;
 constexpr int kGrid = 16;
-constexpr double kPressed = 0.2;  // sine of an angle below which the map's resolution is not enough
+constexpr double kPressed = 0.2;  // sine of an angle below which the map's resolution does not
+                                  // suffice
 
 struct Sample {
   double angle = 0.0;  // or frequency
@@ -37,8 +38,8 @@ double least_eigenvalue(const MatrixXcd& hermitian) {
       .eigenvalues()(0);
 }
 
-// The least value over the half circle [0, pi]: coefficients are real, the other half is its
-// mirror.
+// The least value over the half circle [0, pi]: coefficients are real, and the other half is its
+// mirror image.
 class LeastOnCircle {
  public:
   explicit LeastOnCircle(const CircleSystem& system) : system_(system) {
@@ -62,7 +63,7 @@ class LeastOnCircle {
     return best_;
   }
 
-  /// Greatest entry met, residues included: what rounding errors are measured by.
+  /// Greatest entry so far, residues included: the reference for rounding errors.
   [[nodiscard]] double size() const { return size_; }
 
  private:
@@ -75,7 +76,7 @@ class LeastOnCircle {
     return value;
   }
 
-  // At the angles and halfway between neighbours.
+  // Evaluates at the angles and halfway between neighbours.
   void visit(std::vector<double> angles) {
     std::sort(angles.begin(), angles.end());
     for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -85,10 +86,10 @@ class LeastOnCircle {
     angles_ = std::move(angles);
   }
 
-  // Angles in [0, pi] near which an eigenvalue of the Hermitian part may be `level`. The point at
-  // infinity of the half-plane is put where the value is farthest above the level, so that the
-  // Hamiltonian's inverse exists. Eigenvalues off the axis are kept too: they cost two evaluations
-  // each, and a crossing that rounding moved off the axis is not lost.
+  // Angles in [0, pi] near which an eigenvalue of the Hermitian part may equal `level`. The point
+  // at infinity of the half-plane is mapped to the place where the value is farthest above the
+  // level, so that the Hamiltonian's inverse exists. Eigenvalues off the axis are kept too: they
+  // cost two evaluations each, and a crossing that rounding moved off the axis is not lost.
   std::vector<double> level_angles(double level) const {
     std::vector<double> angles = {0.0, kPi};
     const Index n = system_.A.rows(), ports = system_.D.rows();
@@ -111,7 +112,7 @@ class LeastOnCircle {
     hamiltonian.topLeftCorner(n, n) += As;
     hamiltonian.bottomRightCorner(n, n) -= As.adjoint();
     if (!hamiltonian.allFinite())
-      return angles;  // R is singular: the value is the level throughout
+      return angles;  // R is singular: the value equals the level everywhere
 
     const Eigen::ComplexEigenSolver<MatrixXcd> solver(hamiltonian, false);
     for (const Complex s : solver.eigenvalues()) {
@@ -121,7 +122,7 @@ class LeastOnCircle {
     return angles;
   }
 
-  // Golden section between the neighbours of the best angle so far, down to rounding: far above or
+  // Golden section between the neighbours of the best angle so far, down to rounding. Far above or
   // below the middle of the poles a whole resonance may lie within 1e-9 rad.
   void refine() {
     constexpr double kGolden = 0.6180339887498949;
@@ -149,9 +150,8 @@ class LeastOnCircle {
   std::vector<double> angles_;
 };
 
-// The least value once more, where the map onto the circle presses frequencies together: a narrow
-// dip far from the middle of the poles is blurred there. Golden section over its width, on the axis
-// itself.
+// The least value again, where the map to the circle compresses frequencies: there a narrow dip far
+// from the middle of the poles is blurred. Golden section over its width, on the axis itself.
 Sample polished(const StateSpace& model, double angular_frequency) {
   constexpr double kGolden = 0.6180339887498949;
   const FrequencyResponse response(model);
@@ -182,7 +182,7 @@ Sample polished(const StateSpace& model, double angular_frequency) {
   return best;
 }
 
-// Why the poles alone forbid it, or nothing.
+// The fault of a pole by itself, if there is one.
 ActiveBecause fault_of(const BorderPole& pole, double size) {
   if (!pole.simple) return ActiveBecause::multiple_pole;
   const double rounding = 1e-9 * size;

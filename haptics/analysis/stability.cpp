@@ -23,7 +23,7 @@ struct Cluster {
   Eigen::Index count = 0;
 };
 
-// A perturbed multiple root spreads around itself; its mean hardly moves.
+// A perturbed multiple root spreads; its mean hardly moves.
 std::vector<Cluster> clusters_of(const Eigen::VectorXcd& roots, double distance) {
   std::vector<Cluster> clusters;
   for (const Complex root : roots) {
@@ -58,7 +58,7 @@ StabilityReport judge(const Eigen::VectorXcd& roots, double sample_period,
   return report;
 }
 
-// As many eigenvectors as roots: A - p I has lost that much rank.
+// Whether there are as many eigenvectors as roots: A - p I has lost that much rank.
 bool has_all_eigenvectors(const Eigen::MatrixXd& A, const Cluster& c) {
   Eigen::MatrixXcd shifted = A.cast<Complex>();
   shifted.diagonal().array() -= c.mean;

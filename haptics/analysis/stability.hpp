@@ -11,30 +11,30 @@ namespace reckon::haptics {
 
 enum class Stability {
   asymptotic,  ///< all roots inside
-  marginal,    ///< some on the border, all of these simple
-  unstable,    ///< one beyond it, or a multiple one on it
+  marginal,    ///< some on the border, all of them simple
+  unstable,    ///< one beyond the border, or a multiple one on it
 };
 
 struct StabilityReport {
   Stability verdict = Stability::unstable;
-  /// Least distance of a root from the border, > 0 inside: 1 - |z|, or -Re s [1/s]. Infinite where
-  /// there are no roots. Roots closer than rounding can tell apart count as one, at their mean.
+  /// Least distance of a root from the border, > 0 inside: 1 - |z|, or -Re s [1/s]. Infinite
+  /// without roots. Roots that rounding does not distinguish count as one, at their mean.
   double margin = 0.0;
   bool multiple_on_border = false;
 };
 
-/// The roots of a characteristic equation. Roots within 3e-6 of each other are one multiple root
-/// and a mean within 1e-9 of the border lies on it (times the greatest |s| in continuous time): a
-/// root of multiplicity 2 is known to 1e-8 only. @param sample_period [s]; 0: continuous
+/// Judges the roots of a characteristic equation. Roots within 3e-6 of each other are one multiple
+/// root. A mean within 1e-9 of the border lies on it (times the greatest |s| in continuous time). A
+/// double root is only known to 1e-8. @param sample_period [s]; 0: continuous
 [[nodiscard]] StabilityReport judge_roots(const Eigen::VectorXcd& roots, double sample_period);
 
-/// The eigenvalues of A. Where a multiple one on the border has as many eigenvectors (two free
-/// masses side by side) no state grows: that is marginal, though its characteristic equation has a
-/// multiple root. @throws std::invalid_argument, std::runtime_error as poles() and checked()
+/// Judges the eigenvalues of A. If a multiple one on the border has as many eigenvectors (two free
+/// masses side by side), no state grows. This is marginal, although the characteristic equation has
+/// a multiple root. @throws std::invalid_argument, std::runtime_error as poles() and checked()
 [[nodiscard]] StabilityReport judge_stability(const StateSpace& system);
 
-/// Greatest |z| of a sampled system's poles: a state grows or decays by it, each sample. 0 without
-/// states. @throws std::invalid_argument where the system is continuous
+/// Greatest |z| of a sampled system's poles, the growth or decay factor of a state per sample. 0
+/// without states. @throws std::invalid_argument for a continuous system
 [[nodiscard]] double spectral_radius(const StateSpace& system);
 
 }  // namespace reckon::haptics

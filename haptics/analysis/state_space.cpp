@@ -84,7 +84,7 @@ StateSpace sample_delay(int samples, Index channels, double sample_period) {
   const MatrixXd unit = MatrixXd::Identity(channels, channels);
   if (samples == 0) return static_gain(unit, sample_period);
 
-  // A line of registers: what enters the first leaves the last `samples` later.
+  // A shift register: the input of the first element leaves the last one `samples` later.
   const Index order = samples * channels;
   MatrixXd A = MatrixXd::Zero(order, order);
   A.bottomLeftCorner(order - channels, order - channels).setIdentity();
@@ -147,7 +147,7 @@ StateSpace discretise_zero_order_hold(const StateSpace& continuous, double sampl
   const Index n = sampled.order(), inputs = sampled.inputs();
   if (n == 0) return sampled;
 
-  // The held input is a state that does not change: exp([A B; 0 0] T) = [A_d B_d; 0 I].
+  // The held input is a constant state: exp([A B; 0 0] T) = [A_d B_d; 0 I].
   const MatrixXd generator =
       blocks(sampled.A, sampled.B, MatrixXd::Zero(inputs, n), MatrixXd::Zero(inputs, inputs));
   const MatrixXd flow = (generator * sample_period).exp();
@@ -183,7 +183,7 @@ StateSpace feedback(const StateSpace& forward, const StateSpace& back) {
   const Eigen::FullPivLU<MatrixXd> lu(loop);
   require_fit(lu.isInvertible(), "the loop has no solution; put a delay into it");
 
-  // e = u - back(y) in terms of both states and u; all else follows from it.
+  // e = u - back(y) in terms of both states and u; the rest follows from it.
   const MatrixXd inverse = lu.inverse();
   const MatrixXd from_f = -inverse * h.D * f.C;
   const MatrixXd from_h = -inverse * h.C;

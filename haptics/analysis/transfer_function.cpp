@@ -81,7 +81,7 @@ Eigen::VectorXcd roots(const Polynomial& polynomial) {
   require(!p.empty() && is_finite(p), "roots are those of a finite polynomial that is not zero");
   const auto degree = static_cast<Eigen::Index>(p.size()) - 1;
   Eigen::VectorXcd result = Eigen::VectorXcd::Zero(degree);
-  while (p.back() == 0) p.pop_back();  // these are the roots at 0
+  while (p.back() == 0) p.pop_back();  // roots at 0
   if (p.size() < 2) return result;
 
   std::reverse(p.begin(), p.end());

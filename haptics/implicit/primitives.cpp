@@ -88,8 +88,8 @@ SignedSample CylinderFunction::sample(const Vector3d& p) const noexcept {
 
 AlignedBox3d CylinderFunction::bounds() const noexcept { return round_bounds(radius, half); }
 
-// The figure is a trapezium. Outside, the nearest of its sides or else of its corners; inside, the
-// nearest side.
+// The figure is a trapezium. From outside, the nearest of its sides or else of its corners counts;
+// from inside, the nearest side.
 SignedSample ConeFunction::sample(const Vector3d& p) const noexcept {
   const double rho = from_axis(p);
   const Vector2d at(rho, p.z());
@@ -130,10 +130,10 @@ AlignedBox3d TorusFunction::bounds() const noexcept { return round_bounds(radius
 
 // The foot q of p has p - q along the normal: q_i = a_i^2 p_i / (a_i^2 + t), and t is the greatest
 // root of sum (a_i p_i / (a_i^2 + t))^2 = 1 (D. Eberly, Distance from a Point to an Ellipsoid).
-// Left of that root the sum is convex and falls, so that Newton's method climbs to it and never
-// beyond.
+// Left of that root the sum is convex and decreasing, so that Newton's method approaches it from
+// below.
 SignedSample EllipsoidFunction::sample(const Vector3d& p) const noexcept {
-  constexpr double kOffPlane = 1e-14;  // of an axis: keeps a point of a plane of symmetry off it
+  constexpr double kOffPlane = 1e-14;  // of an axis: keeps a point off a plane of symmetry
   constexpr int kMostSteps = 100;
   const Vector3d squares = semi.cwiseAbs2();
   const Vector3d place = p.cwiseAbs().cwiseMax(kOffPlane * semi);

@@ -19,13 +19,13 @@ using Eigen::Vector3d;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// A function that is convex along the way lies above its tangent.
+// A function that is convex along the path lies above its tangent.
 double above_tangent(double height, double slope) {
   if (slope >= 0.0) return kFar;
   return height / -slope;
 }
 
-// How far within a block it is to its walls moved inwards by `level`.
+// Distance from inside a block to its walls moved inwards by `level`.
 double to_walls(const BoxFunction& box, const Vector3d& p, const Vector3d& direction,
                 double level) {
   double way = kFar;
@@ -37,8 +37,8 @@ double to_walls(const BoxFunction& box, const Vector3d& p, const Vector3d& direc
   return way;
 }
 
-// How far it is, along a way of which `p` and `direction` are the part across an axis or all of it,
-// to where |p| has grown to `reach`.
+// Distance along a path at which |p| grows to `reach`. `p` and `direction` are the components
+// across an axis, or the whole vectors.
 template <class Vector>
 double to_reach(const Vector& p, const Vector& direction, double reach) {
   const double speed = direction.squaredNorm();
@@ -49,7 +49,7 @@ double to_reach(const Vector& p, const Vector& direction, double reach) {
   return outward > 0.0 ? room / (outward + root) : (root - outward) / speed;
 }
 
-// The same from within the others whose surface is met in closed form; 0 where none is known.
+// The same from inside the other solids with a closed form; 0 if none is known.
 template <class Function>
 double way_out(const Function& solid, const Vector3d& p, const Vector3d& direction, double level) {
   if constexpr (std::is_same_v<Function, HalfSpaceFunction>) {
@@ -69,8 +69,8 @@ double way_out(const Function& solid, const Vector3d& p, const Vector3d& directi
   }
 }
 
-// Where a and b come near one another an edge is rounded: what that takes off the lesser, and the
-// share of the greater in the gradient. Of the greatest, with both signs turned.
+// Rounded edge where a and b are close: decrease of the smaller one, and share of the greater one
+// in the gradient. For the maximum, with both signs reversed.
 struct Blend {
   double off = 0.0;
   double share = 0.0;
@@ -143,8 +143,8 @@ SignedFunction SignedFunction::complement() const {
   return other;
 }
 
-// From the top down, which is backwards, each node hands what is above it to its two children. The
-// greatest of convex functions is convex, rounded or not.
+// From the top down, which is the reverse order, each node passes its sag to its two children. The
+// maximum of convex functions is convex, rounded or not.
 void SignedFunction::note_levels() {
   std::vector<double> open{0.0};
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
@@ -175,7 +175,7 @@ void SignedFunction::note_levels() {
 SignedFunction unite(const SignedFunction& a, const SignedFunction& b, double radius) {
   SignedFunction whole = SignedFunction::combine(a, b, SignedFunction::NodeKind::least, radius);
   whole.bounds_ = a.bounds_.merged(b.bounds_);
-  const Vector3d room = Vector3d::Constant(0.25 * radius);  // the most that f falls by
+  const Vector3d room = Vector3d::Constant(0.25 * radius);  // the greatest decrease of f
   whole.bounds_ = AlignedBox3d(whole.bounds_.min() - room, whole.bounds_.max() + room);
   return whole;
 }
@@ -230,7 +230,7 @@ SignedSample SignedFunction::sample(const Vector3d& p) const noexcept {
     const double sign = node.kind == NodeKind::least ? 1.0 : -1.0;
     const Blend round = blend(a.value, b.value, node.radius);
     const bool second = sign * b.value < sign * a.value;
-    const double share = second ? 1.0 - round.share : round.share;  // of b
+    const double share = second ? 1.0 - round.share : round.share;  // share of b
     a.gradient += share * (b.gradient - a.gradient);
     a.value = (second ? b.value : a.value) - sign * round.off;
   }
@@ -252,7 +252,7 @@ WaySample SignedFunction::sample_along(const Vector3d& p, const Vector3d& direct
     const double sign = least ? 1.0 : -1.0;
     const Blend round = blend(a.value, b.value, node.radius);
     const double gap = sign * (b.value - a.value);
-    // At an edge the one that the way leads into: the derivative of a minimum is the lesser one.
+    // At an edge, the function into which the path leads: a minimum has the lesser derivative.
     const bool tied = std::abs(gap) <= tie && !(round.off > 0.0);
     const bool second = tied ? sign * direction.dot(b.gradient - a.gradient) < 0.0 : gap < 0.0;
     const double share = second ? 1.0 - round.share : round.share;

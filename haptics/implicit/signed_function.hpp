@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Union, intersection and difference of placed primitives as one signed function f, constructive
-// solid geometry (CSG), with sharp or with rounded edges; what a contact with an implicit surface
-// is computed from.
+// solid geometry (CSG), with sharp or rounded edges. Basis of contacts with implicit surfaces.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,39 +14,39 @@
 
 namespace reckon::haptics {
 
-/// f at a point of a straight way.
+/// f at a point of a straight path.
 struct WaySample {
   double value = 0.0;  ///< [m]
-  /// Where surfaces meet within the tie, that of the one which f follows along the way.
+  /// If surfaces meet within the tie, the gradient of the one that f follows along the path.
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  double advance = 0.0;  ///< [m]: so far along the way, f stays above the level asked for
+  double advance = 0.0;  ///< [m]: distance along the path over which f stays above the given level
 };
 
 /// A tree of signed functions; f < 0 inside, 0 on the surface, > 0 outside.
 ///
 /// |f| is never more than the distance from the surface, and |f(p) - f(q)| <= |p - q| (Lipschitz
-/// constant 1), rounded edges included. It is the distance itself for one primitive, outside of a
-/// union, and inside of an intersection. It is only a bound
+/// constant 1), rounded edges included. It equals the distance for one primitive, outside of a
+/// union, and inside of an intersection. It is only a lower bound
 ///  - outside of an intersection or difference, beside a convex edge: along the mitre of an edge of
 ///    90 deg it is 0.71 of the distance;
 ///  - inside of a union, where the parts overlap;
 ///  - within the band of a rounded edge.
-/// The gradient is of length 1 but within such a band, where it is shorter.
+/// The gradient has length 1, except within such a band, where it is shorter.
 ///
 /// A rounded edge blends the two functions a and b where |a - b| < radius by a parabola: at a right
-/// angle it leaves each surface `radius` from the edge, as a circular fillet of that radius does,
-/// and its tightest curve has 0.71 of it. It takes no more than radius/4 off f.
+/// angle it leaves each surface `radius` from the edge, like a circular fillet of that radius, and
+/// its smallest radius of curvature is 0.71 of it. It reduces f by at most radius/4.
 ///
 /// Example: a plate of 10 mm with a bore, its rim rounded.
 ///   const auto f = subtract(SignedFunction(BoxFunction{{0.05, 0.05, 0.005}}),
 ///                           SignedFunction(CylinderFunction{0.01, 0.02}), 0.002);
 ///   f.sample({0.0, 0.0, 0.0}).value;  // > 0: in the bore
 ///
-/// Evaluation is noexcept, allocates nothing and costs the same everywhere: about the sum of its
-/// nodes. Making one allocates.
+/// Evaluation is noexcept, does not allocate and costs the same everywhere: about the sum of its
+/// nodes. Construction allocates.
 class SignedFunction {
  public:
-  /// Most primitives of a tree.
+  /// Greatest number of primitives in a tree.
   static constexpr std::size_t kMostLeaves = 32;
 
   /// One primitive; p = place * p_primitive.

@@ -14,7 +14,7 @@ namespace reckon::haptics {
 
 namespace {
 
-// Squares and volumes of anything nearer stay finite.
+// Squares and volumes of nearer vertices stay finite.
 constexpr double kFarthestVertex = 1e90;
 
 struct Format {

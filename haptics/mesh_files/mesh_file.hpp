@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh file says, before any repair. Coordinates keep every digit that a double holds: a
-// model in national coordinates lies millions of metres from the origin, where single precision
-// knows half metres.
+// Content of a mesh file before any repair. Coordinates keep every digit of a double: a model in
+// national coordinates lies millions of metres from the origin, where single precision resolves
+// half metres.
 //
 //   const MeshFile stone = read_mesh_file("scenes/touchstone.obj");
 //   stone.vertices[stone.corners[stone.faces[0].first]]   // first corner of the first face
@@ -24,33 +24,35 @@ namespace reckon::haptics {
 struct FileFace {
   std::size_t first = 0;       ///< of its corners in MeshFile::corners
   std::uint32_t count = 0;     ///< of its corners
-  std::uint32_t place = 0;     ///< from 1: line of a text, else number of the face
+  std::uint32_t place = 0;     ///< from 1: line of a text file, else number of the face
   std::uint32_t material = 0;  ///< in MeshFile::names, from 1; 0: none
-  std::uint32_t group = 0;     ///< the same
+  std::uint32_t group = 0;     ///< likewise
 };
 
 struct MeshFile {
   std::vector<Eigen::Vector3d> vertices;  ///< in the file's units, finite
   std::vector<std::uint32_t> corners;     ///< below vertices.size()
   std::vector<FileFace> faces;
-  /// Of materials and groups, in the order in which the file first says them. OBJ: the word behind
-  /// `usemtl`, and the first one behind `g` or `o`; PLY: the number of a face's `material_index`.
+  /// Names of materials and groups, in the order of their first appearance in the file. OBJ: the
+  /// word after `usemtl`, and the first one after `g` or `o`; PLY: the number of a face's
+  /// `material_index`.
   std::vector<std::string> names;
-  std::string_view place_word = "line";  ///< what FileFace::place counts: "line" or "face"
+  std::string_view place_word = "line";  ///< unit of FileFace::place: "line" or "face"
 
   [[nodiscard]] std::span<const std::uint32_t> corners_of(const FileFace& face) const noexcept {
     return {corners.data() + face.first, face.count};
   }
 };
 
-/// By the file's ending: .obj (polygons, relative indices), .ply (text and binary, both byte
-/// orders), .stl (text and binary), .off (text). 0.3 us a triangle.
+/// Reads a file according to its extension: .obj (polygons, relative indices), .ply (text and
+/// binary, both byte orders), .stl (text and binary), .off (text). 0.3 us a triangle.
 /// @throws std::runtime_error "mesh FILE:LINE: what; remedy": not readable, a vertex that is not
 /// finite, a face with a vertex that does not exist, an end within an element.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file);
 
-/// A polygon as triangles, count - 2 of them, which wind as it does; one that is not convex is cut
-/// along inner diagonals. `corners` index `vertices`; nothing for fewer than three corners.
+/// Cuts a polygon into count - 2 triangles with the same winding. A polygon that is not convex is
+/// cut along inner diagonals. `corners` index `vertices`; no triangles for fewer than three
+/// corners.
 void cut_polygon(std::span<const Eigen::Vector3d> vertices, std::span<const std::uint32_t> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One reader for each format, and what they share. Private to read_mesh_file().
+// One reader for each format, and their common parts. Private to read_mesh_file().
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace reckon::haptics {
 
-/// What is wrong, and in which line (0: none, or not a text).
+/// A fault of a file, and its line (0: none, or not a text file).
 class MeshFileError : public std::runtime_error {
  public:
   MeshFileError(std::size_t line, const std::string& what)
@@ -26,34 +26,34 @@ class MeshFileError : public std::runtime_error {
   std::size_t line_;
 };
 
-// Each appends what `bytes` say to an empty file. @throws MeshFileError
+// Each appends the content of `bytes` to an empty file. @throws MeshFileError
 void read_obj(std::string_view bytes, MeshFile& file);
 void read_off(std::string_view bytes, MeshFile& file);
 void read_ply(std::string_view bytes, MeshFile& file);
 void read_stl(std::string_view bytes, MeshFile& file);
 
-/// @param line 0 where there is none. @throws MeshFileError for one that is not finite.
+/// @param line 0 if there is none. @throws MeshFileError for a vertex that is not finite.
 void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line);
-/// Numbers of materials and groups.
+/// Assigns numbers to materials and groups.
 class FaceNamer {
  public:
-  /// @param file outlives this, and gets the names
+  /// @param file outlives this object, and receives the names
   explicit FaceNamer(MeshFile& file) : file_(file) {}
-  /// In MeshFile::names, from 1; 0 for an empty name.
+  /// Number in MeshFile::names, from 1; 0 for an empty name.
   [[nodiscard]] std::uint32_t number_of(std::string_view name);
 
  private:
   MeshFile& file_;
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };
-/// A face without corners yet; add_corner() gives it more.
+/// Begins a face without corners; add_corner() adds them.
 void begin_face(MeshFile& file, std::size_t place);
-/// @throws MeshFileError for an index that no file can have
+/// @throws MeshFileError for an index that is invalid in any file
 void add_corner(MeshFile& file, long long index, std::size_t line);
 
 /// The next word of the line as a number. @throws MeshFileError "line's `what` ..."
 [[nodiscard]] double take_number(TextCursor& text, std::string_view what);
-/// Three of them. @throws MeshFileError
+/// Three numbers. @throws MeshFileError
 [[nodiscard]] Eigen::Vector3d take_point(TextCursor& text);
 /// The next word of the line as a whole number. @throws MeshFileError
 [[nodiscard]] long long take_integer(TextCursor& text, std::string_view what);

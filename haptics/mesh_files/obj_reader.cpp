@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: the lines `v` and `f`, and the names that `usemtl`, `g` and `o` give to the faces
-// that follow; everything else is looks.
+// Wavefront OBJ: the lines `v` and `f`, and the names from `usemtl`, `g` and `o` for the faces that
+// follow. Other lines only affect the appearance.
 #include "reckon/haptics/mesh_files/mesh_readers.hpp"
 
 namespace reckon::haptics {
 
 namespace {
 
-/// "3", "3/1", "3//2" or "3/1/2": the vertex is the first. From 1 on, or back from -1 on.
+/// "3", "3/1", "3//2" or "3/1/2": the vertex is the first number, from 1 on, or backwards from -1.
 long long corner_of(std::string_view word, const MeshFile& file, std::size_t line) {
   const auto number = to_integer(word.substr(0, word.find('/')));
   if (!number || *number == 0) {

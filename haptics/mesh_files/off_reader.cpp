@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Geomview OFF as text: counts, then a line for each vertex and each face. What else a line says
-// (colours, normals) is looks.
+// Geomview OFF as text: counts, then a line for each vertex and each face. The rest of a line
+// (colours, normals) only affects the appearance.
 #include <algorithm>
 
 #include "reckon/haptics/mesh_files/mesh_readers.hpp"
@@ -10,7 +10,7 @@ namespace reckon::haptics {
 
 namespace {
 
-// The keyword may be absent, and the counts may stand behind it.
+// The keyword may be absent, or followed by the counts on the same line.
 std::size_t read_counts(TextCursor& text, std::size_t& faces) {
   TextCursor behind = text;
   if (!text.next_line()) throw MeshFileError(1, "cannot be read as OFF: it is empty");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // PLY: a header that declares elements with their properties, then the elements as text or binary.
-// Of these x, y, z of `vertex` and the list `vertex_indices` of `face` are taken.
+// The reader takes x, y, z of `vertex` and the list `vertex_indices` of `face`.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little);
 struct Type {
   std::array<std::string_view, 2> names;
   std::size_t octets;
-  double (*value)(const char* octets);  // in this machine's order
+  double (*value)(const char* octets);  // in this machine's byte order
 };
 
 template <class T>
@@ -43,7 +43,7 @@ constexpr Type kTypes[] = {
 struct Property {
   std::string_view name;
   const Type* type = nullptr;
-  const Type* length = nullptr;  // of a list
+  const Type* length = nullptr;  // type of a list's length
 };
 
 struct Element {
@@ -85,7 +85,7 @@ Property read_property(TextCursor& text) {
   return property;
 }
 
-/// Leaves `text` in the line `end_header`.
+/// Ends with `text` in the line `end_header`.
 Header read_header(TextCursor& text) {
   if (!text.next_line() || text.word() != "ply") {
     throw MeshFileError(0, "cannot be read as PLY: it does not begin with 'ply'");
@@ -111,7 +111,7 @@ Header read_header(TextCursor& text) {
   throw MeshFileError(text.line(), "ends within its header; write the mesh again");
 }
 
-/// Values one after another, of either encoding.
+/// A sequence of values, in either encoding.
 class Values {
  public:
   Values(TextCursor text, Encoding encoding)
@@ -154,7 +154,7 @@ long long whole(double value, std::size_t line) {
   throw MeshFileError(line, "a number of corners or an index is no whole number");
 }
 
-/// Of values that a property holds; 1 where it is no list.
+/// Number of values in a property; 1 if it is not a list.
 long long length_of(const Property& property, Values& values) {
   return property.length == nullptr ? 1 : whole(values.next(*property.length), values.line());
 }
@@ -205,7 +205,7 @@ void read_face(const Element& element, Values& values, MeshFile& file, FaceNamer
   if (values.is_text()) file.faces.back().place = static_cast<std::uint32_t>(values.line());
 }
 
-/// @throws MeshFileError where an element lacks what makes it a point or a polygon.
+/// @throws MeshFileError if an element lacks a property that a point or polygon needs.
 void check_element(const Element& element) {
   const auto has = [&](std::string_view name) {
     return std::ranges::any_of(element.properties, [&](const Property& property) {

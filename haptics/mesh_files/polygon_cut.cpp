@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Index3 = std::array<std::uint32_t, 3>;
 
-/// Twice the area, along the normal that the outline winds about (Newell).
+/// Vector area of the outline, times two (Newell).
 Vector3d area_vector(std::span<const Vector3d> vertices, std::span<const std::uint32_t> corners) {
   Vector3d sum = Vector3d::Zero();
   const Vector3d& origin = vertices[corners[0]];
@@ -22,7 +22,7 @@ Vector3d area_vector(std::span<const Vector3d> vertices, std::span<const std::ui
   return sum;
 }
 
-/// What is left of a polygon while its ears are cut off.
+/// The rest of a polygon while its ears are cut off.
 class Outline {
  public:
   Outline(std::span<const Vector3d> vertices, std::span<const std::uint32_t> corners)
@@ -39,7 +39,7 @@ class Outline {
     return true;
   }
 
-  /// Cuts one ear off; where rounding leaves none, any corner.
+  /// Cuts one ear off; if rounding leaves none, any corner.
   Index3 cut() {
     std::size_t best = 0;
     for (std::size_t i = 0; i < left_.size(); ++i) {

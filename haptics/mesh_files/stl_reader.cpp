@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// STL, text and binary. Each facet has corners of its own; equal ones are welded later. Its normal
-// is not believed: the corners tell it.
+// STL, text and binary. Each facet has its own corners; equal ones are welded later. Its normal is
+// ignored, because the corners define it.
 #include <bit>
 #include <cstring>
 
@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::size_t kHeader = 84;  // octets, with the number of facets at their end
+constexpr std::size_t kHeader = 84;  // octets; the last of them are the number of facets
 constexpr std::size_t kFacet = 50;   // normal, three corners as floats, two octets of attributes
 constexpr std::size_t kCorners = 12;
 
@@ -64,7 +64,7 @@ void read_text(std::string_view bytes, MeshFile& file) {
 }  // namespace
 
 void read_stl(std::string_view bytes, MeshFile& file) {
-  // A binary file may begin with "solid" too: its length tells.
+  // A binary file may begin with "solid" too; its length identifies it.
   if (bytes.size() >= kHeader && bytes.size() == kHeader + facets_of(bytes) * kFacet) {
     return read_binary(bytes, file);
   }

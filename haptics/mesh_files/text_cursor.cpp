@@ -76,7 +76,7 @@ std::optional<double> to_number(std::string_view word) noexcept {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-  // Beyond what a double holds, on either side.
+  // Beyond the range of a double, in either direction.
   if (error == std::errc::result_out_of_range) {
     const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
     return tiny ? 0.0 : std::numeric_limits<double>::infinity();

@@ -21,15 +21,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFloor = 1e-10;  // of the greatest Hankel value: states below it are dropped
-constexpr double kParted = 1e8;   // largest number by which parts may be separated
+constexpr double kParted = 1e8;   // largest number in the transformation that separates parts
 constexpr int kScaleRounds = 10;  // of row and column norms
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("balanced reduction: " + what);
 }
 
-// States in units in which rows and columns of A are alike: positions and velocities of fast
-// systems differ by their frequency, which costs as many digits of the Gramians.
+// Scales states so that rows and columns of A have similar norms. Positions and velocities of fast
+// systems differ by their frequency, which would cost as many digits of the Gramians.
 StateSpace scaled(const StateSpace& system) {
   VectorXd units = VectorXd::Ones(system.order());
   MatrixXd A = system.A;
@@ -48,13 +48,13 @@ StateSpace scaled(const StateSpace& system) {
           system.sample_period};
 }
 
-// L L^T = matrix, which is >= 0 but for rounding.
+// L L^T = matrix, which is >= 0 except for rounding.
 MatrixXd factor(const MatrixXd& matrix) {
   const SymmetricParts parts = symmetric_parts(matrix);
   return parts.vectors * parts.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-// A pole that rounding alone makes of a double one at 0.
+// Least magnitude that rounding alone cannot make of a double pole at 0.
 double slowest_known(const MatrixXd& A) {
   const double size = A.size() == 0 ? 0.0 : A.cwiseAbs().rowwise().sum().maxCoeff();
   return 4.0 * std::sqrt(std::numeric_limits<double>::epsilon() * size);
@@ -94,7 +94,7 @@ BalancedReduction::BalancedReduction(StateSpace system, double slowest)
   const Index slow = split.leading, fast = n - slow;
   const MatrixXd B = split.Q.transpose() * even.B, C = even.C * split.Q;
 
-  // [I X; 0 I] takes the coupling away.
+  // [I X; 0 I] removes the coupling.
   MatrixXd X = MatrixXd::Zero(slow, fast);
   if (slow > 0 && fast > 0) {
     X = solve_sylvester(split.T.topLeftCorner(slow, slow), split.T.bottomRightCorner(fast, fast),
@@ -146,7 +146,7 @@ void BalancedReduction::check_order(int order) const {
 StateSpace BalancedReduction::model(int order) const {
   check_order(order);
   StateSpace fast = residualised(balanced_, order - least_order());
-  // What rounding left out counts for forces that last.
+  // The states below rounding still count for constant forces.
   MatrixXd gain = fast.D;
   if (fast.order() > 0) gain -= fast.C * fast.A.partialPivLu().solve(fast.B);
   fast.D += static_gain_ - gain;

@@ -19,14 +19,14 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-constexpr double kCoupled = 1e-9;  // of |A|: what must not be left below the blocks
+constexpr double kCoupled = 1e-9;  // of |A|: greatest entry allowed below the blocks
 
 // A = U T U^H, T upper triangular.
 struct ComplexSchurForm {
   MatrixXcd U, T;
 };
 
-// Real first: of its blocks of two the complex form is a step away, and in all it is quicker.
+// The real form first: its blocks of two are easily made complex, which is faster in total.
 ComplexSchurForm schur_form(const MatrixXd& A) {
   if (A.rows() == 0) return {};
   const Eigen::RealSchur<MatrixXd> real(A);
@@ -41,7 +41,7 @@ ComplexSchurForm schur_form(const MatrixXd& A) {
                            " system is found; see whether its numbers are finite");
 }
 
-// Eigenvalues k and k + 1 change places.
+// Swaps the eigenvalues k and k + 1.
 void swap_neighbours(ComplexSchurForm& form, Index k) {
   const Complex first = form.T(k, k), second = form.T(k + 1, k + 1);
   Eigen::JacobiRotation<Complex> turn;
@@ -54,7 +54,7 @@ void swap_neighbours(ComplexSchurForm& form, Index k) {
   form.T(k + 1, k) = 0.0;
 }
 
-// Of a pair that rounding parts at the border both are taken.
+// Selects both eigenvalues of a pair that rounding splits at the border.
 std::vector<bool> chosen(const VectorXcd& values, double border) {
   std::vector<bool> taken(static_cast<std::size_t>(values.size()), false);
   for (Index i = 0; i < values.size(); ++i) {
@@ -78,7 +78,7 @@ Index move_to_front(ComplexSchurForm& form, const std::vector<bool>& taken) {
   return leading;
 }
 
-// T + shift I is solved, where it can be.
+// Solves with T + shift I where possible.
 void solve_shifted(const MatrixXcd& T, Complex shift, bool adjoint, VectorXcd& side) {
   MatrixXcd shifted = T;
   shifted.diagonal().array() += shift;
@@ -105,7 +105,7 @@ BlockSchur split_spectrum(const MatrixXd& A, double border) {
   split.leading = move_to_front(form, chosen(form.T.diagonal(), border));
   if (split.leading == 0 || split.leading == n) return split;
 
-  // The space that belongs to conjugate eigenvalues has a real basis: that of its projector.
+  // The space of conjugate eigenvalues has a real basis: that of its projector.
   const MatrixXcd front = form.U.leftCols(split.leading);
   const MatrixXd projector = (front * front.adjoint()).real();
   split.Q = Eigen::ColPivHouseholderQR<MatrixXd>(projector).householderQ();

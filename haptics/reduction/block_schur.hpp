@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What Schur forms give to order reduction: the slow, free and unstable part of a spectrum set
-// aside by an orthogonal change of states, and Gramians. Orthogonal throughout: nothing here grows
-// with the condition of eigenvectors, which are infinite where poles coincide.
+// Schur forms for order reduction: the slow, free and unstable part of a spectrum is split off by
+// an orthogonal change of states, and Gramians. All transformations are orthogonal, so that nothing
+// grows with the condition of the eigenvectors, which is infinite for coinciding poles.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,11 +17,11 @@ struct BlockSchur {
   Eigen::Index leading = 0;
 };
 
-/// T11 gets the eigenvalues of real part >= border, and the conjugate of each.
-/// @throws std::runtime_error where the Schur form is not found (A not finite). Cost: O(n^3).
+/// T11 gets the eigenvalues with real part >= border, and their conjugates.
+/// @throws std::runtime_error if the Schur form is not found (A not finite). Cost: O(n^3).
 [[nodiscard]] BlockSchur split_spectrum(const Eigen::MatrixXd& A, double border);
 
-/// X of A X - X B = F. @throws std::runtime_error where A and B share an eigenvalue, to rounding
+/// X of A X - X B = F. @throws std::runtime_error if A and B share an eigenvalue, to rounding
 [[nodiscard]] Eigen::MatrixXd solve_sylvester(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
                                               const Eigen::MatrixXd& F);
 

@@ -18,13 +18,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDependent = 1e-10;  // of a vector: what is left of it is rounding
-constexpr Index kMaster = 48;         // Krylov vectors of the body that snapshots are taken of
+constexpr double kDependent = 1e-10;  // of a vector: a smaller remainder is rounding
+constexpr Index kMaster = 48;         // Krylov vectors of the body from which snapshots are taken
 constexpr int kFrequencies = 40;      // of snapshots
-constexpr double kSlower = 0.3;       // lowest frequency, of the slowest mode
+constexpr double kSlower = 0.3;       // lowest frequency over the slowest mode's
 
-// Columns become M-orthonormal to the basis and to each other and join it, to `most` in all.
-// Twice, as once leaves what rounding left. Returns how many were new.
+// Makes the columns M-orthonormal to the basis and to each other and appends them, up to `most` in
+// total. It runs twice, because once leaves a remainder by rounding. Returns the number of new
+// columns.
 Index append(const SparseMatrix& M, const MatrixXd& columns, Index most, MatrixXd& basis) {
   const Index before = basis.cols();
   for (Index i = 0; i < columns.cols() && basis.cols() < most; ++i) {
@@ -50,7 +51,7 @@ MatrixXd krylov_basis(const SecondOrderSystem& body, const StaticSolver& solver,
   return basis;
 }
 
-// Singular vectors of snapshots, greatest first.
+// Singular vectors of the snapshots, greatest first.
 MatrixXd main_parts(const MatrixXd& snapshots) {
   const SingularParts parts = singular_parts(snapshots, SingularSides::left);
   const VectorXd& sizes = parts.values;
@@ -58,14 +59,15 @@ MatrixXd main_parts(const MatrixXd& snapshots) {
   return parts.U.leftCols(count);
 }
 
-// Slow frequencies to those of the master's fastest mode, as steps of equal ratio [rad/s].
+// Frequencies from slow ones to the master's fastest mode, in steps of equal ratio [rad/s].
 VectorXd snapshot_frequencies(const VectorXd& omega) {
   const double slowest = kSlower * omega.minCoeff(), fastest = omega.maxCoeff();
   return VectorXd::LinSpaced(kFrequencies, std::log(slowest), std::log(fastest)).array().exp();
 }
 
-// Of a master of many Krylov vectors, by its modes: cheap at any frequency. Its dampers' coupling
-// of modes is left out, which costs the basis some of its aim and the result nothing.
+// Snapshots of a master with many Krylov vectors, from its modes: cheap at any frequency. The
+// dampers' coupling of modes is left out: the basis suits the body a little less, and the result
+// stays correct.
 MatrixXd snapshot_basis(const SecondOrderSystem& body, const StaticSolver& solver, Index most) {
   const MatrixXd master = krylov_basis(body, solver, std::min(kMaster, body.size()));
   const Index rigid = solver.rigid_motions().cols(), elastic = master.cols() - rigid;
@@ -186,7 +188,7 @@ ModalForceModel BodyReduction::model(int modes) const {
     const VectorXd inverse = model.omega.tail(r - rigid).cwiseAbs2().cwiseInverse();
     in_modes = elastic.transpose() * inverse.asDiagonal() * elastic;
   }
-  // By theory >= 0; of what rounding makes of a zero, the negative part is left out.
+  // In theory >= 0. If rounding makes a zero negative, the negative part is dropped.
   const MatrixXd rest = static_compliance_ - in_modes;
   const SymmetricParts parts = symmetric_parts(0.5 * (rest + rest.transpose()));
   model.rest = parts.vectors * parts.values.cwiseMax(0.0).asDiagonal() * parts.vectors.transpose();

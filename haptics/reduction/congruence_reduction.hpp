@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Order reduction of elastic bodies that keeps them elastic bodies (thesis 4.5, steps ii to iv; in
-// place of its eigenvectors, which fail on them): V^T M V, V^T D V, V^T K V are again a mass, a
-// damping and a stiffness, whatever the basis V, so that what comes out is passive. Forces that
-// last are answered exactly: what the basis lacks of them goes into the static rest.
+// Order reduction of elastic bodies to elastic bodies (thesis 4.5, steps ii to iv, without its
+// eigenvectors, which fail on them). V^T M V, V^T D V, V^T K V are again a mass, a damping and a
+// stiffness for any basis V, so that the result is passive. The response to constant forces is
+// exact, because the static rest contains what the basis lacks.
 //
 //   const SecondOrderSystem body = checked({M, D, K, B});
 //   const ModalForceModel small = BodyReduction(body).model(8);
@@ -14,18 +14,18 @@
 
 namespace reckon::haptics {
 
-/// What the reduced body can do; rigid motions of a free one come first in each.
+/// Basis of the reduced body's motion; rigid motions of a free body come first.
 enum class Basis {
   krylov,     ///< K^-1 B, K^-1 M K^-1 B, ..: moments at frequency 0; cheapest, rarely beaten
-  snapshots,  ///< how it stands under forces of many frequencies, main parts first (POD)
-  modes,      ///< its slowest modes: O(n^3), poor under a point, known for comparison
+  snapshots,  ///< responses to forces of many frequencies, main parts first (POD)
+  modes,      ///< its slowest modes: O(n^3), inaccurate under a point force; for comparison
 };
 
-/// One body, reduced to any number of modes from one basis. Bases are nested: more modes can do
-/// what fewer can.
+/// One body, reduced to any number of modes from one basis. Bases are nested: the motions of fewer
+/// modes are among those of more.
 class BodyReduction {
  public:
-  /// Most coordinates for Basis::modes and for free bodies, whose modes cost O(n^3).
+  /// Greatest number of coordinates for Basis::modes and for free bodies, whose modes cost O(n^3).
   static constexpr Eigen::Index kMostDense = 1500;
 
   /// @param body symmetric, M > 0, D >= 0, K >= 0: checked here
@@ -33,7 +33,7 @@ class BodyReduction {
   /// and above kMostDense
   explicit BodyReduction(SecondOrderSystem body, Basis basis = Basis::krylov);
 
-  /// The same from states of a run of the body's own, n x any number, main parts first.
+  /// The same from states of the body's own run, n x any number, main parts first.
   BodyReduction(SecondOrderSystem body, const Eigen::MatrixXd& snapshots);
 
   [[nodiscard]] const SecondOrderSystem& body() const noexcept { return body_; }
@@ -41,9 +41,9 @@ class BodyReduction {
   [[nodiscard]] int least_modes() const noexcept;  ///< rigid motions
   [[nodiscard]] int most_modes() const noexcept;   ///< of the basis, <= ModalForceModel::kMostModes
 
-  /// @param modes in [least_modes(), most_modes()], else std::invalid_argument. Static compliance
-  /// as the body's to rounding. Coupling of modes by the dampers is left out (none where
-  /// D = a M + b K); what that costs is in the error that choose_order() measures.
+  /// @param modes in [least_modes(), most_modes()], else std::invalid_argument. The static
+  /// compliance is that of the body to rounding. Coupling of modes by the dampers is left out (none
+  /// if D = a M + b K); the error that choose_order() measures includes this.
   [[nodiscard]] ModalForceModel model(int modes) const;
 
  private:

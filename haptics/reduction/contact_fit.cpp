@@ -19,10 +19,11 @@ using Eigen::Vector3d;
 
 constexpr double kFeasible = 1e-9;  // of a limit
 constexpr std::size_t kLeastSamples = 4;
-constexpr double kRidge = 1e-9;  // of the normal equations: what samples leave open is 0
+constexpr double kRidge = 1e-9;  // of the normal equations: coefficients that the samples do not
+                                 // determine become 0
 
 // Weighted sums over the samples. Unknowns are the forces of k1, k3 and the damper at the deepest
-// point and fastest rate, so that they are of one size.
+// point and fastest rate, so that they are of similar size.
 struct Normal {
   Matrix3d squares = Matrix3d::Zero();
   Vector3d side = Vector3d::Zero();
@@ -96,7 +97,7 @@ std::array<Limit, 5> limits_of(const FitLimits& limits, const Vector3d& units, d
                             {-damping, 0.0, "damping >= 0"},
                             {damping, 0.5 * b, "damping <= half the device's"},
                             {slope, share * b, "stiffness <= what the device shows passively"}}};
-  // For the scaled unknowns, each row of length 1.
+  // For the scaled unknowns, each row with length 1.
   for (Limit& one : all) {
     one.row = one.row.cwiseQuotient(units);
     const double length = one.row.norm();
@@ -106,7 +107,7 @@ std::array<Limit, 5> limits_of(const FitLimits& limits, const Vector3d& units, d
   return all;
 }
 
-// Least of the squares where the limits in `binding` hold with equality.
+// Least squares with the limits in `binding` as equalities.
 Vector3d least_with(const Normal& normal, const std::array<Limit, 5>& limits, unsigned binding) {
   const int count = std::popcount(binding);
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(3 + count, 3 + count);
@@ -134,7 +135,7 @@ bool keeps(const std::array<Limit, 5>& limits, const Vector3d& x) {
   });
 }
 
-// A convex problem: its least lies where some set of at most three limits binds.
+// A convex problem: its minimum lies where some set of at most three limits binds.
 unsigned best_binding(const Normal& normal, const std::array<Limit, 5>& limits, Vector3d& best) {
   double least = std::numeric_limits<double>::infinity();
   unsigned binding = 0;
@@ -151,7 +152,7 @@ unsigned best_binding(const Normal& normal, const std::array<Limit, 5>& limits, 
   return binding;
 }
 
-// What one would err by who held each force for the horizon; 0 where the window is shorter.
+// Error of holding each force for the horizon; 0 if the window is shorter.
 double hold_error(std::span<const ContactSample> samples, double horizon) {
   double squares = 0.0;
   std::size_t count = 0, from = 0;

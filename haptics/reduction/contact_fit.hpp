@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients of the simple contact, tuned to what the full model has said of late (thesis 5.7):
-// least squares under what the device may render, with an expiry. Geometry is never fitted: depths
-// are along the normal of a surface that is known.
+// Coefficients of the simple contact, fitted to recent results of the full model (thesis 5.7):
+// least squares within the limits of the device, with an expiry. Geometry is never fitted: depths
+// are along the normal of a known surface.
 //
 //   const ContactFit fit = fit_contact(samples, {.device_damping = 1.0, .sample_period = 1e-3});
 //   if (fit.worth_sending()) expiring = ExpiringContact(fit, now, fallback);
@@ -13,7 +13,7 @@
 
 namespace reckon::haptics {
 
-/// One moment of a contact.
+/// One sample of a contact.
 struct ContactSample {
   double time = 0.0;   ///< [s]
   double depth = 0.0;  ///< [m], > 0 inside
@@ -32,41 +32,42 @@ struct ContactCoefficients {
   [[nodiscard]] double stiffness(double depth) const noexcept;
 };
 
-/// What a fit must keep to, and what it is judged by.
+/// Limits of a fit, and the parameters of its assessment.
 struct FitLimits {
-  double device_damping = 1.0;  ///< that one is sure of [N s/m], > 0
+  double device_damping = 1.0;  ///< guaranteed [N s/m], > 0
   double sample_period = 1e-3;  ///< of the servo [s], > 0
-  double memory = 0.1;          ///< time over which a sample's weight falls by e [s], > 0
-  double horizon = 0.1;         ///< for which the fit is to be used [s], > 0
-  double reach = 1.5;           ///< how much deeper than the deepest sample it may be used, >= 1
+  double memory = 0.1;          ///< time in which a sample's weight falls by the factor e [s], > 0
+  double horizon = 0.1;         ///< time for which the fit is to be used [s], > 0
+  double reach = 1.5;           ///< greatest depth of use over the deepest sample's, >= 1
 };
 
 struct ContactFit {
   ContactCoefficients contact;
   double error = 0.0;       ///< rms over the window, weighted [N]
-  double hold_error = 0.0;  ///< rms of holding each force for the horizon [N], 0: not known
-  double deepest = 0.0;     ///< where the fit ends [m]
+  double hold_error = 0.0;  ///< rms error of holding each force for the horizon [N], 0: unknown
+  double deepest = 0.0;     ///< end of the fit [m]
   double lasts = 0.0;       ///< [s] from the last sample
-  std::string binding;      ///< which limit binds, empty where none does
+  std::string binding;      ///< the binding limit; empty if there is none
 
-  /// A fit that is no better than holding the last force is not, nor one over a shorter window
-  /// than it is to be used for.
+  /// Whether the fit is better than holding the last force. False too if the window is shorter than
+  /// the time of use.
   [[nodiscard]] bool worth_sending() const noexcept { return error < hold_error; }
 };
 
-/// The share of the passive limit 2 (b - B)/T up to which stiffness is used.
+/// Share of the passive limit 2 (b - B)/T up to which stiffness is used.
 inline constexpr double kStiffnessShare = 0.95;
 
-/// Least squares over the samples inside; k1, k3, b >= 0, b at most half the device's damping, and
-/// slope at `deepest` at most kStiffnessShare of the passive limit: the exact least under these, by
-/// trying which of them bind. So the fit is passive on that device whatever the samples were.
+/// Least squares over the samples inside. k1, k3, b >= 0, b is at most half the device's damping,
+/// and the slope at `deepest` is at most kStiffnessShare of the passive limit. The minimum under
+/// these limits is exact, because all sets of binding limits are tried. So the fit is passive on
+/// that device for any samples.
 /// @param samples in order of time; at least 4 inside
-/// @throws std::invalid_argument for too few samples, one not finite or out of order, or limits out
-/// of range. Cost: O(samples), then 26 systems of six unknowns.
+/// @throws std::invalid_argument for too few samples, one that is not finite or out of order, or
+/// limits out of range. Cost: O(samples), then 26 systems of six unknowns.
 [[nodiscard]] ContactFit fit_contact(std::span<const ContactSample> samples,
                                      const FitLimits& limits);
 
-/// A fit while it lasts, then what one fell back from. Plain data.
+/// A fit until it expires, then the fallback. Plain data.
 class ExpiringContact {
  public:
   /// @param from time of the last sample [s]

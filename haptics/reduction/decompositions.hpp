@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Dense decompositions that several reductions take: compiled once, for they take longer to compile
-// than all the rest of this room.
+// Dense decompositions for several reductions. They are compiled only here, because they take
+// longer to compile than the rest of this room.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,20 +10,20 @@ namespace reckon::haptics {
 
 /// A x_i = value_i x_i, or A x_i = value_i M x_i.
 struct SymmetricParts {
-  Eigen::VectorXd values;   ///< n, rising
-  Eigen::MatrixXd vectors;  ///< n x n, by column; orthonormal, or with respect to M
+  Eigen::VectorXd values;   ///< n, ascending
+  Eigen::MatrixXd vectors;  ///< n x n, by column; orthonormal, or M-orthonormal
 };
 
-/// Of a symmetric n x n matrix, of which the lower triangle is read. O(n^3).
+/// For a symmetric n x n matrix; reads its lower triangle. O(n^3).
 [[nodiscard]] SymmetricParts symmetric_parts(const Eigen::MatrixXd& A);
-/// Of a pencil of which M is > 0.
+/// For a pencil with M > 0.
 [[nodiscard]] SymmetricParts symmetric_parts(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M);
 
 /// A = U diag(values) V^T.
 struct SingularParts {
   Eigen::MatrixXd U;       ///< rows of A x k, k the lesser of rows and columns
-  Eigen::VectorXd values;  ///< k, falling
-  Eigen::MatrixXd V;       ///< columns of A x k; empty where it was not asked for
+  Eigen::VectorXd values;  ///< k, descending
+  Eigen::MatrixXd V;       ///< columns of A x k; empty unless requested
 };
 enum class SingularSides : unsigned char { left, both };
 

@@ -15,8 +15,8 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr int kRounds = 40;       // of the search for the least damper
-constexpr double kMargin = 1e-6;  // of the device's damping that is not given away
-constexpr double kNoise = 1e-9;   // of the model: what is added against rounding
+constexpr double kMargin = 1e-6;  // of the device's damping, kept in reserve
+constexpr double kNoise = 1e-9;   // of the model: added against rounding
 
 MatrixXd number(double value) { return MatrixXd::Constant(1, 1, value); }
 
@@ -33,7 +33,7 @@ StateSpace damper(double damping, double sample_period) {
   return {number(0.0), number(1.0), number(-gain), number(gain), sample_period};
 }
 
-// (3.5) is -Re of H T/(z - 1): a position that is held is one sample late to its speed.
+// (3.5) is -Re of H T/(z - 1): a held position is one sample behind its speed.
 PositiveRealReport judged(const StateSpace& sampled) {
   const StateSpace position{number(1.0), number(sampled.sample_period), number(1.0), number(0.0),
                             sampled.sample_period};
@@ -55,7 +55,8 @@ void check(const StateSpace& model, const RenderingDevice& device) {
 
 }  // namespace
 
-// The need is convex in the damper, so that Newton's steps from below never pass the least one.
+// The needed damping is convex in the damper, so that Newton's steps from below never pass the
+// least damper.
 Acceptance accepted(const StateSpace& position_to_force, const RenderingDevice& device) {
   check(checked(position_to_force), device);
   const double T = device.sample_period, allowed = device.damping * (1.0 - kMargin);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether a device may render a model: sampled by that device, it must not need more damping than
-// the device has. A model that is passive where it was made says nothing about it (the thesis takes
-// that for granted; 0.1 + 1/(s + 1) - 1.5/(s + 10) is positive real, with its fast mode at rest it
-// is not), so each reduced model is judged again for the device that receives it.
+// Whether a device may render a model: sampled by that device, the model must not need more damping
+// than the device has. Passivity of a full model is no proof, although the thesis assumes it: 0.1 +
+// 1/(s + 1) - 1.5/(s + 10) is positive real, but not with its fast mode at rest. So each reduced
+// model is judged again for the device that receives it.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,28 @@
 namespace reckon::haptics {
 
 struct RenderingDevice {
-  double damping = 1.0;         ///< that one is sure of [N s/m], > 0
+  double damping = 1.0;         ///< guaranteed [N s/m], > 0
   double sample_period = 1e-3;  ///< [s], > 0
 };
 
 struct Acceptance {
-  /// Position [m] to force [N] against it, sampled, as the device is to render it; empty: refused.
+  /// Position [m] to force [N] against it, sampled, in the form for the device; empty: refused.
   std::optional<StateSpace> model;
-  double required = 0.0;           ///< device damping that the model needs as it came [N s/m]
-  double angular_frequency = 0.0;  ///< where it needs that [rad/s]
-  double added_damping = 0.0;      ///< that was given to it [N s/m]
-  std::string remark;              ///< what was added, or why it is refused; else empty
+  double required = 0.0;           ///< device damping that the original model needs [N s/m]
+  double angular_frequency = 0.0;  ///< frequency of that need [rad/s]
+  double added_damping = 0.0;      ///< added to the model [N s/m]
+  std::string remark;              ///< the addition, or the reason for refusal; else empty
 };
 
-/// Samples the model, held over each period, and holds it against thesis (3.5),
+/// Samples the model, held over each period, and compares it with thesis (3.5),
 ///     b >= max over w of T/(2 (1 - cos wT)) Re{(1 - e^{-jwT}) H(e^{jwT})}.
-/// One that needs more becomes the nearest that does not, where there is one: with the least damper
-/// beside it, B (x_k - x_{k-1})/T, which takes B cos wT off the need at each frequency, so slow
-/// activity can be paid for and the cost of sampling a stiff spring cannot.
+/// A model that needs more is replaced by the nearest one that does not, if there is one. It gets
+/// the least damper in parallel, B (x_k - x_{k-1})/T, which lowers the need by B cos wT at each
+/// frequency. So a damper can compensate slow activity, but not the cost of sampling a stiff
+/// spring.
 /// @param position_to_force continuous, one input, one output, minimal
-/// @throws std::invalid_argument as checked(), for a sampled or non-square system, or a device
-/// whose numbers are not > 0
+/// @throws std::invalid_argument as checked(), for a sampled or non-square system, or a device with
+/// numbers that are not > 0
 [[nodiscard]] Acceptance accepted(const StateSpace& position_to_force,
                                   const RenderingDevice& device);
 
@@ -42,7 +43,7 @@ struct Acceptance {
 struct PassiveImpedance {
   std::optional<StateSpace> model;  ///< empty: no damping makes it passive
   double added_damping = 0.0;       ///< [N s/m]
-  std::string remark;               ///< what was added, or why it is refused; else empty
+  std::string remark;               ///< the addition, or the reason for refusal; else empty
 };
 [[nodiscard]] PassiveImpedance nearest_passive(const StateSpace& speed_to_force);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force model at its operating point as a linear system (thesis 4.5, step i): derivatives by dual
-// numbers, exact to rounding, of a function that is written once for any scalar.
+// Linearisation of a force model at its operating point (thesis 4.5, step i). Dual numbers give the
+// derivatives, exact to rounding, of a function that is written once for any scalar.
 //
 //   struct Wall {                                  // a mass that sinks into a hardening wall
 //     template <typename Scalar>
@@ -30,11 +30,11 @@ namespace reckon::haptics {
 template <typename Scalar>
 using VectorOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-/// What a force model says: x' = rate(x, u), y = output(x, u).
+/// Result of a force model: x' = rate(x, u), y = output(x, u).
 template <typename Scalar>
 struct ModelAnswer {
-  VectorOf<Scalar> rate;    ///< as long as the state
-  VectorOf<Scalar> output;  ///< of any length
+  VectorOf<Scalar> rate;    ///< of the size of the state
+  VectorOf<Scalar> output;  ///< of any size
 };
 
 /// Value with its derivatives by each state and input.
@@ -43,9 +43,9 @@ using Dual = Eigen::AutoDiffScalar<Eigen::VectorXd>;
 inline double value_of(double number) noexcept { return number; }
 inline double value_of(const Dual& number) { return number.value(); }
 
-/// Depth of a contact that only pushes: `depth` where it touches, else 0, with the derivatives of
-/// that side. Within `border` of the surface the motion decides: what approaches touches, what
-/// rests there or leaves does not. @param depth [m], > 0 inside  @param approach its rate [m/s]
+/// Depth of a contact that only pushes: `depth` in contact, else 0, with the derivatives of that
+/// side. Within `border` of the surface the motion decides: an approaching point is in contact, a
+/// resting or receding one is not. @param depth [m], > 0 inside  @param approach its rate [m/s]
 template <typename Scalar>
 Scalar one_sided(const Scalar& depth, const Scalar& approach, double border = 1e-9) {
   const bool on_border = std::abs(value_of(depth)) <= border;
@@ -56,8 +56,8 @@ Scalar one_sided(const Scalar& depth, const Scalar& approach, double border = 1e
 /// Near the operating point: x' = rate + A dx + B du, y = output + C dx + D du.
 struct Linearisation {
   StateSpace system;       ///< continuous
-  Eigen::VectorXd rate;    ///< 0 where the operating point is an equilibrium
-  Eigen::VectorXd output;  ///< there
+  Eigen::VectorXd rate;    ///< 0 at an equilibrium
+  Eigen::VectorXd output;  ///< at the operating point
 };
 
 namespace linearisation_detail {
@@ -71,7 +71,7 @@ inline VectorOf<Dual> seeded(const Eigen::VectorXd& values, Eigen::Index first,
   return seeded;
 }
 
-// A constant has no derivatives at all.
+// A constant has no derivatives.
 inline void split(const VectorOf<Dual>& answer, const char* what, Eigen::VectorXd& values,
                   Eigen::MatrixXd& slopes) {
   values.resize(answer.size());
@@ -88,11 +88,11 @@ inline void split(const VectorOf<Dual>& answer, const char* what, Eigen::VectorX
 
 }  // namespace linearisation_detail
 
-/// @param model model(state, input) -> ModelAnswer for Scalar = Dual, without side effects; a
-/// branch takes the side of the operating point, a contact is best written with one_sided()
+/// @param model model(state, input) -> ModelAnswer for Scalar = Dual, without side effects. A
+/// branch takes the side of the operating point; write a contact with one_sided()
 /// @param state n  @param input of the model, at the operating point
-/// @throws std::invalid_argument where the rate is not as long as the state, or an answer is not
-/// finite. Cost: one call of the model with n + inputs derivatives a number.
+/// @throws std::invalid_argument if the sizes of rate and state differ, or a result is not finite.
+/// Cost: one call of the model with n + inputs derivatives a number.
 template <typename Model>
 [[nodiscard]] Linearisation linearise(const Model& model, const Eigen::VectorXd& state,
                                       const Eigen::VectorXd& input) {

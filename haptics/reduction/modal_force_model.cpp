@@ -15,13 +15,13 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double kRounding = 1e-9;  // of the rest's largest entry
+constexpr double kRounding = 1e-9;  // of the largest entry of `rest`
 
 std::string refused(const std::string& what, double number, const char* remedy) {
   return "modal force model: " + what + " is " + std::to_string(number) + "; " + remedy;
 }
 
-// The first number of a list that is not >= 0.
+// Names the first number of a list that is not >= 0.
 std::string refused_below_zero(const ModalForceModel::PerMode& numbers, const std::string& name) {
   for (Index i = 0; i < numbers.size(); ++i) {
     if (!(numbers[i] >= 0.0) || !std::isfinite(numbers[i])) {
@@ -47,7 +47,7 @@ std::string refused_rest(const ModalForceModel& model) {
   return {};
 }
 
-// omega^2 - w^2 + j w damping, of each mode.
+// omega^2 - w^2 + j w damping, for each mode.
 Eigen::VectorXcd dynamic_stiffness(const ModalForceModel& model, double w) {
   Eigen::VectorXcd stiffness(model.modes());
   for (int i = 0; i < model.modes(); ++i) {
@@ -121,7 +121,7 @@ StateSpace force_of_displacement(const ModalForceModel& model, double stiffness)
     throw std::invalid_argument("force_of_displacement: the contact's stiffness is " +
                                 std::to_string(stiffness) + " N/m; give a number > 0");
   }
-  // f = W (x - shape^T q), W the contact's springs in series with the rest.
+  // f = W (x - shape^T q), with W the contact's springs in series with `rest`.
   const Index r = model.modes(), p = model.points();
   const MatrixXd W = (MatrixXd::Identity(p, p) / stiffness + model.rest).inverse();
   StateSpace system = oscillators(model);

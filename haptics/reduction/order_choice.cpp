@@ -25,10 +25,10 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 constexpr int kGrid = 96;            // frequencies besides those near resonances
-constexpr double kSlowest = 1e-4;    // of the band: as good as 0
-constexpr double kBeyond = 30.0;     // times the fastest resonance: as good as infinite
-constexpr double kNarrowest = 1e-4;  // of a resonance: half-width that is looked at
-constexpr double kLight = 0.15;      // damping ratio below which few modes ring
+constexpr double kSlowest = 1e-4;    // of the band: practically 0
+constexpr double kBeyond = 30.0;     // times the fastest resonance: practically infinite
+constexpr double kNarrowest = 1e-4;  // of a resonance: smallest half-width considered
+constexpr double kLight = 0.15;      // damping ratio below which models of few modes ring
 constexpr double kHz = 2.0 * std::numbers::pi;
 
 void check(double number, const char* what) {
@@ -43,7 +43,7 @@ void check(const InputRange& range, double threshold) {
   check(threshold, "threshold");
 }
 
-// Grid up to a frequency, with what is near resonances below it.
+// Grid up to a frequency, with points near the resonances below it.
 std::vector<double> grid_to(double highest, double lowest,
                             const std::vector<Resonance>& resonances) {
   std::vector<double> grid = frequency_grid(lowest, highest, kGrid);
@@ -65,7 +65,7 @@ std::vector<Resonance> resonances_of(const StateSpace& system) {
   std::vector<Resonance> resonances;
   if (system.order() == 0) return resonances;
   for (const std::complex<double>& pole : poles(system)) {
-    // What does not ring has its corner instead.
+    // A real pole counts with its corner frequency.
     resonances.push_back({std::max(std::abs(pole.imag()), std::abs(pole)), std::abs(pole.real())});
   }
   return resonances;
@@ -76,7 +76,7 @@ std::vector<Resonance> joined(std::vector<Resonance> a, const std::vector<Resona
   return a;
 }
 
-// The full model's responses, kept: each order asks at many of the same frequencies.
+// Stores the full model's responses, because each order needs many of the same frequencies.
 class RememberedResponse {
  public:
   explicit RememberedResponse(std::function<MatrixXcd(double)> full) : full_(std::move(full)) {}
@@ -101,17 +101,17 @@ bool rings(const ModalForceModel& model, int rigid) {
   return false;
 }
 
-// What both kinds of choice have in common: a model of an order, how to compare it with the full
-// one, and orders tried from below.
+// Common parts of both kinds of choice: a model of an order, its comparison with the full one, and
+// orders tried from below.
 template <typename Model>
 struct Trial {
   Model model;
-  std::function<double(double)> difference;  // a motion of 1, at a frequency
+  std::function<double(double)> difference;  // for a motion of 1, at a frequency
   std::vector<double> grid;
 };
 
-// An order is out at the first frequency where it is off by more than the threshold: mostly where
-// the one before was. Only the one chosen is looked at in full; all of them where none is.
+// An order is rejected at the first frequency with an error above the threshold, usually where the
+// one before was. Only the chosen order is evaluated completely, or all of them if none is chosen.
 template <typename Model>
 class Search {
  public:
@@ -120,7 +120,7 @@ class Search {
   Search(const InputRange& range, double threshold, int least, int most)
       : range_(range), threshold_(threshold), least_(least), most_(most) {}
 
-  /// @param trial of an order, or none where it is passed over
+  /// @param trial of an order; no value if the order is skipped
   OrderChoice<Model> run(const Try& trial) {
     const double enough = threshold_ / range_.amplitude;
     double suspect = 0.0;
@@ -201,7 +201,7 @@ OrderChoice<ModalForceModel> choose_order(const BodyReduction& reduction, const 
       Search<ModalForceModel>(range, threshold, least, most).run(trial);
 
   const ModalForceModel nearest = reduction.model(choice.order);
-  // At high frequency nothing but the contact's springs and the rest is left.
+  // At high frequency only the contact's springs and the rest remain.
   const Index p = reduction.body().points();
   const MatrixXd springs = stiffness * MatrixXd::Identity(p, p);
   const double at_infinity =

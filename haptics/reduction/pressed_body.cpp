@@ -17,11 +17,11 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kCoupled = 1e-9;  // of the two modes' own damping: what counts as 0
+constexpr double kCoupled = 1e-9;  // of the two modes' own damping: counts as 0
 constexpr double kAgrees = 1e-9;   // of the force
 constexpr int kCompared = 5;       // frequencies at which modes and factors are compared
 
-// K + k B B^T in coordinates whose mass is 1, D with it: the body held by its probes.
+// Eigenproblem of K + k B B^T in coordinates with unit mass, with D: the body held by its probes.
 std::vector<Resonance> resonances_of(const MatrixXd& K, const MatrixXd& D) {
   const SymmetricParts modes = symmetric_parts(K);
   const MatrixXd& turn = modes.vectors;
@@ -36,7 +36,7 @@ std::vector<Resonance> resonances_of(const MatrixXd& K, const MatrixXd& D) {
 bool couples(const MatrixXd& D) {
   for (Index j = 0; j < D.cols(); ++j) {
     for (Index i = 0; i < j; ++i) {
-      // A mode without damping has none with others either, up to rounding of the greatest.
+      // A mode without damping has no coupling either, up to rounding of the greatest entry.
       const double own = std::max(std::sqrt(std::abs(D(i, i) * D(j, j))), 1e-4 * D(j, j));
       if (std::abs(D(i, j)) > kCoupled * own) return true;
     }
@@ -72,7 +72,7 @@ void PressedBody::find_modes(const SecondOrderSystem& body) {
   if (!couples(D) && agree(modes)) modes_ = std::move(modes);
 }
 
-// Masses of very unlike sizes blur the slow modes: factors do not.
+// Very different masses make the slow modes inaccurate, but not the factors.
 bool PressedBody::agree(const Modes& modes) {
   double fastest = 0.0;
   for (const Resonance& resonance : resonances_) fastest = std::max(fastest, resonance.omega);

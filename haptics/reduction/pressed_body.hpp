@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An elastic body under probes, each on a contact spring over its point: the force that it answers
-// a displacement with, at any frequency, and where it rings. Many frequencies of one body: its
-// modes are found once, an answer is then a sum over them.
+// An elastic body under probes, each on a contact spring over its point: its force in response to a
+// displacement, at any frequency, and its resonances. For many frequencies of one body: its modes
+// are computed once, and each response is a sum over them.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,26 @@
 
 namespace reckon::haptics {
 
-/// What a mode does to a response: greatest at omega, half as strong half_width beside it.
+/// Effect of a mode on a response: greatest at omega, half as strong at half_width from it.
 struct Resonance {
   double omega = 0.0;       ///< [rad/s], >= 0
   double half_width = 0.0;  ///< [rad/s], >= 0
 };
 
-/// Force a displacement of the probes: (1/stiffness + compliance)^-1, points x points [N/m].
+/// Force per displacement of the probes: (1/stiffness + compliance)^-1, points x points [N/m].
 [[nodiscard]] Eigen::MatrixXcd through_contact(const Eigen::MatrixXcd& compliance,
                                                double stiffness);
 
-/// The body itself, none of its modes left out.
+/// The full body, with all its modes.
 class PressedBody {
  public:
-  /// @param stiffness of the contact [N/m], > 0. Cost: the body's modes, O(n^3), two times; above
-  /// BodyReduction::kMostDense coordinates the modes of the basis stand for where it rings.
+  /// @param stiffness of the contact [N/m], > 0. Cost: the body's modes, O(n^3), twice. Above
+  /// BodyReduction::kMostDense coordinates the modes of the basis give the resonances.
   PressedBody(const BodyReduction& reduction, double stiffness);
 
-  /// By modes, O(n), where dampers do not couple them (D = a M + b K is such a case) and factors
-  /// agree with that to 1e-9 of the stiffness at some frequencies; else by a factor of the whole
-  /// body each time.
+  /// By modes, O(n), if dampers do not couple them (for example D = a M + b K) and factors agree
+  /// with the result to 1e-9 of the stiffness at some frequencies. Otherwise by a factor of the
+  /// whole body each time.
   /// @param angular_frequency [rad/s]; > 0 for a free body
   [[nodiscard]] Eigen::MatrixXcd force(double angular_frequency);
   [[nodiscard]] const std::vector<Resonance>& resonances() const noexcept { return resonances_; }
@@ -54,7 +54,7 @@ class PressedBody {
   std::vector<Resonance> resonances_;
 };
 
-/// Where a reduced model rings under the same probes.
+/// Resonances of a reduced model under the same probes.
 [[nodiscard]] std::vector<Resonance> resonances_of(const ModalForceModel& model, double stiffness);
 
 }  // namespace reckon::haptics

@@ -11,7 +11,7 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kPrecision = 1e-6;  // of the frequency
-constexpr double kMayBePeak = 0.5;   // of the greatest on the grid
+constexpr double kMayBePeak = 0.5;   // of the greatest value on the grid
 constexpr double kWidths[] = {0.15, 0.5, 1.0, 2.0, 4.0, 8.0};
 
 }  // namespace
@@ -19,7 +19,7 @@ constexpr double kWidths[] = {0.15, 0.5, 1.0, 2.0, 4.0, 8.0};
 ResponsePeak response_peak(const std::function<double(double)>& of, std::vector<double> grid,
                            double enough) {
   std::sort(grid.begin(), grid.end());
-  // Twins, as of equal modes, would hide from each other what lies on their far side.
+  // Nearly equal frequencies, as of equal modes, would hide values beyond each other.
   const auto twins = [](double a, double b) { return b - a <= kPrecision * b; };
   grid.erase(std::unique(grid.begin(), grid.end(), twins), grid.end());
   std::vector<double> values;

@@ -20,9 +20,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSymmetry = 1e-9;   // of the largest entry
-constexpr double kBorder = 1e-10;    // of the largest entry: what counts as 0
-constexpr double kPositive = 1e-14;  // of the largest entry: the least mass
-constexpr double kDense = 0.25;      // of the entries: dense LU is quicker from here on
+constexpr double kBorder = 1e-10;    // of the largest entry: counts as 0
+constexpr double kPositive = 1e-14;  // of the largest entry: least mass
+constexpr double kDense = 0.25;      // share of entries from which dense LU is faster
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
@@ -73,7 +73,7 @@ struct Pivot {
   Index coordinate = 0;
 };
 
-// By Sylvester's law of inertia the matrix is > 0 exactly where every pivot is.
+// By Sylvester's law of inertia the matrix is > 0 exactly if every pivot is.
 Pivot least_pivot(const SparseMatrix& matrix, double shift) {
   Eigen::SimplicialLDLT<SparseMatrix> factor;
   factor.setShift(shift);
@@ -93,7 +93,7 @@ void check_definite(const SparseMatrix& matrix, const char* name, bool strictly,
                     const char* remedy) {
   const double most = largest(matrix);
   if (most == 0.0 && !strictly) return;
-  // Shifted a little, no pivot is 0, at which the factor would stop.
+  // A small shift prevents a pivot of 0, at which the factorisation would stop.
   const Pivot least = least_pivot(matrix, (strictly ? -kPositive : kBorder) * most);
   if (!(least.value > 0.0)) {
     refuse(name, strictly ? " is not > 0" : " is not >= 0", ": pivot ", least.value,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Elastic bodies as masses, dampers and springs: M x'' + D x' + K x = B f, what finite elements and
-// mass-spring meshes give, and the question whether such a body is passive.
+// Elastic bodies as masses, dampers and springs: M x'' + D x' + K x = B f, as from finite elements
+// and mass-spring meshes; and the check that such a body is passive.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -13,27 +13,27 @@ namespace reckon::haptics {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// M x'' + D x' + K x = B f, displacement at the points u = B^T x: force and displacement belong to
-/// the same points, so f.u' is power.
+/// M x'' + D x' + K x = B f, displacement at the points u = B^T x. Force and displacement are at
+/// the same points, so that f.u' is power.
 struct SecondOrderSystem {
   SparseMatrix M;     ///< n x n, symmetric, > 0 [kg]
   SparseMatrix D;     ///< n x n, symmetric, >= 0 [N s/m]
   SparseMatrix K;     ///< n x n, symmetric, >= 0 [N/m]; singular for a free body
-  Eigen::MatrixXd B;  ///< n x points, full column rank, where forces act
+  Eigen::MatrixXd B;  ///< n x points, full column rank, place of the forces
 
   [[nodiscard]] Eigen::Index size() const noexcept { return M.rows(); }
   [[nodiscard]] Eigen::Index points() const noexcept { return B.cols(); }
 };
 
-/// The same system. A body that passes is passive: its mass and springs store
-/// 1/2 x'.M x' + 1/2 x.K x, its dampers only take.
-/// @throws std::invalid_argument where sizes do not fit, an entry is not finite, a matrix is not
-/// symmetric to 1e-9, M is not > 0, or D or K not >= 0 (to 1e-10 of its largest entry); says which
-/// matrix, where, the number, and the remedy. Cost: three sparse Cholesky factors.
+/// Returns the system unchanged. A valid body is passive: its mass and springs store 1/2 x'.M x' +
+/// 1/2 x.K x, and its dampers only dissipate.
+/// @throws std::invalid_argument if sizes do not fit, an entry is not finite, a matrix is not
+/// symmetric to 1e-9, M is not > 0, or D or K not >= 0 (to 1e-10 of its largest entry). The text
+/// has the matrix, the place, the number and the remedy. Cost: three sparse Cholesky factors.
 [[nodiscard]] SecondOrderSystem checked(SecondOrderSystem system);
 
-/// Answers of the body to forces that last. A free body (K singular) has none as a whole; of it the
-/// elastic part answers, and the rigid motions are given aside.
+/// Responses of the body to constant forces. A free body (K singular) has none as a whole. Its
+/// elastic part responds, and the rigid motions are returned separately.
 class StaticSolver {
  public:
   /// @param system checked. Cost: one sparse factor; a free body: all its modes, O(n^3).
@@ -42,7 +42,7 @@ class StaticSolver {
   [[nodiscard]] bool is_free() const noexcept { return rigid_.cols() > 0; }
   /// n x rigid motions, M-orthonormal.
   [[nodiscard]] const Eigen::MatrixXd& rigid_motions() const noexcept { return rigid_; }
-  /// K^-1 times columns; of a free body the elastic part, M-orthogonal to the rigid motions.
+  /// K^-1 times columns; for a free body the elastic part, M-orthogonal to the rigid motions.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& forces) const;
 
  private:
@@ -51,9 +51,9 @@ class StaticSolver {
   Eigen::VectorXd elastic_stiffness_;
 };
 
-/// Displacement a force at frequencies: C(jw) = B^T (K - w^2 M + jw D)^-1 B, points x points [m/N],
-/// by LU: dense where more than a quarter of the entries is filled, else sparse, the order of
-/// elimination found once.
+/// Displacement per force at frequencies: C(jw) = B^T (K - w^2 M + jw D)^-1 B, points x points
+/// [m/N], by LU. The LU is dense if more than a quarter of the entries is filled, else sparse with
+/// an elimination order that is found once.
 class BodyCompliance {
  public:
   explicit BodyCompliance(const SecondOrderSystem& system);

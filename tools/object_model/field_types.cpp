@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::string_view kNone = "NA";
 
-/// Fields whose name ends so have this unit; the first row that fits.
+/// Fields whose name ends in this have this unit; the first matching row is used.
 struct UnitRow {
   std::string_view record, ending, unit;
 };
-// IEEE 1278.1-2012 gives them with each PDU; the comments beside the structs say the same.
+// Units from the PDUs of IEEE 1278.1-2012, as in the comments of the structs.
 constexpr std::array kUnits{
     UnitRow{"WorldCoordinates", "", "m"},
     UnitRow{"EulerAngles", "", "rad"},
@@ -115,7 +115,7 @@ std::string FieldTypes::plain(std::string_view name) {
   return text;
 }
 
-// Words in a row, each with a capital: what HLA takes for a name.
+// Joined words, each with a capital: the form of names in HLA.
 std::string FieldTypes::identifier(std::string_view text) {
   std::string name, word;
   for (const char c : std::string(text) + " ") {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The types of all fields of PDUs and records, gathered by a visitor of the field tables, as the
-// data types of an object model (IEEE 1516.2).
+// The types of all fields of PDUs and records as the data types of an object model (IEEE 1516.2),
+// gathered by a visitor of the field tables.
 #pragma once
 
 #include <array>
@@ -26,20 +26,20 @@ struct ModelField {
   std::string type;
 };
 
-/// A number: octets on the wire, of which kind, and its unit.
+/// A number: its octets on the wire, its kind and its unit.
 struct ModelNumber {
   std::size_t octets = 0;
   char kind = 'u';   ///< f: IEEE 754, i: signed, u: unsigned
   std::string unit;  ///< "NA": none
 };
 
-/// A number whose values have names.
+/// A number with named values.
 struct ModelEnumeration {
   std::size_t octets = 0;
   std::vector<std::pair<unsigned, std::string>> values;
 };
 
-/// Elements of one type, in a row; as many as `cardinality` says.
+/// A sequence of elements of one type; `cardinality` is their number.
 struct ModelArray {
   std::string element;
   std::string cardinality;
@@ -53,8 +53,8 @@ struct ModelTypes {
   std::map<std::string, std::vector<ModelField>> records;
 };
 
-/// SI unit of a field that holds a number, or a vector of them, by its name and the record it is
-/// in; "NA" where it has none.
+/// SI unit of a number, or of a vector of numbers, by its field name and its record; "NA" if it has
+/// none.
 [[nodiscard]] std::string_view unit_of(std::string_view record, std::string_view field);
 
 /// "WorldCoordinates" of reckon::pdu::WorldCoordinates.
@@ -67,10 +67,10 @@ template <typename T>
   return begin == std::string_view::npos ? text : text.substr(begin + 2);
 }
 
-/// Visitor: the fields of one record, and what types they have.
+/// Visitor: the fields of one record and their types.
 class FieldTypes {
  public:
-  /// @param unit of all numbers; empty: each by unit_of().
+  /// @param unit of all numbers; empty: each from unit_of()
   FieldTypes(ModelTypes& types, std::string_view record, std::string_view unit = {})
       : types_(types), record_(record), unit_(unit) {}
 
@@ -100,7 +100,7 @@ class FieldTypes {
     add(name, array("HLAoctet", "Dynamic"));
   }
 
-  /// The name of the type of a record, which is entered with all that it holds.
+  /// The name of the type of a record, which is entered with all its fields.
   template <typename Record>
   [[nodiscard]] std::string record(const Record& value, std::string_view field) {
     const std::string name = plain(struct_name<Record>());
@@ -108,7 +108,7 @@ class FieldTypes {
     const std::string_view unit = by_use ? unit_here(field) : std::string_view{};
     const std::string full = name + (by_use ? suffix(unit) : "");
     if (types_.records.contains(full)) return full;
-    types_.records[full];  // so that it is entered once
+    types_.records[full];  // so that it is entered only once
     FieldTypes inner(types_, name, unit);
     fields(inner, value);
     types_.records[full] = inner.members();
@@ -116,13 +116,13 @@ class FieldTypes {
   }
 
   [[nodiscard]] const std::vector<ModelField>& members() const { return members_; }
-  /// "_m_per_s" of "m/s"; nothing of "NA".
+  /// "_m_per_s" for "m/s"; empty for "NA".
   [[nodiscard]] static std::string suffix(std::string_view unit);
 
  private:
-  /// "Segment_float" of "Segment<float>".
+  /// "Segment_float" for "Segment<float>".
   [[nodiscard]] static std::string plain(std::string_view name);
-  /// Whether the unit of a record's numbers depends on what it is used for.
+  /// Whether the unit of a record's numbers depends on its use.
   [[nodiscard]] static bool is_vector(std::string_view record) { return record == "Vector3Float"; }
   [[nodiscard]] std::string_view unit_here(std::string_view field) const {
     return unit_.empty() ? unit_of(record_, field) : unit_;

@@ -3,7 +3,7 @@
 // Writes the object model of a federate (IEEE 1516.2, OMT) from the field tables: classes of
 // entities, their attributes, interactions, and all data types with their units.
 //   reckon_object_model               prints it
-//   reckon_object_model --check FILE  tells whether the file is it (exit 1: no)
+//   reckon_object_model --check FILE  compares the file with it (exit 1: it differs)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Elements one in the other, two spaces deeper each.
+/// Nested XML elements, each indented by two more spaces.
 class Xml {
  public:
   void open(std::string_view element) {
@@ -81,7 +81,7 @@ void write_attribute(Xml& xml, const ModelField& field, std::string_view when) {
   xml.close();
 }
 
-// The classes that EntityClass tells apart first: kinds. Attributes are those of all.
+// The first level of EntityClass: kinds. All of them have the same attributes.
 void write_objects(Xml& xml, ModelTypes& types) {
   FieldTypes state(types, "EntityState");
   const pdu::EntityState entity_state{};
@@ -123,7 +123,7 @@ void write_objects(Xml& xml, ModelTypes& types) {
   xml.close();
 }
 
-// All but what is an object's state, and what peers say among themselves.
+// All PDUs except states of objects and those between peers.
 template <typename T>
 constexpr bool kIsInteraction = T::kPduType != pdu::PduType::entity_state&& T::kPduType !=
                                 pdu::PduType::entity_state_update&& T::kPduType !=

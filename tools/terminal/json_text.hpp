@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// JSON, member by member, and text of any origin as a JSON string. Whole PDUs as JSON:
-// pdu/print.hpp.
+// JSON, member by member, and untrusted text as a JSON string. pdu/print.hpp prints whole PDUs as
+// JSON.
 #pragma once
 
 #include <fmt/compile.h>
@@ -13,30 +13,30 @@
 
 namespace reckon::tools {
 
-/// Appends `text` in quotes; control characters, quotes and backslashes escaped. Any octets will
-/// do: what is not UTF-8 becomes U+FFFD, so that the line stays valid JSON.
+/// Appends `text` in quotes; control characters, quotes and backslashes are escaped. Any octets:
+/// invalid UTF-8 becomes U+FFFD, so that the line stays valid JSON.
 void append_json_string(std::string& out, std::string_view text);
 
-/// One object, written to the end of a string as it grows. Keys are ours: letters and underscores.
+/// One object, appended to a growing string. Keys are ours: letters and underscores.
 ///
-///   JsonObject(out).text("file", name).value("frames", 12).end("\n");   //
-///   {"file":"a","frames":12}
+///   JsonObject(out).text("file", name).value("frames", 12).end("\n");
+///   // {"file":"a","frames":12}
 class JsonObject {
  public:
   explicit JsonObject(std::string& out) : out_(out) { out_ += '{'; }
 
-  /// Text of any origin.
+  /// Untrusted text.
   JsonObject& text(std::string_view key, std::string_view value) {
     append_json_string(member(key), value);
     return *this;
   }
-  /// Whole numbers, `true` and `false`, and text that is JSON already.
+  /// Whole numbers, `true` and `false`, and text that already is JSON.
   template <class T>
   JsonObject& value(std::string_view key, const T& value) {
     fmt::format_to(std::back_inserter(member(key)), FMT_COMPILE("{}"), value);
     return *this;
   }
-  /// A finite number with so many decimals.
+  /// A finite number with `count` decimals.
   JsonObject& decimals(std::string_view key, double value, int count) {
     fmt::format_to(std::back_inserter(member(key)), "{:.{}f}", value, count);
     return *this;
@@ -54,7 +54,7 @@ class JsonObject {
     out_ += ']';
     return *this;
   }
-  /// The key; what the caller appends to the string behind it is its value.
+  /// Writes the key. The caller appends its value to the returned string.
   std::string& member(std::string_view key) {
     if (!first_) out_ += ',';
     first_ = false;

@@ -13,7 +13,7 @@
 namespace reckon::tools {
 namespace {
 
-/// What a signal handler needs: there is one terminal.
+/// State for a signal handler: there is only one terminal.
 struct Shared {
   int descriptor = -1;
   termios before{};
@@ -27,7 +27,7 @@ void restore_terminal() {
   tcsetattr(shared.descriptor, TCSANOW, &shared.before);
 }
 
-/// Not after a signal has asked for the end; after Ctrl-Z the next read() does it again.
+/// Not after a signal has asked for the end; after Ctrl-Z the next read() takes it again.
 void take_terminal() {
   if (shared.taken != 0 || SignalGuard::has_ended() || !in_foreground(shared.descriptor)) return;
   SignalGuard::undisturbed([] {
@@ -78,7 +78,7 @@ std::size_t TerminalKeys::read(std::span<char> out, std::chrono::nanoseconds pat
   if (ppoll(&entry, 1, &limit, nullptr) <= 0) return 0;
   const ssize_t count = ::read(descriptor_, out.data(), out.size());
   if (count > 0) return static_cast<std::size_t>(count);
-  // A terminal that is gone would be ready at once, for ever.
+  // A closed terminal would be ready at once, for ever.
   if (patience.count() > 0) sleep_for(patience);
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keys of a terminal one by one, without Enter; whatever ends the program, the terminal is given
-// back as it was.
+// Reads single keys of a terminal, without Enter. The terminal is restored in whatever way the
+// program ends.
 #pragma once
 
 #include <chrono>
@@ -13,19 +13,19 @@
 
 namespace reckon::tools {
 
-/// Takes the keys of a terminal while it lives: no echo, no lines; Ctrl-C and Ctrl-Z stay what they
-/// are. One at a time, on one thread. Does nothing where the descriptor is no terminal, and leaves
-/// it alone while the program is in the background.
+/// Takes the keys of a terminal while the object exists: no echo, no line mode; Ctrl-C and Ctrl-Z
+/// keep their function. One object at a time, on one thread. Does nothing if the descriptor is not
+/// a terminal, or while the program is in the background.
 class TerminalKeys {
  public:
   explicit TerminalKeys(int descriptor);
-  /// Gives the terminal and the signal handlers back.
+  /// Restores the terminal and the signal handlers.
   ~TerminalKeys();
   TerminalKeys(const TerminalKeys&) = delete;
   TerminalKeys& operator=(const TerminalKeys&) = delete;
 
   [[nodiscard]] bool is_active() const { return active_; }
-  /// Waits for keys, `patience` at most, and gives what is there; 0 is nothing. A signal ends the
+  /// Waits at most `patience` for keys and returns the available ones; 0 is none. A signal ends the
   /// wait.
   std::size_t read(std::span<char> out, std::chrono::nanoseconds patience);
 

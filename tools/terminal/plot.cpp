@@ -18,7 +18,7 @@
 namespace reckon::tools {
 namespace {
 
-constexpr std::size_t kLabel = 9;  // columns of the labels at the left, with the axis
+constexpr std::size_t kLabel = 9;  // columns of the labels on the left, including the axis
 constexpr std::size_t kLeastWidth = 24;
 constexpr std::size_t kMostWidth = 400;
 
@@ -69,7 +69,7 @@ void append_braille(std::string& out, std::size_t left, std::size_t right) {
   out += static_cast<char>(0x80 | (code & 0x3F));
 }
 
-/// Dots of a column that lie in the character row `row` from below.
+/// Dots of a column in the character row `row`, counted from below.
 std::size_t dots_in(std::size_t height, std::size_t row, std::size_t a_row) {
   return height <= row * a_row ? 0 : std::min(height - row * a_row, a_row);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A curve above zero in the characters of a terminal: eight dots a character in Braille where UTF-8
-// is understood, else ASCII.
+// A curve above zero in the characters of a terminal: eight dots a character in Braille if the
+// terminal has UTF-8, else ASCII.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,25 @@
 
 namespace reckon::tools {
 
-/// How large the plot may be, and in which letters.
+/// Size of the plot, and its characters.
 struct PlotCanvas {
-  std::size_t width = 80;  ///< columns of the terminal, labels included; at least 24 are used
+  std::size_t width = 80;  ///< columns of the terminal, labels included; at least 24
   std::size_t height = 6;  ///< rows of the curve
   bool braille = false;
 };
 
-/// The canvas of an output: its width by COLUMNS or by the terminal, else 80; Braille where it is a
-/// terminal and the locale (LC_ALL, LC_CTYPE, LANG) is UTF-8.
+/// The canvas of an output. Its width comes from COLUMNS or the terminal, else it is 80. Braille is
+/// used on a terminal with a UTF-8 locale (LC_ALL, LC_CTYPE, LANG).
 [[nodiscard]] PlotCanvas canvas_of(std::FILE* out);
 
-/// What stands at the axes.
+/// Labels of the axes.
 struct PlotLabels {
   std::string_view unit;  ///< of the values: "N"
   double end = 0;         ///< of the time axis, which begins at 0 [s]
 };
 
-/// The area below `values`, evenly spaced over the time; what lies between two columns keeps its
-/// greatest. Values that are not numbers or below 0 count as 0. Lines end in '\n'.
+/// The area below `values`, which are evenly spaced over the time. A column shows its greatest
+/// value. NaN and values below 0 count as 0. Lines end in '\n'.
 [[nodiscard]] std::string terminal_plot(std::span<const float> values, const PlotLabels& labels,
                                         const PlotCanvas& canvas);
 

@@ -8,8 +8,8 @@
 
 namespace reckon::tools {
 
-/// The greatest of 1, 2, 5 times a power of ten that divides `span` into at least `parts` steps,
-/// or at most 2.5 times as many. 1 where span is not a positive finite number.
+/// The greatest of 1, 2, 5 times a power of ten that divides `span` into at least `parts` steps, or
+/// at most 2.5 times as many. 1 if span is not a positive finite number.
 [[nodiscard]] inline double round_step(double span, double parts) {
   if (!std::isfinite(span) || !(span > 0)) return 1;
   const double raw = span / parts;
@@ -19,7 +19,7 @@ namespace reckon::tools {
   return decade;
 }
 
-/// The end of an axis from 0 that holds `greatest`: a multiple of a round step, 1 for nothing.
+/// The end of an axis from 0 that includes `greatest`: a multiple of a round step, 1 for zero.
 [[nodiscard]] inline double round_end(double greatest, double parts) {
   if (!std::isfinite(greatest) || !(greatest > 0)) return 1;
   const double step = round_step(greatest, parts);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The terminal as a screen of lines, by ncurses: the one file that knows it.
+// The terminal as a screen of lines: the only file that includes ncurses.
 #pragma once
 
 #include <cstdio>
@@ -12,22 +12,22 @@
 
 namespace reckon::tools {
 
-/// Takes the terminal from its construction to its destruction, which gives it back as it was, also
-/// where an exception leaves; so does a signal that ends the program. One at a time; one thread.
+/// Takes over the terminal from construction to destruction, which restores it, after an exception
+/// too. A signal that ends the program also restores it. One object at a time; one thread.
 class TerminalScreen {
  public:
-  /// Opens it where `out` and stdin are terminals in which lines can be drawn in place (by TERM:
-  /// not in "dumb" and what is not known) and the program is not in the background; else null.
-  /// `colour`: whether lines may have colours; bold and reverse they have always.
+  /// Opens the screen, or returns null. `out` and stdin must be terminals in which lines can be
+  /// drawn in place (by TERM: not "dumb" or unknown), and the program must not be in the
+  /// background. `colour`: whether lines may have colours; they always have bold and reverse.
   [[nodiscard]] static std::unique_ptr<TerminalScreen> open(std::FILE* out, bool colour);
   ~TerminalScreen();
   TerminalScreen(const TerminalScreen&) = delete;
   TerminalScreen& operator=(const TerminalScreen&) = delete;
 
   [[nodiscard]] ScreenSize size() const;
-  /// The next key pressed, if any; never waits.
+  /// The next pressed key, if any; never waits.
   [[nodiscard]] std::optional<KeyPress> key();
-  /// Shows these lines from the top; what does not fit is cut.
+  /// Shows these lines from the top; excess is cut off.
   void show(std::span<const ScreenLine> lines);
 
  private:

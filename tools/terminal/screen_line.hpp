@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What goes to a terminal and what comes from it, without saying how: lines and keys.
+// Input and output of a terminal, independent of its driver: lines and keys.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ enum class Key : std::uint8_t {
   enter,
   escape,
   backspace,
-  resize  ///< no key: the terminal has another size now
+  resize  ///< not a key: the size of the terminal has changed
 };
 
 struct KeyPress {

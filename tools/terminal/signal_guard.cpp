@@ -12,15 +12,15 @@
 namespace reckon::tools {
 namespace {
 
-/// What ends a program while it holds the terminal; the last one stops it.
+/// Signals that end a program while it holds the terminal; the last one stops it.
 constexpr std::array kSignals{SIGINT,  SIGTERM, SIGQUIT, SIGHUP, SIGABRT,
                               SIGSEGV, SIGBUS,  SIGFPE,  SIGILL, SIGTSTP};
 
-/// What the handler needs: there is one terminal.
+/// State for the handler: there is only one terminal.
 struct Shared {
   void (*give_back)() = nullptr;
   FirstRequest first = FirstRequest::gives_back;
-  std::size_t count = 0;                 ///< of kSignals that are taken
+  std::size_t count = 0;                 ///< number of kSignals that are handled
   volatile std::sig_atomic_t ended = 0;  ///< a signal asked for the end
   std::array<struct sigaction, kSignals.size()> actions{};
 };
@@ -46,7 +46,7 @@ extern "C" void give_back_and_go_on(int signal) {
     return;
   }
   if (action.sa_handler == SIG_IGN) return;
-  // A handler of the program's own has had its turn.
+  // The program's own handler has run.
   if (has_handler(action))
     (void)std::signal(signal, SIG_DFL);
   else

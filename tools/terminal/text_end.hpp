@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where fmt::format_to goes on with a text.
+// Output iterator for fmt::format_to that appends to a text.
 #pragma once
 
 #include <iterator>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows in columns as a terminal shows them, and texts for their cells; used by every verb that
-// prints a table.
+// Rows in columns for a terminal, and texts for their cells. Used by every verb that prints a
+// table.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace reckon::tools {
 
-/// A table that is collected whole and then printed, each column as wide as its widest cell.
+/// A table that is collected first and then printed, each column as wide as its widest cell.
 class TextTable {
  public:
   enum class Align : unsigned char { left, right };
@@ -22,7 +22,7 @@ class TextTable {
   };
 
   explicit TextTable(std::vector<Column> columns);
-  /// Missing cells are empty; cells beyond the last column are a broken promise of the caller.
+  /// Missing cells are empty; more cells than columns are an error of the caller.
   void add(std::vector<std::string> cells);
   /// Titles first, two spaces between columns, no spaces at the end of a line.
   void print(std::FILE* out) const;
@@ -36,21 +36,21 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Columns of a terminal row that UTF-8 text takes (code points; wide and combining ones are not
+/// Columns of UTF-8 text on a terminal (code points; wide and combining ones are not
 /// distinguished).
 [[nodiscard]] std::size_t text_width(std::string_view utf8);
 
-/// The first `columns` columns of UTF-8 text; control characters, which would move a cursor, are
-/// dots.
+/// The first `columns` columns of UTF-8 text. Control characters, which would move the cursor,
+/// become dots.
 [[nodiscard]] std::string cut_to(std::string_view utf8, std::size_t columns);
 
 /// A count with its noun: "1 error", "2 errors".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 
-/// A distance for a person: "0.21 mm", "1.4 m", "12 km"; "0" below 10 um.
+/// A distance as text: "0.21 mm", "1.4 m", "12 km"; "0" below 10 um.
 [[nodiscard]] std::string distance_text(double metres);
 
-/// Octets from the network made harmless for a terminal: what is not printable ASCII is a dot.
+/// Received octets made safe for a terminal: those that are not printable ASCII become dots.
 [[nodiscard]] std::string printable_text(std::string_view text);
 
 }  // namespace reckon::tools

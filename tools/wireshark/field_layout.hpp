@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where each field of a PDU or record lies, read from its field table: what a dissector in another
-// language needs to know.
+// Places of the fields of a PDU or record, read from its field table, for a dissector in another
+// language.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct FieldPlace {
   std::size_t offset = 0;
   std::size_t size = 0;  ///< octets
   std::string type;      ///< u8 .. u64, i8 .. i64, f32, f64, text, octets
-  /// Of an enumeration of one octet: each value that has a name.
+  /// For an enumeration of one octet: each value with a name.
   std::vector<std::pair<unsigned, std::string>> names{};
   bool is_pdu_type = false;
 };
@@ -36,12 +36,13 @@ struct FieldPlace {
 struct BlockPlace {
   std::string kind;  ///< records, datums, octets, bits, attribute_sets, rest, other
   std::string name;
-  FieldPlace count;                ///< the field that counts it; of no size where there is none
-  std::size_t size = 0;            ///< octets of one of `records`
-  std::vector<FieldPlace> fields;  ///< of one of `records`; none where its layout varies
+  FieldPlace count;                ///< the field with its number of records; without a size if
+                                   ///< there is none
+  std::size_t size = 0;            ///< octets of one record of `records`
+  std::vector<FieldPlace> fields;  ///< of one record of `records`; empty if its layout varies
 };
 
-/// Visitor that notes all places of one PDU or record.
+/// Visitor that collects all places of one PDU or record.
 class FieldLayout {
  public:
   template <typename T>
@@ -71,7 +72,7 @@ class FieldLayout {
   template <typename Span, typename Record, typename Count>
   void records(std::string_view name, const Span& span, pdu::Records<Record, Count>) {
     BlockPlace block{"records", std::string(name), counted(&span), pdu::kFixedSize<Record>, {}};
-    // The content of a variable parameter depends on its first octet.
+    // The layout of a variable parameter depends on its first octet.
     if constexpr (!std::is_same_v<Record, pdu::VariableParameter>) {
       FieldLayout inner;
       const Record record{};
@@ -137,7 +138,7 @@ class FieldLayout {
   std::size_t size_ = 0;
   std::vector<FieldPlace> fields_;
   std::vector<BlockPlace> blocks_;
-  std::map<const void*, std::size_t> counts_;  // place of the field that is at this address
+  std::map<const void*, std::size_t> counts_;  // place of the field at this address
   std::optional<std::size_t> id_at_;
 };
 

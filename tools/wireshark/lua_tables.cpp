@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes the tables of the Wireshark plug-in reckon.lua from the field tables, so that no field is
-// listed twice by hand. `reckon_lua_tables FILE` prints the plug-in with its tables anew;
-// `reckon_lua_tables --check FILE` tells whether they are those of the field tables (exit 1: no).
+// listed twice by hand. `reckon_lua_tables FILE` prints the plug-in with new tables.
+// `reckon_lua_tables --check FILE` compares its tables with the field tables (exit 1: they differ).
 #include <fmt/format.h>
 
 #include <fstream>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kBegin = "-- BEGIN of the tables that reckon_lua_tables writes\n";
 constexpr std::string_view kEnd = "-- END of the tables\n";
-constexpr std::size_t kMostColumns = 97;  // and a closing brace
+constexpr std::size_t kMostColumns = 97;  // the closing brace follows
 
 /// A Lua table of many items, broken into lines.
 std::string wrapped(const std::vector<std::string>& items, std::string_view indent) {
@@ -43,7 +43,7 @@ bool has_floats(const std::vector<FieldPlace>& fields) {
   return std::ranges::any_of(fields, [](const FieldPlace& f) { return f.type.front() == 'f'; });
 }
 
-/// What is looked at for NaN and infinity: {offset, octets, name} one behind another.
+/// Fields to check for NaN and infinity: a sequence of {offset, octets, name}.
 std::string floats_of(const std::vector<FieldPlace>& fields, std::string_view indent) {
   if (!has_floats(fields)) return "{}";
   std::vector<std::string> items;
@@ -65,7 +65,7 @@ std::string block_text(const BlockPlace& block) {
   return text + " },";
 }
 
-/// How a PDU is checked: least length, where its entity stands, variable parts, floats.
+/// Checks of a PDU: least length, place of its entity, variable parts, floats.
 template <typename T>
 std::string pdu_text() {
   const FieldLayout layout = layout_of<T>();
@@ -143,7 +143,7 @@ std::string tables() {
          own_text<pdu::UnicastFrame>("unicast") + "}\n";
 }
 
-/// The plug-in with its tables anew; empty where it has no place for them.
+/// The plug-in with new tables; empty if it has no place for them.
 std::string renewed(const std::string& plugin) {
   const std::size_t begin = plugin.find(kBegin);
   const std::size_t end = plugin.find(kEnd);
