@@ -61,28 +61,27 @@ class SignedFunction {
 
   [[nodiscard]] SignedSample sample(const Eigen::Vector3d& p) const noexcept;
 
-  /// Also how far a way from p may go before f can come down to `level` [m].
-  /// @param direction unit  @param tie [m]: surfaces whose functions differ by less count as met
-  /// both
+  /// Also computes a distance along the path from p over which f stays above `level` [m].
+  /// @param direction unit  @param tie [m]: surfaces whose functions differ by less are both met
   [[nodiscard]] WaySample sample_along(const Eigen::Vector3d& p, const Eigen::Vector3d& direction,
                                        double level, double tie) const noexcept;
 
-  /// Holds the solid; infinite where that may have no end, empty where nothing is left.
+  /// Contains the solid. Infinite if the solid may be unbounded, empty if nothing of it is left.
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return bounds_; }
   [[nodiscard]] std::size_t leaves() const noexcept { return (nodes_.size() + 1) / 2; }
-  /// Whether outside it is the distance and not only a bound of it.
+  /// Whether f is the distance outside, and not only a bound of it.
   [[nodiscard]] bool exact_outside() const noexcept { return exact_outside_; }
 
  private:
   enum class NodeKind : std::uint8_t { leaf, least, greatest };
 
-  // In postfix order. Complements stand at the leaves alone.
+  // In postfix order. Only leaves have complements.
   struct Node {
     NodeKind kind = NodeKind::leaf;
     bool complement = false;  // leaf: of the primitive
-    bool convex = true;       // f of this node, along each straight way
+    bool convex = true;       // f of this node, along each straight path
     double radius = 0.0;      // of the edge
-    double sag = 0.0;         // leaf: what the rounded unions above it take off f at most [m]
+    double sag = 0.0;         // leaf: greatest decrease of f by the rounded unions above it [m]
     Primitive primitive = SphereFunction{1.0};
     Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  // primitive -> tree
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -102,10 +101,10 @@ class SignedFunction {
   bool exact_outside_ = true;
 };
 
-/// Solid where either is. @param radius of the edge between them [m], 0 is sharp
+/// Solid where either a or b is. @param radius of the edge between them [m], 0 is sharp
 [[nodiscard]] SignedFunction unite(const SignedFunction& a, const SignedFunction& b,
                                    double radius = 0.0);
-/// Solid where both are.
+/// Solid where both a and b are.
 [[nodiscard]] SignedFunction intersect(const SignedFunction& a, const SignedFunction& b,
                                        double radius = 0.0);
 /// Solid where a is and b is not.

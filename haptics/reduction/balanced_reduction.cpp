@@ -54,7 +54,7 @@ MatrixXd factor(const MatrixXd& matrix) {
   return parts.vectors * parts.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-// Least magnitude that rounding alone cannot make of a double pole at 0.
+// Greatest magnitude that rounding can give to a double pole at 0.
 double slowest_known(const MatrixXd& A) {
   const double size = A.size() == 0 ? 0.0 : A.cwiseAbs().rowwise().sum().maxCoeff();
   return 4.0 * std::sqrt(std::numeric_limits<double>::epsilon() * size);

@@ -22,7 +22,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Slow is near 0, sampled near 1. Pairs stay together: one behind the other in Eigen's order.
+// Slow means near 0, or near 1 for a sampled system. Eigen lists the two poles of a pair one after
+// the other, and they stay together.
 std::vector<Index> slowest_first(const Eigen::VectorXcd& poles, bool sampled) {
   std::vector<Index> order(static_cast<std::size_t>(poles.size()));
   std::iota(order.begin(), order.end(), Index{0});

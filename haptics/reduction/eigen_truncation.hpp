@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' own reduction (4.5, steps ii to iv), as what others are measured beside: eigenvectors
-// of the Jacobian, diagonal form, the slow part of it kept. It breaks where poles coincide: a
-// critically damped contact, equal lags in a row, a free body. No force path calls it.
+// The reduction of the thesis (4.5, steps ii to iv), as a reference for the others: eigenvectors of
+// the Jacobian, diagonal form, of which the slow part is kept. It fails for coinciding poles: a
+// critically damped contact, equal lags in series, a free body. No force path calls it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,28 +11,29 @@
 
 namespace reckon::haptics {
 
-/// A system in states that hang together as little as possible.
+/// A system in states with the least coupling.
 struct ModalDecomposition {
   StateSpace system;       ///< the same response; A block-diagonal, or quasi-triangular
-  double condition = 1.0;  ///< of the eigenvectors; infinite where A is defective
+  double condition = 1.0;  ///< of the eigenvectors; infinite for a defective A
   bool by_eigenvectors = false;
 };
 
-/// Largest condition of eigenvectors that decomposed() uses.
+/// Greatest condition of the eigenvectors at which decomposed() uses them.
 inline constexpr double kMostCondition = 1e8;
 
-/// Real blocks: one number a real pole, [a b; -b a] a pair, slowest first. Where the eigenvectors
-/// are worse than kMostCondition, the real Schur form instead: orthogonal, so exact to rounding.
+/// Real blocks: one number for a real pole, [a b; -b a] for a pair, slowest first. If the condition
+/// of the eigenvectors exceeds kMostCondition, the real Schur form is used instead, which is
+/// orthogonal and so exact to rounding.
 [[nodiscard]] ModalDecomposition decomposed(const StateSpace& system);
 
-/// What becomes of the modes that are not kept.
+/// Treatment of the modes that are not kept.
 enum class Dropped {
-  forgotten,  ///< as the thesis says
-  at_rest,    ///< static gain kept, as its example (4.21) does
+  forgotten,  ///< left out, as in the thesis
+  at_rest,    ///< static gain kept, as in its example (4.21)
 };
 
-/// The `order` slowest modes by eigenvectors, whatever their condition; one more where a pair would
-/// be parted. Numbers may be huge or not finite: that is what is shown.
+/// The `order` slowest modes by eigenvectors, for any condition of these; one more if a pair would
+/// be split. Numbers may be huge or not finite, which is the purpose of the comparison.
 /// @param order in [0, system.order()], else std::invalid_argument
 [[nodiscard]] ModalDecomposition truncated_by_eigenvectors(const StateSpace& system, int order,
                                                            Dropped dropped);

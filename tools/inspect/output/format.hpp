@@ -30,7 +30,7 @@ void append_id(std::string& out, pdu::EntityId id);
 [[nodiscard]] std::string id_text(pdu::EntityId id);
 
 /// One cell of CSV by RFC 4180, for untrusted text. It is quoted if it has a comma or a quote, and
-/// control characters and invalid UTF-8 are removed (append_clean_text()). Text that begins with =
+/// control characters and invalid UTF-8 are replaced (append_clean_text()). Text that begins with =
 /// + - or @ and is not a number gets an apostrophe, so that no spreadsheet takes it for a formula.
 void append_csv_cell(std::string& out, std::string_view cell);
 
