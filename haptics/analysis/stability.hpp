@@ -24,13 +24,14 @@ struct StabilityReport {
 };
 
 /// Judges the roots of a characteristic equation. Roots within 3e-6 of each other are one multiple
-/// root. A mean within 1e-9 of the border lies on it (times the greatest |s| in continuous time). A
-/// double root is only known to 1e-8. @param sample_period [s]; 0: continuous
+/// root. A mean within 1e-9 of the border lies on it; in continuous time the 1e-9 is relative to
+/// the greatest |s|. A double root is only known to 1e-8. @param sample_period [s]; 0: continuous
 [[nodiscard]] StabilityReport judge_roots(const Eigen::VectorXcd& roots, double sample_period);
 
-/// Judges the eigenvalues of A. If a multiple one on the border has as many eigenvectors (two free
-/// masses side by side), no state grows. This is marginal, although the characteristic equation has
-/// a multiple root. @throws std::invalid_argument, std::runtime_error as poles() and checked()
+/// Judges the eigenvalues of A. If a multiple eigenvalue on the border has a full set of
+/// eigenvectors (two free masses side by side), no state grows. This is marginal, although the
+/// characteristic equation has a multiple root. @throws std::invalid_argument, std::runtime_error
+/// as poles() and checked()
 [[nodiscard]] StabilityReport judge_stability(const StateSpace& system);
 
 /// Greatest |z| of a sampled system's poles, the growth or decay factor of a state per sample. 0

@@ -89,7 +89,7 @@ struct ContactWalk {
   static constexpr double kTinyMove = 1e-3;
   // Least cosine between the normals at two near places of one smooth surface.
   static constexpr double kSameSurface = 0.9;
-  static constexpr double kGrazing = 1e-5;  // cosine: a steeper plane restricts p no further
+  static constexpr double kGrazing = 1e-5;  // cosine to the step: a smaller one bars nothing more
   static constexpr double kLeastGain = 2.0 * (1.0 - kStopShare);
   static constexpr double kShortestSlide = 1.0 / 128.0;  // share of the allowed motion
 

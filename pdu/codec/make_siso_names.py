@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Turns siso_names.txt into the C++ tables that siso_names.cpp includes.
+"""Converts siso_names.txt to the C++ tables that siso_names.cpp includes.
 
   make_siso_names.py siso_names.txt siso_names_data.inc
 
-The tables hold no pointers: all names lie in one text, a name that is part of another one takes no
-room, and a table without gaps keeps no values. The same input gives the same output.
+The tables have no pointers. All names are in one text, in which a name that is part of another one
+needs no room. A table without gaps stores no values. The same input gives the same output.
 """
 
 import re
@@ -76,7 +76,7 @@ def without_parts(names):
 
 
 def chained(names):
-    """One text that holds all names: the end of one is the beginning of the next where it fits."""
+    """One text with all names, in which the end of a name may be the beginning of the next."""
     follower, taken = {}, set()
     head_of = {name: name for name in names}  # of the chain that ends in this name
     for size in range(24, 0, -1):
@@ -108,7 +108,7 @@ def chained(names):
 
 
 def numbers(kind, name, values):
-    """A constexpr array; one dummy element where there are none."""
+    """A constexpr array; one dummy element if there are no values."""
     text, line = [], "   "
     for value in values or [0]:
         if len(line) + len(str(value)) > 96:
@@ -126,7 +126,7 @@ def literal(name, text):
 
 
 def value_places(tables):
-    """Where each table keeps its values: in the 16-bit list, the 32-bit list, or nowhere."""
+    """Storage of each table's values: the 16-bit list, the 32-bit list, or none."""
     narrow, wide, places = [], [], []
     for table in tables:
         values = [row[0] for row in table["rows"]]

@@ -73,8 +73,8 @@ concept OctetView = requires(const View& view) {
   { view.value() } -> std::same_as<std::span<const std::byte>>;
 };
 
-/// For a body with a `Record`, further octets included: the fields of that record. A body that is
-/// too short is shown as octets named "body".
+/// Shows the fields of the `Record` at the start of a body, then any further octets. A body that is
+/// too short for the record is shown as octets named "body".
 template <typename Record, typename Visitor>
 void show_as(Visitor& visitor, std::span<const std::byte> body) {
   Record record;

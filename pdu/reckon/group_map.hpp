@@ -38,7 +38,7 @@ struct GroupMap {
   std::uint32_t version = 0;  ///< of the map; a higher one replaces the earlier ones
   std::uint16_t part = 0;     ///< 0 .. parts - 1
   std::uint16_t parts = 0;
-  std::uint16_t pool = 0;             ///< number of groups for cells
+  std::uint16_t pool = 0;             ///< groups that may be handed out
   std::span<const std::byte> groups;  ///< 16 n octets, read with records_of<CellGroup>
 };
 

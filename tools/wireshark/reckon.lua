@@ -1,8 +1,8 @@
 -- SPDX-FileCopyrightText: 2026 The Reckon authors
 -- SPDX-License-Identifier: Apache-2.0
 -- Wireshark and tshark: every PDU of a DIS bundle, each with the fields that Wireshark's own DIS
--- dissector knows, and the Attribute records and experimental PDUs of Reckon. What is broken is
--- named with the rules of `reckon inspect`.
+-- dissector knows, and the Attribute records and experimental PDUs of Reckon. Faults have the rule
+-- names of `reckon inspect`.
 --   tshark -X lua_script:reckon.lua -r capture.pcapng -Y 'reckon.haptic.k1 > 400'
 -- Lua 5.2 (Wireshark 3 and 4.0 to 4.2) and 5.4. See docs/wireshark.md.
 
@@ -765,7 +765,7 @@ local OWN = {
 local reckon = Proto("reckon", "Reckon: DIS bundle")
 local udp_ports = DissectorTable.get("udp.port")
 local DIS_PORT = 3000
--- Up to Wireshark 4.0 the DIS dissector is not found by its name, but on its port.
+-- Up to Wireshark 4.0 the DIS dissector is found by its port, not by its name.
 local dis = Dissector.get("dis") or udp_ports:get_dissector(DIS_PORT)
 
 reckon.prefs.ports = Pref.range("UDP ports", "3000", "Ports whose datagrams are DIS", 65535)
@@ -814,7 +814,7 @@ local function register_fields()
     for _, row in ipairs(own.fields) do
       local name, kind = "reckon." .. key .. "." .. row[1], row[4]
       if NUMBERS[kind] then
-        -- Types of records and hashes are known to people by their hexadecimal digits.
+        -- Record types and hashes are usually written in hexadecimal.
         local form = row[1]:find("record_type$") or row[1]:find("hash$")
         row.field = NUMBERS[kind](name, row[1], form and base.HEX_DEC or base.DEC, row[5])
       else
@@ -890,8 +890,8 @@ local function not_finite(s, at, floats, prefix)
   end
 end
 
--- Variable parts: each takes the octet where its block begins and the one behind the PDU, and
--- gives the octet behind the block, or nil and the fault ---------------------------------------
+-- Variable parts: each takes the offsets of its block and of the end of the PDU, and returns the
+-- offset of the end of the block, or nil and the fault ------------------------------------------
 
 local BLOCKS = {}
 
@@ -922,8 +922,8 @@ function BLOCKS.bits(s, pdu_at, block, at, stop)
   return at + math.min(math.floor((held + 3) / 4) * 4, stop - at)
 end
 
--- Octets of the variable datum at `at` with its padding, which the last one may lack; nil and the
--- rule where it does not fit.
+-- Octets of the variable datum at `at` with its padding, which the last one may lack. If it does
+-- not fit, nil and the rule.
 local function datum_size(s, at, stop)
   if stop - at < 8 then return nil, "E-COUNT" end
   local octets = math.floor((u32(s, at + 4) + 7) / 8)
@@ -946,7 +946,7 @@ function BLOCKS.datums(s, pdu_at, block, at, stop)
   return at
 end
 
--- One record of a set: the octet behind it, or nil and the fault.
+-- One record of a set: the offset of its end, or nil and the fault.
 local function step_record(s, at, stop, number, count, set)
   if stop - at < 6 then
     return nil, fault("E-COUNT", at,
@@ -960,7 +960,7 @@ local function step_record(s, at, stop, number, count, set)
     length, stop - at)
 end
 
--- Calls on_set(at, behind) and on_record(at, behind) for what can be read.
+-- Calls on_set(at, count) and on_record(at, behind) for readable sets and records.
 local function walk_sets(s, sets, at, stop, on_set, on_record)
   for set = 1, sets do
     if stop - at < 8 then
@@ -986,9 +986,9 @@ function BLOCKS.attribute_sets(s, pdu_at, block, at, stop)
   return walk_sets(s, number_at(s, pdu_at + block.at, block.width), at, stop, nothing, nothing)
 end
 
--- What is wrong with a PDU ----------------------------------------------------------------------
+-- Faults of a PDU -------------------------------------------------------------------------------
 
--- The table of a record of ours, and why it cannot be read.
+-- The table of a record of ours, or nil and the reason why it cannot be read.
 local function own_record(s, at, behind)
   local type = u32(s, at)
   local own = type == OWN.haptic.type and OWN.haptic or type == OWN.energy.type and OWN.energy
@@ -1032,7 +1032,7 @@ local function fault_in_blocks(s, at, pdu, stop)
   local strange
   for _, block in ipairs(pdu.blocks) do
     local step = BLOCKS[block.kind]
-    if not step then break end  -- its records say themselves how long they are: not followed here
+    if not step then break end  -- its records state their own lengths: not checked here
     local behind, why = step(s, at, block, block_at, stop)
     if not behind then return why end
     if block.floats then
@@ -1053,7 +1053,7 @@ local function too_short(at, length, pdu)
     pdu.size)
 end
 
--- The first fault of a PDU whose octets are at hand.
+-- The first fault of a PDU whose octets are all present.
 local function fault_in_body(s, at, type, length)
   local pdu = PDUS[type]
   if not pdu then
@@ -1076,14 +1076,14 @@ local function is_read(version)
   return version >= OLDEST_VERSION and version <= NEWEST_VERSION
 end
 
--- A length of a version that is not read is trusted where it leads to the end, to a version that is
--- read, or to the same.
+-- The length of an unsupported version is accepted if it leads to the end, to a supported version,
+-- or to the same version.
 local function leads_on(s, at, version)
   at = at + padding_at(s, at)
   return at == #s or is_read(s:byte(at + 1)) or s:byte(at + 1) == version
 end
 
--- The PDU at `at`: octets it takes, type (nil without a header) and fault (nil without one).
+-- The PDU at `at`: its octets, type (nil without a header) and fault (nil without one).
 local function read_pdu(s, at)
   local left = #s - at
   local version = s:byte(at + 1)
@@ -1114,7 +1114,7 @@ local function read_pdu(s, at)
   return length, type, fault_in_body(s, at, type, length)
 end
 
--- What is shown ---------------------------------------------------------------------------------
+-- Display ---------------------------------------------------------------------------------------
 
 local function add_own(tree, tvb, at, own)
   for _, row in ipairs(own.fields) do
@@ -1160,7 +1160,7 @@ local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
 local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
   peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group }
 
--- Types that Wireshark's dissector does not know: ours with their fields, others as octets.
+-- Types unknown to Wireshark's dissector: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)
   add_own(tree, tvb, at, OWN.header)
   local pdu = PDUS[type]
@@ -1191,14 +1191,14 @@ local function add_body(item, tvb, pinfo, s, at, size, type)
   if type >= FIRST_EXPERIMENTAL or not PDUS[type] then
     add_experimental(item, tvb, s, at, at + size, type)
   elseif reckon.prefs.inner and dis then
-    -- What it finds malformed it has marked in the tree by itself.
+    -- It marks malformed fields in the tree itself.
     pcall(dis.call, dis, tvb(at, size):tvb(), pinfo, item)
   end
   if type == ATTRIBUTE then add_attribute(item, tvb, s, at, at + size) end
 end
 
--- The entity that a PDU is about, as `reckon inspect` says it; of an Attribute PDU that can be read
--- the one of its only set.
+-- The subject or issuing entity of a PDU, as in `reckon inspect`. For a readable Attribute PDU with
+-- a single set, the entity of that set.
 local function id_of(s, at, size, type, rule)
   if rule == "E-VERSION" then return nil end
   local id_at = PDUS[type] and PDUS[type].id
@@ -1217,7 +1217,7 @@ local function add_fault(item, broken)
     string.format("%s at +%d: %s", broken.rule, broken.at, broken.reason))
 end
 
--- Adds one PDU and gives its words for the Info column.
+-- Adds one PDU and returns its text for the Info column.
 local function add_pdu(tree, tvb, pinfo, s, at, index, size, type, broken)
   local name = type and (PDU_NAMES[type] or "unknown_" .. type) or "unreadable"
   local id = type and id_of(s, at, size, type, broken and broken.rule)
@@ -1268,20 +1268,20 @@ local function dissect(tvb, pinfo, root)
   return tvb:len()
 end
 
--- Which datagrams are taken ---------------------------------------------------------------------
+-- Selection of datagrams ------------------------------------------------------------------------
 
 local function family_agrees(s)
   local pdu = PDUS[s:byte(3)]
   return pdu ~= nil and pdu.family == s:byte(4)
 end
 
--- On a DIS port: a version that is read, or the type and family of a PDU.
+-- On a DIS port: a supported version, or the type and family of a PDU.
 local function may_be_dis(s)
   local version = s:byte(1)
   return version >= OLDEST_VERSION and version <= NEWEST_VERSION or #s >= 4 and family_agrees(s)
 end
 
--- On any other port: all of it, and a length that the datagram holds.
+-- On any other port: both, and a length that fits into the datagram.
 local function is_dis(s)
   if #s < HEADER_SIZE or not family_agrees(s) then return false end
   local version, length = s:byte(1), u16(s, 8)
@@ -1289,7 +1289,7 @@ local function is_dis(s)
     and length >= PDUS[s:byte(3)].size
 end
 
-local before = {}  -- what had the port before
+local before = {}  -- the earlier dissector of each port
 
 function reckon.dissector(tvb, pinfo, root)
   if tvb:len() > 0 and may_be_dis(tvb:raw(0, math.min(tvb:len(), HEADER_SIZE))) then
