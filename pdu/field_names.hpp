@@ -19,10 +19,10 @@ struct FieldMeaning {
   SisoBits bits = SisoBits::none;
 };
 
-/// By the name of the field alone.
+/// Meaning of a field from its name alone.
 [[nodiscard]] FieldMeaning field_meaning(std::string_view field) noexcept;
 
-/// In a record: the same for most records.
+/// Meaning of a field in a record: from its name for most records.
 template <typename Record>
 [[nodiscard]] FieldMeaning meaning_in(const Record&, std::string_view field) noexcept {
   return field_meaning(field);

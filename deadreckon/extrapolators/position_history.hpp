@@ -26,7 +26,7 @@ struct AccelerationCutoffs {
                                     const StepLimits& limits,
                                     const AccelerationCutoffs& cutoffs) noexcept;
 
-/// With the default cut-offs.
+/// The same with the default cut-offs.
 [[nodiscard]] Pose position_history(const MotionHistory& history, double tau,
                                     const StepLimits& limits) noexcept;
 

@@ -32,8 +32,8 @@ double farthest(const Vector& a) noexcept {
   return largest(std::abs(a[0]), std::abs(a[1]), std::abs(a[2]));
 }
 
-// Body to world by the angles of DIS in wire units. Arguments by value, as everywhere here: values
-// with an address would stay in memory and cost waits.
+// Body to world by the angles of DIS in wire units. Arguments are passed by value, as everywhere
+// here: values with an address would stay in memory and wait for loads.
 Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   const double cp = std::cos(unit * angles[0]), sp = std::sin(unit * angles[0]);
   const double ct = std::cos(unit * angles[1]), st = std::sin(unit * angles[1]);

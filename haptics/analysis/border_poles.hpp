@@ -39,7 +39,7 @@ struct CircleSystem {
   [[nodiscard]] Eigen::MatrixXcd response(double angle) const;
 };
 
-/// @throws std::invalid_argument as checked(), and if the numbers of inputs and outputs differ;
+/// @throws std::invalid_argument from checked(), and if the numbers of inputs and outputs differ;
 /// std::runtime_error if eigenvalues are not found
 [[nodiscard]] CircleSystem on_unit_circle(const StateSpace& system);
 

@@ -31,7 +31,7 @@ struct StabilityReport {
 /// Judges the eigenvalues of A. If a multiple eigenvalue on the border has a full set of
 /// eigenvectors (two free masses side by side), no state grows. This is marginal, although the
 /// characteristic equation has a multiple root. @throws std::invalid_argument, std::runtime_error
-/// as poles() and checked()
+/// from poles() and checked()
 [[nodiscard]] StabilityReport judge_stability(const StateSpace& system);
 
 /// Greatest |z| of a sampled system's poles, the growth or decay factor of a state per sample. 0

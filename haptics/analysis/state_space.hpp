@@ -46,7 +46,8 @@ struct StateSpace {
 /// G at many points: one complex Schur form, then O(n^2) a point.
 class FrequencyResponse {
  public:
-  /// @throws std::invalid_argument as checked(); std::runtime_error if the Schur form is not found
+  /// @throws std::invalid_argument from checked(); std::runtime_error if the Schur form is not
+  /// found
   explicit FrequencyResponse(const StateSpace& system);
 
   /// The same value as evaluate().

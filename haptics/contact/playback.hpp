@@ -34,7 +34,7 @@ class Playback {
   /// @param closing [m/s]  @param age [s], of updates on arrival
   [[nodiscard]] static bool is_blow(double closing, double age) noexcept;
   /// Begins the playback of a blow, with a delay at which states arrive before they are shown.
-  /// Young updates need none, because a follower shows them well enough. @param age [s]
+  /// Updates of a low age need no delay, because a follower shows them well enough. @param age [s]
   void begin(double age) noexcept;
   /// Reduces the delay by `by` [s].
   void catch_up(double by) noexcept;
@@ -43,8 +43,8 @@ class Playback {
   [[nodiscard]] double behind() const noexcept { return behind_; }
 
   /// Pose `behind` [s] before `now`, from the newest state that is not later. Needs a state.
-  /// @param before [s], evaluates the same state earlier by this: for a velocity that does not mix
-  /// two states
+  /// @param before [s], evaluates the same state at a time earlier by this, for a velocity that
+  /// does not mix two states
   [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double behind,
                                       double before = 0.0) const noexcept;
 

@@ -23,7 +23,7 @@ class Softening {
   /// @param touching whether any such spring is touched
   void learn(double held, bool to_spare, bool touching, double dt) noexcept;
 
-  /// In [kLeast, 1].
+  /// The share, in [kLeast, 1].
   [[nodiscard]] double share() const noexcept { return share_; }
 
  private:

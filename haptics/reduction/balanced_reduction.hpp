@@ -27,7 +27,7 @@ class BalancedReduction {
   static constexpr double kSlowest = 1e-3;
 
   /// @param system continuous
-  /// @throws std::invalid_argument as checked(), for a sampled system, and if separating the slow
+  /// @throws std::invalid_argument from checked(), for a sampled system, and if separating the slow
   /// part from the rest needs numbers beyond 1e8. Cost: O(n^3), see order_reduction.md
   explicit BalancedReduction(StateSpace system, double slowest = kSlowest);
 

@@ -29,8 +29,8 @@ class BodyReduction {
   static constexpr Eigen::Index kMostDense = 1500;
 
   /// @param body symmetric, M > 0, D >= 0, K >= 0: checked here
-  /// @throws std::invalid_argument as checked(), for more than ModalForceModel::kMostPoints points,
-  /// and above kMostDense
+  /// @throws std::invalid_argument from checked(), for more than ModalForceModel::kMostPoints
+  /// points, and above kMostDense
   explicit BodyReduction(SecondOrderSystem body, Basis basis = Basis::krylov);
 
   /// The same from states of the body's own run, n x any number, main parts first.

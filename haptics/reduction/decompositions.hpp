@@ -14,9 +14,9 @@ struct SymmetricParts {
   Eigen::MatrixXd vectors;  ///< n x n, by column; orthonormal, or M-orthonormal
 };
 
-/// For a symmetric n x n matrix; reads its lower triangle. O(n^3).
+/// Eigenvalues of a symmetric n x n matrix; reads its lower triangle. O(n^3).
 [[nodiscard]] SymmetricParts symmetric_parts(const Eigen::MatrixXd& A);
-/// For a pencil with M > 0.
+/// The same for a pencil with M > 0.
 [[nodiscard]] SymmetricParts symmetric_parts(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M);
 
 /// A = U diag(values) V^T.
@@ -27,7 +27,7 @@ struct SingularParts {
 };
 enum class SingularSides : unsigned char { left, both };
 
-/// By divide and conquer, O(n^3).
+/// Singular values by divide and conquer, O(n^3).
 [[nodiscard]] SingularParts singular_parts(const Eigen::MatrixXd& A, SingularSides sides);
 
 }  // namespace reckon::haptics

@@ -34,8 +34,8 @@ struct Acceptance {
 /// frequency. So a damper can compensate slow activity, but not the cost of sampling a stiff
 /// spring.
 /// @param position_to_force continuous, one input, one output, minimal
-/// @throws std::invalid_argument as checked(), for a sampled or non-square system, or a device with
-/// numbers that are not > 0
+/// @throws std::invalid_argument from checked(), for a sampled or non-square system, or a device
+/// with numbers that are not > 0
 [[nodiscard]] Acceptance accepted(const StateSpace& position_to_force,
                                   const RenderingDevice& device);
 

@@ -61,7 +61,7 @@ std::size_t place_of(const Table& table, std::uint32_t value) {
   return table.count;
 }
 
-/// By domain; none beyond the list.
+/// The choice for a domain; none for a domain beyond the list.
 template <typename Choice>
 Choice by_domain(const std::array<Choice, 6>& choices, EntityDomain domain) {
   const auto i = static_cast<std::size_t>(domain);

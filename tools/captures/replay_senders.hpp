@@ -45,7 +45,7 @@ class ReplaySenders {
 
   /// Opens the socket for `to`. @throws EnvironmentError if that fails.
   void prepare(const peer::IpEndpoint& to);
-  /// False if the kernel refused it. @throws as prepare().
+  /// False if the kernel refused it. @throws EnvironmentError, see prepare().
   bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes);
   /// Number of refused datagrams above the MTU.
   [[nodiscard]] std::uint64_t too_big() const;

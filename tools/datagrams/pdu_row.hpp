@@ -24,7 +24,7 @@ namespace reckon::tools {
 /// Quality of a PDU, as in the first letter of its rule.
 enum class PduStatus : std::uint8_t { ok, note, warning, error };
 [[nodiscard]] std::string_view name(PduStatus status) noexcept;
-/// By the rule's letter: E-, W-, I-; ok for none.
+/// Status from the rule's letter: E-, W-, I-; ok without a rule.
 [[nodiscard]] PduStatus status_of(std::string_view rule) noexcept;
 
 /// One PDU in a datagram.

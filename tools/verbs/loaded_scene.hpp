@@ -24,7 +24,7 @@ struct LoadedScene {
 /// Remarks on a valid file: cells that filter nothing, and groups left out.
 [[nodiscard]] std::vector<std::string> scene_notes(const peer::SceneFile& file);
 
-/// As peers print it: 16 hexadecimal digits.
+/// The hash as peers print it: 16 hexadecimal digits.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
 }  // namespace reckon::tools

@@ -13,7 +13,7 @@ namespace reckon::tools {
 [[nodiscard]] std::optional<RuleFault> unknown_drm(const CheckedPdu& checked);
 [[nodiscard]] std::optional<RuleFault> unknown_force(const CheckedPdu& checked);
 [[nodiscard]] std::optional<RuleFault> unknown_kind(const CheckedPdu& checked);
-/// For kinds that have a name.
+/// Checks the domain only if the kind has a name.
 [[nodiscard]] std::optional<RuleFault> unknown_domain(const CheckedPdu& checked);
 /// The first value without a name among the fixed fields of a PDU, except those of the rules above.
 /// Only the first Entity State of an entity is checked.

@@ -168,8 +168,9 @@ Fault missed_heartbeat(const CheckedPdu& checked) {
   return RuleFault{0, std::move(*clause)};
 }
 
-/// A different address counts at once. The same address with another port counts only when the
-/// first port returns, because a restarted program has a new port too.
+/// Whether two senders use one entity. A different address counts at once. The same address with
+/// another port counts only when the first port returns, because a restarted program has a new port
+/// too.
 bool is_duplicate(const EntityMemory& memory, const peer::IpEndpoint& sender) {
   if (memory.reported_duplicate || sender == memory.sender) return false;
   return sender.octets != memory.sender.octets || sender == memory.earlier_sender;

@@ -49,7 +49,7 @@ struct CaptureSurvey {
   static constexpr std::size_t kMostEntities = 65536;
 
   void add(const HeldPdu& pdu);
-  /// From the first to the last PDU.
+  /// Time from the first to the last PDU [s].
   [[nodiscard]] double seconds() const;
 };
 
@@ -99,14 +99,14 @@ class CaptureDifference {
   [[nodiscard]] std::uint64_t moved() const { return moved_; }
   [[nodiscard]] std::uint64_t count_only_a() const { return only_a_.size() + beyond_a_; }
   [[nodiscard]] std::uint64_t count_only_b() const { return only_b_.size() + beyond_b_; }
-  /// In order, at most kMostPending.
+  /// PDUs of one capture only, in order, at most kMostPending.
   [[nodiscard]] std::vector<PduPlace> only_a() const { return in_order(only_a_); }
   [[nodiscard]] std::vector<PduPlace> only_b() const { return in_order(only_b_); }
   [[nodiscard]] const std::optional<PduPair>& first_changed() const { return first_changed_; }
   [[nodiscard]] const std::optional<PduPair>& first_moved() const { return first_moved_; }
   [[nodiscard]] const std::map<std::string, ChangedField>& fields() const { return fields_; }
 
-  /// Of B's times against A's; no value if no PDU is in both.
+  /// Shift of B's times against A's; no value if no PDU is in both.
   [[nodiscard]] const std::optional<std::chrono::nanoseconds>& shift() const { return shift_; }
   /// Differences between the arrivals of the same PDU, less the shift [s].
   [[nodiscard]] const peer::ErrorHistogram& times() const { return times_; }
