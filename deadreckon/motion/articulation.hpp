@@ -36,8 +36,7 @@ struct PartParameter {
   std::uint32_t part = 0;         ///< Class of the part, SISO UID 59, without the metric.
   std::uint16_t attached_to = 0;  ///< 0 = the entity itself, else a part.
   PartMetric metric = PartMetric::azimuth;
-  std::uint8_t change = 0;  ///< Change indicator of the wire: number of changes; 255 is followed by
-                            ///< 1.
+  std::uint8_t change = 0;  ///< Wire's change indicator: number of changes; 1 follows 255.
   double value = 0;         ///< Unit according to the metric.
   double rate = 0;          ///< In this unit a second.
 };

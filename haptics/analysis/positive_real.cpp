@@ -24,8 +24,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-11;
 constexpr int kRounds = 20;
 constexpr int kGrid = 16;
-constexpr double kPressed = 0.2;  // sine of an angle below which the map's resolution does not
-                                  // suffice
+constexpr double kPressed = 0.2;  // sine of an angle; the map's resolution is too low below it
 
 struct Sample {
   double angle = 0.0;  // or frequency

@@ -8,8 +8,7 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kBlowSpeed = 0.15;      // [m/s]; a slower approach is a press
-constexpr double kBlowDepth = 0.008;     // [m], within the age: at this depth a slow approach
-                                         // strikes too
+constexpr double kBlowDepth = 0.008;     // [m], within the age; a slow approach strikes too
 constexpr double kTrusted = 0.07;        // [s], validity of an acceleration
 constexpr double kTrustedFaster = 0.03;  // [s], validity of one that raises the speed
 constexpr double kSlowest = 0.05;        // [m/s]

@@ -15,14 +15,13 @@ using std::chrono::nanoseconds;
 
 constexpr double kEngageMargin = 0.005;  // [m], a hand within this distance exchanges energy
 constexpr double kNearAge = 0.018;       // [s], with a lower delay a shortage is shared
-constexpr double kSpareShare = 0.001;    // [J], beyond the greatest need of a contact: passed on,
-                                         // or lost
-constexpr double kDeepestGuess = 0.75;   // of the reach, for extrapolation alone
-constexpr double kCalmRate = 200.0;      // [N/s], for a surface that is not where it is shown
-constexpr double kLetGoRate = 400.0;     // [N/s], for a surface that is elsewhere
-constexpr double kShallow = 0.001;       // [m], below which a change of a spring is hardly felt
-constexpr double kReshape = 0.1;         // [s], time constant of a change of the spring
-constexpr double kReshaped = 0.3;        // [s], after which the old spring has gone
+constexpr double kSpareShare = 0.001;   // [J], beyond a contact's greatest need: passed on, or lost
+constexpr double kDeepestGuess = 0.75;  // of the reach, for extrapolation alone
+constexpr double kCalmRate = 200.0;     // [N/s], for a surface that is not where it is shown
+constexpr double kLetGoRate = 400.0;    // [N/s], for a surface that is elsewhere
+constexpr double kShallow = 0.001;      // [m], below which a change of a spring is hardly felt
+constexpr double kReshape = 0.1;        // [s], time constant of a change of the spring
+constexpr double kReshaped = 0.3;       // [s], after which the old spring has gone
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

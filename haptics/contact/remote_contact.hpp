@@ -140,8 +140,7 @@ class RemoteContact {
   void fade_to(double gain) noexcept;
   [[nodiscard]] bool let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours relative to
-                                                                               // it [m/s]
+  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // of our hand [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
@@ -149,8 +148,7 @@ class RemoteContact {
   SurfaceTracker tracker_;
   Blow blow_;
   deadreckon::Pose pose_;
-  ContactParameters full_;                                  // of the present prediction, gain =
-                                                            // fade_
+  ContactParameters full_;                                  // predicted now, gain = fade_
   ContactPlace before_;                                     // of the same record one step ago
   ContactGeometry there_;                                   // of full_, at our hand
   Eigen::Vector3d stated_point_ = Eigen::Vector3d::Zero();  // place stated by the owner [m]

@@ -107,9 +107,7 @@ void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& l
   const double size = wanted.norm();
   const double spring = force_.norm();
   if (!(size > 0) || !std::isfinite(size)) return;
-  if (result_.in_contact && !(spring > 0))
-    return;  // without a spring force a pull cannot be
-             // recognised
+  if (result_.in_contact && !(spring > 0)) return;  // a pull cannot be recognised
 
   const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
   extra_ = along < 0 ? Eigen::Vector3d(std::min(1.0, spring / -along) * wanted) : wanted;

@@ -80,8 +80,7 @@ struct ContactAccount {
   double depth = 0.0;        ///< [m], at the gate's own parameters; <= 0 outside
   Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< [N], spring on our hand, as rendered
   Eigen::Vector3d damper_force = Eigen::Vector3d::Zero();  ///< [N], besides it, as rendered
-  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();   ///< [N], with enough energy, without
-                                                           ///< other contacts
+  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();   ///< [N], with enough energy, alone
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], of the record as received
   double stiffness_limit = 0.0;  ///< [N/m], greatest stiffness at which its spring is shown
   bool refused = false;          ///< its record has values that no servo can show
@@ -113,8 +112,7 @@ struct ServoSnapshot : AccountList {
                                                                   ///< outside the objects
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s], of the SCP, filtered
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();         ///< [m/s^2], of the SCP, filtered
-  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();      ///< [m/s], from the device, else
-                                                                  ///< filtered
+  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();      ///< [m/s], measured or filtered
   Eigen::Vector3d device_acceleration = Eigen::Vector3d::Zero();  ///< [m/s^2], filtered
   Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< [N], total written to the device
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
@@ -127,14 +125,12 @@ struct ServoSnapshot : AccountList {
   bool in_mesh_contact = false;
   bool enabled = false;      ///< operator switch held and no trip pending
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
-  double port_energy = 0.0;  ///< [J], absorbed from the hand + guaranteed damping + received -
-                             ///< given
+  double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
   /// [J], least value of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
   double port_energy_min = 0.0;
   /// [J], greatest error of port_energy above the truth from encoder steps; 0 without them.
   double encoder_allowance = 0.0;
-  double loan = 0.0;         ///< [J], loan not yet paid back, see exchange_energy(); <=
-                             ///< kGreatestLoan
+  double loan = 0.0;         ///< [J], debt, see exchange_energy(); <= kGreatestLoan
   double loan_most = 0.0;    ///< [J], greatest loan so far
   double mesh_ledger = 0.0;  ///< [J]
   /// Share of the stiffness of remote hands and bodies that the device can show, limited by energy,
@@ -150,8 +146,7 @@ struct ServoConfig {
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
-  double contact_radius = 0.0;  ///< [m], of the probe against the static scene; 0 to 1, 0 is a
-                                ///< point
+  double contact_radius = 0.0;  ///< [m], of the probe against the static scene; 0 (a point) to 1
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
   /// [N/s], limit for growth and rotation of the force; its decrease is free. At most, and by
   /// default, the rate of the stiffest surface that the device can hold at 1 m/s.

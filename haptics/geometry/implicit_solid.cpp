@@ -18,8 +18,7 @@ using Eigen::Vector3d;
 constexpr double kLeastClearance = 4e-10;     // [m]
 constexpr double kImplicitClearance = 1e-10;  // of the size
 constexpr double kReached = 2e-3;             // [clearances] above the stop of a sweep
-constexpr double kFloorShare = 0.5;           // of the clearance: no nearer place lets anything
-                                              // pass
+constexpr double kFloorShare = 0.5;           // of the clearance; nothing passes nearer
 constexpr double kLeastApproach = 1e-6;       // least share of a path along its obstacle's normal
 constexpr double kCutRoom = 1e-3;             // of the size, around the bounds
 constexpr double kLongestStretch = 4.0;       // [sizes], range of the search for an SCP outside

@@ -40,12 +40,10 @@ struct MeshReport {
 
   // Left unchanged.
   MeshFinding boundary_edges;         ///< edges with one triangle; any makes the surface a shell
-  std::size_t holes = 0;              ///< loops of boundary edges; 0 if there are non-manifold
-                                      ///< edges
+  std::size_t holes = 0;              ///< loops of boundary edges; 0 with non-manifold edges
   MeshFinding non_manifold_edges;     ///< edges with three or more triangles
   MeshFinding non_manifold_vertices;  ///< vertices at which surfaces meet in a point only
-  MeshFinding inconsistent_edges;     ///< edges whose two triangles ran in the same direction
-                                      ///< before turning
+  MeshFinding inconsistent_edges;     ///< two triangles ran in the same direction before turning
   std::size_t one_sided_edges = 0;    ///< edges that no turning repairs, as on a Moebius strip
 
   // Result.

@@ -263,8 +263,7 @@ class Topology {
   std::vector<SoupTriangle>& triangles_;
   MeshReport& report_;
   std::vector<std::uint32_t> neighbour_;  // of each side, kNone or kMany
-  std::vector<bool> same_way_;            // of each side: the neighbour runs along it in the same
-                                          // direction
+  std::vector<bool> same_way_;            // of each side: its neighbour has the same direction
   std::vector<std::uint32_t> fan_;        // of each corner: another of the same fan, or itself
   std::vector<bool> turned_;              // of each triangle
   std::vector<std::uint32_t> order_;      // triangles, piece by piece

@@ -33,8 +33,7 @@ struct PortLoad {
 struct PortHold {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
   double weight = 0.0;                              ///< share of `stored` that is booked
-  double walls = 1.0;                               ///< share of the walls that stays: the caller
-                                                    ///< books it
+  double walls = 1.0;                               ///< share of the walls; the caller books it
   double springs = 1.0;                             ///< share of the springs that is shown
   double extra = 1.0;                               ///< share of the extra force
 };

@@ -14,10 +14,8 @@
 
 namespace reckon::pdu {
 
-inline constexpr std::uint8_t kProtocolVersion = 7;        ///< IEEE 1278.1-2012, the version that
-                                                           ///< we send
-inline constexpr std::uint8_t kOldestProtocolVersion = 5;  ///< IEEE 1278.1-1995, the oldest that we
-                                                           ///< read
+inline constexpr std::uint8_t kProtocolVersion = 7;        ///< IEEE 1278.1-2012, for sending
+inline constexpr std::uint8_t kOldestProtocolVersion = 5;  ///< IEEE 1278.1-1995, oldest received
 inline constexpr std::size_t kHeaderSize = 12;             ///< octets
 inline constexpr std::size_t kMaxPduSize = 65535;          ///< octets, limit of the length field
 

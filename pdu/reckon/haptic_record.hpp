@@ -27,11 +27,9 @@ struct HapticRecord {
   std::uint8_t version = kVersion;
   ForceModelKind kind = ForceModelKind::none;
   std::uint8_t order = 0;         ///< order of the polynomial or of the reduced model
-  std::uint8_t flags = 0;         ///< no bit is defined in version 1; sent as 0, ignored on
-                                  ///< reception
+  std::uint8_t flags = 0;         ///< none in version 1: sent as 0, ignored on reception
   std::uint16_t surface = 0;      ///< surface id in the scene; 0 = not stated
-  std::uint16_t validity_ms = 0;  ///< the model is valid this long after the Entity State's time
-                                  ///< [ms]
+  std::uint16_t validity_ms = 0;  ///< [ms], validity after the Entity State's time
   std::uint16_t padding = 0;
   float k1 = 0.0F;       ///< linear stiffness [N/m]
   float k3 = 0.0F;       ///< cubic stiffness [N/m^3]

@@ -15,8 +15,7 @@
 namespace reckon::pdu {
 
 inline constexpr std::uint16_t kPresenceInterop = 0x0001;   ///< sends plain DIS without trailers
-inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last announcement of a peer that
-                                                            ///< stops
+inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last announcement before a stop
 inline constexpr std::uint16_t kPresenceHaptic = 0x0004;    ///< has at least one haptic entity
 inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entities
 /// Has held its simulation address for two seconds and keeps it against newcomers.

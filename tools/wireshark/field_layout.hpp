@@ -36,8 +36,7 @@ struct FieldPlace {
 struct BlockPlace {
   std::string kind;  ///< records, datums, octets, bits, attribute_sets, rest, other
   std::string name;
-  FieldPlace count;                ///< the field with its number of records; without a size if
-                                   ///< there is none
+  FieldPlace count;                ///< field of the number of records; no size if none
   std::size_t size = 0;            ///< octets of one record of `records`
   std::vector<FieldPlace> fields;  ///< of one record of `records`; empty if its layout varies
 };

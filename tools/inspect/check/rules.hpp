@@ -30,8 +30,7 @@ struct EntityMemory {
   bool haptic = false;  ///< has had a force model: its heartbeat is 5 s
   bool gone = false;    ///< deactivated: silence is no fault
   bool out_of_tolerance = false;
-  std::uint8_t contradictions = 0;  ///< updates in a row with contradictory velocity and
-                                    ///< displacement
+  std::uint8_t contradictions = 0;  ///< contradictory updates in a row
   std::chrono::nanoseconds first_time{};
   std::uint32_t first_timestamp = 0;
   std::chrono::nanoseconds time{};  ///< arrival

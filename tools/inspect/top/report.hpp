@@ -25,8 +25,7 @@ struct TopData {
   TrafficTotals totals;
   TrailerLoss loss;
   std::bitset<256> exercises;
-  std::array<std::uint64_t, 17> bundle_sizes{};      ///< datagrams by number of PDUs; the last: 16
-                                                     ///< and more
+  std::array<std::uint64_t, 17> bundle_sizes{};      ///< by number of PDUs; last: 16 and more
   std::map<std::string_view, std::uint64_t> faults;  ///< PDUs by the rule that they break
   std::uint64_t dropped = 0;                         ///< by the kernel, before reception
   std::chrono::nanoseconds now{};  ///< reference time of ages; in a file that of the last datagram
