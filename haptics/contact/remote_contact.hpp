@@ -140,7 +140,7 @@ class RemoteContact {
   void fade_to(double gain) noexcept;
   [[nodiscard]] bool let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // of our hand [m/s]
+  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to its [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;

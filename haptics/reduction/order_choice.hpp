@@ -19,7 +19,7 @@ namespace reckon::haptics {
 /// Motions for judging models: sinusoids of any frequency up to a band limit.
 struct InputRange {
   double amplitude = 3e-3;  ///< of each input, in its unit: [m] for a probe; > 0
-  double band_hz = 30.0;    ///< highest frequency; hands move below 10 Hz, feel up to 300 Hz
+  double band_hz = 30.0;    ///< highest frequency; hands move below 10 Hz, feel to some 300 Hz
 };
 
 /// The chosen model, and the error of its force against the full model's.
