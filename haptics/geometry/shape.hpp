@@ -81,7 +81,7 @@ struct MeshShape {
   std::filesystem::path file;  ///< path to open; a scene reader resolves it against the scene file
   double scale_to = 0.0;  ///< bounding-box diagonal after uniform scaling [m]; 0 keeps the file's
                           ///< coordinates as metres
-  bool centre = false;  ///< moves the centre of the bounding box to the object's origin
+  bool centre = false;    ///< moves the centre of the bounding box to the object's origin
 };
 
 using Shape = std::variant<PlaneShape, SphereShape, BoxShape, MeshShape, CylinderShape, ConeShape,
