@@ -12,7 +12,7 @@ using std::chrono::nanoseconds;
 
 namespace {
 
-// What stands still is said again to our own hands, whose record of it would expire.
+// A resting body is repeated to our own hands, whose record of it would expire.
 constexpr std::chrono::seconds kRefresh{1};
 
 }  // namespace
@@ -46,8 +46,7 @@ double PortlessBody::answer(const OwnedEntity& entity, EnergyBooks& books, nanos
       if (share > 0.0) ++version_;
     }
     pair.unanswered = false;
-    if (account_count_ < accounts_.size())
-      accounts_[account_count_++] = {pair.other, pair.we_gave};
+    if (account_count_ < accounts_.size()) accounts_[account_count_++] = {pair.other, pair.we_gave};
   }
   return given;
 }
