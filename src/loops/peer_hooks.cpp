@@ -15,7 +15,7 @@ namespace {
 
 bool always(const SceneFile&) { return true; }
 
-// Keeps the channels within what this peer can take.
+// Keeps the channels within the budget of this peer.
 PeerHooks channels(const ModelWiring& wiring) {
   const auto keeper = std::make_shared<ChannelKeeper>(wiring.scene.aoim.awareness);
   return {.look = [keeper](const WatchedPeer& peer) {
@@ -48,13 +48,9 @@ struct HookRow {
   PeerHooks (*make)(const ModelWiring& wiring);
 };
 
-// THE list, in the order in which they are called.
-// clang-format off
+// The list, in the order of the calls. clang-format off
 constexpr HookRow kRows[]{
-    {always, channels},
-    {always, known_sources},
-    {always, limits},
-    {always, link}};
+    {always, channels}, {always, known_sources}, {always, limits}, {always, link}};
 // clang-format on
 
 template <typename Hook>
