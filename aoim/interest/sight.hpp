@@ -17,7 +17,7 @@ namespace reckon::aoim {
 /// A beacon that we follow.
 struct FollowedBeacon {
   std::uint32_t tag = 0;
-  bool found = false;                ///< in the map of groups; else `cell` is where it was last
+  bool found = false;                ///< in the map of groups; else `cell` is its last cell
   CellId cell;                       ///< of the tile at the origin; its number counts
   GroupIndex group;                  ///< used for its cell's traffic; the base group if it has none
   GroupIndex number;                 ///< of its cell in the subscription; 0: not subscribed

@@ -24,8 +24,8 @@ namespace reckon::aoim {
 /// whole content once a second (IntroductionBudget): new snapshots and missing parts wait for that.
 class SnapshotServer {
  public:
-  /// States of one part [octets]: with its head and the datagram's trailer it fits where eight bare
-  /// Entity States do.
+  /// States of one part [octets]: with its head and the datagram's trailer it fits a datagram that
+  /// has room for eight bare Entity States.
   static constexpr std::size_t kMostOctets = 1216;
   static constexpr std::size_t kMostParts = 4096;
 

@@ -9,7 +9,7 @@
 namespace reckon::aoim {
 namespace {
 
-// A contact group is joined when this many times nearer than where it is left.
+// A contact group is joined at a distance smaller by this factor than the one at which it is left.
 constexpr double kContactLeave = 2.0;
 
 SubscriptionConfig subscription_of(const TierTable& tiers, std::size_t tier,

@@ -22,7 +22,7 @@
 
 namespace reckon::peer {
 
-/// One thread; allocates at set-up, and where entities with beacons are new.
+/// One thread; allocates at set-up, and when entities with beacons are new.
 class Subscriber {
  public:
   /// References outlive this.

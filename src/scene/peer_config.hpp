@@ -67,7 +67,7 @@ struct OperatorConfig {
   std::optional<Eigen::AlignedBox3d> fit_to = {};
   double speed = 1.0;                 ///< kind trace: 2 plays twice as fast; > 0
   std::chrono::nanoseconds begin{0};  ///< kind trace: start within the recording, >= 0
-  /// [m] S, kind trace: first position relative to the start of the recording, where it arrives at
+  /// [m] S, kind trace: offset of its first position from the point of `begin`, which it reaches at
   /// `start`.
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S: passive: held point; trace: added

@@ -82,7 +82,7 @@ struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
 
   std::chrono::nanoseconds time{0};
-  pdu::EntityId own;      ///< first entity of this peer; entity 0 where it has none
+  pdu::EntityId own;      ///< first entity of this peer; entity 0 if it has none
   std::size_t owned = 0;  ///< entities of this peer
   /// When the entities on tracks started; negative: not yet.
   std::chrono::nanoseconds set_out{-1};
@@ -100,7 +100,7 @@ struct PeerView {
   std::size_t count = 0;
   std::array<EntityView, kRows> rows{};  ///< in the order of their IDs
 
-  /// Of the first hand; all zero where there is none.
+  /// Of the first hand; all zero if there is none.
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return hands[0].servo; }
   [[nodiscard]] std::span<const HandView> own_hands() const noexcept {
     return {hands.data(), hand_count};

@@ -24,7 +24,7 @@ struct Sight {
 class SightWatch {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// Least time, and below it the longest, before a moving entity is checked again.
+  /// Least and longest time before a moving entity is checked again.
   static constexpr Nanoseconds kSoonest = std::chrono::milliseconds(100);
   static constexpr Nanoseconds kLatest = std::chrono::seconds(1);
   /// [m/s] by which an entity may exceed its stated speed before a check is late.

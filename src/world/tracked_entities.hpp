@@ -52,7 +52,7 @@ class TrackedEntities {
   /// The first call of advance(), with which the tracks begin; negative before it.
   [[nodiscard]] std::chrono::nanoseconds begun() const noexcept { return begun_; }
 
-  /// When advance() has something to do; max where there is nothing.
+  /// When advance() has something to do; max if it has nothing.
   [[nodiscard]] std::chrono::nanoseconds next_due() const noexcept {
     return tracks_.empty() ? kNever : next_;
   }
