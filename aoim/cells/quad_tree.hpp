@@ -21,7 +21,7 @@ namespace reckon::aoim {
 
 /// The square to divide, and the depth.
 struct QuadTreeConfig {
-  Position centre;                  ///< of the square [m]; height plays no part
+  Position centre;                  ///< of the square [m]; height has no effect
   double side = 25'600.0;           ///< of the square [m], > 0
   std::uint8_t depth = 10;          ///< most quarterings of one place, 0 .. 15
   std::size_t pool = kDefaultPool;  ///< G: most cells, 1 .. 1,000

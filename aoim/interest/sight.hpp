@@ -68,7 +68,7 @@ class Sight {
   [[nodiscard]] std::span<const FollowedBeacon> followed() const noexcept { return followed_; }
   /// Looks for each of them: `find(tag)` returns its row in a map of groups, like a pdu::CellGroup
   /// with column, row and group, or none. The last cell of a beacon that is not found stays
-  /// subscribed for a time, because its owner or the map may only be unreceived.
+  /// subscribed for a time, because only an update of its owner or of the map may have been lost.
   /// @return numbers of the cells in which they are
   template <typename Find>
   std::span<const GroupIndex> follow(std::chrono::nanoseconds now,

@@ -67,7 +67,8 @@ void CellLeadership::receive(const pdu::CellRole& role, std::uint32_t sender, na
   const bool leads = (role.flags & pdu::kRoleLeads) != 0;
   if ((role.flags & pdu::kRoleLeaves) != 0) {
     cell->other_led |= leads;
-    // A leader that leaves as we enter may name us before we have received its claim.
+    // A leader may leave as we enter. Its farewell can then arrive before we have received its
+    // claim.
     const bool led = cell->leader.epoch == sender || (leads && cell->leader.epoch == 0);
     return hear_farewell(*cell, sender, led, role.successor, now);
   }
@@ -114,7 +115,8 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
   if (is_new) tell(cell, led);
 }
 
-// The successor leads at once; the others wait for it as for a leader that was just received.
+// The successor leads at once. The others wait for its claim as long as for that of a leader just
+// received.
 void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
                                    std::uint32_t successor, nanoseconds now) {
   std::erase_if(cell.members, [sender](const Member& m) { return m.epoch == sender; });
@@ -178,7 +180,8 @@ std::uint32_t CellLeadership::successor_of(const Cell& cell, nanoseconds now) co
   return oldest == nullptr ? 0 : oldest->epoch;
 }
 
-// After a pause this long another peer leads: this one listens before it claims the lead.
+// After a pause of this peer that was this long, another one leads: it listens before it claims the
+// lead.
 void CellLeadership::wake(nanoseconds now) {
   for (Cell& cell : cells_) {
     const bool led = cell.leader.epoch == epoch_;

@@ -80,7 +80,7 @@ class CellLeadership {
   struct Member {
     std::uint32_t epoch = 0;
     std::uint64_t entered = 0;
-    Nanoseconds heard{}, since{};  ///< last and first
+    Nanoseconds heard{}, since{};  ///< last and first reception
   };
   struct Leader {
     std::uint32_t epoch = 0, successor = 0;

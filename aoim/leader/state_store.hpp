@@ -45,7 +45,8 @@ class StateStore {
                    std::span<const std::byte> octets, std::chrono::nanoseconds heard);
   /// Removes all entities of this epoch, which has ended.
   void forget(std::uint32_t epoch);
-  /// Removes an entity of this epoch, which is elsewhere; does nothing if another epoch has it.
+  /// Removes an entity of this epoch that has moved to a group that we have not joined; does
+  /// nothing if another epoch has it.
   void forget(std::uint32_t epoch, const pdu::EntityId& entity);
   /// Removes the entities of a group that was left.
   void forget(GroupIndex group);

@@ -58,7 +58,7 @@ void TierSubscriptions::note(const SubscriptionChange& groups) noexcept {
   for (const GroupIndex group : groups.leave) set(group, false);
 }
 
-// The foci with the reach of the tier, if that is shorter than their own.
+// The foci with the radius of the tier, which may be larger or smaller than theirs.
 std::span<const Focus> TierSubscriptions::reach_of(std::size_t tier, std::span<const Focus> foci) {
   const bool is_wide = tier == kCellTier && farthest_nimbus_ > 0.0;
   if (!is_wide && !tiers_.is_near(tier)) return foci;

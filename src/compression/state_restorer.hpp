@@ -17,8 +17,8 @@
 
 namespace reckon::peer {
 
-/// Sender of a datagram's content. Key states are only states of an epoch's own entities, and only
-/// for states that the same epoch sends.
+/// Sender of a datagram's content. Only a state of an epoch's own entity is a key state, and only
+/// states of the same epoch may depend on it.
 struct KeySpeaker {
   pdu::SimulationAddress simulation;  ///< whose entities are its own
   std::uint32_t epoch = 0;            ///< 0: it is no peer, and has no key states
@@ -40,7 +40,7 @@ enum class RestoreVerdict : std::uint8_t {
 /// All entities of others. One thread, never throws. Allocates for a new entity, 0.6 KiB each in
 /// scenes of the residual form, up to `capacity` of them. Then an entity of the host (address) with
 /// the most is removed and awaits a key state, so that a host that invents entities displaces none
-/// of another.
+/// of another host.
 ///
 /// Key states are kept by entity, epoch and address, so a state from any other sender is none,
 /// whatever its octets are. An epoch that continues from another address keeps its key states. One

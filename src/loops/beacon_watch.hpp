@@ -27,7 +27,7 @@ class BeaconWatch {
   /// @param follow names, as for beacon_names
   explicit BeaconWatch(std::string_view follow);
 
-  /// An entity of ours gets a beacon of this name; it is removed.
+  /// Adds the beacon of an entity of ours, or removes it.
   void add(EntityNumber number, std::string_view name);
   void remove(EntityNumber number) noexcept;
   /// Calls visit(EntityNumber, tag) for each of ours.

@@ -18,7 +18,7 @@ constexpr std::size_t kMostTaken = 512;  // datagrams taken in a step, some 1 ms
 // Datagrams examined at a time for overtaken states, and the same after nearly all were overtaken:
 // as many large ones as the ring holds.
 constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
-constexpr std::size_t kMostSeen = 4096;  // with those that are wholly overtaken, some 1 ms more
+constexpr std::size_t kMostSeen = 4096;  // the same with wholly overtaken ones, some 1 ms more
 constexpr std::size_t kBacklog = 16;     // fewer pending datagrams are no backlog
 
 // Forms in which a state may be a key state of others.

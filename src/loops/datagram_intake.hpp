@@ -73,7 +73,7 @@ class DatagramIntake {
   ModelCounters& counted_;
   DatagramDecoder decoder_;
   OvertakenStates overtaken_;
-  std::vector<QueuedDatagram> queued_;     // taken at a time
+  std::vector<QueuedDatagram> queued_;     // datagrams taken at a time
   std::vector<ArrivedDatagram> admitted_;  // those of queued_ that are read
   bool looks_far_ = false;                 // nearly all pending datagrams were overtaken
 };

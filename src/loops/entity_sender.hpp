@@ -49,7 +49,7 @@ class EntitySender {
                 std::span<const deadreckon::ProbeState> probes = {},
                 std::span<const EnergyAccount> accounts = {}) noexcept;
 
-  /// Sends it without a decision.
+  /// Sends it regardless of its predictors.
   bool send(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at, const Dispatch& how,
             std::span<const EnergyAccount> accounts = {}) noexcept;
 

@@ -52,7 +52,7 @@ class NetworkReadLoop {
                   DatagramTap* tap = nullptr, std::optional<FeltRing> felt = {});
 
   /// Carries out joins and leaves, then takes arrived datagrams until the ring is full. Returns the
-  /// number put there: the model loop need not wake for others. A failed join is repeated each
+  /// number put there: the model loop has to wake only for these. A failed join is repeated each
   /// second, the base group first.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended because the ring was full: then wait for the model loop, not for

@@ -14,10 +14,10 @@ namespace reckon::peer {
 /// Subject of a notice, for readers that collect those of one kind.
 enum class NoticeKind : std::uint8_t {
   other,         ///< anything else
-  joined,        ///< a peer came
+  joined,        ///< a peer appeared
   started_anew,  ///< a peer restarted
   left,          ///< a peer sent a farewell
-  silent,        ///< a peer is lost
+  silent,        ///< a peer was silent for too long
   other_scene,   ///< a peer was not joined, because it runs another scene
   quiet,         ///< nothing is received from a peer at present
   unheard,       ///< a peer does not receive this one

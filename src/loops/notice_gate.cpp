@@ -23,7 +23,7 @@ bool take_line(nanoseconds& free_at, int at_once, nanoseconds now) noexcept {
   return true;
 }
 
-// Such an event concerns a peer that came before, if it was received for long.
+// Whether the event is about a member: a peer that came before and was received for long.
 bool is_of_member(const aoim::PresenceEvent& event) noexcept {
   switch (event.kind) {
     case PresenceEventKind::newcomer:

@@ -48,7 +48,7 @@ class NoticeGate {
   using Octets = decltype(aoim::SourceAddress::octets);
   struct Host {
     Octets address{};
-    Nanoseconds last{Nanoseconds::min() / 2};       // time of its last notice
+    Nanoseconds last{Nanoseconds::min() / 2};       // last time that it caused a notice
     Nanoseconds strangers{Nanoseconds::min() / 2};  // when their reserve of lines is full again
     Nanoseconds members{Nanoseconds::min() / 2};    // the same for members
     std::uint64_t left_out = 0;

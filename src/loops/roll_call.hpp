@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Finds the present peers of a scene for several peers before this one joins, and a free number of
-// the scene for it. Two peers that start at the same instant get different numbers.
+// Before a peer joins a scene made for several peers, finds those that are present and a free peer
+// number. Two peers that start at the same instant get different numbers.
 #pragma once
 
 #include <chrono>

@@ -45,7 +45,7 @@ SenderBudget::Known* SenderBudget::find_known(const IpEndpoint& who, std::uint64
   return nullptr;
 }
 
-// The count and muting of this source continue where it is counted from now on.
+// Removes the source from its entry, so that its count and muting move to a new one.
 SenderBudget::Source SenderBudget::take_out(const IpEndpoint& who) noexcept {
   for (Source& source : sources_[hash_of(who) % kSets]) {
     if (source.window >= nanoseconds(0) && source.who == who) return std::exchange(source, {});

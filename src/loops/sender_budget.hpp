@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Limits the datagrams that are read of one sender: a flooding one is muted, so that the others are
-// received. By source address, which a hostile host may forge. A member has a separate share that
-// no other process of its host can use up.
+// received. The source address identifies a sender, and a hostile host may forge it. A member has a
+// separate share that no other process of its host can use up.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct MutedSender {
   std::uint64_t dropped = 0;  ///< datagrams dropped while it was muted
 };
 
-/// Source addresses of members: announced and received epochs.
+/// Source addresses of members, which are peers that have announced themselves and are received.
 struct KnownSources {
   static constexpr std::size_t kMost = 1024;
   std::array<IpEndpoint, kMost> sources{};  ///< ascending, none twice
@@ -96,7 +96,7 @@ class SenderBudget {
   haptics::SpscRing<MutedSender>& out_;
   std::array<std::array<Source, kWays>, kSets> sources_{};
   std::array<Known, KnownSources::kMost> known_{};
-  std::array<Known, KnownSources::kMost> before_{};  // of know() alone
+  std::array<Known, KnownSources::kMost> before_{};  // used only by know()
   std::array<std::uint16_t, kSlots> slots_{};        // place in known_ + 1, by hash; 0: free
   std::size_t known_count_ = 0;
   std::size_t muted_ = 0;

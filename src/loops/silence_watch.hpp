@@ -31,8 +31,8 @@ class SilenceWatch {
  public:
   /// A peer announces itself each second: it is doubted after two lost announcements.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::milliseconds(2500);
-  /// The owner of a touched hand sends each 60 ms: ten of these are lost. An owner that was silent
-  /// before the touch began may not know of it yet: it has twice the time from then on.
+  /// The owner of a touched hand sends every 60 ms, so ten updates were lost by then. An owner that
+  /// was silent before the touch began may not know of it yet: it has twice the time from then on.
   static constexpr std::chrono::nanoseconds kContactPatience = std::chrono::milliseconds(650);
   /// A longer gap [ns] between two looks shows that this peer itself was suspended: others are not
   /// silent then.

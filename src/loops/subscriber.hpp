@@ -31,7 +31,7 @@ class Subscriber {
 
   /// Records that an entity of ours was moved, added or removed.
   void note_moved() noexcept { moved_ = true; }
-  /// An entity of ours gets a beacon of this name; it is removed.
+  /// Adds the beacon of an entity of ours, or removes it.
   void add_beacon(EntityNumber number, std::string_view name) { beacon_watch_.add(number, name); }
   void remove_beacon(EntityNumber number) noexcept { beacon_watch_.remove(number); }
 

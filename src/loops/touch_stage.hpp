@@ -62,7 +62,7 @@ class TouchStage {
   bool read_hands() noexcept;
   /// Gives hands the energy that they request of bodies.
   void answer_bodies(const Pass& pass) noexcept;
-  /// Finds what hands and moving bodies can touch; call it after both.
+  /// Finds what hands and moving bodies can touch. Call it after read_hands() and answer_bodies().
   void find_near(const Pass& pass) noexcept;
   /// Sends due updates of hands and moving bodies, and impacts.
   void consider(const Pass& pass) noexcept;

@@ -146,7 +146,7 @@ void UdpReceiver::count_drops(UdpSlot& slot, std::uint32_t drops) noexcept {
   tap_.note_drops(slot.group, more);
 }
 
-// Discards the rest of it; a tap receives the reason.
+// Discards the rest of a run; a tap receives the reason.
 void UdpReceiver::pass_over(Arrived& run, const std::byte* start, DatagramFate fate) noexcept {
   for (; tap_.is_on() && run.left > 0; --run.left) {
     const std::size_t length = std::min(run.segment, run.length - run.taken);

@@ -13,8 +13,8 @@ namespace reckon::peer {
 /// Fills the octets with random ones; false if it cannot.
 using RandomSource = bool (*)(std::span<std::byte>) noexcept;
 
-/// The kernel's, getrandom(2), combined with RDRAND if the CPU has it: two copies of one machine
-/// may get the same octets from their kernels for a time. 1 us.
+/// Octets of the kernel's random source, getrandom(2), combined with RDRAND if the CPU has it: two
+/// copies of one machine may get the same octets from their kernels for a time. 1 us.
 [[nodiscard]] bool system_random(std::span<std::byte> out) noexcept;
 
 /// The random source has failed, and an exercise cannot be sealed without it. An error of neither

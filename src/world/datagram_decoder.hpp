@@ -28,7 +28,7 @@ struct Inbound {
     stop_freeze,
     start_resume,
     other,
-    claim,  ///< state of an entity from a sender that cannot own it; only its owner is of use
+    claim,  ///< a state from a sender that cannot own its entity; only `entity` is set
   };
   /// Most entities of ours that a remote one can touch at a time; further ones are counted.
   static constexpr std::size_t kAccounts = 8;
@@ -42,7 +42,7 @@ struct Inbound {
   pdu::HapticRecord model;
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
   std::size_t account_count = 0;
-  std::uint8_t accounts_told = 0;  ///< of all accounts, including those that name others
+  std::uint8_t accounts_told = 0;  ///< number of all accounts, also of those that name others
   pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
 };
 
@@ -70,7 +70,7 @@ class DatagramDecoder {
   void leave_out(std::size_t overtaken, bool trailer) noexcept;
 
  private:
-  static constexpr std::size_t kMaxUpdates = 128;  // 9 to 40 PDUs fit a bundle below the MTU
+  static constexpr std::size_t kMaxUpdates = 128;  // a bundle below the MTU has 9 to 40 PDUs
 
   void take_pdu(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
   void take_plain(std::span<const std::byte> bytes) noexcept;
@@ -92,7 +92,7 @@ class DatagramDecoder {
   std::size_t count_ = 0;
 
   StateRestorer restorer_;
-  KeySpeaker speaker_;  // of the datagram at hand
+  KeySpeaker speaker_;  // of the present datagram
   Counter& pdus_;
   Counter& malformed_;
   Counter& foreign_;

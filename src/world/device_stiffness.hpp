@@ -22,9 +22,10 @@ struct DeviceStiffness {
   double walls_asked = 0.0;   ///< stiffest object of the scene, all its springs; 0: none
   double walls = kNoLimit;    ///< stiffest wall that is felt with it
   double hand_asked = 0.0;    ///< k1 of a hand of the scene
-  double hand_k3 = 0.0;       ///< [N/m^3] of a hand of the scene
-  double hand_damping = 0.0;  ///< [N s/m] of a hand of the scene
-  double hands = kNoLimit;    ///< stiffest hand without a damper; its own is no stiffer to others
+  double hand_k3 = 0.0;       ///< k3 [N/m^3] of a hand of the scene
+  double hand_damping = 0.0;  ///< damping [N s/m] of a hand of the scene
+  double hands =
+      kNoLimit;  ///< stiffest hand without a damper that is felt, and that others feel of its own
   double bodies = kNoLimit;   ///< stiffest entity without a hand, without a damper
   double force = kNoLimit;    ///< [N], largest force
   double damping = kNoLimit;  ///< [N s/m], of the device itself

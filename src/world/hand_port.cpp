@@ -20,8 +20,9 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 // hands of 0.1 kg over 500 N/m ring at 16 Hz, above it they lag behind a common motion;
 // docs/measurements/touch.md has the table.
 constexpr double kContactSmoothing = 0.05;
-// Half of it if a hand slides over another at this speed [m/s], a third at twice as much: its
-// motion along the normal then comes from the shape that it slides over, not from the spring.
+// The time constant is halved for a hand that slides over another at this speed [m/s], and divided
+// by three at twice the speed: its motion along the normal then comes from the shape that it slides
+// over, not from the spring.
 constexpr double kSliding = 0.01;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo

@@ -87,8 +87,9 @@ class NearBodies {
   struct Rank {
     Party party;
     bool weak = false, far = false, fresh = false;
-    std::uint8_t of_sender = 0, of_host = 0;  // number of them before it
-    std::uint64_t shallow = 0;                // smaller if deeper
+    std::uint8_t of_sender = 0,
+                 of_host = 0;   // number of its sender's and its host's bodies before it
+    std::uint64_t shallow = 0;  // smaller if deeper
   };
   // Sort key of bodies: the first value that differs decides.
   struct Key {

@@ -13,15 +13,16 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::size_t kEntitiesPerDatagram = 8;  // average room in the table
+constexpr std::size_t kEntitiesPerDatagram = 8;  // average number for which the table has room
 constexpr std::size_t kPlacesTried = 16;         // beyond them a state is taken as it is
 constexpr std::int32_t kSecond = pdu::kTimestampUnitsPerHour / 3600;
 
-// In an Entity State PDU (IEEE 1278.1-2012 7.2.2).
+// Offsets in an Entity State PDU (IEEE 1278.1-2012 7.2.2).
 constexpr std::size_t kParametersAt = 19, kAppearanceAt = 84;
 constexpr std::size_t kFixed = pdu::kFixedSize<pdu::EntityState>;
 
-// Another core has written them, and no hardware prefetcher reads backwards.
+// Datagrams prefetched in advance: another core has written them, and no hardware prefetcher reads
+// backwards.
 constexpr std::size_t kAhead = 3;
 constexpr std::size_t kLine = 64;  // of a processor's cache [octets]
 
@@ -33,7 +34,7 @@ bool same_sender(const Arrival& a, const Arrival& b) {
   return a.epoch == b.epoch && a.from == b.from && a.group == b.group;
 }
 
-// As decoding would decide.
+// Whether decoding would find a whole state.
 bool is_whole_state(std::span<const std::byte> octets) {
   if (octets.size() < kFixed) return false;
   const auto parameters = std::to_integer<std::size_t>(octets[kParametersAt]);

@@ -144,8 +144,8 @@ class OwnedEntity {
   [[nodiscard]] TouchSide* touch() noexcept { return touch_.get(); }
   [[nodiscard]] const TouchSide* touch() const noexcept { return touch_.get(); }
 
-  /// Makes an event if the accounts have changed by more than peers may guess, at most one in 20
-  /// ms. Returns true if it did.
+  /// Makes an event if the accounts have changed by more than peers may be left to guess, at most
+  /// one in 20 ms. Returns true if it did.
   bool consider_accounts(std::chrono::nanoseconds now,
                          std::span<const EnergyAccount> accounts) noexcept;
 

@@ -35,10 +35,10 @@ struct EntityView {
   bool refused = false;   ///< its last force model had impossible values
   double force_n = 0.0;   ///< magnitude on our hand now, the largest of several
   double k1 = 0.0;        ///< [N/m] as received
-  double k1_felt = 0.0;   ///< [N/m] that our devices show of it, the least of those near it
+  double k1_felt = 0.0;   ///< [N/m], least stiffness at which our devices near it show it
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
-  std::uint8_t parts = 0;  ///< numbers of its articulated parts
+  std::uint8_t parts = 0;  ///< parameters of its articulated parts, one or more for each part
 };
 
 /// One hand of this peer.
@@ -67,8 +67,8 @@ struct LeadersView {
   bool on = false;
   pdu::SimulationAddress scene;   ///< leader of the scene; 0:0: none is known
   std::uint32_t map_version = 0;  ///< of the map of groups in use; 0: none
-  std::size_t map_cells = 0;      ///< with a group in it
-  std::size_t cells = 0;          ///< in which this peer is
+  std::size_t map_cells = 0;      ///< cells with a group in it
+  std::size_t cells = 0;          ///< cells of which this peer is a member
   std::size_t led = 0;            ///< of these, led by this peer
   std::size_t leaderless = 0;     ///< of these, without a known leader
   std::size_t count = 0;
@@ -86,7 +86,7 @@ struct PeerView {
   std::size_t owned = 0;  ///< entities of this peer
   /// When the entities on tracks started; negative: not yet.
   std::chrono::nanoseconds set_out{-1};
-  double power_given = 0;  ///< [J] that those without a device put into hands
+  double power_given = 0;  ///< [J] given to hands by entities without a device
   std::array<HandView, kMaxDevices> hands{};
   std::size_t hand_count = 0;
   std::size_t entities = 0;  ///< remote ones known
@@ -139,7 +139,7 @@ class ViewChoice {
 
   std::array<Candidate, PeerView::kRows> nearest_{};  // a heap, the farthest at its head
   std::array<std::uint32_t, PeerView::kRows> places_{};
-  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // in order, at places_
+  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // IDs of the rows at places_
   std::size_t count_ = 0;
   std::size_t chosen_count_ = 0;
   std::size_t next_ = 0;  // next row to examine

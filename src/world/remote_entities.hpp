@@ -87,8 +87,8 @@ class RemoteEntities {
   void expire(std::chrono::nanoseconds now) noexcept;
   /// Removes shown entities that are no longer within the radius, by our movement or by theirs and
   /// without an update: within a second, if at most SightWatch::kMostLooks are due at once. They
-  /// are kept as outside entities, and return by look_outside. Call it as often as that, and before
-  /// it; some 2 us for each removed one.
+  /// are kept as outside entities, and return by look_outside(). Call it as often as
+  /// look_outside(), and before it; some 2 us for each removed one.
   void look_shown(std::chrono::nanoseconds now) noexcept;
   /// Adds outside entities that are within the radius of interest by now, by their movement or
   /// ours, within a second. Call it some ten times a second, after the foci were set; 50 ns for

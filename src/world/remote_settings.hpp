@@ -27,7 +27,7 @@ struct RemoteSettings {
   /// An update without articulated parts does not remove them, because owners omit them.
   bool bodies_in_part = false;
   std::vector<NimbusClass> nimbus = {};  ///< by type; the first match applies
-  std::size_t near_rows = 0;             ///< of channels, that have groups
+  std::size_t near_rows = 0;             ///< rows of channels with groups
   TouchRule touch = {};                  ///< which force models are taken
   /// Longest time [s] for which a force model is believed without an update, whatever its validity.
   double longest_validity = 65.0;

@@ -25,10 +25,9 @@ class RowOwners {
  public:
   /// Most senders that have rows at a time; one host may be half of them.
   static constexpr std::size_t kSenders = 4096;
-  /// Least silence of its sender after which a row may go to another.
+  /// A row never goes to another sender before its own was silent for this time.
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(3);
-  /// Longest silence after which a row of a plain DIS guest may go to another; guests have rare
-  /// heartbeats.
+  /// Upper limit of that time for a row of a plain DIS guest, whose heartbeats are rare.
   static constexpr std::chrono::nanoseconds kGuestSilence = std::chrono::seconds(12);
 
   /// Longest silence of a guest that still owns an entity with this time-out [s]. A guest announces
