@@ -84,9 +84,8 @@ class SequenceTracker {
     std::uint32_t span = 0;      ///< from the first sequence number received to the highest
     std::uint32_t leapt_to = 0;  ///< the number of the last leap, if has_leapt
     bool has_leapt = false;
-    std::uint32_t newer = kNone,
-                  older = kNone;  ///< places of the pairs received next after and before it
-    std::array<std::uint64_t, kWords> seen{};  ///< bit i = highest - i was received
+    std::uint32_t newer = kNone, older = kNone;  ///< places of the next and previous pair received
+    std::array<std::uint64_t, kWords> seen{};    ///< bit i = highest - i was received
   };
   Track& find_or_add(std::uint32_t epoch, GroupIndex group) noexcept;
   /// Place of the pair in the index, or the gap for it.

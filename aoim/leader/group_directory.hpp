@@ -87,8 +87,7 @@ class GroupDirectory {
   std::chrono::nanoseconds lease_;
   Pending pending_;
   std::vector<pdu::CellGroup> entries_, resting_, beacons_;
-  std::vector<std::chrono::nanoseconds>
-      since_;  ///< since when each of entries_ holds without a pause
+  std::vector<std::chrono::nanoseconds> since_;  ///< start of each of entries_, without a pause
   std::uint32_t version_ = 0, leader_ = 0;
   std::chrono::nanoseconds heard_{}, pause_{};
   std::uint64_t refused_ = 0;

@@ -58,7 +58,8 @@ void SnapshotServer::drop(CellId cell) {
   std::erase_if(snapshots_, [cell](const Snapshot& snapshot) { return snapshot.cell == cell; });
 }
 
-void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now, const StateStore& states) {
+void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
+                                  const StateStore& states) {
   if (!snapshot.asked || now < snapshot.begin_at) return;
   budget_.set_whole(static_cast<double>(states.size()) * kEntityOctets);
   snapshot.begin_at = std::max(snapshot.begin_at, budget_.ready_at());

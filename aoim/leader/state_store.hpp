@@ -24,11 +24,11 @@ class StateStore {
   static constexpr std::size_t kLongest = 400;
 
   struct Entry {
-    std::uint32_t epoch = 0;           ///< epoch of the owner
-    GroupIndex group;                  ///< group in which it was received last
+    std::uint32_t epoch = 0;          ///< epoch of the owner
+    GroupIndex group;                 ///< group in which it was received last
     std::chrono::nanoseconds heard{};  ///< time of the last reception
-    std::vector<std::byte> octets;     ///< an Entity State PDU
-    std::vector<std::byte> model;      ///< a HapticRecord; empty: it has no force model
+    std::vector<std::byte> octets;    ///< an Entity State PDU
+    std::vector<std::byte> model;     ///< a HapticRecord; empty: it has no force model
   };
 
   /// @param capacity most entities; the states of further ones are not kept, see refused()

@@ -62,7 +62,7 @@ CaptureOutput::~CaptureOutput() {
   try {
     finish();
   } catch (const CaptureWriteError&) {
-    // The file was cut back; finish() reports it.
+    // The file was cut back; finish() would have reported it.
   }
 }
 

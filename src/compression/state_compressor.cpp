@@ -13,9 +13,8 @@ namespace {
 using pdu::CompressedForm;
 using std::chrono::nanoseconds;
 
-constexpr unsigned kMostGap = 32;  // updates
-constexpr nanoseconds kLongestGap =
-    std::chrono::seconds(10);  // for receivers that missed the first key states
+constexpr unsigned kMostGap = 32;                              // updates
+constexpr nanoseconds kLongestGap = std::chrono::seconds(10);  // for newcomers without a key state
 
 using Body = std::array<std::byte, pdu::kMostCompact>;
 

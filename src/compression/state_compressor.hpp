@@ -18,8 +18,9 @@ namespace reckon::peer {
 /// One entity of ours. One thread; no allocation.
 ///
 /// The residual form depends on a key state: a plain Entity State, or one of the compact form. One
-/// is sent first, again after 1, 4 and 16 updates, then every 32 updates or 10 s. The gaps begin
-/// anew after a change of the entity's group or of anything besides its motion, and for a newcomer.
+/// is sent first, again after 1, 4 and 16 updates, then every 32 updates or 10 s. One is also sent
+/// after a change of the entity's group or of anything besides its motion, and for a newcomer; the
+/// gaps then begin anew.
 class StateCompressor {
  public:
   explicit StateCompressor(pdu::CompressedForm form) noexcept : form_(form) {}
@@ -27,9 +28,8 @@ class StateCompressor {
   /// A written update.
   struct Made {
     std::size_t size = 0;  ///< octets as written by pdu::store_compressed(); 0: send it plain
-    bool is_key =
-        false;  ///< a key state: it may not wait, nor be replaced by an update that depends on it
-    bool leans = false;  ///< a receiver without the key state cannot read it
+    bool is_key = false;   ///< key state: it may neither wait nor be replaced by one that needs it
+    bool leans = false;    ///< a receiver without the key state cannot read it
   };
   static constexpr std::size_t kRoom = pdu::kCompressedHeadSize + pdu::kMostCompressedBody;
 

@@ -70,8 +70,7 @@ struct News {
   std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was sent
   pdu::EntityId simulation;                 ///< of this peer, which may have been renamed
   std::vector<RemoteCopy> states;           ///< as of now
-  std::vector<pdu::EntityId>
-      removed;  ///< if also in `states`, it was removed first and has returned
+  std::vector<pdu::EntityId> removed;       ///< one that is in `states` too has returned since
   std::vector<Heard> heard;
   std::vector<std::byte> octets;
   std::uint64_t dropped = 0;  ///< PDUs lost so far because the program did not read

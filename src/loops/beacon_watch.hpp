@@ -51,9 +51,8 @@ class BeaconWatch {
     EntityNumber number;
     std::uint32_t tag;
     std::string name;
-    std::chrono::nanoseconds
-        ours{};             ///< last time at which the map had it in our cell or lacked it
-    bool reported = false;  ///< as another peer's
+    std::chrono::nanoseconds ours{};  ///< when the map last had it in our cell, or lacked it
+    bool reported = false;            ///< as another peer's
   };
   void report_followed(const aoim::FollowedBeacon& now, Followed& before,
                        haptics::SpscRing<Notice>& out) noexcept;

@@ -49,8 +49,7 @@ class LeaderWatch {
 
   LeadersView view_;
   std::vector<Cell> cells_;
-  std::chrono::nanoseconds tell_at_{
-      -1};  ///< when to report changes of cells; negative: there are none
+  std::chrono::nanoseconds tell_at_{-1};  ///< when to report changes; negative: there are none
   Counter* changes_ = nullptr;
   Counter* led_ = nullptr;
   Counter* map_version_ = nullptr;

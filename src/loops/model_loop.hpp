@@ -153,9 +153,8 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   OrderStage orders_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
-  Nanoseconds heard_again_ =
-      Nanoseconds::min() / 2;  // last time that a silent peer was received again
-  std::size_t goodbyes_ = 0;   // entities up to this number have sent their farewell
+  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // when a silent peer was last received again
+  std::size_t goodbyes_ = 0;  // entities up to this number have sent their farewell
 };
 
 }  // namespace reckon::peer

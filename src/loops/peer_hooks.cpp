@@ -48,9 +48,13 @@ struct HookRow {
   PeerHooks (*make)(const ModelWiring& wiring);
 };
 
-// The list, in the order of the calls. clang-format off
+// The list, in the order of the calls.
+// clang-format off
 constexpr HookRow kRows[]{
-    {always, channels}, {always, known_sources}, {always, limits}, {always, link}};
+    {always, channels},
+    {always, known_sources},
+    {always, limits},
+    {always, link}};
 // clang-format on
 
 template <typename Hook>

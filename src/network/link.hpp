@@ -88,7 +88,7 @@ struct Datagram {
   IpEndpoint sender;                  ///< the unicast endpoint for replies
   std::span<const std::byte> bytes;   ///< UDP payload
   std::chrono::nanoseconds received;  ///< arrival by the link's clock, steady (kernel time if real)
-  std::uint64_t boot{0};              ///< proven sender (SealedLink); 0: none
+  std::uint64_t boot{0};  ///< proven sender (SealedLink); 0: none
 };
 
 /// One datagram of a batch to send. `bytes` must be valid until send_batch() returns.
@@ -119,9 +119,8 @@ struct LinkStatistics {
   std::uint64_t kernel_drops{0};  ///< SO_RXQ_OVFL
   std::uint64_t receive_errors{0};
   std::uint64_t joins{0}, leaves{0}, join_errors{0};
-  std::uint64_t interface_losses{
-      0};  ///< times that the interface disappeared, went down or lost its address
-  std::uint64_t recoveries{0};                         ///< times that all groups were joined again
+  std::uint64_t interface_losses{0};  ///< times that the interface was gone, down or bare
+  std::uint64_t recoveries{0};        ///< times that all groups were joined again
   std::uint64_t lost_by_law{0}, duplicated_by_law{0};  ///< impairment: as configured
   std::uint64_t queue_overflows{0};                    ///< impairment: bounded queue was full
   int last_send_error{0}, last_join_error{0};          ///< errno, no counts; 0: none yet

@@ -40,9 +40,8 @@ struct UdpMulticastOptions {
   bool deliver_own{false};  ///< hand over own datagrams looped back (self-test)
   /// SO_RCVBUF requested for each group [octets], see receive_room().
   std::size_t receive_buffer{std::size_t{1} << 20};
-  std::size_t max_datagram{
-      kMaxDatagram};      ///< longest accepted payload; longer ones count as truncated
-  std::size_t batch{32};  ///< messages taken per system call, 1 to 64
+  std::size_t max_datagram{kMaxDatagram};  ///< longest accepted payload; longer ones are truncated
+  std::size_t batch{32};                   ///< messages taken per system call, 1 to 64
   /// Lets the kernel cut runs of datagrams (UDP_SEGMENT) and hand them over as one (UDP_GRO), if it
   /// can; off: each datagram is sent and received alone.
   bool offload{true};

@@ -22,7 +22,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr double kJitter = 1.1;  // a heartbeat comes at most this share of its period late
+constexpr double kJitter = 1.1;  // a heartbeat comes after at most this multiple of its period
 
 void check_force_model(TomlReader& table, TouchModel& model) {
   table.require("kind");

@@ -102,10 +102,9 @@ struct EntityConfig {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S; with a track: added to it
   /// Body (forward, right, down) to S; level, its nose to the north.
   Eigen::Quaterniond orientation = orientation_of({});
-  std::filesystem::path
-      track;           ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: it is at rest
-  double speed = 1.0;  ///< of the track: 2 plays twice as fast; > 0
-  std::optional<bool> repeat;  ///< of the track; none: true if its end lies at its begin
+  std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: at rest
+  double speed = 1.0;           ///< of the track: 2 plays twice as fast; > 0
+  std::optional<bool> repeat;   ///< of the track; none: true if its end lies at its begin
   /// With a track: whether it turns, by the track's columns of orientation. Without such columns
   /// its nose points ahead, unless hands feel it.
   bool turns = true;

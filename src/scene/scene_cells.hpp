@@ -19,8 +19,8 @@ inline constexpr double kTreeLeave = 1.05;
 /// @throws std::invalid_argument with the remedy, from aoim::QuadTree and aoim::LocaleMap, for two
 /// locales of one name and an unknown neighbour.
 [[nodiscard]] std::optional<aoim::CellPartition> uneven_cells(const AoimConfig& config);
-/// The cells of any scheme; if groups are assigned by a leader, with the largest possible number of
-/// cells.  @throws std::invalid_argument as above, and from aoim::CellGrid.
+/// The cells of any scheme; if a leader assigns the groups, with as many cell numbers as there can
+/// be.  @throws std::invalid_argument as above, and from aoim::CellGrid.
 [[nodiscard]] aoim::CellPartition cells_of(const AoimConfig& config);
 /// The names in a list, as in "hall, room 2".
 [[nodiscard]] std::vector<std::string> names_in(const std::string& list);

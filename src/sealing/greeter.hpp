@@ -72,8 +72,7 @@ class Greeter {
   std::chrono::nanoseconds next_ = std::chrono::nanoseconds::min();
   std::chrono::nanoseconds last_ = -std::chrono::seconds(1);
   std::chrono::nanoseconds patience_{0};
-  std::chrono::nanoseconds spent_until_ =
-      -std::chrono::seconds(1);  ///< end of the time used up by strangers
+  std::chrono::nanoseconds spent_until_ = -std::chrono::seconds(1);  ///< used by strangers
   std::chrono::nanoseconds doubted_ = -kDoubtGap;
 };
 

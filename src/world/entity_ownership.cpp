@@ -51,8 +51,8 @@ Voice EntityOwnership::hear(std::span<const pdu::EntityId> ids, const Arrival& a
   const pdu::EntityId* other = nullptr;
   aoim::SourceAddress owner;
   for (const pdu::EntityId& id : ids) {
-    const Voice voice = aoim_.presence().is_own(id) ? Voice::refused
-                                                    : voice_of(id, arrival, table_.find(id), owner);
+    const Voice voice =
+        aoim_.presence().is_own(id) ? Voice::refused : voice_of(id, arrival, table_.find(id), owner);
     if (voice == Voice::owner) return voice;
     if (voice == Voice::refused && other == nullptr) other = &id;
   }

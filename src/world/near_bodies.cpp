@@ -115,13 +115,14 @@ std::span<const NearBodies::Key> NearBodies::sorted(const RankKey& rank_key) noe
 void NearBodies::choose() noexcept {
   if (count_ <= 1) return;
   // The number of bodies of its group before each; `same` defines a group.
-  const auto number_each = [&](std::span<const Key> order, std::uint8_t Rank::*place, auto same) {
+  const auto number_each = [&](std::span<const Key> order, std::uint8_t Rank::* place, auto same) {
     ranks_[order[0].at].*place = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {
       const Rank& before = ranks_[order[i - 1].at];
       Rank& rank = ranks_[order[i].at];
-      const int next =
-          before.party.host == rank.party.host && same(before, rank) ? before.*place + 1 : 0;
+      const int next = before.party.host == rank.party.host && same(before, rank)
+                           ? before.*place + 1
+                           : 0;
       rank.*place = static_cast<std::uint8_t>(next);
     }
   };
@@ -129,8 +130,9 @@ void NearBodies::choose() noexcept {
     return packed(std::pair(r.party.host, 16), std::pair(r.party.sender, 16), std::pair(r.weak, 1),
                   std::pair(r.far, 1), std::pair(r.fresh, 1));
   });
-  number_each(by_sender, &Rank::of_sender,
-              [](const Rank& a, const Rank& b) { return a.party.sender == b.party.sender; });
+  number_each(by_sender, &Rank::of_sender, [](const Rank& a, const Rank& b) {
+    return a.party.sender == b.party.sender;
+  });
   if (count_ > kMost) note_crowding(by_sender);
   const auto by_host = sorted([](const Rank& r) {
     return packed(std::pair(r.party.host, 16), std::pair(r.weak, 1),

@@ -25,8 +25,8 @@ inline constexpr double kContactReach = 0.25;
 
 /// One body with a force model: a row of the state table or an entity of ours.
 struct NearBody {
-  const RemoteEntity* row = nullptr;  ///< null for an own entity
-  const OwnedEntity* own = nullptr;   ///< null for a remote one
+  const RemoteEntity* row = nullptr;                   ///< null for an own entity
+  const OwnedEntity* own = nullptr;                    ///< null for a remote one
   pdu::EntityId id;
   EntityNumber number = 0;                             ///< of an own entity
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of its model's point, S [m]
@@ -87,8 +87,7 @@ class NearBodies {
   struct Rank {
     Party party;
     bool weak = false, far = false, fresh = false;
-    std::uint8_t of_sender = 0,
-                 of_host = 0;   // number of its sender's and its host's bodies before it
+    std::uint8_t of_sender = 0, of_host = 0;  // bodies before it of the same sender, host
     std::uint64_t shallow = 0;  // smaller if deeper
   };
   // Sort key of bodies: the first value that differs decides.

@@ -208,8 +208,8 @@ void HandsNear::sort() noexcept {
   sort_by([](const Found& f) { return std::tuple(f.body, f.party.host, -f.depth); });
   const Found* before = nullptr;
   for (Found& found : found_) {
-    const bool same =
-        before != nullptr && found.body == before->body && found.party.host == before->party.host;
+    const bool same = before != nullptr && found.body == before->body &&
+                      found.party.host == before->party.host;
     found.of_host = same ? before->of_host + 1 : 0;
     before = &found;
   }

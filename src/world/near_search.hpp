@@ -46,7 +46,7 @@ class HandsNear {
     std::size_t body;
     deadreckon::ProbeState hand;
     Party party;
-    double depth;             // [m]
+    double depth;              // [m]
     std::size_t of_host = 0;  // number of its host's before it
   };
   void leave_out() noexcept;
@@ -129,7 +129,7 @@ class NearSearch {
   double reach_;
   RowColumn<std::uint32_t> entry_of_;  // of each row: its place in the two below, or kNone
   RowColumn<std::uint32_t> row_of_;    // of each row with a model
-  DueColumn look_at_;  // of each row with a model: when to check it again, by hurry_
+  DueColumn look_at_;                  // when to check each row with a model again, by hurry_
   /// Time that runs faster while a hand or a body of ours is faster than assumed.
   Nanoseconds hurry_{0};
   Nanoseconds last_{0};

@@ -46,7 +46,8 @@ double PortlessBody::answer(const OwnedEntity& entity, EnergyBooks& books, nanos
       if (share > 0.0) ++version_;
     }
     pair.unanswered = false;
-    if (account_count_ < accounts_.size()) accounts_[account_count_++] = {pair.other, pair.we_gave};
+    if (account_count_ < accounts_.size())
+      accounts_[account_count_++] = {pair.other, pair.we_gave};
   }
   return given;
 }

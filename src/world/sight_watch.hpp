@@ -13,8 +13,7 @@ namespace reckon::peer {
 
 /// Result of the check of a shown row.
 struct Sight {
-  double spare =
-      0.0;  ///< [m] by which it and we may separate before it is out of sight; <= 0: it is
+  double spare = 0.0;  ///< [m] by which we may separate before it is out of sight; <= 0: it is
   double speed = 0.0;  ///< its own [m/s], 0 at rest
 };
 
