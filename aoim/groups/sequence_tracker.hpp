@@ -105,7 +105,7 @@ class SequenceTracker {
 
   std::size_t capacity_;
   std::vector<Track> tracks_;
-  /// Places in tracks_ by open addressing, half full at most (peer::KeyIndex stands above aoim).
+  /// Places in tracks_ by open addressing, half full at most (peer::KeyIndex is in a higher layer).
   std::vector<std::uint32_t> index_;
   std::uint32_t newest_ = kNone, oldest_ = kNone;
   SequenceCounts counts_;

@@ -14,8 +14,8 @@ constexpr std::chrono::milliseconds kProvesItself{500};
 
 }  // namespace
 
-// The owner has sent a repeated announcement before, so it was received from its own address unless
-// that datagram was lost.
+// The owner has sent a replayed announcement before, so the owner was received from its own address
+// unless that datagram was lost.
 bool SourcePins::may_move(Peer& peer, const pdu::Presence& heard, nanoseconds now,
                           const SourceAddress& from) {
   if (from.port == 0) return false;

@@ -10,7 +10,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-constexpr std::size_t kFewKeys = 64;  // for this number no memory is given back
+constexpr std::size_t kFewKeys = 64;  // up to this number no memory is given back
 
 template <typename T>
 void move_last_to(std::vector<T>& rows, std::size_t place) {

@@ -48,7 +48,7 @@ struct HookRow {
   PeerHooks (*make)(const ModelWiring& wiring);
 };
 
-// The list, in the order of the calls.
+// THE list, in the order of the calls.
 // clang-format off
 constexpr HookRow kRows[]{
     {always, channels},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Mechanisms that watch a peer, called at their hooks. A new one is a file and a row of the list in
+// Mechanisms that watch a peer, called at their hooks. A new one is a file and a row of THE list in
 // peer_hooks.cpp.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The list of the conditions that the mechanisms of a peer need, remove and provide for one
+// THE list of the conditions that the mechanisms of a peer need, remove and provide for one
 // another. Private to the scene reader.
 #pragma once
 

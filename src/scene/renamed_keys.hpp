@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The list of former keys of scene files with their replacements. Private to the scene reader.
+// THE list of former keys of scene files with their replacements. Private to the scene reader.
 #pragma once
 
 #include <toml++/toml.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The list of the keys of a scene file. The reader refuses keys that are not in it, takes units and
+// THE list of the keys of a scene file. The reader refuses keys that are not in it, takes units and
 // ranges from it, and docs/scene_files.md is checked against it.
 #pragma once
 

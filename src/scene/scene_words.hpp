@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The words of a scene file for values from a list, one table for each type: the same rows read a
+// THE words of a scene file for values from a list, one table for each type: the same rows read a
 // word and write it.
 #pragma once
 
