@@ -16,7 +16,7 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kLargestDatagram = 65507;  // UDP over IPv4
 constexpr std::size_t kBareEntityState = 144;
-// Around one PDU with records in a datagram.
+// Overhead of one PDU with records in a datagram.
 constexpr std::size_t kAround = pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
                                 pdu::kCompressedStatesSize + pdu::kDatagramTrailerSize;
 constexpr std::size_t kMostWaiting = std::size_t{1} << 30;  // offsets have 32 bits
@@ -27,7 +27,7 @@ pdu::PduType type_of(std::span<const std::byte> bytes) noexcept {
   return static_cast<pdu::PduType>(bytes[kTypeAt]);
 }
 
-// True where the octets are exactly one PDU by its own length field.
+// True if the octets are exactly one PDU by its own length field.
 bool is_one_pdu(std::span<const std::byte> bytes) noexcept {
   if (bytes.size() < pdu::kHeaderSize) return false;
   return pdu::load_big_endian<std::uint16_t>(bytes.data() + kLengthAt) == bytes.size();
@@ -138,9 +138,9 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity, 
   return append_item(group, {entity.key(), entity, place}, state, records, terms, found.entry);
 }
 
-// The update of this entity that waits, or where to say that it will. A short queue is looked
-// through; of a long one the index knows each item, and what has left: that ordinal is before the
-// first, or in time another's.
+// The pending update of this entity, or the index entry for it. A short queue is searched. Of a
+// long one the index has each item, and some that have been sent: such an ordinal is before the
+// first one, or by now that of another entity.
 Aggregator::Found Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
   Lane& lane = lanes_[group.value];
   const std::uint64_t key = entity.key();
@@ -155,7 +155,8 @@ Aggregator::Found Aggregator::find(GroupIndex group, const pdu::EntityId& entity
   return {waits ? &lane.items[at] : nullptr, &entry};
 }
 
-// The last item, whose entry is known if it has one; all of a queue that has just become long.
+// Indexes the last item, whose entry is known if it has one, or all items of a queue that has just
+// become long.
 void Aggregator::index_added(GroupIndex group, WaitingIndex::Entry* entry) {
   const Lane& lane = lanes_[group.value];
   const auto last = static_cast<std::uint32_t>(lane.items.size() - 1);
@@ -167,7 +168,7 @@ void Aggregator::index_added(GroupIndex group, WaitingIndex::Entry* entry) {
   }
 }
 
-// False where the index has no room for all.
+// False if the index has no room for all.
 bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
   const Lane& lane = lanes_[group.value];
   for (std::size_t i = first; i < lane.items.size(); ++i) {
@@ -180,7 +181,8 @@ bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
   return true;
 }
 
-// Without what has left. At least a quarter of the index is free then, which pays for this.
+// Removes items that have been sent. At least a quarter of the index is free then, which pays for
+// this.
 void Aggregator::rebuild_index() {
   std::size_t live = 0;
   for (const std::uint16_t index : active_) live += lanes_[index].items.size();
@@ -190,7 +192,7 @@ void Aggregator::rebuild_index() {
   }
 }
 
-// A PDU that is longer than the payload limit leaves alone; no other bundle is.
+// A PDU that is longer than the payload limit is sent alone; no other bundle is as long.
 void Aggregator::make_datagram_room(std::size_t octets) {
   const std::size_t needed = std::min(octets + kAround, kLargestDatagram);
   if (datagram_.size() < needed) datagram_.resize(needed);
@@ -210,7 +212,7 @@ AddResult Aggregator::append_item(GroupIndex group, const Named& named,
   const auto offset = static_cast<std::uint32_t>(lane.octets.size());
   append(lane.octets, bytes);
   append(lane.octets, records);
-  // Made where it stays: a copy of what has just been written member by member is waited for.
+  // Constructed in place: a copy of what was just written member by member would stall.
   Item& item = lane.items.emplace_back();
   static_cast<Named&>(item) = named;
   item.offset = offset;
@@ -224,7 +226,7 @@ AddResult Aggregator::append_item(GroupIndex group, const Named& named,
   return AddResult::queued;
 }
 
-// Newest wins: the waiting item keeps its turn and the earlier deadline, its content is renewed.
+// Newest wins: the pending item keeps its turn and the earlier deadline, and gets the new content.
 AddResult Aggregator::replace(GroupIndex group, Item& item, Place place,
                               std::span<const std::byte> state, std::span<const std::byte> records,
                               const BundleTerms& terms) {
@@ -261,7 +263,7 @@ AddResult Aggregator::replace(GroupIndex group, Item& item, Place place,
   return AddResult::replaced;
 }
 
-// The earlier deadline and the lesser quorum hold.
+// Keeps the earlier deadline and the lower quorum.
 void Aggregator::hasten(Item& item, const BundleTerms& terms) noexcept {
   item.deadline = std::min(item.deadline, terms.deadline);
   if (terms.quorum != 0) item.quorum = std::min(item.quorum, terms.quorum);
@@ -273,8 +275,8 @@ std::size_t Aggregator::cost(const Item& item) noexcept {
   return item.pdu_size + item.records_size + pdu::kAttributeSetHeaderSize;
 }
 
-// Octets of a bundle without trailer: `size` is the sum of cost, `sets` of the items have records,
-// `compressed` of them are.
+// Octets of a bundle without trailer. `size` is the sum of cost; `sets` of the items have records,
+// and `compressed` of them are compressed.
 std::size_t Aggregator::bundled(std::size_t size, std::size_t sets,
                                 std::size_t compressed) noexcept {
   return size + (sets > 0 ? pdu::kAttributeFixedSize : 0) +
@@ -348,7 +350,7 @@ void Aggregator::flush_lane(GroupIndex group, nanoseconds now, nanoseconds until
   measure(lane);
 }
 
-// As many items as fit, in the order they came; always at least one.
+// As many items as fit, in the order of their arrival; always at least one.
 Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
                                            std::size_t limit) const noexcept {
   std::size_t count = 0, size = 0, sets = 0, compressed = 0;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the updates of one peer per group, by size and deadline. One datagram costs the same CPU
-// whatever its size, so packets are the resource; a deadline per update bounds what waiting costs.
+// Bundles the updates of one peer per group, by size and deadline. A datagram of any size costs
+// about the same CPU time, so packets are the resource; a deadline per update bounds the delay.
 //
-// Inside a bundle: Entity States, other standard PDUs, ONE Attribute PDU with a record set per
-// entity, ONE Compressed States PDU, other experimental PDUs, and last the trailer of 24 octets
-// (sequence per group, epoch, send time). Groups marked interop carry nothing after the Attribute
-// PDU.
+// Contents of a bundle, in order: Entity States, other standard PDUs, ONE Attribute PDU with a
+// record set per entity, ONE Compressed States PDU, other experimental PDUs, and last the trailer
+// of 24 octets (sequence per group, epoch, send time). Groups marked interop carry nothing after
+// the Attribute PDU.
 #pragma once
 
 #include <array>
@@ -37,27 +37,27 @@ struct AggregatorConfig {
   /// Most octets of one datagram's payload, at least kLeastPayload and `reserved`; default 1352
   /// (IPv6 over an MTU of 1400).
   std::size_t payload_limit = 1352;
-  /// Of those, kept free for a later authentication tag; default 64.
+  /// Part of payload_limit that stays free for a later authentication tag; default 64.
   std::size_t reserved = 64;
-  /// G; groups 0 .. G are served.
+  /// G; groups 0 .. G exist.
   std::size_t pool = kDefaultPool;
-  /// Octets that may wait in one group before further updates are refused, up to 1 GiB; default
-  /// 16 MiB, some 100,000 Entity States. No memory is taken before they wait.
+  /// Most pending octets of one group, up to 1 GiB; further updates are refused. Default 16 MiB,
+  /// some 100,000 Entity States. Memory is taken only for pending updates.
   std::size_t waiting_limit = 16 * 1024 * 1024;
   PeerId sender;
   std::uint32_t epoch = 0;
   std::uint8_t exercise_id = 1;
 };
 
-/// When an update leaves: the policy of its group or class. Time-out alone: a deadline and no
-/// quorum; quorum alone: a deadline never; both: hybrid. A deadline of now is for what may not
-/// wait.
+/// When an update is sent: the policy of its group or class. Time-out alone: a deadline and no
+/// quorum; quorum alone: a deadline of never; both: hybrid. An update that may not wait has a
+/// deadline of now.
 struct BundleTerms {
-  /// When it has to leave at the latest (same clock as `now` in flush_due); in the past or now = at
-  /// the next flush.
+  /// Latest time of sending (same clock as `now` in flush_due); in the past or now = at the next
+  /// flush.
   std::chrono::nanoseconds deadline{};
-  /// n: its bundle leaves as soon as it holds this many updates; 0 = by size alone. Of the updates
-  /// in a bundle the least quorum holds.
+  /// n: its bundle is sent as soon as it holds this many updates; 0 = by size alone. The least
+  /// quorum of the updates in a bundle applies.
   std::uint32_t quorum = 0;
 
   template <class Count, class Period>
@@ -65,19 +65,19 @@ struct BundleTerms {
       : deadline(latest), quorum(updates) {}
 };
 
-/// What became of an update handed in.
+/// Result of adding an update.
 enum class AddResult : std::uint8_t {
   queued,
-  replaced,  ///< an older update of the same entity was still waiting: newest wins
-  /// Not exactly one PDU, broken records, a raw Attribute PDU or trailer, or ours in an interop
-  /// group.
+  replaced,  ///< an older update of the same entity was still pending: newest wins
+  /// Not exactly one PDU, malformed records, a raw Attribute PDU or trailer, or one of our PDUs in
+  /// an interop group.
   refused_kind,
-  refused_size,   ///< longer than any datagram can be
-  refused_full,   ///< waiting_limit reached: flush_due has not been called for long
+  refused_size,   ///< longer than the largest possible datagram
+  refused_full,   ///< waiting_limit reached: flush_due was not called for long
   refused_group,  ///< group above the pool
 };
 
-/// True where the update will leave.
+/// True if the update will be sent.
 [[nodiscard]] constexpr bool is_queued(AddResult result) noexcept {
   return result == AddResult::queued || result == AddResult::replaced;
 }
@@ -86,37 +86,37 @@ enum class AddResult : std::uint8_t {
 struct AggregatorCounts {
   std::uint64_t updates = 0, replaced = 0, refused = 0;
   std::uint64_t datagrams = 0, octets = 0;
-  std::uint64_t full = 0;         ///< datagrams that left because nothing more fits
-  std::uint64_t by_deadline = 0;  ///< datagrams that left because an update had to
-  std::uint64_t oversized = 0;    ///< datagrams above the payload limit: one PDU is longer than it
+  std::uint64_t full = 0;         ///< datagrams sent because nothing more fits
+  std::uint64_t by_deadline = 0;  ///< datagrams sent because an update was due
+  std::uint64_t oversized = 0;    ///< datagrams above the payload limit, which one PDU exceeds
 };
 
-/// Hybrid (quorum or deadline) bundling. One thread; allocates only where more wait at once than
-/// ever before: in more than 4 groups, beyond 16 KiB or 128 updates in a group, 512 entities in
-/// all, or a PDU longer than the payload limit. A group takes memory only while something waits in
-/// it, or where more than that once did. Cost: about 60 ns an update, however many wait, see
-/// docs/area_of_interest.md.
+/// Hybrid (quorum or deadline) bundling. One thread. Allocates only when more updates are pending
+/// than ever before: in more than 4 groups, beyond 16 KiB or 128 updates in a group, 512 entities
+/// in all, or a PDU longer than the payload limit. A group takes memory only while an update is
+/// pending in it, or if it once held more than that. Cost: about 60 ns an update, however many are
+/// pending, see docs/area_of_interest.md.
 class Aggregator {
  public:
-  /// @throws std::invalid_argument where the payload limit leaves no room for an Entity State with
-  /// force model and trailer, the pool is above 1,000, or waiting_limit above 1 GiB.
+  /// @throws std::invalid_argument if the payload limit leaves no room for an Entity State with
+  /// force model and trailer, the pool is above 1,000, or waiting_limit is above 1 GiB.
   explicit Aggregator(const AggregatorConfig& config);
 
-  /// Queues one encoded PDU. An Entity State replaces one of the same entity that still waits and
-  /// keeps the earlier deadline and the lesser quorum; all else keeps its order.
+  /// Queues one encoded PDU. An Entity State replaces a pending one of the same entity and keeps
+  /// the earlier deadline and the lower quorum; other PDUs keep their order.
   AddResult add(GroupIndex group, std::span<const std::byte> pdu, const BundleTerms& terms);
 
-  /// Queues an Entity State and the records (HapticRecord, EnergyAccountRecord; already encoded,
-  /// one after the other, may be empty) that go into the Attribute PDU of the same datagram. Sets
-  /// the coupled-extension bit where there are records. A waiting record of the same type (and, for
-  /// energy accounts, the same counterpart) is replaced, others of that entity are kept.
+  /// Queues an Entity State and the records that go into the Attribute PDU of the same datagram
+  /// (HapticRecord, EnergyAccountRecord; already encoded, one after the other, may be empty). Sets
+  /// the coupled-extension bit if there are records. A pending record of the same type (and, for
+  /// energy accounts, the same counterpart) is replaced; other records of that entity are kept.
   AddResult add(GroupIndex group, const pdu::EntityState& state, std::span<const std::byte> records,
                 const BundleTerms& terms);
 
-  /// Queues an Entity State in a compressed form, as pdu::store_compressed() wrote it, in place of
-  /// the state; `form` of its body, the same for all of a group between two flushes (compact goes
-  /// with any). What depends on a key that still waits would replace it: send keys at once. The
-  /// bundle holds them in one Compressed States PDU, at most kMostCompressed.
+  /// Queues an Entity State in a compressed form, as written by pdu::store_compressed(). `form` of
+  /// its body is the same for all of a group between two flushes (compact may be mixed with any). A
+  /// state that depends on a pending key state would replace it, so send key states at once. The
+  /// bundle holds the compressed states in one Compressed States PDU, at most kMostCompressed.
   AddResult add_compressed(GroupIndex group, const pdu::EntityId& entity, pdu::CompressedForm form,
                            std::span<const std::byte> state, std::span<const std::byte> records,
                            const BundleTerms& terms);
@@ -126,16 +126,16 @@ class Aggregator {
   AddResult add_records(GroupIndex group, const pdu::EntityId& entity,
                         std::span<const std::byte> records, const BundleTerms& terms);
 
-  /// Emits every bundle that is full or holds an update whose deadline is <= now; what waits in the
-  /// same bundle travels along for free. `sink` gets (GroupIndex,
-  /// std::span<const std::byte>) and must not call the aggregator.
+  /// Emits every bundle that is full or holds an update with a deadline <= now; other pending
+  /// updates of that bundle are sent with it. `sink` gets (GroupIndex, std::span<const std::byte>)
+  /// and must not call the aggregator.
   void flush_due(std::chrono::nanoseconds now, DatagramSink sink);
 
   /// Emits everything, e.g. before leaving.
   void flush_all(std::chrono::nanoseconds now, DatagramSink sink);
 
-  /// When flush_due has to be called next at the latest; a moment in the past where a bundle is
-  /// full; none where nothing waits.
+  /// Latest time of the next flush_due; a moment in the past if a bundle is full; none if nothing
+  /// is pending.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> next_deadline() const noexcept;
 
   /// Marks a group as plain DIS: no experimental PDUs, no trailer.
@@ -145,7 +145,7 @@ class Aggregator {
   /// are marked absolute. Used for trailers and Attribute PDUs; default 0, relative.
   void set_utc_offset(std::chrono::nanoseconds offset, bool synchronised) noexcept;
 
-  /// After an identity conflict: the same process under another number. Sequences go on.
+  /// Sets the new number of the same process after an identity conflict. Sequences continue.
   void set_sender(PeerId sender) noexcept { config_.sender = sender; }
 
   [[nodiscard]] const AggregatorCounts& counts() const noexcept { return counts_; }
@@ -159,7 +159,7 @@ class Aggregator {
   enum class Place : std::uint8_t { entity, compressed, standard, experimental };
   static constexpr std::uint64_t kNoEntity = ~std::uint64_t{0};  // above any key
   struct Named {
-    std::uint64_t key = kNoEntity;  ///< of the entity, where it is a state of one or its records
+    std::uint64_t key = kNoEntity;  ///< of the entity, if it is a state of one or its records
     pdu::EntityId entity;
     Place place = Place::standard;
   };
@@ -170,7 +170,8 @@ class Aggregator {
     std::uint32_t quorum = kNoQuorum;
     std::chrono::nanoseconds deadline = std::chrono::nanoseconds::max();
   };
-  /// What waits in a group: of the usual size it goes from group to group, larger it stays.
+  /// Pending updates of a group. Memory of the usual size goes from group to group; larger memory
+  /// stays.
   struct Room {
     std::vector<std::byte> octets;
     std::vector<Item> items;
@@ -181,19 +182,19 @@ class Aggregator {
     std::size_t sets = 0;              ///< items with records
     std::size_t compressed = 0;        ///< items in a compressed form
     std::uint32_t quorum = kNoQuorum;  ///< least of the items
-    std::uint32_t first = 0;           ///< ordinal of items.front(), or of the next one; may wrap
+    std::uint32_t first = 0;  ///< ordinal of items.front(), or of the next one; may wrap around
     std::uint32_t sequence = 0;
     pdu::CompressedForm form = pdu::CompressedForm::compact;
     bool interop = false;
     bool listed = false;  ///< in active_
   };
 
-  /// Null where nothing of the entity waits; and where the queue is short.
+  /// Null if nothing of the entity is pending, or the queue is short.
   struct Found {
     Item* item = nullptr;
     WaitingIndex::Entry* entry = nullptr;
   };
-  /// A run of items that leaves together.
+  /// A run of items that is sent together.
   struct Bundle {
     std::size_t count = 0;
     bool full = false;
@@ -248,10 +249,10 @@ class Aggregator {
   std::vector<Lane> lanes_;
   std::vector<Room> rooms_;            ///< empty ones of the usual size
   WaitingIndex waiting_;               ///< of the entities in queues longer than kScanned
-  std::vector<std::uint16_t> active_;  ///< lanes that hold something
+  std::vector<std::uint16_t> active_;  ///< lanes with items
   std::vector<std::byte> datagram_;    ///< the bundle being built
   std::vector<std::byte> scratch_;     ///< one encoded Entity State
-  std::vector<std::byte> merged_;      ///< an update that replaces another
+  std::vector<std::byte> merged_;      ///< an update merged from an old and a new one
   std::vector<std::byte> compacted_;
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;

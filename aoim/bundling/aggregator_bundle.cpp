@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the aggregator writes a bundle.
+// Writes the bundles of the aggregator.
 #include <algorithm>
 #include <cstring>
 
@@ -78,7 +78,7 @@ std::size_t Aggregator::write_attribute(const Lane& lane, std::span<const Item> 
   attribute.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
   attribute.originating_simulation = config_.sender;
 
-  // The coupled Entity State gives the timestamp; they are to agree.
+  // The coupled Entity State gives the timestamp, because both must agree.
   const auto coupled = std::find_if(items.begin(), items.end(), [](const Item& item) {
     return item.place == Place::entity && item.records_size > 0 && item.pdu_size > 0;
   });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The memory in which the aggregator lets updates wait.
+// The memory of the aggregator's pending updates.
 #include <algorithm>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
@@ -30,20 +30,21 @@ Aggregator::Room Aggregator::usual_room() {
   return room;
 }
 
-// The one given back last, which the caches still hold.
+// Takes the memory given back last, which is still in the caches.
 void Aggregator::take_room(Lane& lane) {
   if (rooms_.empty()) rooms_.push_back(usual_room());
   static_cast<Room&>(lane) = std::move(rooms_.back());
   rooms_.pop_back();
 }
 
-// Not one that has grown: each group would in time have one as large as the largest.
+// Does not give back grown memory: in time each group would have memory of the largest size.
 void Aggregator::give_room_back(Lane& lane) {
   if (lane.octets.capacity() > kReservedOctets || lane.items.capacity() > kReservedItems) return;
   rooms_.push_back(std::move(static_cast<Room&>(lane)));
 }
 
-// Octets of updates that have grown since lie about until the queue is packed, before it doubles.
+// Updates that have grown leave unused octets until the queue is packed, which happens before it
+// doubles.
 bool Aggregator::make_room(Lane& lane, std::size_t octets) {
   const std::size_t usual = std::max(kReservedOctets, 2 * lane.size);
   const std::size_t wanted = lane.octets.size() + octets;

@@ -11,7 +11,8 @@
 namespace reckon::aoim {
 namespace {
 
-// Octets that name what a record is about: its type, for an energy account also the counterpart.
+// Octets that identify the subject of a record: its type, and for an energy account the
+// counterpart.
 std::size_t name_size(std::span<const std::byte> record) noexcept {
   const auto type = pdu::load_big_endian<std::uint32_t>(record.data());
   return type == pdu::kEnergyAccountRecordType ? std::min<std::size_t>(12, record.size()) : 4;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where in its group's queue the update of an entity waits: under the aggregator, which looks for
-// it with every update.
+// Finds the pending update of an entity in its group's queue, for the aggregator, which searches it
+// with every update.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace reckon::aoim {
 
-/// Ordinals by group and entity: open addressing, at most half full. What has left is not erased:
-/// the aggregator sees that the ordinal is not of that entity any more, and the next one takes its
-/// place. One thread; allocates only where reset makes it larger.
+/// Ordinals by group and entity: open addressing, at most half full. Sent updates are not erased:
+/// the aggregator detects that the ordinal is no longer that of the entity, and the next one takes
+/// the entry. One thread; allocates only if reset makes it larger.
 ///
 ///   Entry& entry = index.entry(group, entity);   // used or not
 ///   if (!entry.used || !is_of(entity, entry.ordinal)) index.put(entry, group, entity, next);
@@ -24,18 +24,18 @@ class WaitingIndex {
   struct Entry {
     std::uint64_t key = 0;
     std::uint32_t ordinal = 0;  ///< last put for this entity
-    bool used = false;          ///< false where none ever was
+    bool used = false;          ///< false if none ever was
   };
 
   WaitingIndex();
 
-  /// The entry of this entity, used or where it belongs; good until put or reset. Some ns, where
-  /// numbers come in turn or the index is in a cache; else a miss.
+  /// The entry of this entity, used or free for it; valid until put or reset. Some ns if numbers
+  /// come in turn or the index is in a cache; else a miss.
   [[nodiscard]] Entry& entry(GroupIndex group, const pdu::EntityId& entity) noexcept {
     const std::uint64_t key = key_of(group, entity);
     const std::size_t mask = entries_.size() - 1;
     std::size_t slot = slot_of(key);
-    // Entities are often sent in turn: of those that come soon the memory is here by then.
+    // Entities are often sent in turn: this fetches the memory of those that come soon.
     if (slot % 4 == 0) __builtin_prefetch(&entries_[slot_of(key + kSoon)], 1);
     while (entries_[slot].used && entries_[slot].key != key) slot = (slot + 1) & mask;
     return entries_[slot];
@@ -43,19 +43,19 @@ class WaitingIndex {
 
   /// Whether put may be called; else reset first.
   [[nodiscard]] bool has_room() const noexcept { return 2 * used_ < entries_.size(); }
-  /// Says where the update of an entity waits, from now on; `entry` is its entry.
+  /// Sets the ordinal of an entity's update; `entry` is its entry.
   void put(Entry& entry, GroupIndex group, const pdu::EntityId& entity,
            std::uint32_t ordinal) noexcept {
     if (!entry.used) ++used_;
     entry = {key_of(group, entity), ordinal, true};
   }
 
-  /// Forgets everything and makes room for four times `live` entries; what still waits is then to
+  /// Removes everything and makes room for four times `live` entries. Pending updates are then to
   /// be put again.
   void reset(std::size_t live);
 
  private:
-  // Four numbers of 16 bits: no two entities share a key.
+  // Four 16-bit numbers: no two entities share a key.
   static std::uint64_t key_of(GroupIndex group, const pdu::EntityId& entity) noexcept {
     return std::uint64_t{group.value} << 48 | entity.key();
   }

@@ -26,7 +26,8 @@ std::size_t modulo(std::int32_t value, std::size_t size) noexcept {
   return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
 }
 
-// Nearest centre in axial coordinates: round all three cube coordinates, mend the worst.
+// Nearest centre in axial coordinates: rounds all three cube coordinates and corrects the one with
+// the largest error.
 CellId round_axial(double q, double r) noexcept {
   const double s = -q - r;
   double round_q = std::round(q), round_r = std::round(r);
@@ -46,7 +47,7 @@ double hexagon_distance(double x, double y) noexcept {
   x = std::abs(x);
   y = std::abs(y);
 
-  // What lies above the corner line belongs to the slanted edge: reflect it onto the upright one.
+  // A point above the corner line belongs to the slanted edge: reflect it onto the upright one.
   const double across = kRow * y - 0.5 * x;  // > 0: above the corner line at 30 degrees
   if (across > 0.0) {
     const double along_x = 0.5 * x + kRow * y, along_y = kRow * x - 0.5 * y;
@@ -114,7 +115,7 @@ Neighbours CellGrid::neighbours(CellId cell) const noexcept {
   Neighbours result;
   for (std::int32_t dr = -1; dr <= 1; ++dr) {
     for (std::int32_t dq = -1; dq <= 1; ++dq) {
-      // Of the eight, a hexagon has the six that are not on the diagonal dq = dr.
+      // A hexagon has only six of the eight neighbours: those not on the diagonal dq = dr.
       const bool corner = config_.scheme == CellScheme::hexagonal && dq == dr;
       if ((dq == 0 && dr == 0) || corner) continue;
       result.push({cell.q + dq, cell.r + dr});
@@ -168,7 +169,7 @@ std::size_t CellGrid::groups_within(const Position& position, double radius) con
   return static_cast<std::size_t>(std::count(reached.begin(), reached.end(), true));
 }
 
-// Looks at discs all over one cell, each so much larger that it holds those of the centres around.
+// Tests discs all over one cell, each enlarged to contain the discs of the centres around it.
 std::size_t CellGrid::groups_bound(double radius) const {
   constexpr int kSteps = 16;
   const std::size_t all = columns_ * rows_;

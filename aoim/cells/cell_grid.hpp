@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Cuts the plane of the scene into cells and gives each cell a multicast group. The map needs no
-// directory: a tile of a x b cells, a b <= G, repeats over the plane, so every peer computes the
-// same group, and a cell shares its group with none of its neighbours.
+// directory: a tile of a x b cells, a b <= G, repeats over the plane. Every peer computes the same
+// group, and a cell shares its group with none of its neighbours.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace reckon::aoim {
 
-/// How space is cut into cells; a CellGrid takes square and hexagonal.
+/// Scheme of the cells; a CellGrid accepts square and hexagonal.
 using CellScheme = pdu::CellScheme;
 
 /// Square: column and row. Hexagonal: axial coordinates (q to the east, r to the north-north-east).
@@ -26,13 +26,13 @@ struct CellId {
   auto operator<=>(const CellId&) const = default;
 };
 
-/// What all peers of a scene must agree on where cells are equal.
+/// Settings that all peers of a scene must share if cells are equal.
 struct GridConfig {
   CellScheme scheme = CellScheme::hexagonal;
   /// Side of the square, or of the hexagon (= its centre to a corner) [m], > 0; default 125,
-  /// hexagons as large as squares of 200 m. Raising it joins fewer groups per peer and delivers
-  /// more that nobody asked for: 2 to 3 times what lies in R with squares of side R, 3.5 to 5 with
-  /// 2 R.
+  /// hexagons as large as squares of 200 m. A larger side joins fewer groups per peer and delivers
+  /// more unwanted traffic: 2 to 3 times the content of R with squares of side R, 3.5 to 5 with 2
+  /// R.
   double cell_size = 125.0;
   /// G, groups in the pool: 4 .. 1,000, or 1 for no partition; default 256.
   std::size_t pool = kDefaultPool;
@@ -51,15 +51,14 @@ class Neighbours {
   std::size_t count_ = 0;
 };
 
-/// Cells of the plane z = 0; height plays no part. Immutable, hence safe from any thread.
+/// Cells of the plane z = 0; height has no effect. Immutable, hence safe from any thread.
 class CellGrid {
  public:
-  /// @throws std::invalid_argument, naming value and remedy, for a cell size that is not finite and
+  /// @throws std::invalid_argument with value and remedy, for a cell size that is not finite and
   /// positive, a pool of 0, 2, 3 or above 1,000, or the scheme `none`.
   explicit CellGrid(const GridConfig& config);
 
-  /// The cell a point lies in. Coordinates are limited to +-2^30 cells; NaN counts as 0. About 10
-  /// ns.
+  /// The cell of a point. Coordinates are limited to +-2^30 cells; NaN counts as 0. About 10 ns.
   [[nodiscard]] CellId cell(const Position& position) const noexcept;
 
   /// Centre of a cell [m], z = 0.
@@ -74,7 +73,7 @@ class CellGrid {
   /// Group of a cell, 1 .. G.
   [[nodiscard]] GroupIndex group(CellId cell) const noexcept;
 
-  /// Group of the cell a point lies in.
+  /// Group of the cell of a point.
   [[nodiscard]] GroupIndex group(const Position& position) const noexcept {
     return group(cell(position));
   }
@@ -108,13 +107,13 @@ class CellGrid {
     }
   }
 
-  /// Upper bound of the cells that a disc of this radius can reach, as a number to reserve or
-  /// refuse by.
+  /// Upper bound of the cells that a disc of this radius can reach, for reserving memory or
+  /// refusing a radius.
   [[nodiscard]] double cells_bound(double radius) const noexcept;
 
-  /// Most groups that a disc of this radius can reach, wherever it lies: at most those of a radius
-  /// larger by a ninth of a cell, and all of the tile where it is that large. For set-up: up to
-  /// 0.1 s.
+  /// Most groups that a disc of this radius can reach, at any position: at most those of a radius
+  /// larger by a ninth of a cell, and all of the tile if the radius is that large. For set-up: up
+  /// to 0.1 s.
   [[nodiscard]] std::size_t groups_bound(double radius) const;
 
   [[nodiscard]] const GridConfig& config() const noexcept { return config_; }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Any of the ways to cut the plane into cells, behind one interface: equal squares and hexagons, a
-// quad-tree, locales. A new scheme is a class with the members called here and its place in the
-// list of alternatives. The choice is made once a call, so that loops over cells are those of the
-// scheme itself.
+// All schemes of cutting the plane into cells behind one interface: equal squares and hexagons, a
+// quad-tree, locales. A new scheme is a class with the members called here and an entry in the list
+// of alternatives. The choice is made once a call, so loops over cells are those of the scheme
+// itself.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace reckon::aoim {
 
-/// Immutable but for assignment. Cost: that of the scheme, and a branch.
+/// Immutable except by assignment. Cost: that of the scheme, and a branch.
 class CellPartition {
  public:
   CellPartition(CellGrid grid) : scheme_(std::move(grid)) {}         // NOLINT: meant to convert
@@ -26,11 +26,11 @@ class CellPartition {
   /// Calls use(scheme) with the scheme itself, for loops.
   template <typename Use>
   decltype(auto) visit(Use&& use) const {
-    // The one that most have first: a branch that is foreseen.
+    // The most common scheme first, for the branch predictor.
     if (const CellGrid* grid = as<CellGrid>()) return use(*grid);
     return std::visit(std::forward<Use>(use), scheme_);
   }
-  /// The scheme where it is a Scheme, else null.
+  /// The scheme if it is a Scheme, else null.
   template <typename Scheme>
   [[nodiscard]] const Scheme* as() const noexcept {
     return std::get_if<Scheme>(&scheme_);
@@ -39,7 +39,7 @@ class CellPartition {
     return visit([](const auto& scheme) { return scheme.scheme(); });
   }
 
-  /// The cell a point lies in.
+  /// The cell of a point.
   [[nodiscard]] CellId cell(const Position& position) const noexcept {
     return visit([&](const auto& scheme) { return scheme.cell(position); });
   }
@@ -66,7 +66,7 @@ class CellPartition {
   [[nodiscard]] double finest() const noexcept {
     return visit([](const auto& scheme) { return scheme.finest(); });
   }
-  /// A cell of this group, whichever.
+  /// Any cell of this group.
   [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept {
     return visit([&](const auto& scheme) { return scheme.cell_of(group); });
   }

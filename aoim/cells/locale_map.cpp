@@ -56,8 +56,7 @@ double LocaleMap::finest() const noexcept {
   return 2.0 * least;
 }
 
-// Looks at balls all over each locale, each so much larger that it holds those of the centres
-// around.
+// Tests balls all over each locale, each enlarged to contain the balls of the centres around it.
 std::size_t LocaleMap::groups_bound(double radius) const {
   constexpr int kSteps = 8;
   std::size_t most = 0;

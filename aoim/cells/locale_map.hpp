@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Locales, as in Spline: pieces of the world with a frame of their own each, e.g. the rooms of a
-// building. A locale has a group of its own and neighbours; what lies beyond a wall is near and
-// still not heard, where no way of neighbours leads there within the radius.
+// Locales, as in Spline: parts of the world with a frame each, for example the rooms of a building.
+// A locale has its own group and neighbours. An entity behind a wall is near but not received,
+// unless a path of neighbours leads there within the radius.
 #pragma once
 
 #include <array>
@@ -19,25 +19,25 @@ namespace reckon::aoim {
 /// One locale: a rectangle about the origin of its frame, of any height or a box.
 struct Locale {
   Position origin;   ///< of its frame, in S [m]
-  double yaw = 0.0;  ///< of its x axis, from S's x axis about the common z axis [rad]
+  double yaw = 0.0;  ///< from S's x axis to its x axis about the common z axis [rad]
   double half_x = 0.0, half_y = 0.0;           ///< along its own axes [m], > 0
   std::vector<std::uint16_t> neighbours = {};  ///< by their places in the list
-  /// Up and down from its origin [m], > 0; infinite: height plays no part.
+  /// Up and down from its origin [m], > 0; infinite: height has no effect.
   double half_z = std::numeric_limits<double>::infinity();
 };
 
-/// Immutable, hence safe from any thread. Where locales overlap, the first one has the place; a
-/// place in none belongs to the nearest.
+/// Immutable, hence safe from any thread. If locales overlap, the first one has the place; a place
+/// in none belongs to the nearest.
 class LocaleMap {
  public:
-  /// @throws std::invalid_argument, naming the locale and the remedy: none or more than 1,000, a
-  /// size that is not positive, a neighbour that does not exist or does not call it neighbour too.
+  /// @throws std::invalid_argument with the locale and the remedy: none or more than 1,000, a size
+  /// that is not positive, a neighbour that does not exist or does not list it as a neighbour too.
   explicit LocaleMap(std::vector<Locale> locales);
 
-  /// The locale a point lies in: q its place in the list, r 0. NaN counts as the first one. About 3
-  /// ns a locale.
+  /// The locale of a point: q is its place in the list, r is 0. NaN counts as the first one. About
+  /// 3 ns a locale.
   [[nodiscard]] CellId cell(const Position& position) const noexcept;
-  /// Group of a locale, 1 + its place in the list; of one that is not in it, the first one's.
+  /// Group of a locale, 1 + its place in the list; for one that is not in it, the first one's.
   [[nodiscard]] GroupIndex group(CellId cell) const noexcept {
     return {static_cast<std::uint16_t>(place(cell) + 1)};
   }
@@ -46,7 +46,7 @@ class LocaleMap {
   }
   [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept { return {group.value - 1, 0}; }
   [[nodiscard]] Position centre(CellId cell) const noexcept { return locales_[place(cell)].origin; }
-  /// Distance from a point of S to a locale [m]; 0 inside. Horizontal where it is of any height.
+  /// Distance from a point of S to a locale [m]; 0 inside. Horizontal if the locale has any height.
   [[nodiscard]] double distance(CellId cell, const Position& position) const noexcept;
   [[nodiscard]] std::span<const Locale> locales() const noexcept { return locales_; }
   [[nodiscard]] std::size_t groups() const noexcept { return locales_.size(); }
@@ -61,13 +61,13 @@ class LocaleMap {
     return static_cast<double>(locales_.size());
   }
 
-  /// A point of S in a locale's frame, and back. Going from one locale to the next changes the
-  /// numbers, not the place: to_scene(a, to_locale(a, p)) is p in each.
+  /// A point of S in a locale's frame, and back. Another locale changes the numbers, not the place:
+  /// to_scene(a, to_locale(a, p)) is p for each a.
   [[nodiscard]] Position to_locale(CellId cell, const Position& position) const noexcept;
   [[nodiscard]] Position to_scene(CellId cell, const Position& local) const noexcept;
 
-  /// Calls visit(CellId, double distance [m]) for the locale of the point and each that lies within
-  /// the radius and is reached from there by neighbours that do too.
+  /// Calls visit(CellId, double distance [m]) for the locale of the point, and for each locale
+  /// within the radius that a path of neighbours within the radius connects with it.
   template <typename Visit>
   void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
     if (!(radius >= 0.0) || !is_finite(position)) return;
@@ -80,7 +80,7 @@ class LocaleMap {
     return cell.q >= 0 && index < locales_.size() ? index : 0;
   }
 
-  // From a home that need not be the one of the point.
+  // The same from a home locale other than that of the point.
   template <typename Visit>
   void for_each_reached(std::size_t home, const Position& position, double radius,
                         Visit&& visit) const {

@@ -13,7 +13,7 @@ struct Position {
   bool operator==(const Position&) const = default;
 };
 
-/// Distance of two points [m]; NaN or infinite where an input is.
+/// Distance of two points [m]; NaN or infinite if an input is.
 [[nodiscard]] inline double distance(const Position& a, const Position& b) noexcept {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   return std::sqrt(x * x + y * y + z * z);

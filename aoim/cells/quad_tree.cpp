@@ -42,7 +42,7 @@ QuadTree::QuadTree(const QuadTreeConfig& config) : config_(config) {
   leaves_.push_back({0, 0});
 }
 
-// Appends the node of a cell and all below it; `divided`: ascending, the whole square first.
+// Appends the node of a cell and all its descendants; `divided`: ascending, the whole square first.
 void QuadTree::grow(CellId cell, std::span<const CellId> divided) {
   const std::size_t node = node_of(cell);
   if (!std::binary_search(divided.begin(), divided.end(), cell)) {
@@ -111,7 +111,7 @@ double QuadTree::finest() const noexcept {
   return side(deepest);
 }
 
-// Cells with a point that is no farther than the radius from some point of the box.
+// Cells with a point within the radius of some point of the box.
 void QuadTree::count_near(std::size_t node, CellId cell, const Box& box, double radius,
                           std::size_t& count) const noexcept {
   const Position middle = centre(cell);
@@ -128,7 +128,7 @@ void QuadTree::count_near(std::size_t node, CellId cell, const Box& box, double 
                count);
 }
 
-// Looks closer and closer at where most cells may be reached.
+// Refines where most cells may be reached.
 std::size_t QuadTree::groups_bound(double radius) const {
   constexpr int kLooks = 2000;
   struct Part {
@@ -171,7 +171,7 @@ double QuadTree::distance(CellId cell, const Position& position) const noexcept 
   };
   const double x = std::max(std::abs(inside(position.x, config_.centre.x) - middle.x) - half, 0.0);
   const double y = std::max(std::abs(inside(position.y, config_.centre.y) - middle.y) - half, 0.0);
-  return std::sqrt(x * x + y * y);  // not hypot, which differs from library to library
+  return std::sqrt(x * x + y * y);  // not hypot, which differs between libraries
 }
 
 // East 1, north 2.
@@ -199,7 +199,7 @@ GroupIndex QuadTree::group(const Position& position) const noexcept {
 
 GroupIndex QuadTree::group(CellId cell) const noexcept { return nodes_[node_of(cell)].group; }
 
-// Of a cell that this tree does not have, the leaf that stands for it.
+// For a cell that this tree lacks, the leaf that stands for it.
 std::size_t QuadTree::node_of(CellId cell) const noexcept {
   const int depth = std::clamp(cell.r, 0, kDeepest);
   std::size_t node = 0;

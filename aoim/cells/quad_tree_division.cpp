@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a quad-tree is divided so that few listen to what they do not want.
+// Divides a quad-tree so that little unwanted traffic is received.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,11 +19,11 @@ double apart(const Demand& one, const Demand& other) noexcept {
   return std::sqrt(x * x + y * y);  // see QuadTree::distance
 }
 
-// Who speaks in a cell and who hears it.
+// Senders and listeners of a cell.
 struct Part {
   std::vector<std::uint32_t> senders, listeners;  // demands, in the order of their instants
-  double wasted = 0.0;               // what listeners get from senders beyond their radius
-  std::optional<double> saved = {};  // by quartering it, once that was asked
+  double wasted = 0.0;               // traffic to listeners from senders beyond their radius
+  std::optional<double> saved = {};  // by quartering it, once computed
 };
 
 class Division {
@@ -52,13 +52,13 @@ class Division {
     }
   }
 
-  // Each turn wastes less than the one before, so this ends; the bound is for the time it may take.
+  // Each turn wastes less than the one before, so this ends; the bound limits the time.
   void refine() {
     for (std::size_t turn = 0; turn < whole_.config().pool; ++turn) {
       std::pair<double, CellId> best{0.0, {}}, least{std::numeric_limits<double>::infinity(), {}};
       for (auto& [cell, part] : leaves_)
         best = std::max(best, std::pair(saved_by(cell, part), cell));
-      const CellId kept{best.second.q >> 2, best.second.r - 1};  // its quarters are not made one
+      const CellId kept{best.second.q >> 2, best.second.r - 1};  // its quarters are not merged
       for (const auto& [cell, part] : divided_) {
         if (cell == kept || !has_whole_quarters(cell)) continue;
         double lost = part.wasted;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What every control PDU of a peer says of its sender.
+// Sender and time in every control PDU of a peer.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where finished datagrams go: a reference to any callable, without the allocation of
+// Recipient of finished datagrams: a reference to any callable, without the allocation of
 // std::function.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace reckon::aoim {
 
-/// Refers to a callable taking (GroupIndex, std::span<const std::byte>). It must outlive the call
-/// it is passed to; the span is valid during the call only.
+/// Refers to a callable with (GroupIndex, std::span<const std::byte>), which must outlive the call
+/// that gets it; the span is valid only during the call.
 class DatagramSink {
  public:
   template <typename Callable>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where the row of a life stands in a dense table of peers: asked for each datagram that comes.
+// Finds the row of an epoch in a dense table of peers, for each received datagram.
 #pragma once
 
 #include <algorithm>
@@ -10,25 +10,25 @@
 
 namespace reckon::aoim {
 
-/// Places by epoch, in the order of epochs. Whoever holds the rows tells where they go:
+/// Places by epoch, in the order of epochs. The holder of the rows sets their places:
 ///
 ///   if (index.find(epoch) == EpochIndex::kNone) index.put(epoch, rows.size()), rows.push_back(r);
 ///
-/// One thread; allocates nothing while it holds no more than it was made for. Finding takes some
-/// 15 ns among 1,000, putting one in and out 0.1 us: peers come and go rarely.
+/// One thread; allocates nothing up to its capacity. Finding takes some 15 ns among 1,000,
+/// inserting and erasing 0.1 us: peers come and go rarely.
 class EpochIndex {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// @param capacity lives that it holds without allocating.
+  /// @param capacity in epochs, without allocating.
   explicit EpochIndex(std::size_t capacity) { entries_.reserve(capacity); }
 
-  /// The place of this life; kNone where it has none.
+  /// The place of this epoch; kNone if it has none.
   [[nodiscard]] std::uint32_t find(std::uint32_t epoch) const noexcept {
     const std::size_t at = rank(epoch);
     return at < entries_.size() && entries_[at].epoch == epoch ? entries_[at].place : kNone;
   }
-  /// Says that `epoch` stands at `place`, below 2^32 - 1, now or from now on.
+  /// Sets the place of `epoch`, below 2^32 - 1.
   void put(std::uint32_t epoch, std::size_t place) {
     const std::size_t at = rank(epoch);
     const Entry entry{epoch, static_cast<std::uint32_t>(place)};
@@ -38,7 +38,7 @@ class EpochIndex {
       entries_.insert(entries_.begin() + static_cast<std::ptrdiff_t>(at), entry);
     }
   }
-  /// Forgets a life; nothing happens where it has no place.
+  /// Removes an epoch; does nothing if it has no place.
   void erase(std::uint32_t epoch) noexcept {
     const std::size_t at = rank(epoch);
     if (at == entries_.size() || entries_[at].epoch != epoch) return;
@@ -51,7 +51,7 @@ class EpochIndex {
     std::uint32_t epoch, place;
   };
 
-  // How many are lower. Halving without a branch, for which half it is cannot be foreseen.
+  // Number of lower epochs. A binary search without branches, which would be unpredictable.
   [[nodiscard]] std::size_t rank(std::uint32_t epoch) const noexcept {
     const Entry* base = entries_.data();
     std::size_t rest = entries_.size();

@@ -11,8 +11,8 @@
 namespace reckon::aoim {
 
 /// 0 is the base group (presence, and everything in an interop scene); 1 .. G are the pool of
-/// cells. Behind them, G each: those of the near rows of channels, the nearest first, and those of
-/// what is felt, where these have groups of their own.
+/// cells. Behind them, with G each, are the groups of the near rows of channels, the nearest first,
+/// and the contact groups, if the scene has them.
 struct GroupIndex {
   std::uint16_t value = 0;
   auto operator<=>(const GroupIndex&) const = default;
@@ -28,13 +28,13 @@ inline constexpr std::size_t kDefaultPool = 256;
 /// flood.
 inline constexpr std::size_t kMaximumPool = 1000;
 
-/// Whether cells can be laid out on so many groups: with 2 or 3 a cell would share its group with a
+/// Whether cells can use this number of groups: with 2 or 3 a cell would share its group with a
 /// neighbour.
 [[nodiscard]] constexpr bool is_pool(std::size_t groups) noexcept {
   return groups == 1 || (groups >= 4 && groups <= kMaximumPool);
 }
 
-/// What to take instead.
+/// The remedy for an invalid pool.
 inline constexpr std::string_view kPoolRemedy =
     "take 4 to 1000, or 1 for a world that is not divided";
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Names a peer: the first two numbers of each of its entities' ids.
+// Identifies a peer: the first two numbers of each of its entities' IDs.
 #pragma once
 
 #include "reckon/pdu/codec/records.hpp"

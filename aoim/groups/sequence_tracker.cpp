@@ -44,7 +44,7 @@ SequenceVerdict SequenceTracker::note(std::uint32_t epoch, GroupIndex group,
   ++counts_.received;
   if (track.span == 0) return begin(track, sequence);
 
-  // Serial number arithmetic: the sequence may wrap.
+  // Serial number arithmetic: the sequence may wrap around.
   const auto ahead = static_cast<std::int32_t>(sequence - track.highest);
   if (ahead > kMostAhead || ahead < -kMostBehind) return hold_leap(track, sequence);
   if (ahead <= 0) return look_back(track, track.highest - sequence);
@@ -53,7 +53,7 @@ SequenceVerdict SequenceTracker::note(std::uint32_t epoch, GroupIndex group,
   return verdict;
 }
 
-// One such number may be forged; a second near it is how the sender counts now.
+// One such number may be forged; a second one near it shows the sender's new numbering.
 SequenceVerdict SequenceTracker::hold_leap(Track& track, std::uint32_t sequence) noexcept {
   const auto from_first = static_cast<std::int32_t>(sequence - track.leapt_to);
   if (track.has_leapt && from_first == 0) {
@@ -79,7 +79,7 @@ void SequenceTracker::follow_leap(Track& track, std::uint32_t sequence) noexcept
   const std::uint32_t low = in_order ? track.leapt_to : sequence;
   const std::uint32_t high = in_order ? sequence : track.leapt_to;
   track.has_leapt = false;
-  // What is missing up to there is loss, unless the numbering itself is another one.
+  // The numbers up to there are lost, unless the numbering itself is new.
   const std::uint32_t gap = low - track.highest;
   if (gap <= kFarthest) {
     advance(track, gap);
@@ -90,7 +90,7 @@ void SequenceTracker::follow_leap(Track& track, std::uint32_t sequence) noexcept
   advance(track, high - low);
 }
 
-// What lay too far ahead is within the window by now.
+// The number that was too far ahead is within the window by now.
 void SequenceTracker::reach_leap(Track& track) noexcept {
   if (!track.has_leapt) return;
   const auto ahead = static_cast<std::int32_t>(track.leapt_to - track.highest);
@@ -133,7 +133,7 @@ SequenceVerdict SequenceTracker::look_back(Track& track, std::uint32_t behind) n
   if (behind < track.span) {
     --counts_.lost;
   } else {
-    // Older than the first we got: what lies between is missing by now.
+    // Older than the first one received: the numbers in between are missing by now.
     counts_.lost += behind - track.span;
     track.span = behind + 1;
   }
@@ -171,7 +171,7 @@ std::size_t SequenceTracker::slot_of(std::uint32_t epoch, GroupIndex group) cons
   return slot;
 }
 
-// The last track goes to its place.
+// The last track takes its place.
 void SequenceTracker::erase(std::uint32_t place) noexcept {
   unlink(place);
   close_gap(slot_of(tracks_[place].epoch, tracks_[place].group));
@@ -186,7 +186,7 @@ void SequenceTracker::erase(std::uint32_t place) noexcept {
   tracks_.pop_back();
 }
 
-// Whoever stands behind a gap for want of room moves up, so that each is found without one between.
+// Moves up the entries that collided behind the gap, so that a search for them meets no gap.
 void SequenceTracker::close_gap(std::size_t gap) noexcept {
   const std::size_t mask = index_.size() - 1;
   for (std::size_t i = (gap + 1) & mask; index_[i] != kNone; i = (i + 1) & mask) {

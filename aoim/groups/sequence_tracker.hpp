@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts what the network did to the datagrams of each (sender, group), from the sequence numbers
-// in their trailers: DIS has none of its own, so loss could not even be noticed. The sender is
-// named by its epoch, so a restarted peer begins a new count by itself.
+// Counts the network's effects on the datagrams of each (sender, group), from the sequence numbers
+// in their trailers. DIS has no sequence numbers, so loss would go unnoticed. The epoch identifies
+// the sender, so a restarted peer begins a new count by itself.
 #pragma once
 
 #include <array>
@@ -14,22 +14,23 @@
 
 namespace reckon::aoim {
 
-/// What became of one datagram.
+/// Result for one datagram.
 enum class SequenceVerdict : std::uint8_t {
   in_order,   ///< the next one, or after a gap
   first,      ///< the first of this sender in this group
-  late,       ///< fills a gap: reordered on the way, use it
-  leap,       ///< far ahead of all before: use it, the numbering follows when a second one agrees
-  duplicate,  ///< seen before: do not use it
-  too_old,    ///< more than the window behind: cannot tell, do not use it
+  late,       ///< fills a gap: reordered on the way, usable
+  leap,       ///< far ahead of all before: usable; a second one like it changes the numbering
+  duplicate,  ///< received before: not usable
+  too_old,    ///< more than the window behind: undecidable, not usable
 };
 
-/// True where the datagram's PDUs are to be used.
+/// True if the datagram's PDUs are to be used.
 [[nodiscard]] constexpr bool is_usable(SequenceVerdict verdict) noexcept {
   return verdict != SequenceVerdict::duplicate && verdict != SequenceVerdict::too_old;
 }
 
-/// Sums since the start. `lost` may fall when a late one arrives: it holds what is missing by now.
+/// Sums since the start. `lost` counts what is missing by now, so it falls when a late datagram
+/// arrives.
 struct SequenceCounts {
   std::uint64_t received = 0;    ///< datagrams, duplicates included
   std::uint64_t lost = 0;        ///< gaps not filled (yet)
@@ -37,35 +38,36 @@ struct SequenceCounts {
   std::uint64_t reordered = 0;   ///< arrived after a later one
   std::uint64_t too_old = 0;     ///< behind the window
   std::uint64_t leaps = 0;       ///< too far from all before to be believed alone
-  /// Pairs given up for others: what was lost between their last datagram and their next is missing
-  /// in `lost`, and a copy of it is not known as one.
+  /// Pairs dropped to make room. Losses between their last datagram and their next are not in
+  /// `lost`, and copies of that time are not recognised.
   std::uint64_t given_up = 0;
 };
 
-/// Tracks the (sender, group) pairs heard last. One thread; allocates nothing after construction.
+/// Tracks the most recently received (sender, group) pairs. One thread; allocates nothing after
+/// construction.
 class SequenceTracker {
  public:
-  /// Datagrams that may be overtaken and still be distinguished from duplicates.
+  /// Datagrams that may overtake one before it can no longer be distinguished from a duplicate.
   static constexpr std::size_t kWindow = 256;
-  /// Farther than this from the last one, a minute at 1,000 a second, a number tells nothing of
-  /// loss: whoever is there begins anew.
+  /// A number farther than this from the last one, a minute at 1,000 a second, shows no loss: the
+  /// sender has restarted its count.
   static constexpr std::uint32_t kFarthest = 1U << 16;
 
-  /// Of 1,000 peers in 16 groups each.
+  /// 1,000 peers in 16 groups each.
   static constexpr std::size_t kCapacity = 16384;
 
-  /// `capacity` (sender, group) pairs, 1 .. 2^24, some 80 octets each: where there are more, the
-  /// one that has been silent for the longest makes room.
+  /// @param capacity (sender, group) pairs, 1 .. 2^24, some 80 octets each; the pair that was
+  /// silent for the longest makes room for a new one.
   explicit SequenceTracker(std::size_t capacity = kCapacity);
 
-  /// Notes one datagram of the sender with this epoch. About 15 ns. One that is more than the
-  /// window ahead, or kFarthest behind, does not move the count: it is believed when another comes
-  /// within a window of it, so that no single forged number makes the genuine ones too old.
+  /// Records one datagram of the sender with this epoch. About 15 ns. A number more than the window
+  /// ahead, or kFarthest behind, does not move the count. It is believed when another one comes
+  /// within a window of it, so that a single forged number cannot make the genuine ones too old.
   SequenceVerdict note(std::uint32_t epoch, GroupIndex group, std::uint32_t sequence) noexcept;
 
-  /// Forgets a group that is left or newly joined: what passed meanwhile is not loss.
+  /// Removes a group that was left or newly joined: what was sent meanwhile is not loss.
   void forget(GroupIndex group) noexcept;
-  /// Forgets a sender that is gone.
+  /// Removes a sender that has gone.
   void forget(std::uint32_t epoch) noexcept;
 
   [[nodiscard]] const SequenceCounts& counts() const noexcept { return counts_; }
@@ -79,14 +81,14 @@ class SequenceTracker {
     std::uint32_t epoch = 0;
     GroupIndex group;
     std::uint32_t highest = 0;
-    std::uint32_t span = 0;      ///< sequence numbers from the first one seen to the highest
-    std::uint32_t leapt_to = 0;  ///< the number of the last leap, while has_leapt
+    std::uint32_t span = 0;      ///< from the first sequence number received to the highest
+    std::uint32_t leapt_to = 0;  ///< the number of the last leap, if has_leapt
     bool has_leapt = false;
-    std::uint32_t newer = kNone, older = kNone;  ///< places of those heard next after and before it
+    std::uint32_t newer = kNone, older = kNone;  ///< places of the next and previous pair received
     std::array<std::uint64_t, kWords> seen{};    ///< bit i = highest - i was received
   };
   Track& find_or_add(std::uint32_t epoch, GroupIndex group) noexcept;
-  /// Where the index has the pair, or the gap where it belongs.
+  /// Place of the pair in the index, or the gap for it.
   [[nodiscard]] std::size_t slot_of(std::uint32_t epoch, GroupIndex group) const noexcept;
   void erase(std::uint32_t place) noexcept;
   void close_gap(std::size_t slot) noexcept;
@@ -103,7 +105,7 @@ class SequenceTracker {
 
   std::size_t capacity_;
   std::vector<Track> tracks_;
-  /// Places in tracks_ by open addressing, half full at most (peer::KeyIndex stands above aoim).
+  /// Places in tracks_ by open addressing, half full at most (peer::KeyIndex is in a higher layer).
   std::vector<std::uint32_t> index_;
   std::uint32_t newest_ = kNone, oldest_ = kNone;
   SequenceCounts counts_;

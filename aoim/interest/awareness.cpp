@@ -18,7 +18,7 @@ double distance_to_box(const AwarenessFocus& focus, const Position& point) noexc
   return distance(out, {});
 }
 
-// In the plane through the axis and the point: `along` and `across` the axis.
+// In the plane through the axis and the point, with coordinates `along` and `across` the axis.
 double distance_to_cone(const AwarenessFocus& focus, const Position& point) noexcept {
   const Position& at = focus.position;
   const double x = point.x - at.x, y = point.y - at.y, z = point.z - at.z;
@@ -26,7 +26,7 @@ double distance_to_cone(const AwarenessFocus& focus, const Position& point) noex
   const double squared = x * x + y * y + z * z;
   const double across = std::sqrt(std::max(0.0, squared - along * along));
   const double cosine = std::cos(focus.half_angle), sine = std::sin(focus.half_angle);
-  // Turned so that the edge of the cone is the first axis: below it is inside.
+  // Rotated so that the edge of the cone is the first axis: below it is inside.
   const double on_edge = along * cosine + across * sine;
   const double off_edge = across * cosine - along * sine;
   if (off_edge <= 0.0) return std::max(0.0, std::sqrt(squared) - focus.radius);
@@ -39,7 +39,7 @@ bool is_inside(const Occluders::Box& box, const Position& p) noexcept {
          box.lower.z < p.z && p.z < box.upper.z;
 }
 
-// The part of the line, 0 .. 1, between two planes; empty parts have begin >= end.
+// The part of the line, 0 .. 1, between two planes; an empty part has begin >= end.
 struct Part {
   double begin = 0.0, end = 1.0;
 

@@ -75,7 +75,7 @@ double ChannelTable::rate(const ChannelClient& client, double stretch) const noe
   return channel.octets * (client.active ? channel.active_hz : channel.passive_hz);
 }
 
-// As distances are stretched clients pass from row to row, each at a stretch of its own.
+// As the stretch grows, clients pass from row to row, each at its own stretch.
 ChannelBudget ChannelTable::fit(std::span<const ChannelClient> clients, double octets_per_second) {
   ChannelBudget budget;
   passages_.clear();
@@ -98,12 +98,12 @@ ChannelBudget ChannelTable::fit(std::span<const ChannelClient> clients, double o
   std::sort(passages_.begin(), passages_.end(),
             [](const Passage& a, const Passage& b) { return a.stretch < b.stretch; });
   for (const Passage& passage : passages_) {
-    // Those that pass at once, pass together.
+    // Clients with the same stretch pass together.
     if (budget.octets_per_second <= octets_per_second && passage.stretch > budget.stretch) break;
     budget.stretch = passage.stretch;
     budget.octets_per_second -= passage.saved;
   }
-  // Without what taking away has rounded.
+  // Summed anew, without the rounding errors of the subtractions.
   budget.octets_per_second = 0.0;
   for (const ChannelClient& client : clients) {
     budget.octets_per_second += rate(client, budget.stretch);

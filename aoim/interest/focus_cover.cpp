@@ -10,19 +10,21 @@
 namespace reckon::aoim {
 namespace {
 
-constexpr double kFarthest = 0x1p62;  // squares from the origin; what is farther counts as there
-// The same where locales are distinguished by columns.
+constexpr double kFarthest = 0x1p62;  // squares from the origin; farther ones count as there
+// The same if locales are distinguished by columns.
 constexpr std::int64_t kFarthestColumn = std::int64_t{1} << 50, kLocales = 1024;
 static_assert(kMaximumPool < kLocales);
-constexpr int kLastLevel = 63;  // one square a quadrant, however far all are
-// The sum of a distance and a radius is rounded; so much more holds it (a few units of 2^-53).
+constexpr int kLastLevel = 63;  // one square a quadrant, at any distance
+// The sum of a distance and a radius is rounded; this factor covers the error (a few units of
+// 2^-53).
 constexpr double kRounded = 1.0 + 0x1p-50;
 
 bool is_usable(const Focus& entity) noexcept {
   return is_finite(entity.position) && entity.radius >= 0.0;
 }
 
-// Each locale has columns of its own. Not inline: few have locales, and the loop is to stay short.
+// Each locale has its own columns. Not inline: few scenes have locales, and the loop is to stay
+// short.
 [[gnu::noinline]] std::int64_t column_in_locale(const LocaleMap& locales, const Position& position,
                                                 std::int64_t column) noexcept {
   return std::clamp(column, -kFarthestColumn, kFarthestColumn) * kLocales +
@@ -51,7 +53,7 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
   side_ = std::max(least_side_, 0.5 * least_radius);
 
   const int level = settle(entities);
-  // In a locale, where one of them is.
+  // In a locale, moves the focus to the place of one of the entities.
   for (std::size_t i = 0; i < count_; ++i) {
     Group& group = groups_[i];
     group.centre = locales_ ? group.only.position : middle(group.least, group.most);
@@ -65,9 +67,9 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
   return {foci_.data(), count_};
 }
 
-// Gathers at the finest level that has room for all, and tells it. The squares of a level lie
-// within those of the next, so fewer and fewer are occupied; with locales the last one has one for
-// each, which may be more than there should be.
+// Gathers at the finest level that has room for all, and returns it. The squares of a level lie
+// within those of the next, so the number of occupied ones falls. With locales the last level has
+// one square for each, which may be more than the limit.
 int FocusCover::settle(std::span<const Focus> entities) noexcept {
   room_ = kMostFoci;
   if (gather(entities, 0)) return 0;
@@ -94,7 +96,7 @@ FocusCover::Square FocusCover::square_of(const Position& position, int level) co
   return square;
 }
 
-// Index of a square's group; room_ where there are as many others already.
+// Index of a square's group; room_ if all groups are in use.
 std::size_t FocusCover::find_or_open(const Square& square) noexcept {
   const std::uint64_t bits = static_cast<std::uint64_t>(square.column) * 0x9E3779B97F4A7C15ULL +
                              static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL;
@@ -111,7 +113,8 @@ std::size_t FocusCover::find_or_open(const Square& square) noexcept {
   return count_ - 1;
 }
 
-// Puts entities into the squares of a level; false where they are too many, and then not all.
+// Puts entities into the squares of a level; false, before all are placed, if there are too many
+// squares.
 bool FocusCover::gather(std::span<const Focus> entities, int level) noexcept {
   std::ranges::fill(slots_, std::uint16_t{0});
   count_ = 0;
@@ -134,7 +137,7 @@ bool FocusCover::gather(std::span<const Focus> entities, int level) noexcept {
   return true;
 }
 
-// Now that the centres stand: radii that hold each entity's ball.
+// Sets the radii, after the centres are fixed, so that each contains its entities' balls.
 void FocusCover::enlarge(std::span<const Focus> entities, int level) noexcept {
   for (const Focus& entity : entities) {
     if (!is_usable(entity)) continue;

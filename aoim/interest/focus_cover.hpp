@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Few foci for many entities: interest and subscription look at each focus, so an owner of
-// thousands tells them balls that hold the balls of all its entities.
+// Few foci for many entities. Interest and subscription visit each focus, so an owner of thousands
+// gives them balls that contain the balls of all its entities.
 #pragma once
 
 #include <algorithm>
@@ -15,35 +15,35 @@
 
 namespace reckon::aoim {
 
-/// Entities that share a square of the plane share a focus; where more than kMostFoci squares are
-/// occupied, the squares double. What a peer then hears beyond its entities' own balls reaches at
-/// most a square's diagonal farther.
+/// Entities in the same square of the plane share a focus; if more than kMostFoci squares are
+/// occupied, the squares double. The unwanted traffic comes from at most a square's diagonal beyond
+/// the entities' own balls.
 ///
 ///   FocusCover cover(manager.cells());
 ///   manager.listen(kCellTier, cover.cover(foci_of_my_entities), now);
 ///
-/// Where there are locales, those of one locale alone share a focus, which stands where one of them
-/// does, so that it reaches no farther than the ways from there; where somebody is in more than
-/// kMostFoci locales, each of these has one focus. One thread; allocates nothing after
-/// construction.
+/// With locales, only entities of one locale share a focus. It lies where one of them is, so that
+/// it reaches no farther than the paths from there. If entities are in more than kMostFoci locales,
+/// each of these has one focus. One thread; allocates nothing after construction.
 class FocusCover {
  public:
   static constexpr std::size_t kMostFoci = 64;
 
-  /// @param least_side of the squares [m]: the size of a cell, for smaller ones save no group; > 0.
+  /// @param least_side of the squares [m], > 0: the size of a cell, because smaller ones save no
+  /// group.
   explicit FocusCover(double least_side) : FocusCover(least_side, nullptr) {}
-  /// For these cells, which are copied where they are locales.
+  /// For these cells, which are copied if they are locales.
   explicit FocusCover(const CellPartition& cells)
       : FocusCover(cells.finest(), cells.as<LocaleMap>()) {}
 
-  /// At most most(cells) foci; each entity's ball lies in one of theirs, and the focus is as fast
-  /// as the fastest in it. An entity that is alone in its square is its own focus, unchanged.
-  /// Entities that are not finite or have no radius >= 0 are skipped; a speed that is no number >=
-  /// 0 counts as 0 in company. Foci stand in the order of their first entities; good until the next
-  /// call. Cost: up to nine passes over the entities, each some ns an entity.
+  /// At most most(cells) foci. Each entity's ball lies in one of theirs, and a focus is as fast as
+  /// its fastest entity. An entity that is alone in its square is its own focus, unchanged.
+  /// Entities that are not finite or have no radius >= 0 are skipped; an invalid speed counts as 0
+  /// in a shared focus. Foci are in the order of their first entities; valid until the next call.
+  /// Cost: up to nine passes over the entities, each some ns an entity.
   [[nodiscard]] std::span<const Focus> cover(std::span<const Focus> entities) noexcept;
 
-  /// Foci of these cells: kMostFoci, or as many as there are locales.
+  /// Most foci of these cells: kMostFoci, or the number of locales if that is larger.
   [[nodiscard]] static std::size_t most(const LocaleMap* locales) noexcept {
     return std::max(kMostFoci, locales != nullptr ? locales->groups() : 0);
   }
@@ -71,7 +71,7 @@ class FocusCover {
   double least_side_;
   std::optional<LocaleMap> locales_;
   double side_ = 1.0;                 // of the squares of level 0 [m], for these entities
-  std::size_t room_ = kMostFoci;      // foci that this gathering may make
+  std::size_t room_ = kMostFoci;      // most foci of this gathering
   std::vector<std::uint16_t> slots_;  // 0: free, else 1 + index of a group; at most a quarter full
   std::vector<Group> groups_;
   std::size_t count_ = 0;

@@ -30,8 +30,8 @@ std::size_t Interest::set_foci(std::span<const Focus> foci) noexcept {
   return foci_.size();
 }
 
-// By how much that ball of before sticks out most, as far as a shown entity is kept, that sticks
-// out of all balls of now.
+// The largest distance by which a former ball, with the radius up to which shown entities are kept,
+// extends beyond all present balls.
 double Interest::withdrawal() const noexcept {
   const auto same = [](const Focus& a, const Focus& b) {
     return a.position == b.position && a.radius == b.radius;
@@ -77,7 +77,7 @@ InterestVerdict Interest::verdict(const Position& position, double nimbus, std::
   return lingers ? InterestVerdict::lingering : InterestVerdict::left;
 }
 
-// One focus is a ball: distances have been compared already, with their slack.
+// One focus is a ball: distances were compared already, with their slack.
 bool Interest::is_aware(const Focus& focus, const Position& position, double nimbus,
                         double slack) const noexcept {
   Observer observer;

@@ -7,8 +7,8 @@
 namespace reckon::aoim {
 namespace {
 
-// What is shown stays so within this share of a cell beyond the one that is followed: where the
-// beacon crosses a border it is received in the next cell before the map says that it is there.
+// A shown entity stays shown within this share of a cell beyond the followed cell. When the beacon
+// crosses a border, it is received in the next cell before the map has it there.
 constexpr double kLingers = 0.5;
 
 }  // namespace

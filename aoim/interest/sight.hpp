@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which remote entities are of interest: by distance, and by the cells that this peer listens to.
+// Selects remote entities of interest: by distance, and by the cells that this peer listens to.
 #pragma once
 
 #include <chrono>
@@ -17,16 +17,15 @@ namespace reckon::aoim {
 /// A beacon that we follow.
 struct FollowedBeacon {
   std::uint32_t tag = 0;
-  bool found = false;  ///< in the map of groups; else `cell` is where it was last
-  CellId cell;         ///< of the tile at the origin: its number is what counts
-  GroupIndex group;    ///< in which its cell is spoken in; the base group where it has none
-  GroupIndex number;   ///< of its cell in the subscription; 0: we do not listen to it
-  std::chrono::nanoseconds until{};  ///< and where it is not found, for how long still
+  bool found = false;                ///< in the map of groups; else `cell` is its last cell
+  CellId cell;                       ///< of the tile at the origin; its number counts
+  GroupIndex group;                  ///< used for its cell's traffic; the base group if it has none
+  GroupIndex number;                 ///< of its cell in the subscription; 0: not subscribed
+  std::chrono::nanoseconds until{};  ///< if it is not found, end of the subscription
 };
 
-/// The exact test of Interest, and what cells add to it: the cell of a beacon that we follow is
-/// within, a locale that we do not listen to is hidden. One thread; allocates at construction
-/// alone.
+/// The exact test of Interest with the rules of cells: the cell of a followed beacon is inside, and
+/// a locale without a subscription is hidden. One thread; allocates only at construction.
 class Sight {
  public:
   /// @param cells, subscription outlive this; groups are numbered as in both
@@ -34,22 +33,22 @@ class Sight {
   Sight(const InterestConfig& config, const CellPartition& cells, const Subscription& subscription,
         std::span<const std::uint32_t> follow, double finest);
 
-  /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
-  /// Where there are locales, one in a locale that we do not listen to is hidden.
+  /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves. With
+  /// locales, an entity in a locale without a subscription is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
     if (is_walled_off(position)) return interest_.judge_hidden();
     return interest_.judge(position, nimbus, kind, shown, is_followed(position, shown));
   }
-  /// See Interest::gap; the same holds, and it is 0 in the cell of a beacon that we follow.
+  /// As Interest::gap, but 0 in the cell of a followed beacon.
   [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
     if (is_followed(position, false)) return 0.0;
     const double away = interest_.gap(position, nimbus);
     return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
   }
-  /// See Interest::withdrawn; it leaps where a locale or the cell of a beacon is left.
+  /// See Interest::withdrawn; it jumps when a locale or the cell of a beacon is left.
   [[nodiscard]] double withdrawn() const noexcept { return interest_.withdrawn() + leapt_; }
-  /// See Interest::spare; 0 in a locale that we do not listen to.
+  /// See Interest::spare; 0 in a locale without a subscription.
   [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind) noexcept {
     if (is_walled_off(position)) return 0.0;
     return interest_.spare(position, nimbus, kind, is_followed(position, true));
@@ -58,18 +57,18 @@ class Sight {
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
   [[nodiscard]] const Interest& interest() const noexcept { return interest_; }
 
-  /// Where this peer senses from now on.
+  /// Sets the places where this peer senses.
   void set_foci(std::span<const Focus> foci) noexcept { interest_.set_foci(foci); }
-  /// A locale is not listened to any more: what is shown in it is judged anew.
+  /// Records that a locale was left: its shown entities are judged anew.
   void leave_locale() noexcept {
     if (cells_.as<LocaleMap>() != nullptr) leap();
   }
 
   /// Beacons that we follow, as of the last follow().
   [[nodiscard]] std::span<const FollowedBeacon> followed() const noexcept { return followed_; }
-  /// Looks for each of them: `find(tag)` gives where a map of groups has it, a pdu::CellGroup-like
-  /// row with column, row and group, or none. One that is not found is listened to where it was
-  /// last, for so long: its owner may have been unheard, or the map.
+  /// Looks for each of them: `find(tag)` returns its row in a map of groups, like a pdu::CellGroup
+  /// with column, row and group, or none. The last cell of a beacon that is not found stays
+  /// subscribed for a time, because only an update of its owner or of the map may have been lost.
   /// @return numbers of the cells in which they are
   template <typename Find>
   std::span<const GroupIndex> follow(std::chrono::nanoseconds now,

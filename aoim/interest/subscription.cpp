@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// 0 at the focus, 1 at the edge of its radius; a focus of radius 0 needs the cell it stands in.
+// 0 at the focus, 1 at the edge of its radius; a focus of radius 0 needs only its own cell.
 double share(double distance, double radius) noexcept {
   if (distance <= 0.0) return 0.0;
   return radius > 0.0 ? distance / radius : kNever;
@@ -48,7 +48,7 @@ void Subscription::set_cells(const CellPartition& cells) {
   name_cells();
 }
 
-// Until a focus comes near, some cell stands for its group.
+// Until a focus comes near, any cell stands for its group.
 void Subscription::name_cells() {
   for (std::size_t i = 0; i < cells_.groups(); ++i) {
     entries_[i].cell = cells_.cell_of({static_cast<std::uint16_t>(i + 1)});
@@ -76,7 +76,7 @@ void Subscription::measure(const Focus& focus) {
   const double widest = config_.leave_factor * focus.radius + ahead;
 
   cells_.visit([&](const auto& scheme) {
-    // A disc that holds far more cells than there are groups reaches all of them.
+    // A disc with far more cells than there are groups reaches all groups.
     if (!(scheme.cells_bound(widest) < 64.0 * static_cast<double>(entries_.size()) + 1024.0)) {
       for (Entry& entry : entries_) entry.reach = entry.cover = 0.0;
       return;
@@ -104,7 +104,7 @@ void Subscription::choose(std::chrono::nanoseconds now) {
   }
   if (wanted_.size() <= config_.maximum_groups) return;
 
-  // Over the cap a joined group counts as nearer, so that two at equal distance do not take turns.
+  // Over the cap a joined group counts as nearer, so that two at equal distance do not alternate.
   const auto rank = [this](std::uint16_t index) {
     const Entry& entry = entries_[index];
     return entry.joined ? entry.reach / config_.leave_factor : entry.reach;
@@ -120,7 +120,7 @@ SubscriptionChange Subscription::apply(std::chrono::nanoseconds now) {
   const std::size_t kept = std::min(wanted_.size(), config_.maximum_groups);
   for (std::size_t i = kept; i < wanted_.size(); ++i) {
     const Entry& entry = entries_[wanted_[i]];
-    if (entry.reach > 1.0) continue;  // only lingered
+    if (entry.reach > 1.0) continue;  // only lingering
     ++change.uncovered;
     change.covered_share = std::min(change.covered_share, entry.cover);
   }

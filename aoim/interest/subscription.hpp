@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which groups a peer must have joined so that it hears everything within the radius of interest of
-// its own entities: join early (a join takes 9 to 30 ms on a snooping switch), leave late (a leave
-// costs 2 s of unwanted traffic), never flap at a border, never exceed the cap.
+// The groups that a peer must join to receive everything within the radius of interest of its own
+// entities. It joins early (a join takes 9 to 30 ms on a snooping switch), leaves late (a leave
+// costs 2 s of unwanted traffic), never alternates at a border and never exceeds the cap.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace reckon::aoim {
 
-/// What one local entity can sense: a ball that moves.
+/// The range of one local entity: a ball that moves.
 struct Focus {
   Position position;    ///< [m], in S
   double speed = 0.0;   ///< [m/s], >= 0; magnitude of the velocity
@@ -24,26 +24,27 @@ struct Focus {
 
 /// Tunables of the subscription.
 struct SubscriptionConfig {
-  /// A group is kept until its cell is farther than this times R; default 1.1, >= 1. Raising it
-  /// costs traffic (4 % at 1.1, 9 % at 1.25) and saves joins.
+  /// A group is kept until its cell is farther than this times R; default 1.1, >= 1. A higher
+  /// factor costs traffic (4 % at 1.1, 9 % at 1.25) and saves joins.
   double leave_factor = 1.1;
-  /// A group is kept at least this long; default 2 s, what a leave costs on a snooping switch.
+  /// Shortest time for which a group is kept; default 2 s, the cost of a leave on a snooping
+  /// switch.
   std::chrono::nanoseconds minimum_stay = std::chrono::seconds(2);
-  /// Cells that the focus could reach within this are joined before it gets there; default 100 ms.
+  /// Cells that the focus could reach within this time are joined in advance; default 100 ms.
   std::chrono::nanoseconds lookahead = std::chrono::milliseconds(100);
-  /// Cell groups joined at once, >= 1; default: as many as a pool can have. Each takes a socket of
-  /// its own. What a lower cap leaves out is not heard; more than about 20 let foreign groups pass
+  /// Most cell groups joined at once, >= 1; default: the largest pool. Each takes a separate
+  /// socket. Groups beyond a lower cap are not received; more than about 20 let foreign groups pass
   /// the filter of common network cards.
   std::size_t maximum_groups = kMaximumPool;
 };
 
-/// Outcome of one update. The spans live until the next update.
+/// Result of one update. The spans are valid until the next update.
 struct SubscriptionChange {
   std::span<const GroupIndex> join;   ///< join these now
   std::span<const GroupIndex> leave;  ///< then leave these
-  /// Groups needed but not joined because of the cap; the nearest cells were kept. 0 in good order.
+  /// Groups needed but not joined because of the cap; the nearest cells were kept. Normally 0.
   std::size_t uncovered = 0;
-  /// Share of the radius of interest that is wholly heard, 0 .. 1; 1 in good order.
+  /// Share of the radius of interest that is wholly received, 0 .. 1; normally 1.
   double covered_share = 1.0;
 };
 
@@ -53,21 +54,20 @@ class Subscription {
   /// @throws std::invalid_argument for a leave factor < 1, negative times or a cap of 0.
   Subscription(const CellPartition& cells, const SubscriptionConfig& config);
 
-  /// Recomputes the set for all foci of this peer. Cost: cells within 1.1 R of each focus, about
-  /// 50 ns each, plus one pass over the pool. Foci that are not finite are skipped.
-  /// @param besides groups to hold wherever their cells are, 1 .. as many as there are
+  /// Recomputes the set for all foci of this peer. Cost: cells within 1.1 R of each focus, about 50
+  /// ns each, plus one pass over the pool. Foci that are not finite are skipped.
+  /// @param besides groups to hold regardless of their cells, 1 .. as many as there are
   SubscriptionChange update(std::span<const Focus> foci, std::chrono::nanoseconds now,
                             std::span<const GroupIndex> besides = {});
 
-  /// Cuts the plane anew from the next update on; a group keeps its number, whatever its cell. For
-  /// set-up.
+  /// Changes the partition from the next update on; a group keeps its number. For set-up.
   /// @throws std::invalid_argument for a partition of more groups than the first one.
   void set_cells(const CellPartition& cells);
 
   /// Groups joined after the last update, ascending.
   [[nodiscard]] std::span<const GroupIndex> joined() const noexcept { return joined_; }
   [[nodiscard]] bool is_joined(GroupIndex group) const noexcept;
-  /// A cell of this group: the nearest one to a focus when it was last within reach.
+  /// A cell of this group: the one that was nearest to a focus when last within reach.
   [[nodiscard]] CellId cell(GroupIndex group) const noexcept {
     return entries_[group.value - 1u].cell;
   }

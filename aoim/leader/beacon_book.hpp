@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// In which cell each beacon is, by what its owners say in their roles. A beacon is a tag that an
-// owner carries from cell to cell; who leads the scene tells in the map of groups where it is, so
-// that others find it wherever it goes.
+// The cell of each beacon, from the roles that its owner sends. A beacon is a tag that an owner
+// carries from cell to cell. The leader of the scene publishes its cell in the map of groups, so
+// that others find it anywhere.
 #pragma once
 
 #include <chrono>
@@ -15,31 +15,31 @@
 
 namespace reckon::aoim {
 
-/// The number by which a beacon's name goes over the wire: FNV-1a of 32 bits; never 0.
+/// Tag that stands for a beacon's name on the wire: 32-bit FNV-1a, never 0.
 [[nodiscard]] constexpr std::uint32_t beacon_tag(std::string_view name) noexcept {
   std::uint32_t tag = 0x811C9DC5U;
   for (const char letter : name) tag = (tag ^ static_cast<unsigned char>(letter)) * 0x01000193U;
   return tag == 0 ? 1 : tag;
 }
 
-/// One thread; allocates when beacons are new. Where two owners say the same tag, who was heard
-/// first keeps it until it falls silent or leaves.
+/// One thread; allocates when beacons are new. If two owners use the same tag, the first one keeps
+/// it until it becomes silent or leaves.
 class BeaconBook {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// Beacons at most, and of one owner.
+  /// Most beacons in all, and of one owner.
   static constexpr std::size_t kMost = 256, kMostOfOne = 64;
 
-  /// @param patience so long after its last word a beacon is gone
+  /// @param patience a beacon expires this long after it was last received
   explicit BeaconBook(Nanoseconds patience) : patience_(patience) {}
 
-  /// The life `owner` says that its beacon is in this cell. True where that is news.
+  /// Records that the peer with the epoch `owner` has its beacon in this cell. True if that is new.
   bool hear(std::uint32_t tag, CellId cell, std::uint32_t owner, Nanoseconds now);
-  /// This owner has left the cell. True where a beacon went with it.
+  /// Records that this owner has left the cell. True if a beacon was removed.
   bool leave(CellId cell, std::uint32_t owner);
-  /// This life is over. True where it had a beacon.
+  /// Records that this epoch has ended. True if it had a beacon.
   bool forget(std::uint32_t owner);
-  /// Forgets those that nobody speaks of. True where there were any.
+  /// Removes beacons that are no longer received. True if there were any.
   bool expire(Nanoseconds now);
 
   /// Calls visit(tag, CellId) for each, by tag.
@@ -52,7 +52,7 @@ class BeaconBook {
  private:
   struct Beacon {
     CellId cell;
-    std::uint32_t owner = 0;  ///< life
+    std::uint32_t owner = 0;  ///< epoch
     Nanoseconds heard{};
   };
   Nanoseconds patience_;

@@ -13,12 +13,12 @@ using std::chrono::nanoseconds;
 
 constexpr int kFarewells = 3;
 constexpr milliseconds kFarewellGap{50};
-// A leader that is challenged says so again, but not more often than this.
+// A challenged leader repeats its claim, but not more often than this.
 constexpr milliseconds kLeastGap{100};
-// However many could lead before us, we wait for no more than so many.
+// Limit of the candidates before us for which we wait.
 constexpr std::int64_t kMostAwaited = 10;
 
-// Who came first; of two in the same nanosecond the lower life. A total order, the same for all.
+// Ranks by time of entry, then by the lower epoch. A total order, the same for all peers.
 bool precedes(std::uint64_t entered, std::uint32_t epoch, std::uint64_t other_entered,
               std::uint32_t other) noexcept {
   return std::tie(entered, epoch) < std::tie(other_entered, other);
@@ -67,7 +67,8 @@ void CellLeadership::receive(const pdu::CellRole& role, std::uint32_t sender, na
   const bool leads = (role.flags & pdu::kRoleLeads) != 0;
   if ((role.flags & pdu::kRoleLeaves) != 0) {
     cell->other_led |= leads;
-    // One that goes as we come may name us before we have heard it lead.
+    // A leader may leave as we enter. Its farewell can then arrive before we have received its
+    // claim.
     const bool led = cell->leader.epoch == sender || (leads && cell->leader.epoch == 0);
     return hear_farewell(*cell, sender, led, role.successor, now);
   }
@@ -110,11 +111,12 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
     cell.entered = std::max(cell.entered, leader.entered + 1);
     cell.next_say = now;
   }
-  if (led) cell.next_say = now;  // it may not have heard us yet, nor our place
+  if (led) cell.next_say = now;  // it may know neither us nor our rank
   if (is_new) tell(cell, led);
 }
 
-// The successor leads at once; all others give it the time of a leader that was just heard.
+// The successor leads at once. The others wait for its claim as long as for that of a leader just
+// received.
 void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
                                    std::uint32_t successor, nanoseconds now) {
   std::erase_if(cell.members, [sender](const Member& m) { return m.epoch == sender; });
@@ -123,7 +125,7 @@ void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
   const auto next = std::find_if(cell.members.begin(), cell.members.end(),
                                  [successor](const Member& m) { return m.epoch == successor; });
   cell.leader = {};
-  // One that is named is heard soon, though we have not heard it in the cell yet.
+  // The named successor is expected soon, even if we have not received it in the cell yet.
   cell.since = successor == 0 ? now - config_.listen : now;
   if (next != cell.members.end()) cell.leader = {successor, 0, next->entered, now};
   tell(cell, false);
@@ -149,8 +151,8 @@ void CellLeadership::tell(const Cell& cell, bool lost) {
   events_.push_back({cell.id, cell.leader.epoch, cell.leader.epoch == epoch_, lost});
 }
 
-// When we lead unless somebody else does: those who came before us by their clocks go first, also
-// where we have listened for longer.
+// The time at which we lead unless another peer does. Peers that entered earlier by their clocks go
+// first, even if we have listened for longer.
 nanoseconds CellLeadership::leads_at(const Cell& cell) const noexcept {
   const bool led = cell.leader.epoch != 0;
   nanoseconds silent = led ? cell.leader.heard + patience() : cell.since + config_.listen;
@@ -178,7 +180,8 @@ std::uint32_t CellLeadership::successor_of(const Cell& cell, nanoseconds now) co
   return oldest == nullptr ? 0 : oldest->epoch;
 }
 
-// Who has stood still for so long is led by another one: it asks before it speaks.
+// After a pause of this peer that was this long, another one leads: it listens before it claims the
+// lead.
 void CellLeadership::wake(nanoseconds now) {
   for (Cell& cell : cells_) {
     const bool led = cell.leader.epoch == epoch_;

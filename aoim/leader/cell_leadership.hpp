@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One leader for each cell, without a vote: who came first leads until it leaves or falls silent,
-// then the successor it named. Where two lead, as after a partition, the one that came first stays.
-// A newcomer never unseats a leader: it takes a place behind it, whatever its clock says.
+// One leader for each cell, without a vote. The peer that entered first leads until it leaves or
+// becomes silent; then the successor that it named leads. Of two leaders, as after a partition, the
+// one that entered first remains. A newcomer never replaces a leader: it ranks behind it, whatever
+// its clock shows.
 #pragma once
 
 #include <chrono>
@@ -16,60 +17,61 @@
 
 namespace reckon::aoim {
 
-/// What changed in a cell of ours.
+/// A change in a cell of ours.
 struct LeaderEvent {
   CellId cell;
-  std::uint32_t leader = 0;  ///< life that leads now; 0: none is known
-  bool ours = false;         ///< it is we
+  std::uint32_t leader = 0;  ///< epoch that leads now; 0: none is known
+  bool ours = false;         ///< we lead now
   bool lost = false;         ///< we led until now
 };
 
 /// The cells of one peer. One thread; allocates when cells or members are new.
 class CellLeadership {
  public:
-  /// @param epoch our life, not 0
+  /// @param epoch ours, not 0
   CellLeadership(const LeaderConfig& config, std::uint32_t epoch);
 
-  /// We are in this cell from now on. @param utc our time since 1970, which ranks us.
-  /// False, and nothing done, where we are in the most cells already.
+  /// Enters this cell.
+  /// @param utc our time since 1970, which ranks us. Returns false and does nothing if we are
+  /// already in the maximum number of cells.
   bool enter(CellId cell, std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
-  /// We leave it, and say so three times.
+  /// Leaves the cell, and sends that three times.
   void leave(CellId cell, std::chrono::nanoseconds now);
 
-  /// What a peer that is known says of one cell. @param sender its life, from its datagram
+  /// Takes the role of a known peer in one cell.  @param sender its epoch, from its datagram
   void receive(const pdu::CellRole& role, std::uint32_t sender, std::chrono::nanoseconds now);
-  /// Presence says that this life is over.
+  /// Presence has found that this epoch has ended.
   void forget(std::uint32_t epoch, std::chrono::nanoseconds now);
 
-  /// Takes the lead where nobody else does, and forgets who is silent.
+  /// Takes the lead where no other peer has it, and removes silent members.
   void step(std::chrono::nanoseconds now);
-  /// The next role that is due to be said, without its asks; false where there is none. The caller
-  /// says all of them.
+  /// Takes the next role that is due, without its requests; false if none is due. The caller sends
+  /// all of them.
   bool take_role(std::chrono::nanoseconds now, pdu::CellRole& role);
-  /// Say the role of this cell at the next occasion, e.g. to ask for something.
+  /// Makes the role of this cell due now, for example to request something.
   void say_soon(CellId cell, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
   [[nodiscard]] bool is_member(CellId cell) const noexcept { return find(cell) != nullptr; }
-  /// Life that leads a cell of ours; 0 where none is known or we are not in it.
+  /// Epoch that leads a cell of ours; 0 if none is known or we are not in the cell.
   [[nodiscard]] std::uint32_t leader(CellId cell) const noexcept;
   [[nodiscard]] bool leads(CellId cell) const noexcept { return leader(cell) == epoch_; }
-  /// Whether this life is heard in the cell and came after us: where both lead, it gives way.
+  /// Whether this epoch is known in the cell and entered after us, so that it yields if both lead.
   [[nodiscard]] bool came_later(CellId cell, std::uint32_t epoch) const noexcept;
-  /// Whether somebody leads the cell, as far as known, and has not missed its heartbeats.
+  /// Whether a leader of the cell is known and has not missed its heartbeats.
   [[nodiscard]] bool is_led(CellId cell, std::chrono::nanoseconds now) const noexcept;
-  /// Whether anybody else has led the cell since we entered.
+  /// Whether another peer has led the cell since we entered.
   [[nodiscard]] bool had_other_leader(CellId cell) const noexcept;
-  /// Others in a cell of ours, as far as they are heard.
+  /// Known other peers in a cell of ours.
   [[nodiscard]] std::size_t members(CellId cell) const noexcept;
-  /// Calls visit(CellId, life that leads it, 0 where none is known) for each cell of ours.
+  /// Calls visit(CellId, epoch that leads it, or 0 if none is known) for each cell of ours.
   template <typename Visit>
   void for_each_cell(Visit&& visit) const {
     for (const Cell& cell : cells_) {
       if (cell.farewells == 0) visit(cell.id, cell.leader.epoch);
     }
   }
-  /// Events since the last call; good until the next one.
+  /// Events since the last call; valid until the next one.
   [[nodiscard]] std::span<const LeaderEvent> take_events();
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
 
@@ -78,7 +80,7 @@ class CellLeadership {
   struct Member {
     std::uint32_t epoch = 0;
     std::uint64_t entered = 0;
-    Nanoseconds heard{}, since{};  ///< last and first
+    Nanoseconds heard{}, since{};  ///< last and first reception
   };
   struct Leader {
     std::uint32_t epoch = 0, successor = 0;
@@ -88,9 +90,9 @@ class CellLeadership {
   struct Cell {
     CellId id;
     std::uint64_t entered = 0;
-    bool ranked = false;  ///< our place is settled: we have led or heard a leader
+    bool ranked = false;  ///< our rank is fixed: we have led or received a leader
     bool other_led = false;
-    int farewells = 0;  ///< still to say; 0: we stay
+    int farewells = 0;  ///< farewells still to send; 0: we stay
     Leader leader;
     Nanoseconds since{}, next_say{}, said{};
     std::vector<Member> members;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A peer's copy of the map of groups: put together from parts, believed from whoever leads the
-// scene alone, and for the time of its lease. Without a map a cell has no group, and what concerns
-// it goes to the base group, which all hear.
+// A peer's copy of the map of groups. It is assembled from parts, accepted only from the leader of
+// the scene, and valid for its lease. Without a map a cell has no group, and its traffic goes to
+// the base group, which all peers receive.
 #pragma once
 
 #include <array>
@@ -19,54 +19,55 @@
 
 namespace reckon::aoim {
 
-/// One thread. Allocates as far as maps are larger than those before.
+/// One thread. Allocates when a map is larger than all before.
 class GroupDirectory {
  public:
   static constexpr std::size_t kPerPart = 64;
   static constexpr std::size_t kMostRows = kMaximumPool + BeaconBook::kMost;
   static constexpr std::size_t kMostParts = (kMostRows + kPerPart - 1) / kPerPart;
 
-  /// @param pool groups of the scene: a map that names others is refused
+  /// @param pool groups of the scene: a map with other groups is refused
   GroupDirectory(std::size_t pool, std::chrono::nanoseconds lease);
 
-  /// One part of a map, from the life `leader`. True where it completes one that is taken: newer
-  /// than ours, the same again, or another leader's. A map that names a cell, a group or a beacon
-  /// twice is refused; but that of a row of group 0, which is there for its beacon alone.
+  /// Takes one part of a map from the epoch `leader`. Returns true if the part completes a map that
+  /// is accepted: a newer one, the same one again, or one of another leader. A map that contains a
+  /// cell, a group or a beacon twice is refused. The cell of a row with group 0 may repeat: such a
+  /// row only carries a beacon.
   bool receive(const pdu::GroupMap& part, std::uint32_t leader, std::chrono::nanoseconds now);
-  /// We lead, and this is the map.
+  /// Sets the map, which we publish as the leader.
   void set(std::vector<pdu::CellGroup> entries, std::uint32_t version, std::uint32_t leader,
            std::chrono::nanoseconds now);
 
   /// Group of a cell, as long as the lease runs.
   [[nodiscard]] std::optional<GroupIndex> group(CellId cell,
                                                 std::chrono::nanoseconds now) const noexcept;
-  /// The same where it has been the cell's for `settle`, so that all who listen know it too.
+  /// The same, if the cell has had it for `settle`, so that all listeners know it too.
   [[nodiscard]] std::optional<GroupIndex> settled_group(
       CellId cell, std::chrono::nanoseconds settle, std::chrono::nanoseconds now) const noexcept;
-  /// The same whether or not the lease still runs: where others may speak.
+  /// The same without regard to the lease: others may still send there.
   [[nodiscard]] std::optional<GroupIndex> last_group(CellId cell) const noexcept;
-  /// Cell and group of a beacon, as long as the lease runs; group 0: the base group.
+  /// Cell and group of a beacon during the lease; group 0: the base group.
   [[nodiscard]] std::optional<pdu::CellGroup> find_beacon(
       std::uint32_t tag, std::chrono::nanoseconds now) const noexcept;
 
-  /// Whether the lease runs.
+  /// Whether the lease is valid.
   [[nodiscard]] bool holds(std::chrono::nanoseconds now) const noexcept {
     return leader_ != 0 && now - heard_ < lease_;
   }
-  /// When the lease ends or has ended; the earliest time there is where no map was ever heard.
+  /// When the lease ends or ended; the earliest representable time if no map was ever received.
   [[nodiscard]] std::chrono::nanoseconds lease_end() const noexcept {
     return leader_ == 0 ? std::chrono::nanoseconds::min() : heard_ + lease_;
   }
-  /// How long we had heard none when the last one came; 0 of the first one.
+  /// Time without a map before the last one came; 0 for the first one.
   [[nodiscard]] std::chrono::nanoseconds pause() const noexcept { return pause_; }
-  /// All entries, by cell, whether or not the lease still runs.
+  /// All entries, by cell, without regard to the lease.
   [[nodiscard]] std::span<const pdu::CellGroup> entries() const noexcept { return entries_; }
-  /// All beacons, by tag, likewise.
+  /// All beacons, by tag, without regard to the lease.
   [[nodiscard]] std::span<const pdu::CellGroup> beacons() const noexcept { return beacons_; }
-  /// Rows of groups that were in quarantine when the map was said; see resting_row.
+  /// Rows of groups that were in quarantine when the map was sent; see resting_row.
   [[nodiscard]] std::span<const pdu::CellGroup> resting() const noexcept { return resting_; }
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
-  /// Life that said it; 0: no map was ever heard.
+  /// Epoch that sent it; 0: no map was ever received.
   [[nodiscard]] std::uint32_t leader() const noexcept { return leader_; }
   /// Maps refused because they contradict themselves or the pool.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
@@ -80,13 +81,13 @@ class GroupDirectory {
   };
   [[nodiscard]] bool is_sound(std::span<const pdu::CellGroup> rows) const;
   void take_beacons(std::vector<pdu::CellGroup>& rows);
-  [[nodiscard]] std::size_t find(CellId cell) const noexcept;  // none: as many as there are
+  [[nodiscard]] std::size_t find(CellId cell) const noexcept;  // size of entries_ if none
 
   std::size_t pool_;
   std::chrono::nanoseconds lease_;
   Pending pending_;
   std::vector<pdu::CellGroup> entries_, resting_, beacons_;
-  std::vector<std::chrono::nanoseconds> since_;  ///< of entries_, without a pause
+  std::vector<std::chrono::nanoseconds> since_;  ///< start of each of entries_, without a pause
   std::uint32_t version_ = 0, leader_ = 0;
   std::chrono::nanoseconds heard_{}, pause_{};
   std::uint64_t refused_ = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The groups that a leader hands out to cells where there are more cells than groups. A group never
-// goes from one cell to another without lying idle for the quarantine: by then nobody uses a map
-// any more in which it was the former cell's.
+// The groups that a leader assigns to cells when there are more cells than groups. A group stays
+// unused for the quarantine before it goes to another cell. After that nobody uses a map that
+// assigns it to the former cell.
 #pragma once
 
 #include <chrono>
@@ -16,8 +16,7 @@
 
 namespace reckon::aoim {
 
-/// A row of a map by which who leads no longer says that a group is in quarantine: of no cell that
-/// there can be.
+/// A map row by which a former leader states that a group is in quarantine. Its cell cannot exist.
 [[nodiscard]] constexpr pdu::CellGroup resting_row(GroupIndex group) noexcept {
   return {kWholeScene.q, group.value, 0, group.value, 0};
 }
@@ -30,28 +29,28 @@ class GroupPool {
  public:
   GroupPool(std::size_t groups, std::chrono::nanoseconds quarantine);
 
-  /// The group of a cell, a new one where it has none: the one idle for the longest. None where all
-  /// are in use or in quarantine.
+  /// The group of a cell. A cell without one gets the group that was unused for the longest. None
+  /// if all are in use or in quarantine.
   std::optional<GroupIndex> take(CellId cell, std::chrono::nanoseconds now);
-  /// The cell gives its group back.
+  /// Takes back the group of the cell.
   void give_back(CellId cell, std::chrono::nanoseconds now) noexcept;
-  /// A new leader begins with the map it has heard last; what is idle in it may have been handed
-  /// out since, so all of that is in quarantine, unless nobody can have done so (`fresh`).
+  /// Starts as a new leader with the last map received. Its unused groups may have been assigned
+  /// since, so they are in quarantine unless that is impossible (`fresh`).
   void begin(std::span<const pdu::CellGroup> map, bool fresh, std::chrono::nanoseconds now);
-  /// Another leader has handed out these: where it says the same, that stands. What is idle here
-  /// goes into quarantine; of what is another cell's, both cells lose it. The same of what it says
-  /// is in quarantine (see resting_row).
+  /// Takes the map of another leader. Equal assignments remain. A group that is unused here goes
+  /// into quarantine; a group that is assigned to two cells is taken from both. The same holds for
+  /// groups that the map has in quarantine (see resting_row).
   void merge(std::span<const pdu::CellGroup> map, std::chrono::nanoseconds now);
 
-  /// Calls visit(CellId, GroupIndex) for each in use.
+  /// Calls visit(CellId, GroupIndex) for each group in use.
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       if (slots_[i].used) visit(slots_[i].cell, GroupIndex{static_cast<std::uint16_t>(i + 1)});
     }
   }
-  /// Calls visit(GroupIndex) for each that a cell gave back within the quarantine: somebody may
-  /// still use it.
+  /// Calls visit(GroupIndex) for each group that a cell gave back within the quarantine, and that
+  /// may still be in use elsewhere.
   template <typename Visit>
   void for_each_resting(std::chrono::nanoseconds now, Visit&& visit) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -67,7 +66,7 @@ class GroupPool {
     CellId cell;
     bool used = false;
     bool fresh = true;   ///< never used: no quarantine
-    bool given = false;  ///< to a cell, as far as we know
+    bool given = false;  ///< assigned to a cell, as far as we know
     std::chrono::nanoseconds since{};
   };
   [[nodiscard]] Slot* find(CellId cell) noexcept;

@@ -13,11 +13,11 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// What a leader relays of an owner that is not known is forgotten after so long.
+// Time for which relayed states of an unknown owner are kept.
 constexpr std::chrono::seconds kOwnerAwaited{3};
-// A bundle of ours leaves after so long at the latest.
+// Longest wait before a bundle of ours is sent.
 constexpr std::chrono::seconds kLongestWait{1};
-// By then whoever was there has announced itself to a newcomer.
+// Time by which peers that were present have announced themselves to a newcomer.
 constexpr std::chrono::milliseconds kIntroduced{150};
 
 }  // namespace
@@ -43,8 +43,8 @@ void Leading::start(nanoseconds utc, nanoseconds now) {
   role_.start(utc, now);
 }
 
-// Groups of the cells we listen to, as the last map has them; one that a cell has no more is left
-// when nobody can use the map any more in which it was the cell's.
+// Groups of the subscribed cells, from the last map. A group that its cell has lost is left when no
+// peer can use the old map any more.
 SubscriptionChange Leading::follow(const SubscriptionChange& cells, nanoseconds utc,
                                    nanoseconds now) {
   for (const GroupIndex cell : cells.leave) role_.leave(cells_.cell_of(cell), now);
@@ -53,7 +53,7 @@ SubscriptionChange Leading::follow(const SubscriptionChange& cells, nanoseconds 
     if (hands_out()) unread_[cell.value - 1u] = true;
   }
   if (!hands_out()) return cells;
-  // Where maps were missed, others have spoken in groups that we had not joined.
+  // If maps were missed, others have sent in groups that we had not joined.
   const bool missed = role_.directory().pause() > config_.settle;
   join_.clear();
   leave_.clear();
@@ -78,9 +78,9 @@ SubscriptionChange Leading::follow(const SubscriptionChange& cells, nanoseconds 
   return {join_, leave_, cells.uncovered, cells.covered_share};
 }
 
-// Who has no map yet would not hear what the leaders of its cells answer; where nobody has one, as
-// far as a heartbeat of the scene's leader tells, they are asked all the same. One that we do not
-// know yet would answer in vain.
+// A peer without a map cannot receive the answers of its cells' leaders. If no peer has a map, as
+// far as a heartbeat of the scene's leader shows, the leaders are asked all the same. A leader that
+// does not know us yet would answer in vain.
 void Leading::read_cells(nanoseconds now) {
   if (!started_ || role_.lacks_map(now)) return;
   const bool alone = now - begun_ > config_.heartbeat + config_.stagger;
@@ -94,7 +94,7 @@ void Leading::read_cells(nanoseconds now) {
   }
 }
 
-// A state of ours, received by the others when its bundle leaves.
+// Records a state of ours. The others receive it when its bundle is sent.
 void Leading::note_own(GroupIndex cell, const pdu::EntityState& state,
                        std::span<const std::byte> records, nanoseconds deadline) {
   std::array<std::byte, StateStore::kLongest> octets;
@@ -115,8 +115,8 @@ void Leading::note_attribute(std::span<const std::byte> octets, std::uint32_t se
   }
 }
 
-// The number under which a state that was heard in `group` is kept, that of its cell; the base
-// group where it is none of ours.
+// The number under which a state received in `group` is kept: that of its cell, or the base group
+// if the cell is not ours.
 GroupIndex Leading::kept_as(GroupIndex group, const pdu::EntityState& state) const {
   if (!hands_out()) return group;
   const pdu::WorldCoordinates& at = state.location;
@@ -126,7 +126,7 @@ GroupIndex Leading::kept_as(GroupIndex group, const pdu::EntityState& state) con
 
 void Leading::receive(GroupIndex group, std::span<const std::byte> datagram, std::uint32_t sender,
                       nanoseconds now, nanoseconds came) {
-  // With the fixed tile no states of peers go to the base group.
+  // With the fixed tile, peers send no states to the base group.
   const bool is_kept = group != kBaseGroup || hands_out();
   const auto decodes = [](const pdu::BundledPdu& bundled, auto& pdu) {
     return pdu::decode(bundled.bytes, pdu) == pdu::DecodeError::none;
@@ -140,7 +140,7 @@ void Leading::receive(GroupIndex group, std::span<const std::byte> datagram, std
       const GroupIndex number = counts ? kept_as(group, state) : kBaseGroup;
       if (number != kBaseGroup) {
         role_.note(number, sender, state, bundled.bytes, now);
-      } else if (counts) {  // it has gone to a cell that is none of ours
+      } else if (counts) {  // it has moved to a cell that is not ours
         role_.forget(sender, state.entity_id);
       }
     } else if (bundled.header.pdu_type == pdu::PduType::attribute) {
@@ -171,7 +171,8 @@ std::vector<RelayedState> Leading::take_relayed(nanoseconds now) {
   return taken;
 }
 
-// What no leader relayed in time is asked of the owners: see LeaderRole::take_given_up.
+// States that no leader relayed in time are requested from the owners: see
+// LeaderRole::take_given_up.
 void Leading::step(nanoseconds now, std::uint32_t timestamp, const LeaderRole::Send& send) {
   stepped_ = now;
   if (std::exchange(leaves_cells_, false)) role_.stop(now);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The part of a peer in leading cells: the groups that are handed out, and the states that leaders
-// keep for newcomers.
+// The leader functions of a peer: the assigned groups, and the states that leaders keep for
+// newcomers.
 #pragma once
 
 #include <chrono>
@@ -21,14 +21,14 @@
 
 namespace reckon::aoim {
 
-/// A beacon of ours, and where what carries it is.
+/// A beacon of ours, and the position of its carrier.
 struct PlacedBeacon {
   std::uint32_t tag = 0;  ///< see beacon_tag; not 0
   Position position;      ///< [m], in S
 };
 
-/// Between LeaderRole, which knows cells and lives, and the groups of this peer. One thread;
-/// allocates as cells, members and entities are new.
+/// Connects LeaderRole, which knows cells and epochs, with the groups of this peer. One thread;
+/// allocates when cells, members and entities are new.
 class Leading {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -41,9 +41,9 @@ class Leading {
           const Subscription& subscription, const Presence& presence, Locate locate);
 
   void start(Nanoseconds utc, Nanoseconds now);
-  /// The next step says good-bye.
+  /// Makes the next step send a farewell.
   void stop() noexcept { leaves_cells_ = true; }
-  /// Elections, maps and snapshots of ours. @param send as LeaderRole::step
+  /// Advances our elections, maps and snapshots.  @param send as for LeaderRole::step
   void step(Nanoseconds now, std::uint32_t timestamp, const LeaderRole::Send& send);
   [[nodiscard]] Nanoseconds next_step() const noexcept {
     return leaves_cells_ ? Nanoseconds::min() : role_.next_step();
@@ -55,36 +55,37 @@ class Leading {
 
   // Groups ----------------------------------------------------------------------------------------
 
-  /// The group in which the cell of this group is spoken in, as of the last step.
+  /// The group used for the traffic of this cell, as of the last step.
   [[nodiscard]] GroupIndex speak_group(GroupIndex cell) const noexcept {
     return hands_out() ? role_.speak_group(cells_.cell_of(cell), stepped_) : cell;
   }
-  /// Cells that we listen to have changed. @return groups to join and to leave, until the next call
+  /// Takes a change of the subscribed cells.
+  /// @return groups to join and to leave, valid until the next call
   SubscriptionChange follow(const SubscriptionChange& cells, Nanoseconds utc, Nanoseconds now);
 
   // States ----------------------------------------------------------------------------------------
 
-  /// A state of ours, which the others receive when its bundle leaves.
+  /// Records a state of ours, which the others receive when its bundle is sent.
   void note_own(GroupIndex cell, const pdu::EntityState& state, std::span<const std::byte> records,
                 Nanoseconds deadline);
-  /// A datagram of this life, from a peer that is known and at its own address.
+  /// Takes a datagram of this epoch, from a known peer at its own address.
   void receive(GroupIndex group, std::span<const std::byte> datagram, std::uint32_t sender,
                Nanoseconds now, Nanoseconds came);
-  /// Entity States that leaders have relayed of what we came too late for, as far as their owners
-  /// are known by now. One that is older than what the owner itself sent is to be dropped.
+  /// Takes the Entity States that leaders relayed to us as a newcomer, as far as their owners are
+  /// known by now. The caller drops a state that is older than the owner's own.
   [[nodiscard]] std::vector<RelayedState> take_relayed(Nanoseconds now);
-  /// Whether take_relayed() has anything to look at.
+  /// Whether take_relayed() has anything to examine.
   [[nodiscard]] bool has_relayed() const noexcept {
     return role_.has_relayed() || !relayed_.empty();
   }
 
   // Beacons ---------------------------------------------------------------------------------------
 
-  /// All beacons of ours and where they are, in the place of those before: who follows one listens
-  /// to its cell. Nothing where no groups are handed out. Call it when one has moved; it costs
-  /// little where none is in another cell.
+  /// Replaces all beacons of ours and their positions. A follower of a beacon listens to its cell.
+  /// Does nothing if no groups are assigned. Call it when a beacon has moved; it is cheap while
+  /// none changes its cell.
   void set_beacons(std::span<const PlacedBeacon> beacons, Nanoseconds now);
-  /// The cell in which a beacon of ours is, as the map of groups names it; none where it is not.
+  /// The cell of a beacon of ours in the map of groups; none if the map lacks it.
   [[nodiscard]] std::optional<CellId> carried_in(std::uint32_t tag) const noexcept;
 
  private:
@@ -98,20 +99,20 @@ class Leading {
   const Presence& presence_;
   Locate locate_;
   LeaderRole role_;
-  /// A group of the pool that was handed out to a cell of ours.
+  /// A group of the pool that is assigned to a cell of ours.
   struct HandedOut {
     GroupIndex cell;                   ///< its number in subscription_
-    std::chrono::nanoseconds until{};  ///< others may speak there
+    std::chrono::nanoseconds until{};  ///< others may send there until then
     bool joined = false;
   };
   std::vector<HandedOut> handed_out_;  // by group index - 1
-  std::vector<bool> unread_;  // cells whose leaders are still to be asked, by their number - 1
+  std::vector<bool> unread_;  // cells whose leaders are still to be asked, by cell number - 1
   std::vector<GroupIndex> join_, leave_;
   std::vector<CarriedBeacon> carried_;                         // of ours
-  std::vector<std::pair<Nanoseconds, RelayedState>> relayed_;  // and when
+  std::vector<std::pair<Nanoseconds, RelayedState>> relayed_;  // with the time of arrival
   bool started_ = false;
-  Nanoseconds begun_{};        // when we started
-  Nanoseconds stepped_{};      // the last time
+  Nanoseconds begun_{};        // time of our start
+  Nanoseconds stepped_{};      // time of the last step
   bool leaves_cells_ = false;  // with the next step
 };
 

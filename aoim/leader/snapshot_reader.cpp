@@ -9,7 +9,7 @@
 namespace reckon::aoim {
 namespace {
 
-// A snapshot that has begun and pauses for so long has lost its last parts.
+// A snapshot that has begun and pauses this long has lost its last parts.
 constexpr std::chrono::milliseconds kPause{60};
 
 }  // namespace

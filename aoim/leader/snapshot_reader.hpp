@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a newcomer still lacks of the snapshots of the cells that it has entered.
+// The missing parts of the snapshots of cells that a newcomer has entered.
 #pragma once
 
 #include <chrono>
@@ -19,14 +19,15 @@ class SnapshotReader {
  public:
   explicit SnapshotReader(const LeaderConfig& config) : config_(config) {}
 
-  /// We have joined this cell and know nothing of it.
+  /// Starts a cell that we have joined and of which we know nothing.
   void begin(CellId cell, std::chrono::nanoseconds now);
-  /// We have left it, or lead it: nobody could tell us.
+  /// Drops a cell that we have left or that we lead, so that no other peer could answer.
   void drop(CellId cell);
-  /// Who could tell us is gone: take_given_up() names it, where anything of it is lacking.
+  /// The peer that could answer has gone: take_given_up() returns the cell if parts of it are
+  /// missing.
   void give_up(CellId cell, std::chrono::nanoseconds now) noexcept;
-  /// A part from the leader of its cell: true where it is new and asked for, so that its states are
-  /// to be used. @param leader life that sent it
+  /// Takes a part from the leader of its cell. True if it is new and requested, so that its states
+  /// are to be used.  @param leader epoch that sent it
   bool receive(const pdu::CellSnapshot& part, std::uint32_t leader, std::chrono::nanoseconds now);
 
   /// Calls say(CellId) for each cell whose leader is to be asked now.
@@ -36,12 +37,13 @@ class SnapshotReader {
       if (now >= reading.next_ask) say(reading.cell);
     }
   }
-  /// Fills in what is lacking of the role's cell, if anything and if it is time to ask: the first
-  /// 64 parts from `from` on. The next place to look from; 0 where there is no more to ask.
+  /// Fills in the missing parts of the role's cell, at most 64 from `from` on, if any are missing
+  /// and a request is due. Returns the next `from`; 0 if there is no more to request.
   std::size_t fill(pdu::CellRole& role, std::size_t from, std::chrono::nanoseconds now);
-  /// A cell of which nobody has sent us all in time, which is given up; false where there is none.
+  /// Takes a cell that is given up because its parts did not arrive in time; false if there is
+  /// none.
   bool take_given_up(std::chrono::nanoseconds now, CellId& cell);
-  /// Whether something of this cell is still lacking.
+  /// Whether parts of this cell are still missing.
   [[nodiscard]] bool reads(CellId cell) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 

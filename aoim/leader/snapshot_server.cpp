@@ -8,14 +8,14 @@
 namespace reckon::aoim {
 namespace {
 
-constexpr double kEntityOctets = 208.0;  // of an entity with a force model
+constexpr double kEntityOctets = 208.0;  // size of an entity with a force model
 constexpr std::size_t kHead = pdu::kFixedSize<pdu::SnapshotState>;
 
 std::size_t size_of(const StateStore::Entry& entry) noexcept {
   return entry.octets.size() + entry.model.size();
 }
 
-// Rounded down: what was heard later than it says seems to have been under way for less.
+// Rounded down: a state received later than this age shows seems to have been under way for less.
 std::uint16_t age_of(const StateStore::Entry& entry, std::chrono::nanoseconds now) noexcept {
   const auto age = (now - entry.heard) / std::chrono::milliseconds(10);
   return static_cast<std::uint16_t>(std::clamp<std::int64_t>(age, 0, 0xFFFF));
@@ -39,7 +39,7 @@ void SnapshotServer::ask(const pdu::CellRole& role, GroupIndex number, GroupInde
   snapshot.number = number;
   snapshot.group = group;
   if (role.serial == 0 || role.serial != snapshot.serial) {
-    // One that is under way does: what the newcomer has missed of it, it asks for.
+    // A running snapshot is enough: the newcomer requests the parts that it missed.
     if (snapshot.asked || snapshot.left > 0) return;
     snapshot.asked = true;
     snapshot.begin_at = now + config_.collect;
@@ -83,7 +83,7 @@ void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
   snapshot.next = now;
 }
 
-// An entity that has gone meanwhile is left out, and one that has grown too long for its part.
+// Leaves out an entity that has gone meanwhile or has grown too long for its part.
 bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateStore& states,
                                pdu::CellSnapshot& part) {
   if (snapshot.left == 0 || now < snapshot.next) return false;

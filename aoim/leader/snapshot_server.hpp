@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a leader tells newcomers: the last states of its cell's entities, once for all who ask at
-// about the same time, in numbered parts at a pace. A part that somebody lacks is said again. Each
-// state is read when it is sent, so who hears it and has joined misses nothing.
+// The snapshot that a leader sends to newcomers: the last states of the entities in its cell. It is
+// sent once for all requests of about the same time, in numbered parts at a steady pace. A missing
+// part is repeated on request. Each state is read when it is sent, so a newcomer that has joined
+// the group misses nothing.
 #pragma once
 
 #include <chrono>
@@ -19,27 +20,26 @@
 
 namespace reckon::aoim {
 
-/// The snapshots of the cells that one peer leads. One thread; allocates. Who asks again and again
-/// receives everything once a second (IntroductionBudget): begun snapshots and parts that are
-/// lacked wait for that.
+/// The snapshots of the cells that one peer leads. One thread; allocates. Repeated requests get the
+/// whole content once a second (IntroductionBudget): new snapshots and missing parts wait for that.
 class SnapshotServer {
  public:
-  /// States of one part [octets]: with its head and the datagram's trailer it fits where eight bare
-  /// Entity States do.
+  /// States of one part [octets]: with its head and the datagram's trailer it fits a datagram that
+  /// has room for eight bare Entity States.
   static constexpr std::size_t kMostOctets = 1216;
   static constexpr std::size_t kMostParts = 4096;
 
   explicit SnapshotServer(const LeaderConfig& config) : config_(config) {}
 
-  /// Somebody asks in a cell that we lead, whose states are kept under `number` and whose traffic
-  /// runs in `group`.
+  /// Takes a request in a cell that we lead. Its states are kept under `number`, and its traffic
+  /// uses `group`.
   void ask(const pdu::CellRole& role, GroupIndex number, GroupIndex group,
            std::chrono::nanoseconds now);
-  /// We lead it no longer.
+  /// Drops a cell that we no longer lead.
   void drop(CellId cell);
 
-  /// Calls send(GroupIndex, pdu::CellSnapshot&) for each part that is due; who it is from is for
-  /// the callee to fill in.
+  /// Calls send(GroupIndex, pdu::CellSnapshot&) for each part that is due; the callee fills in the
+  /// sender.
   template <typename Send>
   void step(std::chrono::nanoseconds now, const StateStore& states, Send&& send) {
     for (Snapshot& snapshot : snapshots_) {

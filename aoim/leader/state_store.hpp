@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The last Entity State of each entity heard in the groups that this peer has joined, and its force
-// model, so that it can tell them to who comes late.
+// The last Entity State of each entity received in the joined groups, and its force model, kept for
+// newcomers.
 #pragma once
 
 #include <chrono>
@@ -20,42 +20,43 @@ namespace reckon::aoim {
 /// One thread; allocates when entities are new.
 class StateStore {
  public:
-  /// Longer states, of entities with many parts, are not kept [octets].
+  /// Longest state that is kept [octets]; entities with many parts exceed it.
   static constexpr std::size_t kLongest = 400;
 
   struct Entry {
-    std::uint32_t epoch = 0;          ///< life of the owner
-    GroupIndex group;                 ///< where it was heard last
-    std::chrono::nanoseconds heard{};  ///< and when
+    std::uint32_t epoch = 0;          ///< epoch of the owner
+    GroupIndex group;                 ///< group in which it was received last
+    std::chrono::nanoseconds heard{};  ///< time of the last reception
     std::vector<std::byte> octets;    ///< an Entity State PDU
     std::vector<std::byte> model;     ///< a HapticRecord; empty: it has no force model
   };
 
-  /// Of more entities no state is kept; see refused().
+  /// @param capacity most entities; the states of further ones are not kept, see refused()
   explicit StateStore(std::size_t capacity = 16'384) : capacity_(capacity) {}
 
-  /// What an owner said last. One that leaves is forgotten. About 0.2 us.
+  /// Records the newest state from an owner. An entity that leaves is removed. About 0.2 us.
   void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
             std::span<const std::byte> octets, std::chrono::nanoseconds now);
-  /// Records that extend the state of an entity, as its owner said them: its force model is kept.
+  /// Takes the records that extend a state of the owner, and keeps its force model.
   void note_records(std::uint32_t epoch, const pdu::EntityId& entity,
                     std::span<const std::byte> records);
-  /// What somebody else says that the owner said: only where the owner was not heard.
+  /// Records a relayed state, unless the owner itself was received.
   void note_if_new(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
                    std::span<const std::byte> octets, std::chrono::nanoseconds heard);
-  /// This life is over.
+  /// Removes all entities of this epoch, which has ended.
   void forget(std::uint32_t epoch);
-  /// This entity of that life is elsewhere; nothing where it is another life's.
+  /// Removes an entity of this epoch that has moved to a group that we have not joined; does
+  /// nothing if another epoch has it.
   void forget(std::uint32_t epoch, const pdu::EntityId& entity);
-  /// This group is left: what is in it is no longer heard.
+  /// Removes the entities of a group that was left.
   void forget(GroupIndex group);
 
-  /// Entities heard last in this group, in the order of their ids.
+  /// Entities received last in this group, in the order of their IDs.
   [[nodiscard]] std::vector<pdu::EntityId> entities(GroupIndex group) const;
-  /// Null where nothing is kept of it.
+  /// Null if nothing is kept of it.
   [[nodiscard]] const Entry* find(const pdu::EntityId& entity) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
-  /// States not kept, for want of room or because they are too long.
+  /// States not kept because the store was full or they were too long.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:

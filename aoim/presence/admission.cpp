@@ -7,9 +7,10 @@
 namespace reckon::aoim {
 namespace {
 
-// A peer announces itself again within this time; one that does not may go for another.
+// A peer announces itself again within this time; one that does not may be dropped for another.
 constexpr std::chrono::milliseconds kConfirmation{300};
-// A peer lists whom it hears once a second; one that has not by now is none, or of another scene.
+// A peer sends its list of received peers once a second. A sender without a list by this time is no
+// peer, or belongs to another scene.
 constexpr std::chrono::milliseconds kLists{3000};
 
 }  // namespace
@@ -20,7 +21,7 @@ Admission::Admission(const PresenceConfig& config, const PeerTable& peers, const
   crowds_.reserve(kCrowds);
 }
 
-// One process has one id.
+// Bounds the peers of one process, which has one ID, and those of one address.
 bool Admission::is_crowd(const SourceAddress& from, const pdu::Presence& own) {
   if (from.port == 0) return false;
   std::size_t of_process = 0, of_address = 0;

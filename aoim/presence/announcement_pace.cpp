@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A change of our own address is announced for so long.
+// A change of our own address is announced for this time.
 constexpr std::chrono::milliseconds kReportMove{300};
 
 }  // namespace
@@ -46,7 +46,7 @@ void AnnouncementPace::note_own_source(const SourceAddress& source, nanoseconds 
   announce_soon(now);
 }
 
-// Until our announcements are known to have been heard they are repeated, ever more rarely.
+// Repeats our announcements, with growing gaps, until they are known to have been received.
 bool AnnouncementPace::note_announced(nanoseconds now, bool acquainted) noexcept {
   const bool is_more = next_cause_ != Cause::heartbeat;
   last_ = now;

@@ -10,11 +10,11 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// The last announcement of a life that is over may arrive so late.
+// Longest delay of the last announcement of an ended epoch.
 constexpr std::chrono::milliseconds kStraggler{200};
 // A claim that is not settled after this is reported.
 constexpr std::chrono::milliseconds kLongDispute{1000};
-// How long the holder of an id has to be silent until a life on another host has it.
+// Silence of the holder of an ID after which an epoch on another host gets it.
 constexpr std::chrono::milliseconds kElsewhere{4500};
 
 }  // namespace
@@ -75,16 +75,16 @@ void Claims::note_slept(nanoseconds slept, nanoseconds now) noexcept {
   }
 }
 
-// When the claimant is believed a restart if the holder stays silent.
+// When the claimant is believed to be a restart if the holder stays silent.
 nanoseconds Claims::restart_at(const Claimant& claimant, const Peer& holder) const noexcept {
-  if (claimant.last_heard < holder.last_heard) return nanoseconds::max();  // its turn to speak
-  // A process that starts anew does so on its host; one elsewhere waits for longer.
+  if (claimant.last_heard < holder.last_heard) return nanoseconds::max();  // its turn to send
+  // A process restarts on the same host; a claimant elsewhere waits longer.
   const bool is_elsewhere = holder.tip.is_chained() && claimant.source.port != 0 &&
                             holder.source.port != 0 &&
                             claimant.source.octets != holder.source.octets;
   if (is_elsewhere) return std::max(claimant.since, holder.last_heard + kElsewhere);
   const bool lives = holder.last_heard > claimant.since + kStraggler;
-  // Nor is one that has held its id for long a new life: two halves of a network have met.
+  // A claimant that has held its ID for long is no restart either: two parts of a network have met.
   if (announces_established(claimant.announced)) {
     return std::max(claimant.since + config_.restart_wait, holder.last_heard + config_.quiet);
   }
@@ -123,7 +123,7 @@ std::optional<Claimant> Claims::take_free(PeerId own, nanoseconds now) {
     return std::tuple(!announces_established(c.announced), c.announced.started, c.epoch());
   };
   for (const Claimant& claimant : claimants_) {
-    // Who has been silent since its claim waits for its next word.
+    // A claimant that was silent since its claim waits for its next announcement.
     const bool silent = now - claimant.last_heard > config_.quiet;
     if (silent || claimant.id() == own || peers_.contains(claimant.id())) continue;
     if (best == nullptr || rank(claimant) < rank(*best)) best = &claimant;
@@ -142,7 +142,7 @@ nanoseconds Claims::next_step(PeerId own, nanoseconds looked) const noexcept {
     if (claimant.id() != own && holder < peers_.size()) {
       next = std::min(next, restart_at(claimant, peers_[holder]));
     }
-    // Not where it was silent for longer when we looked last, having stood still ourselves.
+    // Not if it was silent for longer at the last look, because we were suspended ourselves.
     const nanoseconds reported = claimant.since + kLongDispute + nanoseconds(1);
     if (!claimant.reported && std::max(reported, looked) < claimant.last_heard + kLongDispute) {
       next = std::min(next, reported);

@@ -7,7 +7,7 @@
 namespace reckon::aoim {
 namespace {
 
-// A life that was taken for over and speaks after this is alive.
+// An epoch that was considered ended but sends after this time is alive.
 constexpr std::chrono::milliseconds kRevival{1000};
 
 }  // namespace
@@ -28,7 +28,7 @@ bool FormerLives::is_over(const pdu::Presence& heard, std::chrono::nanoseconds n
   if (life == nullptr) return false;
   if (life->tip.is_chained()) {
     if (proofs.judge(life->tip, heard, now, false) != Opening::newer) return true;
-    life->tip = LifeTip(heard, now);  // remembered as one that came back
+    life->tip = LifeTip(heard, now);  // remembered as one that returned
     return false;
   }
   const bool from_elsewhere =

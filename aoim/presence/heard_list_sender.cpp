@@ -38,8 +38,8 @@ std::optional<HeardList> HeardListSender::take(nanoseconds now, nanoseconds last
   return HeardList{list_};
 }
 
-// Those that follow the last part, which begins with the last of it, so that nobody who is not
-// heard lies between two parts and seems not asked for.
+// A part begins with the last epoch of the part before. Without this overlap an unreceived peer
+// between two parts would seem not to be covered.
 HeardList HeardListSender::next_part() {
   std::sort(list_.begin(), list_.end());
   const auto above = std::upper_bound(list_.begin(), list_.end(), sent_to_);

@@ -26,7 +26,7 @@ Introduction::Introduction(const IntroductionConfig& config)
 }
 
 void Introduction::set_owned(std::size_t count) noexcept {
-  constexpr double kLongest = 3600.0;  // [s]; whoever owns more is known by heartbeats before
+  constexpr double kLongest = 3600.0;  // [s]; larger owners are known by heartbeats before
   const double needed = std::min(static_cast<double>(count) / config_.pace, kLongest);
   spread_ = std::max(config_.spread, config_.settle + pdu::from_seconds(needed));
 }
@@ -46,8 +46,9 @@ void Introduction::add(Lane& lane, const Window& window) const {
   if (lane.size() == config_.capacity) {
     const auto apart = config_.memory / static_cast<std::int64_t>(config_.capacity);
     const bool is_near = lane.back().start - lane[lane.size() - 2].start < apart;
-    // Whoever shares the later start is served with it: the latest two, or the oldest, who are
-    // served by now but for entities that nobody has asked about.
+    // Newcomers of the erased window share the next later one. It is one of the two latest if they
+    // are close, else the oldest, whose newcomers have received all but the entities without
+    // requests.
     lane.erase(is_near ? lane.end() - 1 : lane.begin());
   }
   lane.push_back(window);
@@ -64,7 +65,7 @@ bool Introduction::is_due(const pdu::EntityId& entity, const Lane& lane,
                           std::chrono::nanoseconds last_sent,
                           std::chrono::nanoseconds now) const noexcept {
   return std::any_of(lane.begin(), lane.end(), [&](const Window& window) {
-    // Sent once the newcomer could hear it: nothing to repeat.
+    // Sent after the newcomer could receive it: nothing to repeat.
     const bool heard = last_sent >= window.start + config_.settle;
     return !heard && now >= moment(entity, window);
   });
@@ -74,7 +75,7 @@ std::chrono::nanoseconds Introduction::delay(const pdu::EntityId& entity) const 
   return config_.settle + place(entity, spread_ - config_.settle);
 }
 
-// Where in a round of this length an entity has its moment.
+// Position of an entity's moment in a round of this length.
 std::chrono::nanoseconds Introduction::place(const pdu::EntityId& entity,
                                              std::chrono::nanoseconds length) const noexcept {
   constexpr std::uint64_t kSteps = 4096;
@@ -83,7 +84,7 @@ std::chrono::nanoseconds Introduction::place(const pdu::EntityId& entity,
   return std::chrono::nanoseconds(step * room / (kSteps - 1));
 }
 
-// The first moment of the entity at which the newcomer hears it.
+// The first moment of the entity at which the newcomer receives it.
 std::chrono::nanoseconds Introduction::moment(const pdu::EntityId& entity,
                                               const Window& window) const noexcept {
   const std::chrono::nanoseconds first = window.round.begin + place(entity, window.round.length);
@@ -94,7 +95,7 @@ std::chrono::nanoseconds Introduction::moment(const pdu::EntityId& entity,
   return first + rounds * window.round.length;
 }
 
-// As long after the last entity's moment as at the usual spread.
+// As long after the last entity's moment as with the usual spread.
 std::chrono::nanoseconds Introduction::memory(const Window& window) const noexcept {
   return config_.memory + (window.round.length + config_.settle - config_.spread);
 }

@@ -17,7 +17,7 @@ void IntroductionBudget::set_whole(double octets) noexcept {
 
 nanoseconds IntroductionBudget::ready_at() const noexcept {
   if (spent_ < burst_) return since_;
-  // Rounded up: then something is in it.
+  // Rounded up, so that the budget is positive then.
   return since_ + pdu::from_seconds((spent_ - burst_) / rate_) + nanoseconds(1);
 }
 

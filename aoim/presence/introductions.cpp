@@ -9,11 +9,11 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Whose datagrams have come for so long is no stranger.
+// A sender received for this long is no stranger.
 constexpr std::chrono::seconds kKnown{10};
-// Beyond its spread an introduction may last so long, where steps are slow.
+// Time beyond its spread for which an introduction may last if steps are slow.
 constexpr std::chrono::milliseconds kLate{100};
-// How much the last entity counts in the average.
+// Weight of the last entity in the average.
 constexpr double kWeight = 1.0 / 16.0;
 
 }  // namespace

@@ -42,7 +42,7 @@ std::span<const JoinAsks::Question> JoinAsks::take_due(nanoseconds now, std::uin
       if (is_silent) {
         ask_anew(joined);
       } else if (joined.left == kMostRepetitions && joined.since != 0) {
-        due_.push_back({joined.cell, joined.since});  // for who has not heard it
+        due_.push_back({joined.cell, joined.since});  // for peers that have not received it
       }
       joined.left = is_silent ? joined.left - 1 : 0;
     }

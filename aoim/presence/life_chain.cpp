@@ -7,7 +7,7 @@
 namespace reckon::aoim {
 namespace {
 
-// The uses of the function for secrets of chains; numbers of links are below.
+// Uses of the function for secrets of chains; numbers of links are below.
 constexpr std::uint32_t kSecrets = 0x8000'0000;
 
 }  // namespace

@@ -14,7 +14,7 @@ nanoseconds Liveness::wake(nanoseconds now) noexcept {
   return now - last;
 }
 
-// What lay in the socket meanwhile has been heard just now.
+// Datagrams that lay in the socket meanwhile were received just now.
 void Liveness::note_slept(nanoseconds slept, nanoseconds now) noexcept {
   for (Peer& peer : peers_) peer.last_heard = std::min(peer.last_heard + slept, now);
   look_ = true;
@@ -27,7 +27,7 @@ void Liveness::note_heard(Peer& peer, nanoseconds now) noexcept {
   look_ = look_ || peer.quiet;
 }
 
-// When this one is to be reported as quiet, or is lost, if it stays silent.
+// When this silent peer is to be reported as quiet, or is lost.
 nanoseconds Liveness::silence_due(const Peer& peer) const noexcept {
   const nanoseconds bound = peer.quiet || !peer.joined ? config_.patience() : config_.quiet;
   return peer.last_heard + bound + nanoseconds(1);

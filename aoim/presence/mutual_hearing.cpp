@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A list that left so long after an announcement of ours answers it.
+// A list sent this long after an announcement of ours answers it.
 constexpr std::chrono::milliseconds kUnderWay{30};
 
 }  // namespace
@@ -21,7 +21,7 @@ void MutualHearing::read(Peer& peer, const pdu::PeersHeard& list, nanoseconds no
   report_change(peer, now);
 }
 
-// A part covers nobody below its first and above its last.
+// A part covers only the epochs from its first to its last.
 void MutualHearing::read(Hearing& hearing, const pdu::PeersHeard& list,
                          nanoseconds now) const noexcept {
   const auto epochs = pdu::records_of<pdu::PeerEpoch>(list.epochs);
@@ -65,12 +65,12 @@ void MutualHearing::note_epochs(Hearing& hearing, const pdu::PeersHeard& list,
   }
 }
 
-// No row has it.
+// True if no row has it.
 bool MutualHearing::is_unknown(std::uint32_t epoch) const noexcept {
   return epoch != own_.epoch() && !former_.contains(epoch);
 }
 
-// What we introduce is lost on one that does not believe us yet, or has forgotten us.
+// A peer that has not accepted us yet, or has forgotten us, loses our introduction.
 void MutualHearing::note_listing(Peer& peer, nanoseconds now) const {
   Hearing& hears = peer.hears;
   if (!pace_.is_running() || hears.us_at != now) return;
@@ -88,7 +88,7 @@ void MutualHearing::note_listing(Peer& peer, nanoseconds now) const {
 }
 
 void MutualHearing::report_change(Peer& peer, nanoseconds now) const {
-  // Both have to have had the time to hear each other.
+  // Both must have had the time to receive each other.
   const nanoseconds acquainted = std::max(peer.first_heard, own_.held_since()) +
                                  config_.established + config_.list_round(peers_.size());
   if (peer.hears.us && peer.unheard) {

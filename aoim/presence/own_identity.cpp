@@ -13,13 +13,13 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Beyond the wait of a restart and a straggler: all who hear us believe us.
+// Longer than the wait of a restart and the latest announcement: all receivers have accepted us.
 constexpr std::chrono::milliseconds kBelieved{850};
-// Who has lost so many ids in a row, none held for so long, keeps the next. If witnesses take that
-// too, the dispute about the one after it lasts longer: somebody follows it.
+// After the loss of this many IDs in a row, none held for long, a peer keeps the next. If witnesses
+// take that one too, the dispute about the one after it lasts longer: somebody follows the peer.
 constexpr int kMostYields = 3;
 constexpr std::chrono::seconds kInPeace{10};
-// Ids to draw from, for each peer known: losers of one race seldom meet again.
+// IDs to draw from, for each known peer: the losers of one race rarely collide again.
 constexpr std::size_t kSpread = 8;
 
 }  // namespace
@@ -55,7 +55,7 @@ bool OwnIdentity::is_taken(PeerId id) const noexcept {
   return id == own_.simulation || peers_.contains(id);
 }
 
-// Also who has given way often: somebody follows it from id to id.
+// Also true for a peer that has yielded often: somebody follows it from ID to ID.
 bool OwnIdentity::is_established(nanoseconds now) const noexcept {
   return pace_.is_running() && (now - claimed_ >= config_.established || yields_ >= kMostYields);
 }
@@ -105,7 +105,7 @@ void OwnIdentity::take_next_id(nanoseconds now) {
   pace_.insist(now);
 }
 
-// A hash of our epoch, so that the losers of one race draw different ones, among those not heard.
+// A hash of our epoch, so that the losers of one race draw different IDs among the unused ones.
 PeerId OwnIdentity::draw_id() noexcept {
   const std::size_t known = peers_.size() + claims_.size() + 1;
   const std::size_t range = std::min<std::size_t>(kSpread * known, 0xFFFE);

@@ -14,7 +14,8 @@ bool is_leaving(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceLeaving) != 0;
 }
 
-// Whether `heard` was sent before `known` and came after it. A clock set back by more is believed.
+// Whether `heard` was sent before `known` and received after it. A clock set back by more is
+// believed.
 bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
   constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
   return heard.send_time < known.send_time && known.send_time - heard.send_time < kLongestDelay;
@@ -53,7 +54,7 @@ void Presence::stop() {
   farewells_.push_back(own());
 }
 
-// The others have dropped us after so long, and one may have taken our id.
+// The others have dropped us after this time, and one may have taken our ID.
 void Presence::wake(nanoseconds now) {
   const nanoseconds slept = liveness_.wake(now);
   if (!pace_.is_running() || slept <= config_.heartbeat + config_.minimum_gap) return;
@@ -66,7 +67,7 @@ void Presence::wake(nanoseconds now) {
 
 void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   if (heard.header.exercise_id != own().header.exercise_id || heard.epoch == 0) return;
-  if (heard.epoch == own_.epoch()) return;  // our echo, maybe under an id given up
+  if (heard.epoch == own_.epoch()) return;  // our echo, perhaps with an ID that we gave up
   wake(now);
   ++counts_.heard;
   const std::size_t known = peers_.find_epoch(heard.epoch);
@@ -86,12 +87,12 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
   Peer& peer = peers_[index];
   const bool at_home = may_speak(peer.source, from);
   const Opening opening = proofs_.judge(peer.tip, heard, now, at_home);
-  // A copy, or overtaken.
+  // A copy, or an overtaken one.
   if (at_home && opening == Opening::known) return liveness_.note_heard(peer, now);
   const bool is_refused = opening == Opening::wrong || opening == Opening::known;
   const bool proves = opening == Opening::newer;
   if (is_refused || (!at_home && !pins_.may_move(peer, heard, now, from))) {
-    if (proves) return;  // it may have moved
+    if (proves) return;  // its address may have changed
     return pins_.refuse(peer, from, now);
   }
   if (!at_home) pins_.move(peer, from);
@@ -106,7 +107,7 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
   if (is_leaving(heard)) {
     const PeerId known_as = peer.id();
     peer.announced = heard;
-    peer.announced.simulation = known_as;  // whatever it was called at last
+    peer.announced.simulation = known_as;  // its last ID
     bury(peer, now, true);
     remove(index, PresenceEventKind::departed);
     fill_free_ids(now);
@@ -128,7 +129,7 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
   liveness_.watch(peer);
 }
 
-// It has lost its id to another, or found it taken; its life goes on.
+// It has lost its ID to another, or found it taken; its epoch continues.
 void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds now,
                       const SourceAddress& from) {
   Peer moved = peers_[index];
@@ -210,7 +211,7 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   pace_.announce_soon(now);
 }
 
-// A life that was taken for over comes back where it was, and who came meanwhile has its id.
+// An epoch that was considered ended returns at its old address, and a newcomer has its ID.
 bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   const FormerLife* life = former_.find(heard.epoch);
   if (life == nullptr || life->said_goodbye || life->id != heard.simulation) return false;
@@ -221,7 +222,7 @@ bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const Sou
   const bool came_later = peers_[holder].known_since > life->known_since;
   if (!came_later || peers_[holder].source.octets == from.octets) return false;
   if (proofs_.judge(life->tip, heard, now, true) != Opening::newer) return false;
-  // Who came lives, and looks for another id.
+  // The newcomer is alive and looks for another ID.
   const Peer loser = peers_[holder];
   remove(holder, PresenceEventKind::departed);
   if (!claims_.is_full())
@@ -241,7 +242,7 @@ bool Presence::make_room(nanoseconds now, const SourceAddress& from) {
   return false;
 }
 
-// There is room for it.
+// The table has room for it.
 void Presence::append(const Peer& peer) {
   peers_.append(peer);
   liveness_.watch(peer);
@@ -312,7 +313,7 @@ bool Presence::settle_claims(nanoseconds now) {
   return fill_free_ids(now) || risen_any;
 }
 
-// An id that its holder gave up goes to the best of those that claim it.
+// Gives an ID that its holder gave up to the best of its claimants.
 bool Presence::fill_free_ids(nanoseconds now) {
   bool any = false;
   while (const auto risen = claims_.take_free(id(), now)) {
@@ -329,7 +330,7 @@ bool Presence::fill_free_ids(nanoseconds now) {
   return any;
 }
 
-// Who rises may be silent already, and who rises may fall to another.
+// A promoted claimant may be silent already, and may lose to another one.
 void Presence::settle(nanoseconds now) {
   do settle_silence(now);
   while (settle_claims(now));
@@ -341,7 +342,7 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   settle(now);
   if (own_.step(now)) {
     fill_free_ids(now);
-    settle(now);  // who else claims the number that we gave up
+    settle(now);  // other claimants of the number that we gave up
   }
   std::swap(outgoing_, farewells_);
   farewells_.clear();

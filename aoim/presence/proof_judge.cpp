@@ -7,8 +7,8 @@
 namespace reckon::aoim {
 namespace {
 
-// Calls of the function a second that wrong proofs from elsewhere may cost; those that are but a
-// little ahead are looked at beyond that, too.
+// Most calls of the function a second for wrong proofs from elsewhere; proofs that are only a
+// little ahead are checked beyond that, too.
 constexpr std::uint32_t kMostWrongSteps = 4096, kAlways = 4;
 
 }  // namespace

@@ -9,13 +9,13 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Who speaks from elsewhere has so long to prove that he is the one.
+// Time in which a sender at another address has to prove its identity.
 constexpr std::chrono::milliseconds kProvesItself{500};
 
 }  // namespace
 
-// A repeated announcement has been sent by its owner before: the owner has been heard from its own
-// source, unless its datagram was lost.
+// The owner has sent a replayed announcement before, so the owner was received from its own address
+// unless that datagram was lost.
 bool SourcePins::may_move(Peer& peer, const pdu::Presence& heard, nanoseconds now,
                           const SourceAddress& from) {
   if (from.port == 0) return false;

@@ -10,11 +10,10 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// A rival's claim counts for so long, which is an announcement, so that none that has fallen silent
-// wins; and a witness's list: at 20 % loss all four that it sends meanwhile are lost once in 600
-// times.
+// Validity of a rival's claim: one announcement period, so that a silent rival never wins. And that
+// of a witness's list: at 20 % loss all four lists of this time are lost once in 600 times.
 constexpr std::chrono::milliseconds kRecent{1200}, kRecentList{4000};
-// How often witnesses are counted in a dispute.
+// Gap between two counts of the witnesses in a dispute.
 constexpr std::chrono::milliseconds kVerdictGap{250};
 
 }  // namespace
@@ -27,8 +26,8 @@ bool WitnessCount::is_against(const pdu::Presence& own, int excess, nanoseconds 
   });
 }
 
-// Words of the rival's own, such as when it started, count only where the witnesses are equal, so
-// that one that forges them evicts nobody whom others hear.
+// The rival's own statements, such as its start time, count only if the witnesses are equal, so
+// that a forger evicts nobody whom others receive.
 bool WitnessCount::is_won_by(const Claimant& rival, const pdu::Presence& own, int excess,
                              nanoseconds now) const noexcept {
   const nanoseconds lasts = now - rival.since;
@@ -37,7 +36,8 @@ bool WitnessCount::is_won_by(const Claimant& rival, const pdu::Presence& own, in
   const nanoseconds least = excess > 0 ? 2 * all_listed : excess == 0 ? all_listed : all_listed / 2;
   if (!announces_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
-  // Who was cut off from us, maybe with the rival, has to hear us before it lists whom it hears.
+  // A peer that was cut off from us, perhaps with the rival, has to receive us before its list
+  // contains us.
   const bool any_is_back = std::ranges::any_of(peers_, [&](const Peer& peer) {
     return peer.tip.is_chained() && now - peer.back_since < config_.dispute / 2;
   });
@@ -53,8 +53,8 @@ bool WitnessCount::is_won_by(const Claimant& rival, const pdu::Presence& own, in
   const Support other = support([&](const Hearing& hears, std::uint32_t witness) {
     return names_rival(hears) && witness != theirs;
   });
-  // Whether somebody whom we hear has named neither of us and will: a newcomer, or one that was
-  // cut off. One that never lists whom it hears is no witness.
+  // Whether a received peer has listed neither of us and will: a newcomer, or one that was cut off.
+  // A peer that never sends a list is no witness.
   const bool awaited = std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
     const bool lists = peer.hears.came > since || now - peer.first_heard <= config_.established;
     return peer.joined && peer.confirmed && lists && now - peer.last_heard <= config_.listed &&

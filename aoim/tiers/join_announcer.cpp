@@ -70,9 +70,9 @@ void JoinAnnouncer::send_asks(bool announcing, nanoseconds now, const ControlSta
   }
 }
 
-// None of the cells is left.
+// Membership PDUs with joined cells and no left ones.
 void JoinAnnouncer::send_once(std::size_t tier, const ControlStamp& stamp, const Send& send) {
-  std::uint64_t announced = 0;  // makes questions of one instant differ
+  std::uint64_t announced = 0;  // makes requests of the same instant differ
   std::span<const std::byte> rest(once_[tier]);
   while (!rest.empty()) {
     const auto cells = rest.first(std::min(rest.size(), JoinAsks::kMostCells * kCellSize));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Announces which cells this peer has joined, so that owners introduce the entities in them.
+// Announces the cells that this peer has joined, so that owners introduce their entities there.
 #pragma once
 
 #include <chrono>
@@ -19,26 +19,26 @@
 
 namespace reckon::aoim {
 
-/// Cell Memberships that are to be sent. One thread; allocates as more cells are pending than ever
+/// Pending Cell Membership PDUs. One thread; allocates when more cells are pending than ever
 /// before.
 class JoinAnnouncer {
  public:
-  /// Gets each encoded PDU, for the base group; the octets are good during the call.
+  /// Receives each encoded PDU, for the base group; the octets are valid during the call.
   using Send = std::function<void(std::span<const std::byte>)>;
 
-  /// @param cells groups of the cells' tier
+  /// @param cells groups of the cell tier
   JoinAnnouncer(const TierTable& tiers, std::size_t cells);
 
-  /// Cells of the cells' tier, which are asked about until somebody answers; see JoinAsks.
+  /// Cells of the cell tier, which are requested until an owner answers; see JoinAsks.
   [[nodiscard]] JoinAsks& asks() noexcept { return asks_; }
-  /// To be asked once: the owners of what is in this cell, for what they send to the tier.
+  /// Requests once, from the owners of the entities in this cell, the introduction for this tier.
   void ask_once(std::size_t tier, CellId cell);
-  /// Whether something waits to be sent with the next step.
+  /// Whether the next step has anything to send.
   [[nodiscard]] bool is_pending() const noexcept;
 
-  /// Sends what is asked for the first time.
+  /// Sends the first requests.
   void step(std::chrono::nanoseconds now, const ControlStamp& stamp, const Send& send);
-  /// Sends what has to be asked again, beside an announcement of this peer.
+  /// Repeats pending requests, beside an announcement of this peer.
   void repeat(std::chrono::nanoseconds now, const ControlStamp& stamp, const Send& send);
 
  private:

@@ -9,7 +9,7 @@
 namespace reckon::aoim {
 namespace {
 
-// How much nearer than it is left a contact group is joined.
+// A contact group is joined at a distance smaller by this factor than the one at which it is left.
 constexpr double kContactLeave = 2.0;
 
 SubscriptionConfig subscription_of(const TierTable& tiers, std::size_t tier,
@@ -17,7 +17,7 @@ SubscriptionConfig subscription_of(const TierTable& tiers, std::size_t tier,
   if (tiers.is_near(tier)) return near_subscription(config);
   if (!tiers.is_felt(tier)) return config;
   config.leave_factor = std::max(config.leave_factor, kContactLeave);
-  config.maximum_groups = kMaximumPool;  // what a hand touches is not left out
+  config.maximum_groups = kMaximumPool;  // a felt entity is never left out
   return config;
 }
 
@@ -58,7 +58,7 @@ void TierSubscriptions::note(const SubscriptionChange& groups) noexcept {
   for (const GroupIndex group : groups.leave) set(group, false);
 }
 
-// As far as the tier reaches beyond the foci, or less far.
+// The foci with the radius of the tier, which may be larger or smaller than theirs.
 std::span<const Focus> TierSubscriptions::reach_of(std::size_t tier, std::span<const Focus> foci) {
   const bool is_wide = tier == kCellTier && farthest_nimbus_ > 0.0;
   if (!is_wide && !tiers_.is_near(tier)) return foci;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the area-of-interest manager sends of an entity or an event.
+// Payload of an update that the area-of-interest manager sends: an entity's state or an event.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,14 @@
 
 namespace reckon::aoim {
 
-/// An Entity State with the records of its force model and energy accounts, encoded, may be empty.
+/// An Entity State with the encoded records of its force model and energy accounts, which may be
+/// empty.
 struct StatePayload {
   const pdu::EntityState& state;
   std::span<const std::byte> records = {};
 };
 
-/// The same with the state in a compressed form, as pdu::store_compressed() wrote it.
+/// The same with the state in a compressed form, as written by pdu::store_compressed().
 struct CompressedPayload {
   pdu::EntityId entity;
   pdu::CompressedForm form;
@@ -31,7 +32,7 @@ struct PduPayload {
   std::span<const std::byte> octets;
 };
 
-/// Views: what they show has to live until it was handed over.
+/// Views: the data must stay valid until the payload was handed over.
 using UpdatePayload = std::variant<StatePayload, CompressedPayload, PduPayload>;
 
 }  // namespace reckon::aoim

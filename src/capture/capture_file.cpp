@@ -21,7 +21,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Damaged files hold times that 63 bits of nanoseconds cannot; sums with these can still be
+// Damaged files contain times beyond 63 bits of nanoseconds; sums with these limits can still be
 // recognised.
 constexpr std::int64_t kEarliestSecond = -(std::int64_t{1} << 31);
 constexpr std::int64_t kLatestSecond = 6'000'000'000;  // in the year 2160
@@ -65,11 +65,11 @@ LinkLayer link_layer_or_throw(pcap_t* handle, const std::string& name) {
                            "interface");
 }
 
-// A file or an interface of libpcap.
+// A file or an interface through libpcap.
 class PcapSource final : public DatagramSource {
  public:
-  /// `stream` is what the handle of a file reads from, and null for an interface; `grows` is the
-  /// file that is followed, else null.
+  /// `stream` is the source of a file's handle, and null for an interface; `grows` is the file that
+  /// is followed, else null.
   PcapSource(std::unique_ptr<CaptureStream> stream, PcapHandle handle, std::string name,
              std::FILE* grows = nullptr)
       : stream_(std::move(stream)),
@@ -127,20 +127,20 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
   return SourceEvent::end;
 }
 
-// At the end of a growing file: back to where the frame begins that is not whole yet.
+// At the end of a growing file: back to the begin of the incomplete frame.
 bool PcapSource::step_back(off_t frame) {
   if (grows_ == nullptr || std::feof(grows_) == 0) return false;
   std::clearerr(grows_);
   return fseeko(grows_, frame, SEEK_SET) == 0;
 }
 
-// The true end of a file, or the place where it is broken: what came before it stays good.
+// The true end of a file, or a damaged place: what came before it remains valid.
 SourceEvent PcapSource::finish(int result) {
   ended_ = true;
   std::string reason;
   if (stream_) {
     tell_compression();
-    reason = stream_->problem();  // where there is one, what libpcap says follows from it
+    reason = stream_->problem();  // the error of the stream causes that of libpcap
   }
   if (reason.empty() && result == PCAP_ERROR_BREAK) return SourceEvent::end;
   if (reason.empty()) reason = pcap_geterr(handle_.get());
@@ -184,7 +184,7 @@ bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceData
 
 bool PcapSource::wait(nanoseconds patience) {
   const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
-  // A regular file is always readable, so that only time can pass.
+  // A regular file is always readable, so only time can pass.
   if (grows_ != nullptr) return ::poll(nullptr, 0, static_cast<int>(ms)) == 0;
   count_drops();
   pollfd entry{pcap_get_selectable_fd(handle_.get()), POLLIN, 0};
@@ -196,7 +196,8 @@ void PcapSource::count_drops() {
   if (pcap_stats(handle_.get(), &statistics) == 0) report_.dropped = statistics.ps_drop;
 }
 
-// Only what may hold UDP: the kernel drops the rest. Later fragments have no ports to look at.
+// Passes only what may be UDP: the kernel drops the rest. Later fragments have no ports to filter
+// by.
 void set_udp_filter(pcap_t* handle) {
   bpf_program program{};
   const char* text = "udp or (ip and ip[6:2] & 0x1fff != 0) or (ip6 and ip6[6] = 44) or vlan";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Captures of libpcap: files (pcap, pcapng), stdin and interfaces, and the way from a captured
-// frame to its UDP payload.
+// Captures by libpcap: files (pcap, pcapng), stdin and interfaces, and the parsing of a captured
+// frame down to its UDP payload.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@
 namespace reckon::peer {
 
 /// Opens a pcap or pcapng file, plain or compressed by zstd; "-" is stdin. Link types: Ethernet
-/// (with VLAN tags), raw IP, Linux cooked 1 and 2, BSD loopback. @throws std::runtime_error with
-/// path and reason where it is none. `follow`: the file, a plain one, may be growing, so its end,
-/// or a frame that is not whole yet, is no end: the source is live and gives nothing_yet there.
-/// Stdin is followed anyway.
+/// (with VLAN tags), raw IP, Linux cooked 1 and 2, BSD loopback.
+/// @param follow whether the file, a plain one, may be growing: its end, or an incomplete frame, is
+/// then no end, and the source is live and returns nothing_yet there. Stdin is always followed.
+/// @throws std::runtime_error with path and reason if it is no capture.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_capture(const std::string& path,
                                                            bool follow = false);
 
@@ -26,7 +26,7 @@ namespace reckon::peer {
 /// (CAP_NET_RAW).
 [[nodiscard]] std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name);
 
-/// How a frame begins.
+/// First layer of a frame.
 enum class LinkLayer : std::uint8_t {
   ethernet,
   raw_ip,
@@ -35,11 +35,12 @@ enum class LinkLayer : std::uint8_t {
   bsd_loopback
 };
 
-/// What a frame holds.
+/// Content of a frame.
 enum class FrameContent : std::uint8_t { udp, not_udp, malformed };
 
-/// Finds the UDP payload of one frame; `on_wire` is its length before the capture cut it [octets].
-/// Fills all of `out` but frame and time. Reads inside `frame` only, whatever its octets say.
+/// Finds the UDP payload of one frame; `on_wire` is its length before the capture truncated it
+/// [octets]. Fills all of `out` except frame and time. Reads only inside `frame`, whatever its
+/// octets are.
 [[nodiscard]] FrameContent parse_frame(LinkLayer layer, std::span<const std::byte> frame,
                                        std::size_t on_wire, SourceDatagram& out) noexcept;
 

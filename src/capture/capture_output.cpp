@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::uint32_t kEnhancedPacket = 6;
 
-/// A frame ends when it holds so much [octets]; more makes files hardly smaller.
+/// A frame ends at this size [octets]; larger ones hardly reduce the file.
 constexpr std::size_t kFrameSize = std::size_t{1} << 20;
 
-/// Packets and octets of the blocks of `blocks` that end within its first `written` octets.
+/// Packets and octets of the blocks in `blocks` that end within its first `written` octets.
 std::pair<std::uint64_t, std::size_t> whole_blocks(std::span<const std::byte> blocks,
                                                    std::size_t written) {
   std::uint64_t packets = 0;
@@ -62,7 +62,7 @@ CaptureOutput::~CaptureOutput() {
   try {
     finish();
   } catch (const CaptureWriteError&) {
-    // The file was cut back; who wants to know calls finish().
+    // The file was cut back; finish() would have reported it.
   }
 }
 
@@ -115,8 +115,8 @@ void CaptureOutput::append_frame(std::span<const std::byte> blocks, bool end) {
   frame_packets_ = 0;
 }
 
-// Writes the blocks of the frame that are safe once more, as a frame with an end, in place: it
-// needs no room on the disk that the file does not have. Failing that, the frame is given up.
+// Writes the safe blocks of the frame once more, as a frame with an end, in place: this needs no
+// further room on the disk. If that fails, the frame is lost.
 bool CaptureOutput::cut_back_frame() {
   compressed_.clear();
   compressor_->reset();
@@ -132,7 +132,7 @@ bool CaptureOutput::cut_back_frame() {
 
 bool CaptureOutput::truncate() { return ::ftruncate(file_, static_cast<off_t>(position_)) == 0; }
 
-// Says what the file holds.
+// Reports the content of the file.
 void CaptureOutput::fail(int error, bool whole) {
   close();
   throw CaptureWriteError(

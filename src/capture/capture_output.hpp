@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One file of a capture as it grows, plain or in zstd frames: whatever happens, it ends with a
-// whole block. Private to the peer library.
+// One growing file of a capture, plain or in zstd frames: in every case it ends with a whole block.
+// Private to the peer library.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +15,23 @@
 
 namespace reckon::peer {
 
-/// A file that takes whole blocks of pcapng. One thread. Frames hold whole blocks, too, and each
-/// can be decompressed by itself; inside a frame all that append() took can be.
+/// A file of whole pcapng blocks. One thread. Frames also hold whole blocks, and each can be
+/// decompressed separately; inside a frame everything that append() took can be.
 class CaptureOutput {
  public:
-  /// Creates the file. @throws CaptureWriteError with the remedy, also where it exists and may not
-  /// be overwritten.
+  /// Creates the file.
+  /// @throws CaptureWriteError with the remedy, also if it exists and may not be overwritten.
   CaptureOutput(std::string path, bool overwrite, bool compress);
-  /// Ends the frame where it can; finish() tells whether it could.
+  /// Ends the frame if possible; only finish() reports a failure.
   ~CaptureOutput();
   CaptureOutput(const CaptureOutput&) = delete;
   CaptureOutput& operator=(const CaptureOutput&) = delete;
 
-  /// Hands blocks to the kernel. @throws CaptureWriteError where it takes no more: the file is then
-  /// cut back to a whole block and closed, and takes nothing any more.
+  /// Passes blocks to the kernel.
+  /// @throws CaptureWriteError if it takes no more: the file is then cut back to a whole block and
+  /// closed, and accepts no more blocks.
   void append(std::span<const std::byte> blocks);
-  /// Ends the frame and closes the file. @throws as append().
+  /// Ends the frame and closes the file.  @throws CaptureWriteError as append().
   void finish();
 
   [[nodiscard]] std::uint64_t octets() const noexcept { return position_; }
@@ -38,7 +39,7 @@ class CaptureOutput {
   [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }
 
  private:
-  /// Octets that the kernel took, and its error where these are not all.
+  /// Octets that the kernel took, and its error if these are not all.
   struct Written {
     std::size_t octets;
     int error;
@@ -57,9 +58,9 @@ class CaptureOutput {
   std::uint64_t packets_{0};
   std::optional<ZstdCompressor> compressor_;
   std::vector<std::byte> compressed_;
-  std::vector<std::byte> frame_;  ///< blocks of the frame that was begun
+  std::vector<std::byte> frame_;  ///< blocks of the frame in progress
   std::uint64_t frame_begin_{0};
-  std::uint64_t frame_packets_{0};  ///< packets of the frame that was begun
+  std::uint64_t frame_packets_{0};  ///< packets of the frame in progress
 };
 
 }  // namespace reckon::peer

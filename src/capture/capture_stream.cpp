@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kBufferSize = std::size_t{1} << 17;
 constexpr std::size_t kLongestMagic = 6;
 
-/// Compressions that are known well enough to name the way out.
+/// Other compressions with a known remedy.
 struct Foreign {
   std::string_view magic;
   std::string_view program;
@@ -57,7 +57,7 @@ CaptureStream::~CaptureStream() {
   if (file_ != STDIN_FILENO) ::close(file_);
 }
 
-// Reads as much as tells what the file is; on a pipe the rest may come much later.
+// Reads only as much as identifies the file; on a pipe the rest may come much later.
 void CaptureStream::look_at_head() {
   struct stat status {};
   if (fstat(file_, &status) == 0 && S_ISDIR(status.st_mode))
@@ -86,7 +86,7 @@ void CaptureStream::look_at_head() {
 }
 
 std::FILE* CaptureStream::open() {
-  // What needs nothing of us is read without us.
+  // A plain file is read directly.
   if (is_plain_file()) return std::fopen(path_.c_str(), "rb");
   cookie_io_functions_t functions{};
   functions.read = read_cookie;
@@ -125,7 +125,7 @@ std::size_t CaptureStream::read_as_is(std::span<std::byte> out) {
   return count;
 }
 
-// A stream that is damaged or torn just ends; problem() tells.
+// A damaged or truncated stream just ends; problem() gives the reason.
 std::size_t CaptureStream::read_zstd(std::span<std::byte> out) {
   while (true) {
     const std::size_t count = zstd_->decompress(input_, out);
@@ -137,7 +137,7 @@ std::size_t CaptureStream::read_zstd(std::span<std::byte> out) {
   }
 }
 
-// 0 at the end, and where an error is kept.
+// 0 at the end, and after an error, which is kept.
 std::size_t CaptureStream::read_file(std::span<std::byte> out) {
   ssize_t count = -1;
   do {

@@ -19,28 +19,28 @@
 namespace reckon::peer {
 
 /// The octets of a capture. Memory does not grow with its length. One thread; outlives the FILE
-/// that it gives.
+/// that it returns.
 class CaptureStream {
  public:
-  /// Opens a file; "-" is stdin. @throws std::runtime_error with the path, the reason and the
-  /// remedy where it is missing, a folder, empty, or compressed by something else.
+  /// Opens a file; "-" is stdin.
+  /// @throws std::runtime_error with the path, the reason and the remedy if it is missing, a
+  /// folder, empty, or compressed by another method.
   explicit CaptureStream(const std::string& path);
   ~CaptureStream();
   CaptureStream(const CaptureStream&) = delete;
   CaptureStream& operator=(const CaptureStream&) = delete;
 
-  /// A stream to read from, which is the caller's to close. Once only.
+  /// A stream for reading, which the caller closes. Once only.
   [[nodiscard]] std::FILE* open();
 
-  /// What is wrong with the compression at the place where the stream ended; empty where nothing
-  /// is.
+  /// The error of the compression at the end of the stream; empty if there is none.
   [[nodiscard]] std::string problem() const;
   [[nodiscard]] bool is_compressed() const noexcept { return zstd_ != nullptr; }
-  /// Neither compressed, nor a pipe or a device: what open() gives can be sought in.
+  /// Neither compressed, nor a pipe or a device: the result of open() is seekable.
   [[nodiscard]] bool is_plain_file() const noexcept { return is_plain_file_ && !zstd_; }
-  /// zstd frames that were whole; 0 where the file is not compressed.
+  /// Whole zstd frames; 0 if the file is not compressed.
   [[nodiscard]] std::uint64_t zstd_frames() const noexcept;
-  /// Octets read so far, of the file and of what it holds.
+  /// Octets read so far, of the file and of its content.
   [[nodiscard]] std::uint64_t octets() const noexcept { return octets_; }
   [[nodiscard]] std::uint64_t content() const noexcept { return content_; }
 
@@ -52,14 +52,14 @@ class CaptureStream {
   void look_at_head();
 
   std::string path_;
-  std::string name_;  ///< for people
+  std::string name_;  ///< for messages
   int file_;
   bool is_plain_file_{false};  ///< neither a pipe nor a device
   std::unique_ptr<ZstdDecompressor> zstd_;
   std::vector<std::byte> buffer_;
-  std::span<const std::byte> input_;  ///< of the buffer: read, not handed out
+  std::span<const std::byte> input_;  ///< of the buffer: read, not returned
   bool at_end_{false};
-  int error_{0};  ///< errno of the read that failed
+  int error_{0};  ///< errno of the failed read
   std::uint64_t octets_{0};
   std::uint64_t content_{0};
 };

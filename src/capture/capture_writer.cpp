@@ -24,12 +24,12 @@ constexpr std::uint32_t kByteOrderMagic = 0x1a2b3c4d;
 constexpr std::uint32_t kSnapLength = 262144;
 constexpr std::uint32_t kPacketOverhead = 32;
 
-/// What is buffered goes to the kernel at this size [octets].
+/// Size at which the buffer goes to the kernel [octets].
 constexpr std::size_t kFlushSize = std::size_t{1} << 16;
 
 constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
 
-/// What follows the number in a file's name: its extension, or two where the last is .zst.
+/// The part of a file's name behind the number: its extension, or two if the last is .zst.
 std::string extension_of(const std::filesystem::path& path) {
   const std::string last = path.extension().string();
   return last == ".zst" ? path.stem().extension().string() + last : last;
@@ -75,7 +75,7 @@ void CaptureWriter::write(const SourceDatagram& datagram) {
 }
 
 void CaptureWriter::flush() {
-  // Where this throws, what is left is not to be written again.
+  // If this throws, the rest is not to be written again.
   std::swap(buffer_, flushing_);
   buffer_.clear();
   file_->append(flushing_);
@@ -99,7 +99,7 @@ std::uint64_t CaptureWriter::octets() const noexcept { return earlier_octets_ + 
 
 bool CaptureWriter::is_full(nanoseconds time) const noexcept {
   if (in_file_ == 0) return false;
-  // How small the blocks in the buffer will become is not known.
+  // The compressed size of the blocks in the buffer is not known.
   const std::uint64_t size = file_->octets() + (options_.compress ? 0 : buffer_.size());
   if (options_.rotate_octets > 0 && size >= options_.rotate_octets) return true;
   return options_.rotate_after.count() > 0 && time - file_begin_ >= options_.rotate_after;
@@ -147,7 +147,7 @@ void CaptureWriter::begin_section() {
   u32(kByteOrderMagic);
   u16(1);
   u16(0);
-  u64(~std::uint64_t{0});  // the section's length is not known
+  u64(~std::uint64_t{0});  // unknown length of the section
   u32(kSectionLength);
 
   constexpr std::uint32_t kInterfaceLength = 32;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Captures as they are written: pcapng with times in nanoseconds, appended in whole blocks, so that
-// whatever ends the program leaves a file that every reader of pcapng opens.
+// Writes captures: pcapng with times in nanoseconds, appended in whole blocks, so that every reader
+// of pcapng opens the file even if the program was killed.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace reckon::peer {
 
 class CaptureOutput;
 
-/// A capture that could not be written on. The text names the file, the reason and what is safe.
+/// A capture could not be continued. The text has the file, the reason and what is safe.
 struct CaptureWriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -29,42 +29,43 @@ struct CaptureWriterOptions {
   std::string path;
   bool overwrite{false};
   bool compress{false};                     ///< in zstd frames
-  std::uint16_t link_type{kLinkTypeRawIp};  ///< of the source whose frames will be written
-  /// A file that has reached this size [octets, as it lies on the disk] is followed by the next;
-  /// 0 = one file of any size. Compressed, up to 64 KiB of blocks may come on top.
+  std::uint16_t link_type{kLinkTypeRawIp};  ///< of the source whose frames are written
+  /// A file of this size [octets on the disk] is followed by the next; 0 = one file of any size. A
+  /// compressed file may exceed it by up to 64 KiB of blocks.
   std::uint64_t rotate_octets{0};
   /// A file whose first datagram is this old is followed by the next; 0 = never.
   std::chrono::nanoseconds rotate_after{0};
 };
 
-/// Writes datagrams to one file, or to path_00001.ext, path_00002.ext, ... where it rotates. One
-/// thread. A datagram is on disk for every reader after flush(); write() flushes by itself every 64
+/// Writes datagrams to one file, or with rotation to path_00001.ext, path_00002.ext, ... One
+/// thread. After flush() every reader finds a datagram on disk; write() flushes by itself every 64
 /// KiB. Times before 1970 are written as 1970.
 class CaptureWriter {
  public:
-  /// Creates the file with its header. @throws CaptureWriteError with the remedy, also where the
-  /// file exists and may not be overwritten.
+  /// Creates the file with its header.
+  /// @throws CaptureWriteError with the remedy, also if the file exists and may not be overwritten.
   explicit CaptureWriter(CaptureWriterOptions options);
-  /// Flushes what it can; call finish() or close() to learn whether it could.
+  /// Flushes if possible; only finish() and close() report a failure.
   ~CaptureWriter();
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
 
-  /// Appends one datagram: the frame as it was captured, or, where the source is no capture, an IP
-  /// packet with the datagram's endpoints and right checksums. @throws CaptureWriteError where the
-  /// file takes no more; the file then ends with the last block that is whole.
+  /// Appends one datagram: the captured frame, or, if the source is no capture, an IP packet with
+  /// the datagram's endpoints and correct checksums.
+  /// @throws CaptureWriteError if the file takes no more; it then ends with the last whole block.
   void write(const SourceDatagram& datagram);
-  /// Hands all to the kernel: not lost any more when the program is killed. @throws as write().
+  /// Passes all to the kernel, so that nothing is lost if the program is killed.
+  /// @throws CaptureWriteError as write().
   void flush();
-  /// Ends the file with the source's counts (interface statistics) and closes it. @throws as
-  /// write(). Nothing may be written after it.
+  /// Ends the file with the source's counts (interface statistics) and closes it. Nothing may be
+  /// written after it.  @throws CaptureWriteError as write().
   void finish(std::uint64_t received, std::uint64_t dropped);
   /// The same without counts.
   void close();
 
   /// Datagrams that are safe in the files.
   [[nodiscard]] std::uint64_t datagrams() const noexcept;
-  /// Octets of all files, as they lie on the disk.
+  /// Octets of all files on the disk.
   [[nodiscard]] std::uint64_t octets() const noexcept;
   /// The files made so far, in their order.
   [[nodiscard]] const std::vector<std::string>& paths() const noexcept { return paths_; }
@@ -84,7 +85,7 @@ class CaptureWriter {
   CaptureWriterOptions options_;
   std::vector<std::string> paths_;
   std::unique_ptr<CaptureOutput> file_;
-  std::vector<std::byte> buffer_;  ///< whole blocks that the kernel does not have yet
+  std::vector<std::byte> buffer_;  ///< whole blocks not passed to the kernel yet
   std::vector<std::byte> flushing_;
   std::vector<std::byte> packet_;
   std::uint64_t earlier_octets_{0};   ///< of the files before this one
@@ -95,8 +96,8 @@ class CaptureWriter {
 };
 
 /// Fills `out` with the IP packet that carries the datagram: IPv4 (do not fragment) or IPv6 by the
-/// group's family, then UDP, both with right checksums. At most 65,507 octets of payload fit IPv4,
-/// 65,527 IPv6; what is beyond is left out.
+/// group's family, then UDP, both with correct checksums. IPv4 has room for 65,507 octets of
+/// payload, IPv6 for 65,527; the rest is omitted.
 void make_ip_packet(const SourceDatagram& datagram, std::vector<std::byte>& out);
 
 }  // namespace reckon::peer

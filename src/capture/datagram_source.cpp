@@ -63,7 +63,7 @@ UdpMulticastOptions link_options(const GroupsOptions& options) {
   UdpMulticastOptions out;
   out.interface = options.interface;
   out.ipv6 = options.groups.front().is_v6;
-  out.receive_buffer = std::size_t{4} << 20;  // a listener's screen may stall it for long
+  out.receive_buffer = std::size_t{4} << 20;  // a listener's screen may block it for long
   out.max_datagram = 65535;
   out.batch = kBatch;
   out.max_groups = options.groups.size();

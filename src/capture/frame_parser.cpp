@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a captured frame to its UDP payload: link layers, VLAN tags, IPv4 and IPv6 headers.
+// Parses a captured frame down to its UDP payload: link layers, VLAN tags, IPv4 and IPv6 headers.
 #include <algorithm>
 #include <cstring>
 
@@ -16,7 +16,7 @@ constexpr std::size_t kUdpHeader = 8;
 constexpr int kMaxTags = 4;               // VLAN tags in a row
 constexpr int kMaxExtensionHeaders = 16;  // of IPv6
 
-// Octets of a frame: those at hand, and how many there were on the wire.
+// Octets of a frame: the captured ones, and their number on the wire.
 struct Octets {
   std::span<const std::byte> at_hand;
   std::size_t on_wire;
@@ -29,20 +29,20 @@ struct Octets {
     return static_cast<std::uint16_t>((u8(at) << 8) | u8(at + 1));
   }
   [[nodiscard]] Octets from(std::size_t at) const { return {at_hand.subspan(at), on_wire - at}; }
-  // Only the first `count` octets of the wire: what lies behind is padding.
+  // Only the first `count` octets of the wire: the rest is padding.
   [[nodiscard]] Octets first(std::size_t count) const {
     return {at_hand.first(std::min(count, at_hand.size())), std::min(count, on_wire)};
   }
 };
 
-// What the IP header says of its payload.
+// The payload as described by the IP header.
 struct IpPayload {
   Octets octets;
   bool fragmented{false};
   bool first_fragment{false};
 };
 
-// Octets before the IP header, 0xffff where it is not IP; false where the frame is too short.
+// Octets before the IP header, 0xffff if it is not IP; false if the frame is too short.
 bool skip_ethernet(const Octets& frame, std::size_t& header) {
   header = 14;
   std::size_t type_at = 12;
@@ -74,7 +74,8 @@ bool skip_link_layer(LinkLayer layer, const Octets& frame, std::size_t& header) 
       return skip_cooked(frame, 14, 16, header);
     case LinkLayer::linux_cooked_2:
       return skip_cooked(frame, 0, 20, header);
-    // The family number differs between systems and octet orders; the IP version tells as well.
+    // The family number differs between systems and octet orders; the IP version identifies the
+    // family too.
     case LinkLayer::bsd_loopback:
       header = 4;
       return frame.has(4);
@@ -95,7 +96,7 @@ FrameContent read_ipv4(const Octets& ip, SourceDatagram& out, IpPayload& payload
   if (!ip.has(20)) return FrameContent::malformed;
   const std::size_t header = std::size_t{4} * (ip.u8(0) & 0x0f);
   std::size_t total = ip.u16(2);
-  if (total == 0) total = ip.on_wire;  // filled in later by a card that segments
+  if (total == 0) total = ip.on_wire;  // filled in later by a network card that segments
   if (header < 20 || total < header || total > ip.on_wire || !ip.has(header)) {
     return FrameContent::malformed;
   }
@@ -109,7 +110,7 @@ FrameContent read_ipv4(const Octets& ip, SourceDatagram& out, IpPayload& payload
   return FrameContent::udp;
 }
 
-// Walks the extension headers to UDP.
+// Walks through the extension headers to UDP.
 FrameContent read_ipv6(const Octets& ip, SourceDatagram& out, IpPayload& payload) {
   if (!ip.has(40)) return FrameContent::malformed;
   const std::size_t total = std::size_t{40} + ip.u16(4);

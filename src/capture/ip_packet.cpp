@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a UDP payload and its endpoints to the IP packet that carried it.
+// Makes the IP packet for a UDP payload and its endpoints.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -14,7 +14,7 @@ constexpr std::size_t kUdpHeader = 8;
 constexpr std::size_t kMaxPacket = 65535;
 constexpr std::uint8_t kProtocolUdp = 17;
 
-/// Sum of 16-bit words in the host's octet order: RFC 1071 2 (B), the order does not matter.
+/// Sum of 16-bit words in the host's octet order: by RFC 1071 2 (B) the order does not matter.
 std::uint64_t word_sum(std::span<const std::byte> octets) {
   std::uint64_t sum = 0;
   std::size_t at = 0;

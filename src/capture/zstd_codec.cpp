@@ -8,12 +8,12 @@
 namespace reckon::peer {
 namespace {
 
-/// 1 to 19, default 3: measured on captures in docs/record_and_replay.md; higher ones cost several
-/// times the time for a few percent.
+/// 1 to 19, default 3: measured on captures in docs/record_and_replay.md; higher levels take
+/// several times the time for a few percent.
 constexpr int kLevel = 3;
 constexpr int kMaxWindowLog = 27;
 
-/// The magic numbers of RFC 8878, 3.1: frames, and frames to be skipped.
+/// The magic numbers of RFC 8878, 3.1: frames, and skippable frames.
 constexpr std::uint32_t kFrameMagic = 0xfd2fb528;
 constexpr std::uint32_t kSkippableMagic = 0x184d2a50;
 /// Least octets of a frame's header.
@@ -38,7 +38,7 @@ void ZstdCompressor::compress(std::span<const std::byte> raw, bool end_frame,
     ZSTD_outBuffer piece{out.data() + begin, out.size() - begin, 0};
     left = ZSTD_compressStream2(context_.get(), &piece, &in, directive);
     out.resize(begin + piece.pos);
-    if (ZSTD_isError(left) != 0) throw std::bad_alloc();  // nothing else can go wrong here
+    if (ZSTD_isError(left) != 0) throw std::bad_alloc();  // no other error is possible here
   }
 }
 
@@ -53,7 +53,7 @@ ZstdDecompressor::ZstdDecompressor()
 std::size_t ZstdDecompressor::decompress(std::span<const std::byte>& in,
                                          std::span<std::byte> out) noexcept {
   if (!error_.empty()) return 0;
-  // One block at a time: what a call has decompressed is lost where it ends in an error.
+  // One block at a time, because a call that ends in an error loses what it has decompressed.
   ZSTD_inBuffer from{in.data(), std::min(in.size(), step_), 0};
   ZSTD_outBuffer to{out.data(), out.size(), 0};
   const std::size_t left = ZSTD_decompressStream(context_.get(), &to, &from);
@@ -65,7 +65,7 @@ std::size_t ZstdDecompressor::decompress(std::span<const std::byte>& in,
   if (from.pos == 0 && to.pos == 0) return 0;  // asked at the end: not the beginning of a frame
   inside_ = left != 0;
   step_ = inside_ ? left : kFrameHeader;
-  // libzstd would have the next block's header together with this one's end.
+  // libzstd expects the next block's header together with this one's end.
   if (inside_ && left > kBlockHeader) step_ -= kBlockHeader;
   if (!inside_) ++frames_;
   return to.pos;

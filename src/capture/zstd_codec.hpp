@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// zstd as captures use it: frames (RFC 8878) that do not depend on each other. Private to the peer
-// library.
+// zstd for captures: independent frames (RFC 8878). Private to the peer library.
 #pragma once
 
 #include <zstd.h>
@@ -20,30 +19,30 @@ class ZstdCompressor {
  public:
   ZstdCompressor();
 
-  /// Appends to `out` what stands for `raw`, so that all of it can be decompressed at once;
-  /// `end_frame` also ends the frame. @throws std::bad_alloc.
+  /// Appends the compressed form of `raw` to `out`, so that all of it can be decompressed at once;
+  /// `end_frame` also ends the frame.  @throws std::bad_alloc.
   void compress(std::span<const std::byte> raw, bool end_frame, std::vector<std::byte>& out);
-  /// Forgets the frame that was begun.
+  /// Discards the frame in progress.
   void reset();
 
  private:
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context_;
 };
 
-/// Takes zstd frames apart, of any origin and in any number. One thread; memory is bounded by a
-/// window of 128 MiB: frames that ask for more are refused.
+/// Decompresses zstd frames of any origin and number. One thread; a window of 128 MiB bounds the
+/// memory: frames that need more are refused.
 class ZstdDecompressor {
  public:
   ZstdDecompressor();
 
-  /// Decompresses from the front of `in`, which it shortens, into `out`; how many octets it gave.
-  /// Never throws: error() says what is wrong.
+  /// Decompresses from the front of `in`, which it shortens, into `out`; returns the number of
+  /// octets. Never throws: error() has the reason.
   std::size_t decompress(std::span<const std::byte>& in, std::span<std::byte> out) noexcept;
-  /// Empty while all is well, else what libzstd says.
+  /// Empty without an error, else the text of libzstd.
   [[nodiscard]] const std::string& error() const noexcept { return error_; }
   /// Whether the octets so far end inside a frame.
   [[nodiscard]] bool inside_frame() const noexcept { return inside_; }
-  /// Frames that were whole.
+  /// Whole frames so far.
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
 
  private:
@@ -54,7 +53,7 @@ class ZstdDecompressor {
   std::uint64_t frames_ = 0;
 };
 
-/// Whether a file that begins with these octets holds zstd frames.
+/// Whether a file with these first octets contains zstd frames.
 [[nodiscard]] bool begins_zstd(std::span<const std::byte> octets) noexcept;
 
 }  // namespace reckon::peer

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The one way to learn what time it is. The four loops receive the time as an argument; only the
-// threads that call them, and the transport, hold a Clock.
+// The only source of time. The four loops receive the time as an argument; only the threads that
+// call them, and the transport, hold a Clock.
 #pragma once
 
 #include <atomic>
@@ -9,15 +9,15 @@
 
 namespace reckon::peer {
 
-/// A steady time to measure with and a UTC time to put on the wire.
-/// Both functions may be called by any thread, allocate nothing and do not block.
+/// A steady time for measuring and a UTC time for the wire. Both functions may be called by any
+/// thread, allocate nothing and do not block.
 class Clock {
  public:
   virtual ~Clock() = default;
 
-  /// Time that never steps back, since an epoch of the clock's own choice.
+  /// Time that never steps back, since an arbitrary epoch.
   [[nodiscard]] virtual std::chrono::nanoseconds now() const noexcept = 0;
-  /// Time since 1970-01-01 00:00 UTC; may step when the host's clock is set.
+  /// Time since 1970-01-01 00:00 UTC; may jump when the host's clock is set.
   [[nodiscard]] virtual std::chrono::nanoseconds utc_now() const noexcept = 0;
 };
 
@@ -38,7 +38,7 @@ class ManualClock final : public Clock {
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept override;
   [[nodiscard]] std::chrono::nanoseconds utc_now() const noexcept override;
 
-  /// Moves forward by `step`; a negative step is a broken promise (assert).
+  /// Moves forward by `step`, which must not be negative (assert).
   void advance(std::chrono::nanoseconds step) noexcept;
   /// Jumps to `time`, which must not lie before now() (assert).
   void set(std::chrono::nanoseconds time) noexcept;

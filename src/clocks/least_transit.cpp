@@ -36,7 +36,7 @@ void LeastTransit::close(nanoseconds now) noexcept {
   drift_ = fitted_drift();
 }
 
-// Least squares through the windows' points, less twice the standard error of the slope.
+// Least-squares slope through the windows' points, less twice its standard error.
 double LeastTransit::fitted_drift() const noexcept {
   if (closed_count_ < 4) return 0.0;
   const auto n = static_cast<double>(closed_count_);

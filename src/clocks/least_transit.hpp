@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The way from one clock to another that a packet on its fastest way has: what is left of arrivals
-// minus send times when queues are taken out.
+// The offset between two clocks for the fastest packets: arrivals minus send times without queueing
+// delays.
 #pragma once
 
 #include <algorithm>
@@ -13,23 +13,23 @@
 
 namespace reckon::peer {
 
-/// Smallest difference "arrival on our clock - sending on theirs" of the last 10 to 20 s, and how
-/// fast it grows, from the smallest ones of up to five such windows. That is the least transit
-/// minus how far their clock is ahead.
+/// Smallest difference "arrival on our clock - sending on theirs" of the last 10 to 20 s, and its
+/// growth, from the smallest ones of up to five such windows. That is the least transit minus the
+/// lead of their clock.
 ///
-/// The drift is taken up only as far as the windows show it beyond doubt (twice its standard
-/// error). One thread, no allocation; a few ns a call, some 50 ns once in 10 s.
+/// The drift is used only as far as the windows show it beyond doubt (twice its standard error).
+/// One thread, no allocation; a few ns a call, some 50 ns once in 10 s.
 class LeastTransit {
  public:
   static constexpr std::chrono::nanoseconds kWindow = std::chrono::seconds(10);
-  /// After such a silence what was learnt counts no more.
+  /// Silence after which the measurements are discarded.
   static constexpr std::chrono::nanoseconds kForgotten = std::chrono::seconds(60);
-  /// No clock that is worth following drifts faster [s/s].
+  /// Largest drift of a usable clock [s/s].
   static constexpr double kMostDrift = 1e-3;
 
-  /// One packet. `now` must not fall.
+  /// Records one packet. `now` must not fall.
   void note(std::chrono::nanoseconds difference, std::chrono::nanoseconds now) noexcept;
-  /// The smallest difference, carried on to `now`; 0 before the first packet.
+  /// The smallest difference, extrapolated to `now`; 0 before the first packet.
   [[nodiscard]] std::chrono::nanoseconds at(std::chrono::nanoseconds now) const noexcept {
     const std::chrono::nanoseconds current = carried(current_, now);
     if (closed_count_ == 0) return current;

@@ -15,11 +15,12 @@ using std::chrono::nanoseconds;
 
 // Trailers count whole microseconds: four of them make a round trip wrong by less than this.
 constexpr nanoseconds kResolution = microseconds(4);
-// By how much the least ways may fall short of zero: a drift that has just changed.
+// Tolerance for least transits below zero: a drift that has just changed.
 constexpr nanoseconds kSlack = std::chrono::milliseconds(20);
-// Half of what a datagram may wait for the loops at its ends: four passes of the model loop.
+// Half of the time for which a datagram may wait for the loops at its ends: four passes of the
+// model loop.
 constexpr nanoseconds kLoopWait = std::chrono::milliseconds(4);
-// An echo tells of a datagram no older than this, and is sent no later after it.
+// Greatest age of the datagram in an echo, and longest delay of the echo.
 constexpr nanoseconds kOldest = std::chrono::seconds(30);
 
 // Signed time between two counts of microseconds modulo 2^32.
@@ -46,12 +47,12 @@ bool PeerClock::take(const pdu::TimeEcho& echo, std::uint32_t answered, nanoseco
   }
   last_echo_ = now;
   const nanoseconds drifted =
-      pdu::from_seconds(to_it_.drift() * pdu::to_seconds(held));  // since it was heard
+      pdu::from_seconds(to_it_.drift() * pdu::to_seconds(held));  // since it was received
   note(to_it_, watch_to_, between(echo.sent, echo.heard) + drifted, now);
   return true;
 }
 
-// A clock that has leapt is learnt anew, both ways.
+// After a jump of the clock both directions are measured anew.
 void PeerClock::note(LeastTransit& way, LeapWatch& watch, nanoseconds difference,
                      nanoseconds now) noexcept {
   if (!way.is_empty() && std::chrono::abs(difference - way.at(now)) > LeapWatch::kOdd) {
@@ -68,8 +69,8 @@ void PeerClock::note(LeastTransit& way, LeapWatch& watch, nanoseconds difference
 std::optional<ClockDifference> PeerClock::difference(nanoseconds now) const noexcept {
   if (!last_echo_ || now - *last_echo_ > kForgotten) return std::nullopt;
   if (from_it_.is_empty() || to_it_.is_empty()) return std::nullopt;
-  const nanoseconds from = from_it_.at(now);  // least way from it - ahead
-  const nanoseconds to = to_it_.at(now);      // least way to it + ahead
+  const nanoseconds from = from_it_.at(now);  // least transit from it - ahead
+  const nanoseconds to = to_it_.at(now);      // least transit to it + ahead
   if (from + to < -kSlack || from + to > kMostRoundTrip) return std::nullopt;
   return ClockDifference{(to - from) / 2, std::max(from + to, nanoseconds(0)),
                          (to_it_.drift() - from_it_.drift()) / 2};
@@ -82,7 +83,7 @@ PeerClocks::PeerClocks() : places_(kCapacity) {
   rows_.reserve(kCapacity);
 }
 
-// Place of a peer; epochs_.size() where it is not known.
+// Place of a peer; epochs_.size() if it is not known.
 std::size_t PeerClocks::find(std::uint32_t epoch) const noexcept {
   const std::uint32_t place = places_.find(epoch);
   return place == aoim::EpochIndex::kNone ? epochs_.size() : place;
@@ -161,8 +162,8 @@ std::optional<nanoseconds> PeerClocks::ahead(std::uint32_t epoch, bool aligned,
   if (place == epochs_.size()) return std::nullopt;
   const auto known = rows_[place].clock.difference(now);
   if (!known) return std::nullopt;
-  // With the clocks alike the ways take round_trip / 2 -+ ahead. Short ones are mostly waiting for
-  // the loops at either end, which differ as they please.
+  // With equal clocks the transits are round_trip / 2 -+ ahead. Short ones consist mostly of the
+  // waits for the loops at both ends, which may differ in any way.
   const nanoseconds lopsided =
       std::max(known->round_trip / 4, std::min(known->round_trip / 2, kLoopWait));
   const bool plausible = std::chrono::abs(known->ahead) <= lopsided + kResolution;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far the clock of another peer is ahead of ours, from the datagrams that go to and fro anyway:
-// each ends with its send time, and once a second each side says when it heard the other.
+// The lead of another peer's clock over ours, measured with the ordinary datagrams in both
+// directions: each ends with its send time, and once a second each side sends back when it received
+// the other.
 #pragma once
 
 #include <array>
@@ -20,33 +21,35 @@
 
 namespace reckon::peer {
 
-/// A peer's clock against ours.
+/// A peer's clock relative to ours.
 struct ClockDifference {
   std::chrono::nanoseconds ahead{0};       ///< theirs minus ours, within round_trip / 2
-  std::chrono::nanoseconds round_trip{0};  ///< least way there plus least way back
+  std::chrono::nanoseconds round_trip{0};  ///< least transit there plus least transit back
   double drift = 0.0;                      ///< growth of `ahead` [s/s]
 };
 
-/// One peer's clock. The least "arrival - sending" each way bounds the difference from one side;
-/// the middle is the estimate. Its error is half the difference of the two least transits. One
-/// thread, no allocation. Times are UTC as in trailers, right while the clocks are within 35 min.
+/// One peer's clock. The least "arrival - sending" of each direction bounds the difference from one
+/// side; the estimate is the middle. Its error is half the difference of the two least transits.
+/// One thread, no allocation. Times are UTC as in trailers, valid while the clocks are within 35
+/// min.
 class PeerClock {
  public:
-  /// Without an echo for so long nothing is known. Each of 256 peers has its turn in 32 s, of
-  /// 1,024 in 43 s.
+  /// Time without an echo after which nothing is known. Each of 256 peers has its turn in 32 s,
+  /// each of 1,024 in 43 s.
   static constexpr std::chrono::nanoseconds kForgotten = std::chrono::seconds(60);
-  /// A longer way there and back is none that an estimate could be built on.
+  /// Longest round trip for which an estimate is usable.
   static constexpr std::chrono::nanoseconds kMostRoundTrip = std::chrono::seconds(2);
 
-  /// A datagram of the peer: when it was sent, by its trailer, and when it came, on our clock.
+  /// Records a datagram of the peer: its send time, from its trailer, and its arrival on our clock.
   void hear(std::uint32_t sent, std::chrono::nanoseconds utc,
             std::chrono::nanoseconds now) noexcept;
-  /// The peer's echo of a datagram of ours, in a datagram that it sent at `answered` and that came
-  /// at `utc`. False when it is refused: its times are impossible, or the way took too long.
+  /// Takes the peer's echo of a datagram of ours, in a datagram that it sent at `answered` and that
+  /// arrived at `utc`. False if it is refused: its times are impossible, or the transit was too
+  /// long.
   bool take(const pdu::TimeEcho& echo, std::uint32_t answered, std::chrono::nanoseconds utc,
             std::chrono::nanoseconds now) noexcept;
 
-  /// The estimate; nullopt before the first echo and when the last one is too old.
+  /// The estimate; nullopt before the first echo and after the last one has become too old.
   [[nodiscard]] std::optional<ClockDifference> difference(
       std::chrono::nanoseconds now) const noexcept;
 
@@ -59,35 +62,35 @@ class PeerClock {
   std::optional<std::chrono::nanoseconds> last_echo_;
 };
 
-/// The clocks of all peers, by the epoch of their process. Fixed capacity: the one unheard for the
-/// longest makes room. One thread; allocates at construction only; hearing a datagram and
-/// asking costs 16 ns for one peer, 30 ns among 1,000.
+/// The clocks of all peers, by the epoch of their process. Fixed capacity: the peer silent for the
+/// longest makes room. One thread; allocates only at construction; recording a datagram and a query
+/// cost 16 ns for one peer, 30 ns among 1,000.
 class PeerClocks {
  public:
   static constexpr std::size_t kCapacity = 1024;
-  /// In one PDU: eight, or as many as it takes to send all in 32 s, up to kMostEchoes.
+  /// Echoes in one PDU: eight, or as many as it takes to send all in 32 s, up to kMostEchoes.
   static constexpr std::size_t kEchoes = 8, kMostEchoes = 24;
-  /// Peers unheard for so long are not echoed.
+  /// Peers silent for this long are not echoed.
   static constexpr std::chrono::nanoseconds kRecent = std::chrono::seconds(5);
 
   PeerClocks();
 
-  /// A datagram of another peer, that came at steady time `now` = UTC `utc`.
+  /// Records a datagram of another peer, which arrived at steady time `now` = UTC `utc`.
   void hear(const pdu::DatagramTrailer& trailer, std::chrono::nanoseconds utc,
             std::chrono::nanoseconds now) noexcept;
-  /// What an exchange in such a datagram, heard already, says to the process of epoch `own`;
-  /// counts good echoes and refused ones.
+  /// Takes an exchange for the process of epoch `own` from such a datagram, which was recorded
+  /// already; counts good echoes and refused ones.
   void take(const pdu::TimeExchange& exchange, std::uint32_t own,
             const pdu::DatagramTrailer& trailer, std::chrono::nanoseconds utc,
             std::chrono::nanoseconds now) noexcept;
-  /// Fills in the echoes for the peers whose turn it is; false when there is none. They lie in this
-  /// object until the next call.
+  /// Fills in the echoes for the peers whose turn it is; false if there is none. They are stored in
+  /// this object until the next call.
   [[nodiscard]] bool fill(pdu::TimeExchange& exchange, std::chrono::nanoseconds now) noexcept;
 
-  /// How far a peer's UTC is ahead of ours, to be used for its timestamps. Exactly zero where both
-  /// say that theirs is UTC (`aligned` for us) and the exchanges do not gainsay it: believing them
-  /// makes neither way negative, nor longer than the other by both 8 ms and three times. Nullopt
-  /// when nothing is known.
+  /// Lead of a peer's UTC over ours, for its timestamps. Exactly zero if both clocks are stated to
+  /// be UTC (`aligned` for us) and the exchanges do not contradict: zero makes neither transit
+  /// negative, nor longer than the other by both 8 ms and a factor of three. Nullopt if nothing is
+  /// known.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> ahead(
       std::uint32_t epoch, bool aligned, std::chrono::nanoseconds now) const noexcept;
   /// The estimate itself.
@@ -101,9 +104,9 @@ class PeerClocks {
   struct Row {
     PeerClock clock;
     std::uint32_t sent = 0;   // of its latest datagram
-    std::uint32_t heard = 0;  // when that came
+    std::uint32_t heard = 0;  // when that arrived
     std::chrono::nanoseconds last_heard{0};
-    bool aligned = false;  // says that its clock is UTC
+    bool aligned = false;  // states that its clock is UTC
   };
 
   [[nodiscard]] std::size_t find(std::uint32_t epoch) const noexcept;

@@ -26,7 +26,7 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
     const bool ahead = now - sent < transit_.at(now);
     const bool confirmed = watch_.confirms(now - sent, now, ahead);
     if (!confirmed && !(ahead && now < runs_ahead_until_)) return std::nullopt;
-    // Its fastest packet since then is taken to be as fast as the fastest one before.
+    // Its fastest packet since then is assumed to be as fast as the fastest one before.
     sent += watch_.least() - transit_.at(now);
     leapt_ = true;
     if (ahead) runs_ahead_until_ = now + kRunsAhead;
@@ -45,14 +45,14 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
   return last_mapped_;
 }
 
-// A clock that stands tells no times, only that this state is newer than the last.
+// A stopped clock gives no times, but its state is newer than the last.
 nanoseconds SenderClock::by_arrival(nanoseconds now) noexcept {
   last_mapped_ = std::min(last_mapped_ + std::max(now - last_taken_, nanoseconds(0)), now);
   last_taken_ = std::max(last_taken_, now);
   return last_mapped_;
 }
 
-// Of all instants with this timestamp, an hour apart, the one that fits the silence before it.
+// Of all instants with this timestamp, an hour apart, the one that fits the preceding silence.
 nanoseconds SenderClock::unwrapped(std::uint32_t timestamp, nanoseconds now) const noexcept {
   const nanoseconds passed = pdu::difference(timestamp, last_timestamp_);
   const nanoseconds rest = now - last_heard_ - passed;
@@ -62,7 +62,7 @@ nanoseconds SenderClock::unwrapped(std::uint32_t timestamp, nanoseconds now) con
 
 bool SenderClock::is_odd(nanoseconds sent, nanoseconds now) const noexcept {
   if (!started_) return false;
-  // Over a long silence clocks drift apart, by less than 1 ms/s.
+  // During a long silence clocks drift apart, by less than 1 ms/s.
   const nanoseconds allowed = LeapWatch::kOdd + (now - last_heard_) / 1000;
   return sent <= last_sent_ || std::chrono::abs(now - sent - transit_.at(now)) > allowed;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// All that the model loop has to do with clocks: the UTC it goes by, the clocks of the other peers,
-// and the exchange that these are known from.
+// All clocks of the model loop: its own UTC, the clocks of the other peers, and the exchange that
+// measures them.
 #pragma once
 
 #include <chrono>
@@ -20,13 +20,13 @@
 
 namespace reckon::peer {
 
-/// One peer's time. One thread (the model loop's); allocates at construction only.
+/// One peer's time. One thread (the model loop's); allocates only at construction.
 class TimeKeeper {
  public:
   /// @param epoch of this process. @param counters outlives the keeper.
   TimeKeeper(std::uint32_t epoch, std::uint8_t exercise, Counters& counters);
 
-  /// A pass begins: `host_utc` is what the host says at `now`.
+  /// Begins a pass: `host_utc` is the host's clock at `now`.
   void begin(std::chrono::nanoseconds now, std::chrono::nanoseconds host_utc) noexcept;
 
   /// UTC of this pass, without a jump.
@@ -35,20 +35,20 @@ class TimeKeeper {
   [[nodiscard]] bool is_aligned() const noexcept { return steady_utc_.is_aligned(); }
   /// The DIS timestamp of an instant of utc(): absolute while aligned.
   [[nodiscard]] std::uint32_t stamp(std::chrono::nanoseconds utc) const noexcept;
-  /// A leap of the host's clock noticed in this pass [s].
+  /// A jump of the host's clock found in this pass [s].
   [[nodiscard]] std::optional<double> leap() const noexcept;
 
-  /// A datagram that came at steady time `arrival`, at or before this pass. Returns what is known
-  /// of its sender's clock. @param trailer epoch 0 = plain DIS. @param datagram its octets where it
-  /// may hold an exchange (base group), else empty.
+  /// Records a datagram that arrived at steady time `arrival`, at or before this pass. Returns the
+  /// knowledge of its sender's clock.  @param trailer epoch 0 = plain DIS.
+  /// @param datagram its octets if it may contain an exchange (base group), else empty.
   ClockEvidence hear(const pdu::DatagramTrailer& trailer, std::span<const std::byte> datagram,
                      std::chrono::nanoseconds arrival) noexcept;
 
-  /// What is known of a peer's clock, for states of its that somebody else tells.
+  /// Knowledge of a peer's clock, for its states that another peer relays.
   [[nodiscard]] ClockEvidence evidence(std::uint32_t epoch) const noexcept;
 
-  /// Fills in the exchange that goes with our next announcement; false where
-  /// there is nothing to tell. Its echoes are good until the next call.
+  /// Fills in the exchange for our next announcement; false if it has no content. Its echoes are
+  /// valid until the next call.
   [[nodiscard]] bool echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept;
 
   [[nodiscard]] const PeerClocks& peers() const noexcept { return peers_; }

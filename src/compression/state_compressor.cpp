@@ -14,7 +14,7 @@ using pdu::CompressedForm;
 using std::chrono::nanoseconds;
 
 constexpr unsigned kMostGap = 32;                              // updates
-constexpr nanoseconds kLongestGap = std::chrono::seconds(10);  // for who missed the first keys
+constexpr nanoseconds kLongestGap = std::chrono::seconds(10);  // for newcomers without a key state
 
 using Body = std::array<std::byte, pdu::kMostCompact>;
 
@@ -45,8 +45,8 @@ StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
       return {size, false, true};
     }
   }
-  const bool known = gap_ > 0 && group == group_;  // by those who hear this group
-  if (plain) gap_ = 0;  // who is new may miss it: the keys after it are as near as the first
+  const bool known = gap_ > 0 && group == group_;  // to the listeners of this group
+  if (plain) gap_ = 0;  // a newcomer may miss it: key states follow as closely as after the first
   note_key(state, group, now);
   if (plain || (leans && !known)) return {0, true};
   return {store_compact(state, out), leans};
@@ -69,7 +69,7 @@ void StateCompressor::note_key(const pdu::EntityState& state, aoim::GroupIndex g
   group_ = group;
   keyed_ = now;
   const bool good = form_ != CompressedForm::residual || residual_.note_key(state);
-  if (!good) gap_ = 0;  // the next one is a key too
+  if (!good) gap_ = 0;  // the next one is a key state too
 }
 
 }  // namespace reckon::peer

@@ -10,7 +10,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kNone = ~std::size_t{0};
-constexpr std::size_t kFewKeys = 64;  // for which no memory is given back
+constexpr std::size_t kFewKeys = 64;  // up to this number no memory is given back
 
 template <typename T>
 void move_last_to(std::vector<T>& rows, std::size_t place) {
@@ -32,7 +32,7 @@ void StateRestorer::note_plain(const pdu::EntityState& state, const KeySpeaker& 
   residuals_[place_for(state.entity_id.key(), speaker)].note_plain(state);
 }
 
-// Of the entity in this life of its owner; nothing of a former one is left in it.
+// Place of the entity in this epoch of its owner, without data of a former one.
 std::size_t StateRestorer::place_for(std::uint64_t key, const KeySpeaker& speaker) {
   const auto found = places_.find(key);
   if (found == places_.end()) {
@@ -57,7 +57,7 @@ void StateRestorer::add(std::uint64_t key, const KeySpeaker& speaker) {
   ++counts_[speaker.from.octets];
 }
 
-// One of the host that has the most.
+// Removes an entity of the host that has the most.
 void StateRestorer::make_room() {
   const auto crowded = std::max_element(
       counts_.begin(), counts_.end(),
@@ -100,7 +100,7 @@ RestoreVerdict StateRestorer::restore(const pdu::CompressedStates& states,
   return RestoreVerdict::good;
 }
 
-// The place of keys that this speaker may lean on.
+// The place of key states on which this sender's states may depend.
 std::size_t StateRestorer::find(const pdu::EntityId& id, const KeySpeaker& speaker) const noexcept {
   const auto found = places_.find(id.key());
   if (found == places_.end()) return kNone;

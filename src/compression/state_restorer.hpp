@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Makes Entity States of compressed ones, before anything else looks at them.
+// Restores Entity States from compressed ones, before any other stage reads them.
 #pragma once
 
 #include <array>
@@ -17,52 +17,53 @@
 
 namespace reckon::peer {
 
-/// Who says what is in a datagram. Only what a life has said of its own entities is a key, and only
-/// of what it says itself.
+/// Sender of a datagram's content. Only a state of an epoch's own entity is a key state, and only
+/// states of the same epoch may depend on it.
 struct KeySpeaker {
   pdu::SimulationAddress simulation;  ///< whose entities are its own
-  std::uint32_t epoch = 0;            ///< of its life; 0: it is no peer, and has no keys
-  aoim::SourceAddress from = {};      ///< where the datagram came from
+  std::uint32_t epoch = 0;            ///< 0: it is no peer, and has no key states
+  aoim::SourceAddress from = {};      ///< source address of the datagram
 
   [[nodiscard]] bool owns(const pdu::SimulationAddress& entities) const noexcept {
     return epoch != 0 && entities == simulation;
   }
 };
 
-/// What became of one compressed state.
+/// Result for one compressed state.
 enum class RestoreVerdict : std::uint8_t {
   good,
-  awaits_key,  ///< it leans on a key that did not arrive: the entity's next key helps
+  awaits_key,  ///< it depends on a lost key state: the entity's next one helps
   malformed,   ///< its octets are no body of their form, or of another form than the scene's
-  not_theirs,  ///< it leans on keys of an entity that is not its speaker's
+  not_theirs,  ///< it depends on key states of an entity that its sender does not own
 };
 
-/// All entities of others. One thread, never throws; allocates where a new entity comes, 0.6 KiB
-/// each in scenes of the residual form, up to `capacity` of them: then one of the host (address)
-/// with the most is forgotten and awaits a key, so that a host that invents entities displaces none
-/// of another.
+/// All entities of others. One thread, never throws. Allocates for a new entity, 0.6 KiB each in
+/// scenes of the residual form, up to `capacity` of them. Then an entity of the host (address) with
+/// the most is removed and awaits a key state, so that a host that invents entities displaces none
+/// of another host.
 ///
-/// Keys are kept by entity, life and address: what anybody else says of the entity is none, however
-/// its octets were chosen. A life that goes on from another address takes its keys along; one that
-/// comes back to where it was before needs new ones, for in between somebody else may have spoken.
+/// Key states are kept by entity, epoch and address, so a state from any other sender is none,
+/// whatever its octets are. An epoch that continues from another address keeps its key states. One
+/// that returns to a former address needs new ones, because another sender may have sent in
+/// between.
 class StateRestorer {
  public:
-  /// @param form of the scene; compact ones are read whatever it is. @param capacity at least 1
+  /// @param form of the scene; compact ones are accepted in any scene.  @param capacity at least 1
   StateRestorer(pdu::CompressedForm form, std::size_t capacity)
       : form_(form), capacity_(capacity > 0 ? capacity : 1) {}
 
-  /// A plain Entity State came: a key, where it is of an entity of the speaker's.
+  /// Takes a plain Entity State, which is a key state if its sender owns the entity.
   void note_plain(const pdu::EntityState& state, const KeySpeaker& speaker);
 
-  /// Restores one state of `states` into `out`, which is touched only where the verdict is good.
+  /// Restores one state of `states` into `out`, which is changed only if the verdict is good.
   [[nodiscard]] RestoreVerdict restore(const pdu::CompressedStates& states,
                                        const pdu::CompressedState& state, const KeySpeaker& speaker,
                                        pdu::EntityState& out);
-  /// A life is over: its keys are forgotten, and their memory is given back once most are. Looks at
-  /// all.
+  /// Forgets the key states of an ended epoch, and gives their memory back once most are gone.
+  /// Visits all.
   void forget(std::uint32_t epoch);
 
-  /// Entities whose keys are known.
+  /// Entities with known key states.
   [[nodiscard]] std::size_t size() const noexcept { return known_.size(); }
 
  private:
@@ -70,7 +71,7 @@ class StateRestorer {
   struct Known {
     std::uint64_t key = 0;  // of the entity
     std::uint32_t epoch = 0;
-    aoim::SourceAddress home, from;  // of the first key in this life, and of the last
+    aoim::SourceAddress home, from;  // of the first key state in this epoch, and of the last
   };
   [[nodiscard]] std::size_t place_for(std::uint64_t key, const KeySpeaker& speaker);
   [[nodiscard]] std::size_t find(const pdu::EntityId& id, const KeySpeaker& speaker) const noexcept;
@@ -89,7 +90,7 @@ class StateRestorer {
   std::vector<Known> known_;
   std::vector<deadreckon::ResidualDecoder> residuals_;     // beside it
   std::map<Host, std::size_t> counts_;  // of known_, by the host of `home`
-  std::size_t cursor_ = 0;              // in known_: where the next to be forgotten is looked for
+  std::size_t cursor_ = 0;              // in known_: start of the search for the next to remove
 };
 
 }  // namespace reckon::peer

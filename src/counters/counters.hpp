@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a running peer counts: named numbers that any thread may read while one thread adds.
+// Counters of a running peer: named numbers that any thread may read while one thread adds.
 #pragma once
 
 #include <atomic>
@@ -28,17 +28,17 @@ class Counter {
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// The counters of one peer by name. Names are made at set-up (allocates); the counters stay where
-/// they are, so a loop keeps a reference. Making names while another thread lists them is not safe.
+/// The counters of one peer by name. Names are made at set-up (allocates); the counters never move,
+/// so a loop keeps a reference. Making names while another thread lists them is not safe.
 class Counters {
  public:
-  /// The counter `name`, made at its first mention. `meaning` is one sentence for a reader.
+  /// The counter `name`, made by the first call. `meaning` is one sentence for a reader.
   [[nodiscard]] Counter& make(std::string_view name, std::string_view meaning);
-  /// The counter `name`, or null where none was made.
+  /// The counter `name`, or null if it was not made.
   [[nodiscard]] const Counter* find(std::string_view name) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
 
-  /// Calls visit(name, meaning, value) for each counter, in the order they were made.
+  /// Calls visit(name, meaning, value) for each counter, in the order of their making.
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (const Entry& entry : entries_) {

@@ -23,7 +23,7 @@ std::size_t bucket_of(std::uint64_t ns) noexcept {
 void DurationHistogram::add(std::chrono::nanoseconds duration) noexcept {
   const std::int64_t ns = std::max<std::int64_t>(duration.count(), 0);
   auto& bucket = buckets_[bucket_of(static_cast<std::uint64_t>(ns))];
-  // One writer: a load and a store are enough and cost no locked instruction.
+  // With one writer a load and a store are enough and cost no locked instruction.
   bucket.store(bucket.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   if (ns > max_.load(std::memory_order_relaxed)) max_.store(ns, std::memory_order_relaxed);
   count_.store(count_.load(std::memory_order_relaxed) + 1, std::memory_order_release);

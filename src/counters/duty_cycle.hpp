@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How punctual a loop is: lateness, step time and misses, counted by the loop's thread and readable
+// Punctuality of a loop: lateness, step time and misses, counted by the loop's thread and readable
 // by any other while it runs.
 #pragma once
 
@@ -26,8 +26,8 @@ class DurationHistogram {
   [[nodiscard]] std::uint64_t count() const noexcept;
   /// The largest one added, exact; 0 if none.
   [[nodiscard]] std::chrono::nanoseconds max() const noexcept;
-  /// The smallest duration with at least `share` (0 to 1) of all at or below it, as a sorted list
-  /// would give it at index ceil(share n) - 1, rounded up by at most 1/32. 0 if none were added.
+  /// The smallest duration with at least `share` (0 to 1) of all at or below it, as in a sorted
+  /// list at index ceil(share n) - 1, rounded up by at most 1/32. 0 if none were added.
   [[nodiscard]] std::chrono::nanoseconds percentile(double share) const noexcept;
 
  private:
@@ -42,21 +42,21 @@ struct Percentiles {
 };
 [[nodiscard]] Percentiles percentiles(const DurationHistogram& histogram) noexcept;
 
-/// The account of one periodic loop.
+/// The statistics of one periodic loop.
 class DutyCycle {
  public:
   /// `period` > 0 (assert).
   explicit DutyCycle(std::chrono::nanoseconds period) noexcept;
 
-  /// One step that should have begun at `scheduled`, began at `started` and ended at `finished`.
-  /// It is late by started - scheduled; each whole period of lateness is a missed step, and so is a
-  /// step that ends after the next one should have begun (an overrun). By the loop's thread only.
+  /// Records one step that was due at `scheduled`, began at `started` and ended at `finished`. Its
+  /// lateness is started - scheduled; each whole period of lateness is a missed step. A step that
+  /// ends after the next one was due is an overrun, and missed too. Only by the loop's thread.
   void record(std::chrono::nanoseconds scheduled, std::chrono::nanoseconds started,
               std::chrono::nanoseconds finished) noexcept;
 
   [[nodiscard]] std::chrono::nanoseconds period() const noexcept { return period_; }
   [[nodiscard]] std::uint64_t steps() const noexcept { return step_time_.count(); }
-  /// Periods that passed without a step of their own.
+  /// Periods without a step of their own.
   [[nodiscard]] std::uint64_t missed() const noexcept;
   /// Steps that ended later than a period after they were due.
   [[nodiscard]] std::uint64_t overruns() const noexcept;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How large errors were: percentiles of metres, newtons or joules without storing each one.
+// Distribution of errors: percentiles of metres, newtons or joules without storing each one.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Spread {
 /// wide. One thread calls add(), any thread calls spread(). No allocation.
 class ErrorHistogram {
  public:
-  /// Negative, NaN or above 1000 units counts as 1000 units. About 5 ns.
+  /// Adds an error; negative, NaN or above 1000 units counts as 1000 units. About 5 ns.
   void add(double error) noexcept;
   [[nodiscard]] Spread spread() const noexcept;
 

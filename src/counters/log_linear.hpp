@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE rule of buckets under every histogram: equal steps within each power of two, and the search
-// for a percentile. How counts are kept (atomic, or small and halved) is each histogram's own.
+// THE rule of buckets of all histograms: equal steps within each power of two, and the search for a
+// percentile. Each histogram stores its counts in its own way (atomic, or small and halved).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace reckon::peer {
 
-/// Buckets of whole numbers: one each below 2^sub_bits, above it 2^sub_bits for each power of two.
+/// Buckets of whole numbers: one for each number below 2^sub_bits, above that 2^sub_bits for each
+/// power of two.
 template <unsigned sub_bits>
 struct LogLinear {
   static constexpr std::uint64_t kSub = std::uint64_t{1} << sub_bits;
@@ -30,9 +31,9 @@ struct LogLinear {
   }
 };
 
-/// The first of `buckets` at or below which lies at least `share` (0 to 1) of `all` values, as the
-/// index ceil(share all) - 1 of a sorted list; `buckets` where their counts are fewer than that.
-/// @param count_of(bucket) how many values it holds
+/// The first bucket at or below which at least `share` (0 to 1) of `all` values lie, that is index
+/// ceil(share all) - 1 of a sorted list; `buckets` if their counts are fewer than that.
+/// @param count_of(bucket) number of its values
 template <typename CountOf>
 [[nodiscard]] std::size_t bucket_of_share(std::size_t buckets, std::uint64_t all, double share,
                                           CountOf&& count_of) noexcept {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Classes of entities as an HLA federate names them, over the entity types of SISO-REF-010.
+// Classes of entities for an HLA federate, by the entity types of SISO-REF-010.
 #pragma once
 
 #include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::peer {
 
-/// Entities whose type begins like this one: zeros at the end stand for anything.
+/// Entities whose type begins like this one: zeros at the end match anything.
 ///
 ///   EntityClass{}                                                   // every entity
 ///   EntityClass{{pdu::EntityKind::platform}}                        // every platform

@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Hours since 1970 that are believed, either way: 228 years. More is a slip, or malice.
+// Limit of accepted hours since 1970, either way: 228 years. More is an error, or malice.
 constexpr std::int32_t kMostHours = 2'000'000;
 
 nanoseconds to_time(const pdu::ClockTime& time) {
@@ -19,7 +19,7 @@ nanoseconds to_time(const pdu::ClockTime& time) {
   return std::chrono::hours(hours) + pdu::past_the_hour(time.time_past_hour);
 }
 
-// Simulation time stands where the clock can tell no later one.
+// Simulation time stops at the latest time of the clock.
 nanoseconds later(nanoseconds time, nanoseconds span) {
   const bool is_beyond = span > nanoseconds(0) && time > nanoseconds::max() - span;
   return is_beyond ? nanoseconds::max() : time + span;

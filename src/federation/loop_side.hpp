@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A federate's hands in the model loop: does what the program wishes, gathers what has happened.
+// A federate's part in the model loop: carries out the program's requests and collects what has
+// happened.
 #pragma once
 
 #include <array>
@@ -14,11 +15,11 @@
 
 namespace reckon::peer {
 
-/// The loop's side of the two letter boxes; wishes() and news() are the program's side, any of its
-/// threads but one at a time.
+/// The loop's side of the two mailboxes; wishes() and news() are the program's side, for one of its
+/// threads at a time.
 class LoopSide final : public ModelGuest {
  public:
-  /// PDUs that wait for a program that does not read [octets]; further ones are counted.
+  /// Most pending PDUs for a program that does not read [octets]; further ones are counted.
   static constexpr std::size_t kMostWaiting = std::size_t{8} << 20;
 
   void begin_pass(ModelLoop& loop) noexcept override;
@@ -28,7 +29,7 @@ class LoopSide final : public ModelGuest {
 
   [[nodiscard]] LetterBox<Wishes>& wishes() noexcept { return wishes_; }
   [[nodiscard]] LetterBox<News>& news() noexcept { return news_; }
-  /// PDUs of this type are gathered from now on. Any thread.
+  /// Collects PDUs of this type from now on. Any thread.
   void listen_for(pdu::PduType type) noexcept {
     wanted_[static_cast<std::uint8_t>(type)].store(true, std::memory_order_relaxed);
   }

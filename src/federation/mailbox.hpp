@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two letters that go to and fro between a program and the model loop: what the program wants done,
-// and what has happened. Neither side ever waits: a letter that is under way is answered later, and
-// what happens in the meantime gathers for the next one, of an entity the newest alone.
+// Two letters between a program and the model loop: the program's requests, and what has happened.
+// Neither side ever waits. While a letter is in use, further content is collected for the next one;
+// of an entity's updates only the newest is kept.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@
 
 namespace reckon::peer {
 
-/// What a program wants done, in order.
+/// Requests of a program, in order.
 struct Wishes {
   struct Register {
     EntityNumber number;
@@ -67,38 +67,37 @@ struct News {
     std::size_t offset, size;  ///< of the PDU in `octets`
     InteractionSender sender;
   };
-  std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was closed
+  std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was sent
   pdu::EntityId simulation;                 ///< of this peer, which may have been renamed
-  std::vector<RemoteCopy> states;           ///< as they are now
-  std::vector<pdu::EntityId> removed;       ///< a state of the same entity above is a later life
+  std::vector<RemoteCopy> states;           ///< as of now
+  std::vector<pdu::EntityId> removed;       ///< one that is in `states` too has returned since
   std::vector<Heard> heard;
   std::vector<std::byte> octets;
-  std::uint64_t dropped = 0;  ///< PDUs so far that found no room because the program did not read
+  std::uint64_t dropped = 0;  ///< PDUs lost so far because the program did not read
 
   void clear() noexcept;
 };
 
-/// A letter that one side fills and the other empties, two copies in turn: while the reader has
-/// one, the writer fills the other. One thread a side, neither waits.
+/// A letter that one side fills and the other empties, in two alternating copies: while the reader
+/// has one, the writer fills the other. One thread a side, neither waits.
 ///
 ///   if (box.is_free()) fill(box.letter()), box.send();           // writer
 ///   if (Letter* letter = box.take()) read(*letter), letter->clear(), box.give_back();  // reader
 template <class Letter>
 class LetterBox {
  public:
-  /// Writer: whether the letter before has been given back, so that letter() may be filled and
-  /// sent.
+  /// Writer: whether the last letter was given back, so that letter() may be filled and sent.
   [[nodiscard]] bool is_free() const noexcept {
     return sent_.load(std::memory_order_acquire) == nullptr;
   }
-  /// Writer: the copy that the reader has not; empty when it comes back.
+  /// Writer: the copy that the reader does not have; it comes back empty.
   [[nodiscard]] Letter& letter() noexcept { return copies_[next_]; }
-  /// Writer, when is_free().
+  /// Writer, if is_free().
   void send() noexcept {
     sent_.store(&copies_[next_], std::memory_order_release);
     next_ = 1 - next_;
   }
-  /// Reader: the letter, null where there is none. It stays the reader's until give_back().
+  /// Reader: the letter, null if there is none. It is the reader's until give_back().
   [[nodiscard]] Letter* take() const noexcept { return sent_.load(std::memory_order_acquire); }
   void give_back() noexcept { sent_.store(nullptr, std::memory_order_release); }
 

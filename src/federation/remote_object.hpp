@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a program sees of one entity of others.
+// A remote entity for a program.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace reckon::peer {
 class RemoteCopy;
 struct RemoteEntity;
 
-/// One entity of others, scene frame S. Good until the program's next step().
+/// One remote entity, scene frame S. Valid until the program's next step().
 class RemoteObject {
  public:
   explicit RemoteObject(const RemoteCopy& copy) noexcept;
@@ -32,9 +32,9 @@ class RemoteObject {
 
   /// Pose and velocity to show at `now` (steady time), converged. About 100 ns.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
-  /// Since its last update was received.
+  /// Time since its last update was received.
   [[nodiscard]] std::chrono::nanoseconds age(std::chrono::nanoseconds now) const noexcept;
-  /// What hands feel of it, body axes; nullptr for what is not felt.
+  /// What hands feel of it, body axes; nullptr if it is not felt.
   [[nodiscard]] const deadreckon::ForceModel* force_model() const noexcept;
   /// Updates received so far.
   [[nodiscard]] std::uint64_t updates() const noexcept;

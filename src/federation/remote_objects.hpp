@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a program sees of the entities of others: a copy of each predictor on the program's own
-// thread, so that it can ask for any pose at any instant while the loops go on.
+// Remote entities for a program: a copy of each predictor on the program's own thread, so that it
+// can ask for any pose at any instant while the loops go on.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@
 
 namespace reckon::peer {
 
-/// The entities of others, each a copy. One thread, the program's; allocates as it grows.
+/// Copies of the remote entities. One thread, the program's; allocates as it grows.
 class RemoteObjects {
  public:
   RemoteObjects() : index_(64) {}
 
   [[nodiscard]] const RemoteCopy* find(const pdu::EntityId& id) const noexcept;
   [[nodiscard]] std::span<const RemoteCopy> rows() const noexcept { return rows_; }
-  /// Takes a copy; true where it was not there.
+  /// Stores a copy; true if the entity is new.
   bool put(const RemoteCopy& copy);
-  /// False where it was not there.
+  /// Removes an entity; false if it is unknown.
   bool erase(const pdu::EntityId& id) noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A source address for notices, written where nothing may be allocated.
+// A source address as text for notices, without allocation.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace reckon::peer {
 
-/// "10.0.0.9:5555" or "[fe80::1]:5555"; without a port the address alone; "an unknown address" for
-/// none. A value, some 100 ns.
+/// "10.0.0.9:5555" or "[fe80::1]:5555"; only the address if there is no port; "an unknown address"
+/// for none. A value, some 100 ns.
 class AddressText {
  public:
   explicit AddressText(const aoim::SourceAddress& address) noexcept;

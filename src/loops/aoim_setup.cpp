@@ -28,7 +28,7 @@ void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig&
     config.farthest_nimbus = std::max(config.farthest_nimbus, one.nimbus);
 }
 
-// [s] Members have the same scene: none of them says more.
+// [s]. Members have the same scene, so none of them states a longer one.
 double longest_validity(const SceneFile& scene) {
   double longest = pdu::to_seconds(scene.hand.validity);
   for (const EntityConfig& entity : scene.entities) {
@@ -133,7 +133,7 @@ std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
 GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
   if (scene.network.interop) return {};
-  // Groups that are handed out are as many as there are cells, until none is left.
+  // Assigned groups: as many as there are cells, until none is left.
   const aoim::CellPartition cells = cells_of(scene.aoim);
   const std::size_t felt =
       config.contact_groups ? cells.groups_bound(contact_reach(scene.hand)) : 0;

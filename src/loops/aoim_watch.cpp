@@ -71,7 +71,7 @@ void AoimWatch::tell_given_up(const aoim::SequenceTracker& sequences) noexcept {
   if (turn == Turn::ends) tell("all lost datagrams are counted again");
 }
 
-// Where plain DIS comes to one group, nothing but the radius keeps an entity from being shown.
+// If plain DIS comes in one group, only the radius keeps an entity from being shown.
 void AoimWatch::tell_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   if (!begun_) window_end_ = now_ + kFirstWindow;
   begun_ = true;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the area-of-interest layer leaves out, reported to the user: each matter once when it begins
-// and once when it is over.
+// Reports to the user what the area-of-interest layer leaves out: each condition once when it
+// begins and once when it is over.
 #pragma once
 
 #include <chrono>
@@ -16,15 +16,15 @@
 
 namespace reckon::peer {
 
-/// Looks at the counts of one manager. One thread; allocates at set-up alone.
+/// Watches the counts of one manager. One thread; allocates only at set-up.
 class AoimWatch {
  public:
   /// Makes the counters updates_refused, peers_not_joined and entities_outside. `scene` and
   /// `counters` outlive it.
   AoimWatch(const SceneFile& scene, Counters& counters);
 
-  /// Call it each time the manager's listen() has been asked for the cells, with the answer.
-  /// Sentences go to `out`.
+  /// Call it after each listen() of the manager for the cells, with its result. Notices go to
+  /// `out`.
   void look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
@@ -47,7 +47,7 @@ class AoimWatch {
   Matter capped_, full_, given_up_;
   std::uint64_t given_up_before_ = 0;
   bool begun_ = false;
-  Nanoseconds window_end_{0};          // within which entities are looked for
+  Nanoseconds window_end_{0};          // end of the window in which entities are counted
   aoim::InterestCounts at_begin_;      // of that window
   bool all_outside_reported_ = false;  // and none came inside since
 };

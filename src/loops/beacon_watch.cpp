@@ -52,7 +52,7 @@ void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& bef
   }
 }
 
-// Two peers carry one tag: followers go to that of whom the scene's leader heard first.
+// If two peers carry one tag, followers go to the one that the scene's leader received first.
 void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
                                haptics::SpscRing<Notice>& out) noexcept {
   for (Carried& one : carried_) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Beacons that this peer follows and carries, reported to the user when they are found, move, are
-// lost, or turn out to be another peer's.
+// Reports to the user the beacons that this peer follows and carries: when they are found, move,
+// are lost, or belong to another peer.
 #pragma once
 
 #include <chrono>
@@ -18,16 +18,16 @@
 
 namespace reckon::peer {
 
-/// One thread; allocates at set-up, and where entities with beacons are new.
+/// One thread; allocates at set-up, and when entities with beacons are new.
 class BeaconWatch {
  public:
-  /// A beacon of ours that the map has had in another cell for so long is reported as another's.
+  /// A beacon of ours that the map has in another cell for this long is reported as another peer's.
   static constexpr std::chrono::nanoseconds kDisputed = std::chrono::seconds(3);
 
-  /// @param follow names as beacon_names takes them
+  /// @param follow names, as for beacon_names
   explicit BeaconWatch(std::string_view follow);
 
-  /// An entity of ours carries a beacon of this name; it is gone.
+  /// Adds the beacon of an entity of ours, or removes it.
   void add(EntityNumber number, std::string_view name);
   void remove(EntityNumber number) noexcept;
   /// Calls visit(EntityNumber, tag) for each of ours.
@@ -37,7 +37,7 @@ class BeaconWatch {
   }
   [[nodiscard]] bool carries() const noexcept { return !carried_.empty(); }
 
-  /// Call it some twenty times a second. Sentences go to `out`, what is followed to `view`.
+  /// Call it some twenty times a second. Notices go to `out`, followed beacons to `view`.
   void look(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out, LeadersView& view) noexcept;
 
@@ -45,21 +45,21 @@ class BeaconWatch {
   struct Followed {
     std::string name;
     bool reported = false;  ///< as found
-    aoim::CellId cell;      ///< in which it was reported to be
+    aoim::CellId cell;      ///< reported cell
   };
   struct Carried {
     EntityNumber number;
     std::uint32_t tag;
     std::string name;
-    std::chrono::nanoseconds ours{};  ///< when the map last had it where we have it, or not at all
-    bool reported = false;            ///< to be another's
+    std::chrono::nanoseconds ours{};  ///< when the map last had it in our cell, or lacked it
+    bool reported = false;            ///< as another peer's
   };
   void report_followed(const aoim::FollowedBeacon& now, Followed& before,
                        haptics::SpscRing<Notice>& out) noexcept;
   void look_at_ours(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
                     haptics::SpscRing<Notice>& out) noexcept;
 
-  std::vector<Followed> followed_;  ///< as the manager has them
+  std::vector<Followed> followed_;  ///< as in the manager
   std::vector<Carried> carried_;
 };
 

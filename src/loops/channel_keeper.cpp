@@ -30,8 +30,8 @@ void ChannelKeeper::note_places(const RemoteEntities& remote, aoim::AreaOfIntere
       });
 }
 
-// What others send is as rich as the nearest receiver wants it: with others near them we may get
-// more than we ask for.
+// Others send as much as their nearest receiver asks for. With further receivers near them we may
+// get more than we ask for.
 void ChannelKeeper::keep_to_budget(const RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
                                    Nanoseconds now, haptics::SpscRing<Notice>& out) {
   clients_.clear();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Tiers by distance ([[aoim.tier]]): who receives what this peer sends, and how much this peer
-// itself can take.
+// Tiers by distance ([[aoim.tier]]): the receivers of this peer's updates, and the budget of the
+// peer itself.
 #pragma once
 
 #include <chrono>
@@ -16,14 +16,15 @@
 
 namespace reckon::peer {
 
-/// Keeps the places of receivers, and the budget. One thread; allocates where more is heard than
-/// ever before; 0.1 us for each entity heard, ten times a second. Does nothing without such tiers.
+/// Keeps the positions of receivers, and the budget. One thread; allocates when more entities are
+/// received than ever before; 0.1 us for each received entity, ten times a second. Does nothing
+/// without such tiers.
 class ChannelKeeper {
  public:
   /// @param config outlives this
   explicit ChannelKeeper(const AwarenessConfig& config) : config_(config) {}
 
-  /// To be called some twenty times a second, after the foci have been set. What begins and ends is
+  /// Call it some twenty times a second, after the foci were set. Begin and end of a shortage are
   /// reported to `out`.
   void look(const RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;

@@ -11,7 +11,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr double kJoin = 0.1;  // [s], with time to spare; see aoim::SubscriptionConfig::lookahead
+constexpr double kJoin = 0.1;  // [s], with a margin; see aoim::SubscriptionConfig::lookahead
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From how far away what is ours can be touched, and hence whose contact groups this peer listens
-// to. Part of the model loop.
+// The distance from which our entities can be touched, and so the contact groups that this peer
+// subscribes to. Part of the model loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,23 +14,24 @@
 
 namespace reckon::peer {
 
-/// How far from an entity's surface the contact groups of cells are listened to [m], for a probe of
-/// this radius: that of contact, and as far as another hand comes while a group is joined.
+/// Distance from an entity's surface within which the contact groups of cells are subscribed to
+/// [m], for a probe of this radius: the reach of contact, and the way of another hand while a group
+/// is joined.
 [[nodiscard]] double contact_reach(const HandModel& hand) noexcept;
 
-/// The foci for AreaOfInterestManager::listen(). One thread; allocates where there are
-/// more than ever before. Some 50 ns for each entity that hands feel.
+/// The foci for AreaOfInterestManager::listen(). One thread; allocates if there are more than ever
+/// before. Some 50 ns for each felt entity.
 class ContactFoci {
  public:
   /// @param scene outlives this
   explicit ContactFoci(const SceneFile& scene);
 
   void clear() noexcept { balls_.clear(); }
-  /// One of ours; what nobody feels is passed over. A plane is felt as far as its owner senses.
+  /// Adds an entity of ours, unless it cannot be felt. A plane is felt as far as its owner senses.
   void add(const OwnedEntity& entity);
-  /// Where something of others is that one of ours could touch, however large it is.
+  /// Adds the position of a remote entity that one of ours could touch, however large it is.
   void add_near(const Eigen::Vector3d& position);
-  /// Good until the next call.
+  /// Valid until the next call.
   [[nodiscard]] std::span<const aoim::Focus> foci() noexcept { return cover_.cover(balls_); }
 
  private:

@@ -27,7 +27,7 @@ void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHan
   hand.has_device = row.type.kind == pdu::EntityKind::life_form;
 }
 
-// One of ours: no prediction is older than the last pass, and no update is lost.
+// An own body: its prediction is not older than the last pass, and no update is lost.
 void fill_own(const NearBody& body, nanoseconds at, const ContactSources& sources,
               RemoteHand& hand) {
   hand.id = body.own->id();
@@ -39,7 +39,7 @@ void fill_own(const NearBody& body, nanoseconds at, const ContactSources& source
   hand.epoch = sources.epoch;
 }
 
-// Our other hand: both servos keep the books, as across the network.
+// Our other hand: both servos keep accounts, as across the network.
 void fill_accounts(const HandPort& other, const pdu::EntityId& hand, RemoteHand& out) {
   const haptics::ServoSnapshot& servo = other.servo();
   out.neighbours = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a hand can touch, as its servo reads it: bodies of others by their predictors, our own as
-// they are. Part of the model loop.
+// The bodies that a hand can touch, for its servo: remote ones by their predictors, our own as they
+// are. Part of the model loop.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace reckon::peer {
 
-/// What contacts are made from; all good until the pass ends.
+/// Inputs of contacts; all valid until the pass ends.
 struct ContactSources {
   const EnergyBooks& books;
   std::span<const HandPort> hands;
@@ -24,7 +24,8 @@ struct ContactSources {
   std::uint32_t epoch = 0;  ///< of this process
 };
 
-/// Hands the bodies near a port to its servo. @param frozen the hand's simulation stands still
+/// Publishes the bodies near a port to its servo.
+/// @param frozen whether the hand's simulation is frozen
 void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodies& near,
                       bool frozen, const ContactSources& sources) noexcept;
 

@@ -14,14 +14,14 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kMostTaken = 512;  // datagrams a step of which something is taken, some 1 ms
-// Datagrams that are looked through for overtaken states at a time, and where nearly all were
-// overtaken: as many large ones as the ring holds.
+constexpr std::size_t kMostTaken = 512;  // datagrams taken in a step, some 1 ms
+// Datagrams examined at a time for overtaken states, and the same after nearly all were overtaken:
+// as many large ones as the ring holds.
 constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
-constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken, some 1 ms more
-constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
+constexpr std::size_t kMostSeen = 4096;  // the same with wholly overtaken ones, some 1 ms more
+constexpr std::size_t kBacklog = 16;     // fewer pending datagrams are no backlog
 
-// Forms in which a state may be a key, which others are read by.
+// Forms in which a state may be a key state of others.
 bool leans_on_states(pdu::CompressedForm form) { return form == pdu::CompressedForm::residual; }
 
 // By aoim::IncomingVerdict.
@@ -79,7 +79,7 @@ void DatagramIntake::drain(DatagramRing& ring, const Reading& reading) noexcept 
   }
 }
 
-// Returns of how many something was taken.
+// Returns the number of datagrams of which something was taken.
 std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
                                       const Reading& reading) noexcept {
   std::size_t count = 0, taken = datagrams.size();
@@ -105,14 +105,14 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
   return taken;
 }
 
-// Whose words may be keys of compressed states: those of peers, of what is their own.
+// Senders whose states may be key states: peers, for their own entities.
 KeySpeaker DatagramIntake::key_speaker(const Arrival& arrival) const noexcept {
   if (arrival.epoch == 0 || !leans_on_states(scene_.network.compression)) return {};
   const auto id = aoim_.presence().id_of(arrival.epoch);
   return id ? KeySpeaker{*id, arrival.epoch, arrival.from} : KeySpeaker{};
 }
 
-// False where a datagram is not to be read.
+// False if a datagram is not to be read.
 bool DatagramIntake::admit(const QueuedDatagram& datagram, const Pass& pass,
                            ArrivedDatagram& admitted) noexcept {
   const auto index = pool_.index(datagram.group);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where datagrams enter the model loop: judged by the area-of-interest manager, decoded, and handed
-// on update by update. Where many wait, states that a later one overtakes are left out.
+// Entry of datagrams into the model loop: the area-of-interest manager judges them, then they are
+// decoded and handed on update by update. If many are pending, overtaken states are left out.
 #pragma once
 
 #include <cstddef>
@@ -20,30 +20,30 @@
 
 namespace reckon::peer {
 
-/// Receives each update that is to be read.
+/// Receives each update to be read.
 class UpdateHandler {
  public:
   virtual ~UpdateHandler() = default;
-  /// By the thread of read(), of each datagram of this exercise, before what is in it. @param
-  /// octets good until the call returns
+  /// Called by the thread of read() for each datagram of this exercise, before its updates.
+  /// @param octets valid until the call returns
   virtual void take_datagram(std::span<const std::byte> octets) noexcept = 0;
-  /// By the thread of read(). @param update good until the call returns
+  /// Called by the thread of read().  @param update valid until the call returns
   virtual void take_update(const Inbound& update, const Arrival& arrival) noexcept = 0;
 };
 
-/// One thread; allocates at construction alone.
+/// One thread; allocates only at construction.
 class DatagramIntake {
  public:
   /// References outlive this.
   DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, TimeKeeper& time,
                  RemoteEntities& remote, ModelCounters& counted);
 
-  /// Reads what has come, contact groups first: so many at a time that a flood does not keep the
-  /// own hand from being sent. @param own the simulation of this peer
+  /// Reads pending datagrams, contact groups first. The number in a step is bounded, so that a
+  /// flood does not delay the own hand's updates.  @param own the simulation of this peer
   void read(const Pass& pass, const aoim::PeerId& own, UpdateHandler& handler) noexcept;
-  /// Nobody will read what waits: reports it to the tap.
+  /// Reports pending datagrams to the tap, because nobody will read them.
   void report_unread() noexcept;
-  /// Key states of this life are not read by any more.
+  /// The key states of this epoch are not used any more.
   void forget_keys(std::uint32_t epoch) noexcept { decoder_.forget_keys(epoch); }
 
  private:
@@ -73,9 +73,9 @@ class DatagramIntake {
   ModelCounters& counted_;
   DatagramDecoder decoder_;
   OvertakenStates overtaken_;
-  std::vector<QueuedDatagram> queued_;     // those taken at a time
-  std::vector<ArrivedDatagram> admitted_;  // of them, those that are read
-  bool looks_far_ = false;                 // nearly all that waited was overtaken
+  std::vector<QueuedDatagram> queued_;     // datagrams taken at a time
+  std::vector<ArrivedDatagram> admitted_;  // those of queued_ that are read
+  bool looks_far_ = false;                 // nearly all pending datagrams were overtaken
 };
 
 }  // namespace reckon::peer

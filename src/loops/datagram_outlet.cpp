@@ -18,7 +18,7 @@ void DatagramOutlet::drop_stale(aoim::GroupIndex group,
   note(group, octets, DatagramFate::stale_unsent);
 }
 
-// That it has a number, and what else befell it at once.
+// Notifies the tap that the datagram has a number, and of an immediate fate.
 void DatagramOutlet::note(aoim::GroupIndex group, std::span<const std::byte> octets,
                           DatagramFate more) noexcept {
   if (tap_ == nullptr) return;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where datagrams leave the model loop: into the ring of the writer. A tap is notified of each.
+// Exit of datagrams from the model loop into the ring of the writer. A tap is notified of each.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ class DatagramOutlet {
 
   /// Datagrams that the ring has room for.
   [[nodiscard]] std::size_t room() const noexcept { return ring_.room(); }
-  /// Sends to a group of the pool; counted and dropped where the writer lags.
+  /// Sends to a group of the pool; counted and dropped if the writer lags.
   void push(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
-  /// It waited for too long and is not sent.
+  /// Drops a stale datagram instead of sending it.
   void drop_stale(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
 
  private:

@@ -21,7 +21,7 @@ constexpr std::size_t kLongest = stride(kMaxDatagram);
 
 }  // namespace
 
-// Takes kAlign octets, so that there is room for one before the end wherever an entry ends.
+// Takes kAlign octets, so that a header fits before the end wherever an entry ends.
 struct DatagramRing::Header {
   GroupAddress group;
   IpEndpoint sender;
@@ -63,7 +63,7 @@ bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arri
   return true;
 }
 
-// What starts over wastes less than one of the longest, once.
+// Starting over wastes once less than one entry of the greatest length.
 std::size_t DatagramRing::room() const noexcept {
   const std::uint64_t used =
       head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire);

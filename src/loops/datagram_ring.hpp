@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams on their way between the model loop and the loops at the network.
+// Queue of datagrams between the model loop and the network loops.
 #pragma once
 
 #include <atomic>
@@ -16,35 +16,35 @@ namespace reckon::peer {
 
 /// A datagram in a ring.
 struct QueuedDatagram {
-  GroupAddress group;                   ///< it came from, or goes to
+  GroupAddress group;                   ///< source or destination
   IpEndpoint sender;                    ///< of incoming ones, as Datagram::sender
   std::chrono::nanoseconds arrival{0};  ///< our steady time; of outgoing ones 0
   std::span<const std::byte> octets{};  ///< UDP payload, valid until pop()
   std::uint64_t boot{0};                ///< of incoming ones, as Datagram::boot
 };
 
-/// Bounded queue of datagrams from exactly one writing thread to exactly one reading thread, each
-/// with as much room as it needs: 64 octets more than its own, rounded up to 64. Wait-free on both
-/// sides. The memory is reserved at construction and taken from the system as it is first used.
+/// Bounded queue of datagrams from exactly one writing thread to exactly one reading thread. Each
+/// takes 64 octets more than its own size, rounded up to 64. Wait-free on both sides. The memory is
+/// reserved at construction and taken from the system at its first use.
 class DatagramRing {
  public:
-  /// `octets` are rounded up to a power of two, of 64 KiB at least. @throws std::bad_alloc.
+  /// @param octets are rounded up to a power of two, of 64 KiB at least.  @throws std::bad_alloc.
   explicit DatagramRing(std::size_t octets);
 
-  /// Writer: copies one in; false where there is no room for it or it is longer than kMaxDatagram.
+  /// Writer: copies one in; false if there is no room for it or it is longer than kMaxDatagram.
   bool push(const GroupAddress& group, std::chrono::nanoseconds arrival,
             std::span<const std::byte> octets, const IpEndpoint& sender = {},
             std::uint64_t boot = 0) noexcept;
-  /// Writer: so many datagrams fit for certain, however long they are.
+  /// Writer: number of datagrams that fit at any length.
   [[nodiscard]] std::size_t room() const noexcept;
-  /// room() of an empty one.
+  /// room() of an empty ring.
   [[nodiscard]] std::size_t most() const noexcept;
 
-  /// Reader: the oldest one, or nullptr where there is none.
+  /// Reader: the oldest one, or nullptr if there is none.
   [[nodiscard]] const QueuedDatagram* front() noexcept;
-  /// Reader: the oldest ones, as many as there are and `out` takes; returns how many.
+  /// Reader: the oldest ones, as far as `out` has room; returns their number.
   std::size_t front(std::span<QueuedDatagram> out) noexcept;
-  /// Gives the room of all that the last front() showed back.
+  /// Frees the room of all datagrams of the last front().
   void pop() noexcept;
 
   /// Any thread.
@@ -58,16 +58,16 @@ class DatagramRing {
   [[nodiscard]] QueuedDatagram entry_at(std::uint64_t& position) const noexcept;
   [[nodiscard]] Header header_at(std::uint64_t position) const noexcept;
   void store_header(std::uint64_t position, const Header& header) noexcept;
-  // Octets from a position to the end of the memory: what is longer starts over.
+  // Octets from a position to the end of the memory: a longer entry starts over.
   [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept {
     return capacity() - (position & mask_);
   }
 
   std::size_t mask_;
   std::unique_ptr<std::byte[]> octets_;
-  alignas(64) std::atomic<std::uint64_t> head_{0};  // octets ever written
-  alignas(64) std::atomic<std::uint64_t> tail_{0};  // octets ever given back
-  std::uint64_t next_tail_ = 0;                     // reader's own, of front()
+  alignas(64) std::atomic<std::uint64_t> head_{0};  // octets written since the start
+  alignas(64) std::atomic<std::uint64_t> tail_{0};  // octets freed since the start
+  std::uint64_t next_tail_ = 0;                     // reader's own, set by front()
   QueuedDatagram front_;
 };
 

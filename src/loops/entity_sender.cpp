@@ -15,21 +15,22 @@ namespace {
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-// A pose that is off a little, or repeated, may wait for company; what is new or felt may not.
+// An update of a slightly wrong pose or a repetition may wait for a bundle; new and felt states may
+// not.
 bool is_patient(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation ||
          reason == SendReason::heartbeat;
 }
 
-// Only how far copies are off is a matter of who sees it.
+// Only threshold crossings depend on the distance of the receivers.
 bool is_by_distance(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation;
 }
 
-// Somebody may come near meanwhile.
+// A receiver may come near meanwhile.
 constexpr nanoseconds kLookAgain = std::chrono::milliseconds(100);
 
-// The inmost audience that hears more than a contact group.
+// The innermost tier that is more than a contact group.
 std::size_t inmost_row(const Audiences* audiences) noexcept {
   return audiences != nullptr && audiences->has_felt() ? 1 : 0;
 }
@@ -51,7 +52,7 @@ std::optional<std::size_t> EntitySender::asked_tier(const OwnedEntity& entity,
   return {};
 }
 
-// Who begins to listen to a row comes from the one behind it.
+// A new listener of a row has been a listener of the outer one.
 bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t tier,
                                  const Pass& pass) const noexcept {
   const std::size_t audience = entity.audiences()->audience_of(aoim_.tiers().row_of(tier));
@@ -60,7 +61,7 @@ bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t tier,
                          {entity.last_sent_at(audience), {}}, pass.now);
 }
 
-// Whether somebody asks for it: the next decision of those who are asked for says `event`.
+// Whether somebody requests it. The next decision for the requesting tiers is then `event`.
 bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
   const std::optional<std::size_t> tier = asked_tier(entity, pass);
   if (!tier) return false;
@@ -90,8 +91,8 @@ bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audienc
       audience, pdu::to_seconds(entity.last_sent_at(audience - 1)), pdu::to_seconds(pass.now));
 }
 
-// What is felt of an entity in company is sent to those near at once, by its contact group where
-// there are some; all others receive as much as they need to see.
+// The felt part of an entity in company is sent at once to peers nearby, by its contact group if
+// there is one; all others receive as much as they need to see.
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
@@ -118,7 +119,7 @@ Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds
   return {waits ? SendReason::none : inmost, in_company};
 }
 
-// The outmost audience to which it is due says how far the update goes.
+// The outermost tier with a due update determines how far the update goes.
 Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                                        SendReason inmost, bool in_company) noexcept {
   const Audiences& audiences = *entity.audiences();
@@ -138,7 +139,7 @@ Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, na
   return how;
 }
 
-// The row of the nearest receiver; null where all receive the same.
+// The row of the nearest receiver; null if all receive the same.
 const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const noexcept {
   static constexpr aoim::Channel kNothing{0.0, aoim::Body::rigid, 0.0, 0.0, 1.0, false, 1.0};
   const aoim::ReceiverChannels* receivers = aoim_.receivers();
@@ -147,7 +148,8 @@ const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const n
   return channel != nullptr ? channel : &kNothing;
 }
 
-// That of an audience: its own, where rows have groups, but for who gets all whatever its budget.
+// The row of a tier: its own if rows have groups, but not for a receiver that gets everything
+// regardless of its budget.
 const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
                                               std::size_t audience) const noexcept {
   const aoim::Channel* nearest = channel_of(entity);
@@ -162,7 +164,7 @@ bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t a
                             SendReason reason) noexcept {
   const Audiences* audiences = entity.audiences();
   const bool by_rows = audiences != nullptr && aoim_.tiers().near_rows() > 0;
-  if (by_rows && audience < audiences->served()) {  // nobody listens
+  if (by_rows && audience < audiences->served()) {  // no listeners
     if (reason != SendReason::heartbeat) hold(entity, pass.now + kLookAgain);
     return true;
   }
@@ -210,7 +212,7 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
     entity.last_sent = pass.now;
     if (!written.leans && !entity.is_thinned(body)) entity.last_whole = pass.now;
   } else if (how.audience >= inmost_row(audiences)) {
-    entity.look_again(pass.now + kLookAgain);  // it may still be due to others
+    entity.look_again(pass.now + kLookAgain);  // it may still be due to other tiers
     octets += tell_row(entity, position, records, terms, how.audience, pass.now);
   }
   if (octets == 0) return false;
@@ -227,7 +229,7 @@ std::size_t EntitySender::tell_felt(const aoim::Position& position,
   return pdu::wire_size(update_.state) + records.size();
 }
 
-// A state that has no compact form is sent to all with the next pass, and to nobody now.
+// A state without a compact form is not sent now, but to all in the next pass.
 std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& position,
                                    std::span<const std::byte> records,
                                    const aoim::BundleTerms& terms, std::size_t audience,
@@ -254,8 +256,7 @@ std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& po
   return size;
 }
 
-// Octets of the state as it goes out. A newcomer, or one to whom something new was sent, gets it
-// plain.
+// Octets of the state as sent. After an event, and for newcomers, it is plain.
 EntitySender::Written EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& position,
                                              std::span<const std::byte> records,
                                              const aoim::BundleTerms& terms, bool is_event,

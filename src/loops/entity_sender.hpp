@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether an entity of ours has to be sent, and how it goes out. Part of the model loop.
+// Decides whether an entity of ours has to be sent, and how. Part of the model loop.
 #pragma once
 
 #include <chrono>
@@ -16,18 +16,18 @@
 
 namespace reckon::peer {
 
-/// The pass in which something is sent.
+/// The pass in which an update is sent.
 struct Pass {
   std::chrono::nanoseconds now{0};
-  std::chrono::nanoseconds utc{0};  ///< the same instant, without jumps
+  std::chrono::nanoseconds utc{0};  ///< the same instant; without jumps
 };
 
-/// Why an update goes out, and how.
+/// Reason and manner of an update.
 struct Dispatch {
   deadreckon::SendReason reason = deadreckon::SendReason::event;
-  bool in_company = false;  ///< somebody near may feel it: it does not wait
+  bool in_company = false;  ///< somebody nearby may feel it, so it does not wait
   std::size_t audience = kAllAudiences;
-  bool is_asked = false;  ///< somebody came who has not heard it
+  bool is_asked = false;  ///< a newcomer has not received it
 };
 
 /// The sending half of the model loop. One thread; no allocation.
@@ -38,18 +38,18 @@ class EntitySender {
                const TimeKeeper& time, Counters& counters)
       : network_(network), aoim_(aoim), time_(time), counters_(counters) {}
 
-  /// The outmost tier for which a newcomer, another cell or who begins to listen to a near row asks
-  /// for the entity, whatever its predictor says.
+  /// The outermost tier for which the entity is requested, whatever its predictor says: by a
+  /// newcomer, a change of cell, or a new listener of a near row.
   [[nodiscard]] std::optional<std::size_t> asked_tier(const OwnedEntity& entity,
                                                       const Pass& pass) const noexcept;
 
-  /// Decides by what is true at `at`, and sends where it has to be. True where it was sent.
-  /// @param probes at which its force has to be right  @param accounts that go with it
+  /// Decides by the truth at `at`, and sends if an update is due. True if it was sent.
+  /// @param probes at which its force has to be right  @param accounts sent with it
   bool consider(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at,
                 std::span<const deadreckon::ProbeState> probes = {},
                 std::span<const EnergyAccount> accounts = {}) noexcept;
 
-  /// Sends it, whatever is right.
+  /// Sends it regardless of its predictors.
   bool send(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at, const Dispatch& how,
             std::span<const EnergyAccount> accounts = {}) noexcept;
 
@@ -79,7 +79,7 @@ class EntitySender {
                        std::size_t audience, Nanoseconds now) noexcept;
   struct Written {
     std::size_t octets;
-    bool leans;  ///< on a key, which who is new has not heard
+    bool leans;  ///< depends on a key state that a newcomer lacks
   };
   Written tell_all(OwnedEntity& entity, const aoim::Position& position,
                    std::span<const std::byte> records, const aoim::BundleTerms& terms,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sources of known peers, for the read loop: each has a share of its own of what may arrive.
+// The sources of known peers, for the read loop: each has its own share of the arriving traffic.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@
 
 namespace reckon::peer {
 
-/// One thread; allocates at construction alone.
+/// One thread; allocates only at construction.
 class KnownSourcesPublisher {
  public:
-  /// @param out outlives it; null: nobody asks
+  /// @param out outlives it; null: not published
   explicit KnownSourcesPublisher(haptics::TripleBuffer<KnownSources>* out);
 
-  /// Publishes where the peers are that have joined and been confirmed, where that has changed: one
-  /// that has announced itself once only may be invented.
+  /// Publishes the addresses of joined and confirmed peers when they have changed: a peer that has
+  /// announced itself only once may be invented.
   void publish(const aoim::Presence& presence) noexcept;
 
  private:

@@ -106,7 +106,7 @@ void LeaderWatch::note_cell(const aoim::AreaOfInterestManager& aoim, aoim::CellI
   if (view_.count < LeadersView::kCells) view_.rows[view_.count++] = {id.q, id.r, peer};
 }
 
-// One sentence of all that this one leads anew, and one of the scene.
+// One sentence for all cells that this leader newly leads, and one for the scene.
 void LeaderWatch::report_cells(const aoim::AreaOfInterestManager& aoim, std::uint32_t leader,
                                haptics::SpscRing<Notice>& out) noexcept {
   const LeaderName name(aoim, leader);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who leads the scene and the cells that this peer is in, reported to the user when it changes.
+// Reports changes of the leaders of the scene and of this peer's cells to the user.
 #pragma once
 
 #include <chrono>
@@ -15,29 +15,29 @@
 
 namespace reckon::peer {
 
-/// Looks at the leaders of one manager. One thread; allocates where cells are new.
+/// Watches the leaders of one manager. One thread; allocates when cells are new.
 class LeaderWatch {
  public:
-  /// Changes of cells within this are one sentence for each leader.
+  /// Changes of cells within this time are one sentence for each leader.
   static constexpr std::chrono::nanoseconds kGather = std::chrono::milliseconds(500);
 
   /// Makes the counters leader_changes, cells_led, group_map_version, states_relayed_in and
-  /// snapshot_parts_out, where `on`. `counters` outlives it.
+  /// snapshot_parts_out if `on`. `counters` outlives it.
   LeaderWatch(Counters& counters, bool on);
 
-  /// Call it some twenty times a second. Sentences go to `out`.
+  /// Call it some twenty times a second. Notices go to `out`.
   void look(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
-  /// A leader has relayed a state to us.
+  /// Records a state that a leader relayed to us.
   void note_relayed() noexcept {
     if (relayed_in_ != nullptr) relayed_in_->add();
   }
-  /// As of the last look; what is followed is filled in by BeaconWatch.
+  /// As of the last look; BeaconWatch fills in the followed beacons.
   [[nodiscard]] LeadersView& view() noexcept { return view_; }
   [[nodiscard]] const LeadersView& view() const noexcept { return view_; }
 
  private:
-  /// A cell of ours: who leads it, and who was last reported to the user.
+  /// A cell of ours: its leader, and the leader last reported to the user.
   struct Cell {
     aoim::CellId id;
     std::uint32_t leader = 0, reported = 0;
@@ -49,7 +49,7 @@ class LeaderWatch {
 
   LeadersView view_;
   std::vector<Cell> cells_;
-  std::chrono::nanoseconds tell_at_{-1};  ///< changes of cells; negative: there are none
+  std::chrono::nanoseconds tell_at_{-1};  ///< when to report changes; negative: there are none
   Counter* changes_ = nullptr;
   Counter* led_ = nullptr;
   Counter* map_version_ = nullptr;

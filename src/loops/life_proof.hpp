@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What lives prove themselves by (aoim/presence/life_chain.hpp): BLAKE2b, by libsodium.
+// Functions by which an epoch proves itself (aoim/presence/life_chain.hpp): BLAKE2b, by libsodium.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace reckon::peer {
 /// BLAKE2b with 128 bits of output, of the link and the number. Some 0.1 us.
 [[nodiscard]] aoim::ChainLink follow_chain(const aoim::ChainLink& link,
                                            std::uint32_t number) noexcept;
-/// Of a life, from the system's random source. @throws RandomSourceError
+/// Secret of an epoch, from the system's random source.  @throws RandomSourceError
 [[nodiscard]] aoim::ChainLink draw_chain_secret();
-/// Of a life in a simulation, where equal epochs give equal octets.
+/// Secret of an epoch in a simulation, where equal epochs give equal octets.
 [[nodiscard]] aoim::ChainLink chain_secret_of(std::uint32_t epoch) noexcept;
 
 }  // namespace reckon::peer

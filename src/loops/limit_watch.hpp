@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walls of a peer (hands that a servo takes, rows of the state table, rings), force models that
-// it refuses and sealed datagrams that it has no key for, reported to the user when it happens.
+// Reports to the user when a peer reaches its limits (hands that a servo takes, rows of the state
+// table, rings), refuses force models, or receives sealed datagrams without a key.
 #pragma once
 
 #include <chrono>
@@ -17,15 +17,16 @@
 
 namespace reckon::peer {
 
-/// Looks at the counts of one peer. One thread; allocates at set-up alone.
+/// Watches the counts of one peer. One thread; allocates only at set-up.
 class LimitWatch {
  public:
   /// Makes the counter hands_unfelt. `counters` outlives it. @param capacity rows of the table
   LimitWatch(std::size_t capacity, Counters& counters);
 
-  /// Call it some times a second. @param unfelt bodies near by that a servo leaves out now, the
-  /// most of all. @param crowder whose most of what is near there are. @param refused whose force
-  /// model was the last to be refused. Sentences go to `out`.
+  /// Call it some times a second.
+  /// @param unfelt bodies nearby that a servo leaves out now, the largest number of all servos.
+  /// @param crowder host of most of the bodies nearby.
+  /// @param refused owner of the force model refused last.  @param out receives notices.
   void look(std::size_t unfelt, const aoim::SourceAddress& crowder, const pdu::EntityId& refused,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 

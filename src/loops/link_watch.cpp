@@ -14,7 +14,7 @@ namespace {
 
 using Turn = Matter::Turn;
 
-/// An errno in words and what to do about it, without an allocation.
+/// An errno in words and its remedy, without an allocation.
 struct Reason {
   std::string_view what, separator, remedy;
 };
@@ -25,7 +25,7 @@ Reason reason_of(int error, std::string_view (*remedy)(const std::error_code&) n
   return {what == nullptr ? "an unknown error" : what, to_do.empty() ? "" : "; ", to_do};
 }
 
-// One that no other follows is reported after so long.
+// A refusal that stays alone is reported after this time.
 constexpr std::chrono::nanoseconds kLoneRefusal = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -40,7 +40,7 @@ LinkWatch::LinkWatch(Link& link, const GroupAddress& base, Counters& counters)
 void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   now_ = now;
   out_ = &out;
-  // The reading thread goes on meanwhile: what is missing is read before why.
+  // The reading thread goes on meanwhile, so the missing count is read before its reason.
   const bool is_deaf = base_unjoined_.value() > 0;
   const std::uint64_t unjoined = groups_unjoined_.value();
   at_ = link_.statistics();
@@ -66,8 +66,8 @@ void LinkWatch::tell_base(bool is_deaf) noexcept {
   if (turn == Turn::ends) tell("the base group {} is joined: peers can be heard", base_.data());
 }
 
-// Looked at twice: the two counts are written one after the other, and the base group may be in one
-// of them alone.
+// Confirmed by a second look: the two counts are written one after the other, and the base group
+// may be in only one of them.
 void LinkWatch::tell_groups(std::uint64_t count) noexcept {
   const bool were_any = std::exchange(any_unjoined_, count > 0);
   const Turn turn = unjoined_.turn(were_any && count > 0, now_);
@@ -81,8 +81,8 @@ void LinkWatch::tell_groups(std::uint64_t count) noexcept {
   if (turn == Turn::ends) tell("all groups could be joined");
 }
 
-// Whether all fail shows only after the look that finds the first: what had left before is in it
-// too.
+// Whether all sends fail is known only after the look that finds the first failure, which also
+// contains earlier successes.
 void LinkWatch::tell_sends() noexcept {
   bool fails = at_.send_errors > before_.send_errors;
   if (fails && !refusal_) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the link of a peer fares, reported to the user when it happens: interfaces that go and come,
-// groups that cannot be joined, sends that fail, datagrams that the kernel drops.
+// Reports the condition of a peer's link to the user: interfaces that appear and disappear, groups
+// that cannot be joined, sends that fail, datagrams that the kernel drops.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@
 
 namespace reckon::peer {
 
-/// Looks at one link. One thread; allocates at set-up alone.
+/// Watches one link. One thread; allocates only at set-up.
 class LinkWatch {
  public:
-  /// `link` and `counters` outlive it; base_unjoined and groups_unjoined are what it looks at.
+  /// `link` and `counters` outlive it; it watches base_unjoined and groups_unjoined.
   LinkWatch(Link& link, const GroupAddress& base, Counters& counters);
 
-  /// Call it some times a second. Each trouble is reported once when it begins, with the remedy,
-  /// and once when it is over. Sentences go to `out`.
+  /// Call it some times a second. Each problem is reported with its remedy when it begins, and
+  /// again when it is over. Notices go to `out`.
   void look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
-  /// Where datagrams are sent from now.
+  /// Present source address of sent datagrams.
   [[nodiscard]] IpEndpoint own_endpoint() const noexcept { return link_.local_endpoint(); }
 
  private:
@@ -44,7 +44,7 @@ class LinkWatch {
   LinkStatistics before_, at_;  ///< at the last look, and during this one
   std::chrono::nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  // The first send that failed: when, how many had left by the end of that look.
+  // The first failed send: its time, and the number of datagrams sent by the end of that look.
   struct Refusal {
     std::chrono::nanoseconds since;
     std::uint64_t sent;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a model loop counts itself, by the names under which watchers find it.
+// The model loop's own counters, with the names under which they are published.
 #pragma once
 
 #include "reckon/peer/counters/counters.hpp"

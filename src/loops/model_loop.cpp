@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Where there are newcomers, every entity is asked about within so many passes.
+// With newcomers, every entity is checked within this many passes.
 constexpr std::size_t kIntroductionPasses = 8;
 constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
@@ -70,8 +70,8 @@ void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
   if (const auto leap = time_.leap()) report("this host's clock leapt by {:+.3f} s", *leap);
 }
 
-// What had to leave while this process stood still is not sent as new: the predictors send what has
-// changed since, and heartbeats the rest.
+// Datagrams that became due while this process was suspended are stale and dropped: the predictors
+// send later changes, and heartbeats the rest.
 void ModelLoop::drop_stale(nanoseconds now) noexcept {
   const std::optional<nanoseconds> due = aoim_.aggregator().next_deadline();
   const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
@@ -105,7 +105,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   }
 }
 
-// Some twenty times a second.
+// Called some twenty times a second.
 void ModelLoop::look_around() noexcept {
   subscriber_.subscribe(pass_.now, touch_.near(), watches_.notices());
   remote_.look_shown(pass_.now);
@@ -243,7 +243,7 @@ void ModelLoop::emit(bool everything) noexcept {
   aoim_.step(pass_.now, sink);
 }
 
-// Where the first hand is, or the first entity, or the scene's origin.
+// Position of the first hand, or of the first entity, or the scene's origin.
 Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
   if (touch_.hand_count() > 0) return touch_.servo().device;
   const OwnedEntity* first = owned_.find(own_id().entity);
@@ -282,7 +282,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   if (remote_.take(update, arrival, touch_.servo())) touch_.note_accounts(update, pass_);
 }
 
-// In another's name it is neither obeyed nor heard.
+// In another's name it is neither obeyed nor delivered.
 void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
   const bool order = update.kind != Inbound::Kind::other;
   if (order && !orders_.obeys(update, arrival, pass_)) return;
@@ -338,8 +338,8 @@ void ModelLoop::doubt_the_silent() noexcept {
   if (again) heard_again_ = pass_.now;
 }
 
-// Who was cut off from us feels nothing of ours until it hears where that is. However many come
-// back, nothing is said more often than hands in contact say it.
+// A peer that was cut off from us feels nothing of ours until it receives a new state. However many
+// peers return, updates are not more frequent than those of hands in contact.
 void ModelLoop::send_what_is_felt() noexcept {
   if (pass_.now - heard_again_ > HandPort::kContactPeriod) return;
   for (const EntityNumber number : owned_.touchable()) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The loop between the servos and the network: keeps the state table and the entities of this peer,
-// decides what to send and to whom, and tells each servo what its hand can touch. It is the only
-// writer of all of these.
+// The loop between the servos and the network. It keeps the state table and the entities of this
+// peer, decides on updates and their recipients, and publishes to each servo what its hand can
+// touch. It is the only writer of all of these.
 #pragma once
 
 #include <algorithm>
@@ -41,60 +41,61 @@ class ModelLoop;
 class ModelGuest {
  public:
   virtual ~ModelGuest() = default;
-  /// A pass begins: now entities may be added, moved and removed, and PDUs said.
+  /// A pass begins: entities may now be added, moved and removed, and PDUs sent.
   virtual void begin_pass(ModelLoop& loop) noexcept = 0;
-  /// What is not the peer's own business: fires, detonations, comments, and orders too. Nothing
-  /// that was said in another's name.
-  /// @param octets of the whole PDU, good until the call returns
+  /// Receives PDUs for the program: fires, detonations, comments, and orders too. None that was
+  /// sent in another's name.  @param octets of the whole PDU, valid until the call returns
   virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
                     const InteractionSender& sender) noexcept = 0;
-  /// A pass ends: all that has arrived is in remote().
+  /// A pass ends: remote() contains all that has arrived.
   virtual void end_pass(ModelLoop& loop) noexcept = 0;
 };
 
-/// The loop. step() and stop() by one thread; no allocation but in add().
+/// The loop. One thread calls step() and stop(); only add() allocates.
 class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
  public:
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
 
-  /// A hand: an entity of the scene's [hand] that a device moves. Before start() alone; at most
-  /// kMaxDevices. @param stiffness that its device can show: others feel no more of it, and where
-  /// that is less than the scene asks, the next picture says so
+  /// Adds a hand: an entity of the scene's [hand] that a device moves. Only before start(); at most
+  /// kMaxDevices.
+  /// @param stiffness limits of its device: others feel no more of it, and the next view shows if
+  /// that is less than the scene asks
   EntityNumber add_hand(std::string_view marking,
                         haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
                         haptics::TripleBuffer<haptics::ContactSet>& contacts,
                         const DeviceStiffness& stiffness = {});
-  /// An entity that the program moves, under a number that is free; false where it is not. Shown to
-  /// others from its first truth on.
+  /// Adds an entity that the program moves, under a free number; false if it is in use. Others see
+  /// it from its first truth on.
   bool add(EntityNumber number, const EntityDescription& description,
            const EntityTruth& truth = {});
-  /// The peer itself moves it along its track from now on. Before start() alone.
+  /// The peer itself moves it along its track from now on. Only before start().
   void follow(EntityNumber number, const EntityTrack& track);
-  /// Where it is now. False where there is none, or the truth is not finite or older than the last.
+  /// Sets its present truth. False if there is no such entity, or the truth is not finite or older
+  /// than the last.
   bool move(EntityNumber number, const EntityTruth& truth) noexcept;
-  /// It leaves the exercise: its last state says so. False where there is none.
+  /// Removes it from the exercise with a last state. False if there is none.
   bool remove(EntityNumber number) noexcept;
-  /// To change what else there is to say of it; nullptr where there is none. Call look_at() after.
+  /// For changes of its other properties; nullptr if there is none. Call look_at() after.
   [[nodiscard]] OwnedEntity* find_own(EntityNumber number) noexcept { return owned_.find(number); }
   void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
-  /// Queues an encoded PDU, for those who can sense `place` [m, S] or for everybody.
+  /// Queues an encoded PDU, for the peers that can sense `place` [m, S] or for all.
   aoim::AddResult say(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
-  /// @param guest outlives the loop, or the next call; nullptr: nobody.
+  /// @param guest outlives the loop, or the next call; nullptr: none.
   void receive(ModelGuest* guest) noexcept { guest_ = guest; }
 
   /// Announces this peer at the next step. Call before the first step.
   void start(std::chrono::nanoseconds now);
-  /// One pass. `utc` is the same instant as `now` by the host, which may leap.
+  /// One pass.  @param utc the same instant as `now` by the host's clock, which may jump.
   void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
   /// When step() is due at the latest if nothing arrives and no servo steps. By the thread of
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     return std::min({aoim_.next_step(), view_.next(), owned_.next_due(), tracked_.next_due()});
   }
-  /// Queues last Entity States (deactivated), as many as the writer has room for, and at last the
-  /// good-bye. True once all is said; until then call it again when the writer has made room.
+  /// Queues last Entity States (deactivated), as far as the writer has room, and finally the
+  /// farewell. True once all are queued; until then call it again when the writer has made room.
   bool stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
-  /// Nobody will read what waits in the rings from the network: reports it to the tap.
+  /// Reports pending datagrams from the network to the tap, because nobody will read them.
   void report_unread() noexcept { intake_.report_unread(); }
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return view_.views(); }
@@ -103,10 +104,10 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   [[nodiscard]] RemoteEntities& remote() noexcept { return remote_; }
   [[nodiscard]] const OwnedEntities& owned() const noexcept { return owned_; }
   [[nodiscard]] const TimeKeeper& time() const noexcept { return time_; }
-  /// The pass under way, or the last one.
+  /// The present pass, or the last one.
   [[nodiscard]] const Pass& pass() const noexcept { return pass_; }
-  /// The first entity of this peer; number 0 where it has none. By the thread of step(), or when
-  /// the loops stand still.
+  /// The first entity of this peer; number 0 if it has none. By the thread of step(), or while the
+  /// loops are stopped.
   [[nodiscard]] pdu::EntityId own_id() const noexcept;
 
  private:
@@ -152,8 +153,8 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   OrderStage orders_;
   ViewPublisher view_;
   ModelGuest* guest_ = nullptr;
-  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // somebody
-  std::size_t goodbyes_ = 0;                          // numbers up to this one have said so
+  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // when a silent peer was last received again
+  std::size_t goodbyes_ = 0;  // entities up to this number have sent their farewell
 };
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the model loop and its stages are connected to.
+// The connections of the model loop and its stages.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace reckon::peer {
 
-/// What the model loop is connected to; all of it outlives the loop.
+/// The connections of the model loop; all outlive it.
 struct ModelWiring {
   const SceneFile& scene;
   const deadreckon::LocalFrame& frame;
@@ -25,15 +25,15 @@ struct ModelWiring {
   DatagramRing& inbound;
   DatagramRing& outbound;
   haptics::SpscRing<GroupCommand>& commands;
-  Link& link;  ///< to hear how it fares; the loop sends and reads by the rings
+  Link& link;  ///< for its condition; the loop sends and receives by the rings
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
   std::size_t capacity = 100'000;                   ///< of the table of remote entities
   bool record_changes = false;                      ///< for RemoteEntities::take_changes()
-  haptics::SpscRing<MutedSender>* muted = nullptr;  ///< of the read loop; may be null
-  DatagramTap* tap = nullptr;    ///< of what becomes of each datagram; may be null
-  DatagramRing* felt = nullptr;  ///< what came in contact groups, taken first; may be null
-  haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< of the read loop; may be null
+  haptics::SpscRing<MutedSender>* muted = nullptr;  ///< from the read loop; may be null
+  DatagramTap* tap = nullptr;    ///< receives the fate of each datagram; may be null
+  DatagramRing* felt = nullptr;  ///< datagrams of contact groups, taken first; may be null
+  haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
 };
 
 }  // namespace reckon::peer

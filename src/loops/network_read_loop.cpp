@@ -90,8 +90,8 @@ void NetworkReadLoop::count_unjoined() noexcept {
   base_unjoined_.set(deaf ? 1 : 0);
 }
 
-// What bound, mostly open files or memory, binds all alike: one refusal is enough for now. It goes
-// behind the others, for it may be its group's own.
+// A limit on open files or memory usually applies to all groups, so the first refusal ends the
+// attempt. The refused group goes to the end, because the refusal may be its own.
 void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
   if (unjoined_.empty() || now < next_retry_) return;
   next_retry_ = now + kRetry;
@@ -124,7 +124,7 @@ bool NetworkReadLoop::take_datagram(const Datagram& datagram,
 }
 
 bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept {
-  // A link that knows no senders has nobody to mute.
+  // A link without sender addresses cannot mute anybody.
   if (!datagram.sender.is_unspecified() && !budget_.admit(datagram.sender, came, pressed_)) {
     drop(DatagramFate::muted, datagram, muted_in_);
     return false;

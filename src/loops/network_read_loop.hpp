@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Takes datagrams off the link as they come, as far as the model loop has room for them: what it
-// has not stays with the kernel. What is of no use, or of a sender that floods, is dropped before
-// it takes room. Joins and leaves happen here too: a link has one reader.
+// Takes datagrams off the link as they arrive, as far as the model loop has room; the rest stays
+// with the kernel. Useless datagrams and those of flooding senders are dropped before they take
+// room. Joins and leaves happen here too, because a link has one reader.
 #pragma once
 
 #include <array>
@@ -23,42 +23,44 @@
 
 namespace reckon::peer {
 
-/// A group to join or leave, by order of the model loop.
+/// A group to join or leave, ordered by the model loop.
 struct GroupCommand {
   GroupAddress group;
   bool join = true;
 };
 
-/// A ring of its own for what comes in some groups, those behind the base of the pool.
+/// A separate ring for the datagrams of some groups, those behind the base of the pool.
 struct FeltRing {
   GroupPool groups;
   DatagramRing& ring;
 };
 
-/// The loop. step() by one thread; allocates in joins alone. What has waited in the kernel for more
-/// than kStale, as while this process stood still, is dropped and counted: newer states follow.
+/// The loop. One thread calls step(); only joins allocate. Datagrams that have waited in the kernel
+/// for more than kStale, for example while this process was suspended, are dropped and counted:
+/// newer states follow.
 class NetworkReadLoop {
  public:
   static constexpr std::chrono::nanoseconds kStale = std::chrono::seconds(1);
 
   /// All references outlive the loop. The first group that it joins is the base group.
-  /// @param exercise of which datagrams are taken; nothing: any octets are
-  /// @param tap receives what it drops and why; may be null
-  /// @param felt where those of contact groups go, so that none waits behind others; nothing: where
-  /// all go. While one of the two rings is full nothing is taken.
+  /// @param exercise of accepted datagrams; nothing: any octets are accepted
+  /// @param tap receives dropped datagrams with the reason; may be null
+  /// @param felt separate ring for contact groups, so that their datagrams do not wait behind
+  /// others; nothing: all use one ring. While one of the two rings is full nothing is taken.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters, std::optional<std::uint8_t> exercise = {},
                   DatagramTap* tap = nullptr, std::optional<FeltRing> felt = {});
 
-  /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
-  /// datagrams put there: the model loop need not wake for others. A group that could not be joined
-  /// is tried again each second, the base group first.
+  /// Carries out joins and leaves, then takes arrived datagrams until the ring is full. Returns the
+  /// number put there: the model loop has to wake only for these. A failed join is repeated each
+  /// second, the base group first.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
-  /// Whether the last step ended for want of room: wait for the model loop, not for the link.
+  /// Whether the last step ended because the ring was full: then wait for the model loop, not for
+  /// the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
-  /// Who was muted and who is heard again, oldest first; one reader thread.
+  /// Senders that were muted or are received again, oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
-  /// Where members speak from, published by the model loop whenever that changes; one writer
+  /// Source addresses of members, which the model loop publishes when they change; one writer
   /// thread.
   [[nodiscard]] haptics::TripleBuffer<KnownSources>& known() noexcept { return known_; }
 
@@ -93,7 +95,7 @@ class NetworkReadLoop {
   Counter& waits_;
   Counter& too_long_;
   Counter& muted_in_;
-  std::array<Counter*, kRefusals> refused_;  ///< by Refusal; none of `none`
+  std::array<Counter*, kRefusals> refused_;  ///< by Refusal; none for `none`
   Counter& join_errors_;
   Counter& groups_unjoined_;
   Counter& base_unjoined_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Puts finished datagrams on the link, so that a slow send never holds up the model loop.
+// Puts finished datagrams on the link, so that a slow send never delays the model loop.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace reckon::peer {
 
-/// The loop. step() by one thread; no allocation.
+/// The loop. One thread calls step(); no allocation.
 class NetworkWriteLoop {
  public:
   NetworkWriteLoop(Link& link, DatagramRing& in, Counters& counters);
 
-  /// Sends all that waits, in batches; returns how many datagrams. One that the kernel refuses is
-  /// counted and gone: the next update repairs it.
+  /// Sends all pending datagrams, in batches; returns their number. One that the kernel refuses is
+  /// counted and lost: the next update repairs it.
   std::size_t step() noexcept;
 
  private:

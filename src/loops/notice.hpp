@@ -11,16 +11,16 @@
 
 namespace reckon::peer {
 
-/// What a notice is of, for whoever gathers those of one kind.
+/// Subject of a notice, for readers that collect those of one kind.
 enum class NoticeKind : std::uint8_t {
-  other,         ///< only the sentence tells
-  joined,        ///< a peer came
-  started_anew,  ///< a peer came back
-  left,          ///< a peer said good-bye
-  silent,        ///< a peer is no longer heard
-  other_scene,   ///< a peer is not joined, for it runs another scene
-  quiet,         ///< a peer is not heard at present
-  unheard,       ///< a peer does not hear this one
+  other,         ///< anything else
+  joined,        ///< a peer appeared
+  started_anew,  ///< a peer restarted
+  left,          ///< a peer sent a farewell
+  silent,        ///< a peer was silent for too long
+  other_scene,   ///< a peer was not joined, because it runs another scene
+  quiet,         ///< nothing is received from a peer at present
+  unheard,       ///< a peer does not receive this one
   heard_again,   ///< the end of either
 };
 
@@ -28,12 +28,12 @@ enum class NoticeKind : std::uint8_t {
 struct Notice {
   std::array<char, 240> text{};  ///< printable ASCII, NUL at the end
   NoticeKind kind = NoticeKind::other;
-  aoim::PeerId about{};  ///< the peer, of all kinds but `other`
+  aoim::PeerId about{};  ///< the peer; set for all kinds but `other`
 };
 
-/// What happened to whom. No allocation.
+/// The notice of a presence event. No allocation.
 [[nodiscard]] Notice notice_of(const aoim::PresenceEvent& event) noexcept;
-/// Who is muted or heard again. No allocation.
+/// The notice of a sender that is muted or received again. No allocation.
 [[nodiscard]] Notice notice_of(const MutedSender& sender) noexcept;
 
 }  // namespace reckon::peer

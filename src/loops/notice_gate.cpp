@@ -15,15 +15,15 @@ namespace {
 using aoim::PresenceEventKind;
 using std::chrono::nanoseconds;
 
-// Whether one more line may be reported, of so many at once (a virtual scheduling algorithm, ITU-T
-// I.371 A: `free_at` is when none of them would be in use).
+// Whether one more line may be reported, with `at_once` lines in reserve (a virtual scheduling
+// algorithm, ITU-T I.371 A: `free_at` is when all of the reserve is back).
 bool take_line(nanoseconds& free_at, int at_once, nanoseconds now) noexcept {
   if (free_at > now + (at_once - 1) * NoticeGate::kGap) return false;
   free_at = std::max(free_at, now) + NoticeGate::kGap;
   return true;
 }
 
-// What such an event says is of a peer that came before, if it was heard for long.
+// Whether the event is about a member: a peer that came before and was received for long.
 bool is_of_member(const aoim::PresenceEvent& event) noexcept {
   switch (event.kind) {
     case PresenceEventKind::newcomer:

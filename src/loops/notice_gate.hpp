@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is reported of others, so that nobody on the network fills the user's terminal or log: of
-// the strangers of a host together one line a second, with the number of those that were left out.
+// Limits notices caused by others, so that nobody on the network fills the user's terminal or log:
+// all strangers of a host together get one line a second, with the number of omitted ones.
 #pragma once
 
 #include <array>
@@ -15,44 +15,44 @@
 
 namespace reckon::peer {
 
-/// Lets notices of others through or counts them, by the host (address) that caused them. One
-/// thread; fixed memory, no allocation, some 100 ns a notice.
+/// Passes or counts notices about others, by the host (address) that caused them. One thread; fixed
+/// memory, no allocation, some 100 ns a notice.
 class NoticeGate {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// Lines of strangers of one host: so many at once where it has caused none for long, then one
-  /// each kGap. The eight peers of a demonstration come at once.
+  /// Lines of the strangers of one host: this many at once after a long silence, then one in each
+  /// kGap. The eight peers of a demonstration come at once.
   static constexpr int kAtOnce = 8;
   static constexpr Nanoseconds kGap = std::chrono::seconds(1);
-  /// Who has been heard for so long is no stranger. The members of one host have lines of their
-  /// own: so many at once, then one each kGap.
+  /// A peer that was received for this long is a member and no stranger. The members of one host
+  /// have separate lines: this many at once, then one in each kGap.
   static constexpr Nanoseconds kMember = std::chrono::seconds(10);
   static constexpr int kAtOnceOfMembers = 64;
-  /// Hosts kept apart; those beyond count as one.
+  /// Hosts with separate limits; those beyond count as one.
   static constexpr std::size_t kHosts = 32;
 
-  /// Something happened to a peer, or a peer did something. What is about this peer itself passes.
+  /// Takes an event of a peer. An event of this peer itself passes.
   void tell(const aoim::PresenceEvent& event, Nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
-  /// A host floods, or no more.
+  /// Takes the begin or end of a host's flood.
   void tell(const MutedSender& sender, Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
-  /// Something was said from `cause` that is refused: in another's name, an order, a touch.
+  /// Takes a refusal of something that `cause` sent: a PDU in another's name, an order, a touch.
   void tell_refused(const Notice& notice, const aoim::SourceAddress& cause, Nanoseconds now,
                     haptics::SpscRing<Notice>& out) noexcept {
     tell(notice, cause, false, now, out);
   }
-  /// Tells how many were left out, where a line is due; call it some times a second.
+  /// Reports the number of omitted notices when a line is due; call it some times a second.
   void look(Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
  private:
   using Octets = decltype(aoim::SourceAddress::octets);
   struct Host {
     Octets address{};
-    Nanoseconds last{Nanoseconds::min() / 2};       // that it caused something
-    Nanoseconds strangers{Nanoseconds::min() / 2};  // when all their lines are free again
-    Nanoseconds members{Nanoseconds::min() / 2};    // the same
+    Nanoseconds last{Nanoseconds::min() / 2};       // last time that it caused a notice
+    Nanoseconds strangers{Nanoseconds::min() / 2};  // when their reserve of lines is full again
+    Nanoseconds members{Nanoseconds::min() / 2};    // the same for members
     std::uint64_t left_out = 0;
-    Notice latest;  // of those left out
+    Notice latest;  // of the omitted ones
   };
 
   [[nodiscard]] Host& host_of(const Octets& address) noexcept;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Notices made by format. Private: nothing that others include sees fmt.
+// Makes notices by format. Private, so that no other header includes fmt.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,8 +12,9 @@
 
 namespace reckon::peer {
 
-/// The sentence, cut where it is too long. Names and markings of others may hold any octets, and
-/// sentences go to terminals: what is no printable ASCII is shown as '?'. No allocation.
+/// The sentence, cut if it is too long. Names and markings of others may hold any octets, and
+/// sentences go to terminals: any other character than printable ASCII is shown as '?'. No
+/// allocation.
 template <typename... Arguments>
 [[nodiscard]] Notice make_notice(std::string_view format, const Arguments&... arguments) noexcept {
   Notice notice;

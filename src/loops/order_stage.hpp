@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stop/Freeze and Start/Resume: whom this peer obeys, what it does, and what it answers.
+// Stop/Freeze and Start/Resume: whom this peer obeys, what it does, and how it answers.
 #pragma once
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -27,10 +27,11 @@ class OrderStage {
         watches_(watches),
         counted_(counted) {}
 
-  /// Whether an order is genuine and of somebody whom the scene allows, or for others. One that is
-  /// refused is counted and reported.
+  /// Whether an order is genuine and from a sender that the scene allows, or for others. A refused
+  /// order is counted and reported.
   [[nodiscard]] bool obeys(const Inbound& order, const Arrival& arrival, const Pass& pass) noexcept;
-  /// Freezes or resumes what it is for, and acknowledges. @param own who answers for the whole peer
+  /// Freezes or resumes the addressed entities, and acknowledges.
+  /// @param own answers for the whole peer
   void carry_out(const Inbound& order, const Arrival& arrival, const pdu::EntityId& own,
                  const Pass& pass) noexcept;
 

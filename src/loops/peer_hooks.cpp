@@ -15,7 +15,7 @@ namespace {
 
 bool always(const SceneFile&) { return true; }
 
-// Keeps the channels within what this peer can take.
+// Keeps the channels within the budget of this peer.
 PeerHooks channels(const ModelWiring& wiring) {
   const auto keeper = std::make_shared<ChannelKeeper>(wiring.scene.aoim.awareness);
   return {.look = [keeper](const WatchedPeer& peer) {
@@ -48,7 +48,7 @@ struct HookRow {
   PeerHooks (*make)(const ModelWiring& wiring);
 };
 
-// THE list, in the order in which they are called.
+// THE list, in the order of the calls.
 // clang-format off
 constexpr HookRow kRows[]{
     {always, channels},

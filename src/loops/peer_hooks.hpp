@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Mechanisms that watch a peer, called where they have a hook. A new one is a file and a row of THE
-// list in peer_hooks.cpp.
+// Mechanisms that watch a peer, called at their hooks. A new one is a file and a row of THE list in
+// peer_hooks.cpp.
 #pragma once
 
 #include <chrono>
@@ -18,31 +18,30 @@
 
 namespace reckon::peer {
 
-/// What there is to look at.
+/// The watched state.
 struct WatchedPeer {
   const RemoteEntities& remote;
   aoim::AreaOfInterestManager& aoim;
-  std::size_t unfelt;                  ///< most bodies near by that a servo leaves out now
-  const aoim::SourceAddress& crowder;  ///< whose most of what is near there are
+  std::size_t unfelt;                  ///< most bodies nearby that a servo leaves out now
+  const aoim::SourceAddress& crowder;  ///< host of most of the bodies nearby
   std::chrono::nanoseconds now;
-  haptics::SpscRing<Notice>& notices;  ///< what is to be reported to the user
+  haptics::SpscRing<Notice>& notices;  ///< for the user
 };
 
-/// Called by the model loop's thread; must not throw nor block. Those that are not set cost
-/// nothing.
+/// Called by the model loop's thread; must neither throw nor block. Unset hooks cost nothing.
 struct PeerHooks {
-  /// Some twenty times a second.
+  /// Called some twenty times a second.
   std::function<void(const WatchedPeer&)> look = nullptr;
-  /// Each datagram that leaves, with its trailer.
+  /// Called for each sent datagram, with its trailer.
   std::function<void(std::span<const std::byte>)> sent = nullptr;
-  /// Each datagram of this exercise that was received.
+  /// Called for each received datagram of this exercise.
   std::function<void(std::span<const std::byte>)> received = nullptr;
 };
 
-/// The hooks of the rows that a scene has switched on. One thread; allocates at construction alone.
+/// The hooks of the rows that a scene has switched on. One thread; allocates only at construction.
 class HookList {
  public:
-  /// What `wiring` refers to outlives this.
+  /// All that `wiring` refers to outlives this.
   explicit HookList(const ModelWiring& wiring);
 
   void look(const WatchedPeer& peer) const {

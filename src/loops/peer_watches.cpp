@@ -8,7 +8,7 @@ PeerWatches::PeerWatches(const ModelWiring& wiring)
     : muted_(wiring.muted), notices_(256), silence_watch_(wiring.counters), hooks_(wiring) {}
 
 void PeerWatches::report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept {
-  // One that calls the roll is no peer yet.
+  // The sender of a discovery request is no peer yet.
   if (event.announced.scene_peer == pdu::kScenePeerWanted) return;
   notice_gate_.tell(event, now, notices_);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is reported to the user of a peer: who comes, goes and falls silent, what is refused, and
-// what the rows of peer_hooks.hpp report.
+// Reports about a peer to the user: peers that come, leave and become silent, refusals, and the
+// reports of the rows of peer_hooks.hpp.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@
 
 namespace reckon::peer {
 
-/// Notices may be read by another thread; all else by one. No allocation after construction.
+/// Another thread may read notices; all else is for one thread. No allocation after construction.
 class PeerWatches {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -31,22 +31,22 @@ class PeerWatches {
 
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
   [[nodiscard]] const HookList& hooks() const noexcept { return hooks_; }
-  /// Something happened to a peer.
+  /// Reports an event of a peer.
   void report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept;
-  /// An order was refused; see RefusalWatch.
+  /// Reports a refused order; see RefusalWatch.
   void note_order(const pdu::EntityId& originator, std::string_view order,
                   const aoim::SourceAddress& from, Nanoseconds now) noexcept {
     refusal_watch_.note_order(originator, order, from, now);
   }
-  /// Rows of peers that are silent are not felt. @param touched by our hands
-  /// @return whether one is heard again
+  /// Removes the force of silent peers' rows.  @param touched by our hands
+  /// @return whether a peer is received again
   bool doubt_silent(const aoim::Presence& presence, std::span<const Touched> touched,
                     RemoteEntities& remote, Nanoseconds now) noexcept {
     return silence_watch_.look(presence, touched, remote, now, notices_);
   }
-  /// Reports what else there is; some twenty times a second. @param unfelt most that a servo has
-  /// left out
-  /// @param crowder who had more near a hand than it takes
+  /// Makes the remaining reports; call it some twenty times a second.
+  /// @param unfelt most that a servo has left out
+  /// @param crowder host with more bodies near a hand than it takes
   void look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim, std::size_t unfelt,
             const aoim::SourceAddress& crowder, Nanoseconds now) noexcept;
 

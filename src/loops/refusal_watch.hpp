@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer refuses of others, reported to the user with the address that it came from: words in
-// another's name, orders, touches, entities beyond the tables.
+// Reports to the user what this peer refuses of others, with the source address: PDUs in another's
+// name, orders, touches, entities beyond the tables.
 #pragma once
 
 #include <chrono>

@@ -14,8 +14,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kListen = std::chrono::milliseconds(20);  // at a time
-constexpr int kGoodbyes = 3;                                    // one may be lost
+constexpr nanoseconds kListen = std::chrono::milliseconds(20);  // per attempt
+constexpr int kGoodbyes = 3;                                    // some may be lost
 
 pdu::Presence without_number(pdu::Presence own) {
   own.scene_peer = pdu::kScenePeerWanted;
@@ -30,7 +30,7 @@ RollCall::RollCall(Link& link, const Clock& clock, const GroupAddress& base,
       clock_(clock),
       base_(base),
       presence_(config.presence, aoim::announcement(without_number(own), config)) {
-  static_cast<void>(link_.join(base_));  // the peer joins it again, and tells if it cannot
+  static_cast<void>(link_.join(base_));  // the peer joins it again, and reports a failure
   presence_.start(clock_.now());
 }
 
@@ -70,11 +70,11 @@ void RollCall::listen(nanoseconds longest) {
   }
 }
 
-// Without a trailer: its numbering would be the peer's own.
+// Without a trailer, whose numbering would be the peer's.
 void RollCall::speak() {
   for (pdu::Presence announced : presence_.step(clock_.now())) {
     const nanoseconds utc = clock_.utc_now();
-    // Who goes now was no peer.
+    // A process that leaves now was no peer.
     if (announced.flags & pdu::kPresenceLeaving) announced.scene_peer = pdu::kScenePeerWanted;
     announced.send_time = static_cast<std::uint64_t>(utc.count());
     announced.header.timestamp = pdu::to_dis_timestamp(utc, true);

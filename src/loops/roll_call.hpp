@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Before a peer joins a scene made for several: who is there already, and which of the scene's
-// peers is left for it. Two that start in the same instant get different ones.
+// Before a peer joins a scene made for several peers, finds those that are present and a free peer
+// number. Two peers that start at the same instant get different numbers.
 #pragma once
 
 #include <chrono>
@@ -13,25 +13,24 @@
 
 namespace reckon::peer {
 
-/// Announces a peer without a number on the base group until its id is settled, and takes a number
-/// then. One thread; the link is its own until leave().
+/// Announces a peer without a number on the base group until its ID is settled, and then takes a
+/// number. One thread; it has the link to itself until leave().
 class RollCall {
  public:
   /// Longest time that answer() takes.
   static constexpr std::chrono::seconds kLongest{4};
 
-  /// @param own an announcement (see presence()) under an epoch of its own. @param link, clock, own
-  /// and real time, outlive this.
+  /// @param own an announcement (see presence()) with a separate epoch.
+  /// @param link, clock, own and real time, outlive this.
   RollCall(Link& link, const Clock& clock, const GroupAddress& base,
            const aoim::AreaOfInterestConfig& config, const pdu::Presence& own);
 
-  /// Which peer of the scene this is, from 1: the smallest number that nobody holds, where those
-  /// that have none yet are served in the order of their ids. Takes about a second; tells the
-  /// others.
+  /// Number of this peer in the scene, from 1: the smallest that no peer has. Peers without one get
+  /// theirs in the order of their IDs. Takes about a second; announces it to the others.
   [[nodiscard]] std::uint8_t answer();
   /// Settled by answer().
   [[nodiscard]] aoim::PeerId id() const noexcept { return presence_.id(); }
-  /// Says good-bye under this epoch; call it when the peer itself has announced its number.
+  /// Sends a farewell with this epoch; call it after the peer itself has announced its number.
   void leave();
 
  private:

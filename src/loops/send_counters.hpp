@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the own hand costs: decisions taken, updates sent and why, and their octets.
+// Cost of the own entities: decisions, updates by reason, and octets.
 #pragma once
 
 #include <array>

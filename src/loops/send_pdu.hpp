@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a stage of the model loop sends a PDU that is no state of an entity.
+// Sends a PDU other than an entity state from a stage of the model loop.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace reckon::peer {
 
-/// Queues it for those who can sense `place` [m, S], or for everybody. @param pdu of 512 octets at
-/// most
+/// Queues it for the peers that can sense `place` [m, S], or for all.
+/// @param pdu of 512 octets at most
 template <pdu::Pdu T>
 void send_pdu(aoim::AreaOfInterestManager& aoim, const T& pdu,
               const std::optional<aoim::Position>& place, std::chrono::nanoseconds now) noexcept {

@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Of all that tells an endpoint from another.
+// Hash of all fields that distinguish an endpoint.
 std::uint64_t hash_of(const IpEndpoint& who) noexcept {
   std::uint64_t high = 0, low = 0;
   std::memcpy(&high, who.octets.data(), sizeof high);
@@ -27,7 +27,7 @@ bool SenderBudget::admit(const IpEndpoint& sender, nanoseconds received, bool pr
   const std::uint64_t hash = hash_of(sender);
   Known* const known = find_known(sender, hash);
   Source* const source = known != nullptr ? &known->source : find(sender, hash, received);
-  // What one is muted for is not laid at the door of the others of its host.
+  // Datagrams for which a source is muted do not count against the others of its host.
   if (!count(source, received, pressed ? kMostPressed : kMost)) return false;
   const std::uint32_t most = pressed ? kMostOfAddressPressed : kMostOfAddress;
   if (known != nullptr && known->source.count <= most / known->sharers) return true;
@@ -45,7 +45,7 @@ SenderBudget::Known* SenderBudget::find_known(const IpEndpoint& who, std::uint64
   return nullptr;
 }
 
-// What is counted of this source, and muted, goes on where it is counted from now on.
+// Removes the source from its entry, so that its count and muting move to a new one.
 SenderBudget::Source SenderBudget::take_out(const IpEndpoint& who) noexcept {
   for (Source& source : sources_[hash_of(who) % kSets]) {
     if (source.window >= nanoseconds(0) && source.who == who) return std::exchange(source, {});
@@ -62,7 +62,7 @@ void SenderBudget::know(const KnownSources& known) noexcept {
   known_count_ = 0;
   std::size_t old = 0;
   for (const IpEndpoint& who : known.all()) {
-    // Both are in one order.
+    // Both are in the same order.
     while (old < count_before && before_[old].source.who < who) forget(before_[old++]);
     const bool stays = old < count_before && before_[old].source.who == who;
     known_[known_count_++].source = stays ? before_[old++].source : take_out(who);
@@ -79,13 +79,13 @@ void SenderBudget::know(const KnownSources& known) noexcept {
   }
 }
 
-// It is counted as one of its host again, from nothing.
+// It counts as one of its host again, from zero.
 void SenderBudget::forget(Known& known) noexcept {
   if (known.source.muted) tell(known.source, false);
 }
 
-// The place of a source, that of another which was silent for a window where it has none; null
-// where all places it may have are in use.
+// The entry of a source. A source without one gets that of a source that was silent for a window;
+// null if all entries that it may have are in use.
 SenderBudget::Source* SenderBudget::find(const IpEndpoint& who, std::uint64_t hash,
                                          nanoseconds received) noexcept {
   Source* free = nullptr;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How many datagrams one sender may have read: one that floods is muted, so that the others are
-// heard. By the source address, which a hostile host may forge. Who is a member has a share of its
-// own, which no other process of its host can use up.
+// Limits the datagrams that are read of one sender: a flooding one is muted, so that the others are
+// received. The source address identifies a sender, and a hostile host may forge it. A member has a
+// separate share that no other process of its host can use up.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace reckon::peer {
 
-/// A sender is muted, or heard again.
+/// A sender that is muted, or received again.
 struct MutedSender {
   IpEndpoint who;  ///< port 0: all of that address together
   bool muted = false;
-  std::uint64_t dropped = 0;  ///< datagrams, while it was muted
+  std::uint64_t dropped = 0;  ///< datagrams dropped while it was muted
 };
 
-/// Where members speak from: lives that announced themselves and are heard.
+/// Source addresses of members, which are peers that have announced themselves and are received.
 struct KnownSources {
   static constexpr std::size_t kMost = 1024;
   std::array<IpEndpoint, kMost> sources{};  ///< ascending, none twice
@@ -34,36 +34,36 @@ struct KnownSources {
   }
 };
 
-/// Counts the datagrams of each source, address and port, and of each address, in windows of
-/// 100 ms. Who sends more than the limits is muted, until a window of its has less than
-/// kCalm. One thread, fixed memory, no allocation; about 20 ns a datagram.
+/// Counts the datagrams of each source (address and port) and of each address, in windows of 100
+/// ms. A sender above the limits is muted until it has a window with less than kCalm. One thread,
+/// fixed memory, no allocation; about 20 ns a datagram.
 ///
-/// A known source has a share of its own beside what its address may send: as much as the address,
-/// divided by the known sources of that address. What it sends within its share is read even where
-/// the rest of its host is muted. All of an address are thus read at most twice what it may send.
+/// A known source has a share besides that of its address: as much as the address may send, divided
+/// by the known sources of that address. Datagrams within its share are read even if the rest of
+/// its host is muted. All sources of an address together thus have at most twice the limit of the
+/// address.
 ///
 /// An honest peer introduces itself with up to 15,000 datagrams/s. The table has room for some
-/// 1,000 sources and their addresses at a time; beyond, those that are new to it go uncounted.
+/// 1,000 sources and their addresses at a time; further new ones are not counted.
 class SenderBudget {
  public:
   static constexpr std::chrono::nanoseconds kWindow = std::chrono::milliseconds(100);
-  /// Datagrams of one source in a window: at any time, and while the reader is under pressure.
+  /// Most datagrams of one source in a window: always, and while the reader is under pressure.
   static constexpr std::uint32_t kMost = 2000, kMostPressed = 1600;
-  /// Of all sources of one address, which may have many peers.
+  /// The same of all sources of one address, which may have many peers.
   static constexpr std::uint32_t kMostOfAddress = 8000, kMostOfAddressPressed = 6000;
-  static constexpr std::uint32_t kCalm = 1000;  ///< fewer in a window: heard again
+  static constexpr std::uint32_t kCalm = 1000;  ///< unmuted after a window with fewer
 
-  /// @param out receives who is muted and heard again; outlives this
+  /// @param out receives muted and unmuted senders; outlives this
   explicit SenderBudget(haptics::SpscRing<MutedSender>& out) noexcept : out_(out) {}
 
-  /// Whether a datagram is to be read. @param received when the link had it, steady time
-  /// @param pressed whether little room is left for what is read
+  /// Whether a datagram is to be read.  @param received steady time of its arrival at the link
+  /// @param pressed whether the reader has little room left
   [[nodiscard]] bool admit(const IpEndpoint& sender, std::chrono::nanoseconds received,
                            bool pressed) noexcept;
-  /// These are known from now on, in the place of those before. Linear in them; call it when they
-  /// change.
+  /// Replaces the known sources. Linear in their number; call it when they change.
   void know(const KnownSources& known) noexcept;
-  /// Finds who has fallen silent while muted; call it some times a second.
+  /// Finds muted senders that have become silent; call it some times a second.
   void look(std::chrono::nanoseconds now) noexcept;
   /// Senders that are muted now.
   [[nodiscard]] std::size_t muted() const noexcept { return muted_; }
@@ -76,7 +76,7 @@ class SenderBudget {
     bool muted = false;
     std::uint64_t dropped = 0;
   };
-  // A known source, in a place that nobody takes from it.
+  // A known source, in an entry of its own.
   struct Known {
     Source source;
     std::uint32_t sharers = 1;  // known sources of its address
@@ -96,7 +96,7 @@ class SenderBudget {
   haptics::SpscRing<MutedSender>& out_;
   std::array<std::array<Source, kWays>, kSets> sources_{};
   std::array<Known, KnownSources::kMost> known_{};
-  std::array<Known, KnownSources::kMost> before_{};  // of know() alone
+  std::array<Known, KnownSources::kMost> before_{};  // used only by know()
   std::array<std::uint16_t, kSlots> slots_{};        // place in known_ + 1, by hash; 0: free
   std::size_t known_count_ = 0;
   std::size_t muted_ = 0;

@@ -22,7 +22,7 @@ bool SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched>
                         haptics::SpscRing<Notice>& out) noexcept {
   if (looked_ < nanoseconds(0) || now - looked_ > kOwnPause) listening_since_ = now;
   looked_ = now;
-  // Who has gone for good has no entities left.
+  // A peer that has left has no entities.
   std::erase_if(doubts_,
                 [&](const Doubt& doubt) { return !presence.source_of(doubt.epoch).has_value(); });
   const Look look{touched, remote, now, out};
@@ -37,7 +37,7 @@ bool SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched>
   return again;
 }
 
-// True where it is heard again.
+// True if it is received again.
 bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   Doubt* doubt = find(peer.announced.epoch);
   if (doubt != nullptr && peer.last_heard > doubt->since) return believe(peer, *doubt, look), true;
@@ -52,8 +52,9 @@ bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   return false;
 }
 
-// Only a hand, for what nobody holds may rest unsaid however it is touched. One that has said where
-// it is since it is touched knows of that, and would have said so again before anything else.
+// Only for hands: a body that nobody holds may rest without updates however it is touched. An owner
+// that has sent a state since the touch began knows of it, and would have sent another one before
+// anything else.
 void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence& presence,
                                    const Look& look) noexcept {
   const RemoteEntity* row = look.remote.find(touched.id);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers that fall silent: what they own comes to rest and is felt no more long before they are
-// dropped, and goes on when they are heard again. Part of the model loop.
+// Silent peers: their entities come to rest and lose their force long before they are dropped, and
+// move on when the peer is received again. Part of the model loop.
 #pragma once
 
 #include <chrono>
@@ -18,36 +18,36 @@
 
 namespace reckon::peer {
 
-/// An entity of another peer that a hand of ours touches.
+/// A remote entity that a hand of ours touches.
 struct Touched {
   pdu::EntityId id;
   std::chrono::nanoseconds since{0};
 };
 
-/// Doubts a peer by the age of what was heard last from the whole of it, whatever it was. Plain DIS
-/// has no such sign of life: its entities are believed until their time-out. One thread; allocates
-/// at construction alone; some ns for each peer.
+/// Doubts a peer by the time since its last datagram of any kind. Plain DIS has no such sign of
+/// life: its entities are believed until their time-out. One thread; allocates only at
+/// construction; some ns for each peer.
 class SilenceWatch {
  public:
-  /// A peer announces itself each second: with two of these lost it is doubted.
+  /// A peer announces itself each second: it is doubted after two lost announcements.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::milliseconds(2500);
-  /// The owner of a hand that is touched says something each 60 ms: ten of these are lost. Who
-  /// was silent before a touch began may not know of it yet: twice as long from then on.
+  /// The owner of a touched hand sends every 60 ms, so ten updates were lost by then. An owner that
+  /// was silent before the touch began may not know of it yet: it has twice the time from then on.
   static constexpr std::chrono::nanoseconds kContactPatience = std::chrono::milliseconds(650);
-  /// Looks farther apart than this [ns] tell that this peer itself stood still: what it has not
-  /// heard meanwhile is nobody's silence.
+  /// A longer gap [ns] between two looks shows that this peer itself was suspended: others are not
+  /// silent then.
   static constexpr std::chrono::nanoseconds kOwnPause = std::chrono::milliseconds(250);
 
   /// Makes the counter peers_doubted. `counters` outlives it.
   explicit SilenceWatch(Counters& counters);
 
-  /// Whose hand is touched and who is heard, but for so long [ns] not of that hand, was cut off
-  /// meanwhile: the hand may have gone.
+  /// A peer that is received, but whose touched hand was not updated for this time [ns], was cut
+  /// off meanwhile: the hand may have gone.
   static constexpr std::chrono::nanoseconds kNoNews = std::chrono::milliseconds(500);
 
-  /// Call it after what has arrived was taken, within kOwnPause of the last call. Sentences about
-  /// those whose hands are touched go to `out`. True where somebody is heard again: he has doubted
-  /// us too, maybe, and waits for new states.
+  /// Call it after arrived datagrams were taken, within kOwnPause of the last call. Notices about
+  /// owners of touched hands go to `out`. True if a peer is received again: it may have doubted us
+  /// too, and waits for new states.
   bool look(const aoim::Presence& presence, std::span<const Touched> touched,
             RemoteEntities& remote, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
@@ -55,9 +55,9 @@ class SilenceWatch {
  private:
   struct Doubt {
     std::uint32_t epoch = 0;
-    std::chrono::nanoseconds heard{0};  // last, before
+    std::chrono::nanoseconds heard{0};  // last reception before the doubt
     std::chrono::nanoseconds since{0};
-    bool whole = false;  // all that it owns, not just what is touched
+    bool whole = false;  // all its entities, not only touched ones
     bool reported = false;
   };
   struct Look {

@@ -31,13 +31,13 @@ void Subscriber::cover_our_entities() noexcept {
     const EntityTruth& truth = entity.truth();
     balls_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
   });
-  // Who owns nothing looks at the scene's origin.
+  // A peer without entities looks at the scene's origin.
   if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius});
   foci_ = cover_.cover(balls_);
   moved_ = false;
 }
 
-// Who follows one of our beacons is to find its cell.
+// A follower of one of our beacons shall find its cell.
 void Subscriber::place_beacons(nanoseconds now) noexcept {
   beacons_.clear();
   beacon_watch_.for_each_carried([this](EntityNumber number, std::uint32_t tag) {
@@ -62,8 +62,8 @@ void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> near,
   beacon_watch_.look(aoim_, now, notices, leader_watch_.view());
 }
 
-// The contact groups of where we can touch and be touched. What is large, and near though its place
-// is not, is found by the search for what our hands could touch.
+// The contact groups of the places where we can touch and be touched. The search for what our hands
+// could touch also finds large entities whose surface, but not whose origin, is near.
 void Subscriber::listen_near(nanoseconds now, std::span<const NearBodies> near) noexcept {
   contact_foci_.clear();
   for (const EntityNumber number : owned_.touchable()) contact_foci_.add(*owned_.find(number));

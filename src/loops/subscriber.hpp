@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where this peer listens: which groups it joins for what its entities sense, for near rows and for
-// what can be felt, and where its beacons are.
+// Subscribes to the groups for what this peer's entities sense, for near rows and for what can be
+// felt, and places its beacons.
 #pragma once
 
 #include <chrono>
@@ -22,27 +22,27 @@
 
 namespace reckon::peer {
 
-/// One thread; allocates at set-up, and where entities with beacons are new.
+/// One thread; allocates at set-up, and when entities with beacons are new.
 class Subscriber {
  public:
   /// References outlive this.
   Subscriber(const ModelWiring& wiring, aoim::Participant& participant, OwnedEntities& owned,
              RemoteEntities& remote);
 
-  /// An entity of ours has moved, is new or is gone.
+  /// Records that an entity of ours was moved, added or removed.
   void note_moved() noexcept { moved_ = true; }
-  /// An entity of ours carries a beacon of this name; it is gone.
+  /// Adds the beacon of an entity of ours, or removes it.
   void add_beacon(EntityNumber number, std::string_view name) { beacon_watch_.add(number, name); }
   void remove_beacon(EntityNumber number) noexcept { beacon_watch_.remove(number); }
 
   /// Joins the base group, once, before all others.
   void join_base() noexcept { static_cast<void>(commands_.push({pool_.base(), true})); }
-  /// Joins and leaves groups; some twenty times a second.
-  /// @param near what is near each of our hands  @param notices what the user has to know
+  /// Joins and leaves groups; call it some twenty times a second.
+  /// @param near bodies near each of our hands  @param notices for the user
   void subscribe(std::chrono::nanoseconds now, std::span<const NearBodies> near,
                  haptics::SpscRing<Notice>& notices) noexcept;
 
-  /// A leader has relayed a state.
+  /// Records a state that a leader relayed.
   void note_relayed() noexcept { leader_watch_.note_relayed(); }
   [[nodiscard]] const LeadersView& leaders() const noexcept { return leader_watch_.view(); }
 
@@ -59,12 +59,12 @@ class Subscriber {
   aoim::AreaOfInterestManager& aoim_;
   OwnedEntities& owned_;
   RemoteEntities& remote_;
-  std::vector<aoim::Focus> balls_;  // what each entity of ours senses
+  std::vector<aoim::Focus> balls_;  // range of each entity of ours
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls
-  bool moved_ = true;                  // an entity of ours, since they were made
+  bool moved_ = true;                  // an entity of ours has moved since they were made
   ContactFoci contact_foci_;
-  std::vector<aoim::PlacedBeacon> beacons_;  // of ours, as they were placed last
+  std::vector<aoim::PlacedBeacon> beacons_;  // last positions of our beacons
   AoimWatch aoim_watch_;
   LeaderWatch leader_watch_;
   BeaconWatch beacon_watch_;

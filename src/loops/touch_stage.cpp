@@ -16,7 +16,7 @@
 namespace reckon::peer {
 namespace {
 
-// Hands may be as far off as their threshold of position, at most this [m], and touch already.
+// Hands may touch even if their copies are apart by their threshold of position, at most this [m].
 constexpr double kNearlyTouching = 0.002;
 
 }  // namespace
@@ -125,7 +125,7 @@ void TouchStage::consider(const Pass& pass) noexcept {
 
 void TouchStage::consider_hands(const Pass& pass) noexcept {
   const double nearly = std::min(scene_.dead_reckoning.thresholds.position, kNearlyTouching);
-  // So little apart, one may be felt where the other is not: at rest copies are off by the
+  // This close, a hand may be felt on one side only: at rest, copies have an error up to the
   // threshold of force.
   const double maybe = std::min(nearly, scene_.dead_reckoning.thresholds.force / scene_.hand.k1);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
@@ -141,7 +141,7 @@ void TouchStage::consider_hands(const Pass& pass) noexcept {
   }
 }
 
-// What moves by itself is felt like a hand; what stands needs no looking after until its heartbeat.
+// A moving body is felt like a hand; one at rest needs no checks until its heartbeat.
 void TouchStage::consider_bodies(const Pass& pass) noexcept {
   std::size_t place = 0;
   for (PortlessBody& body : bodies_) {
@@ -155,7 +155,7 @@ void TouchStage::consider_bodies(const Pass& pass) noexcept {
   }
 }
 
-// A hand that strikes another says so once, for tools that know impacts but no force models.
+// The blow of a hand on another is sent once, for tools that know impacts but no force models.
 void TouchStage::send_impacts(std::size_t hand, const Pass& pass) noexcept {
   const haptics::ServoSnapshot& servo = hands_[hand].servo();
   Touch& touch = touches_[hand];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What this peer's hands and bodies touch: reads the servos, answers for bodies without a device,
-// finds what is near, sends what is felt, and gives each servo its picture of the hands near it.
+// Contacts of this peer's hands and bodies: reads the servos, answers for bodies without a device,
+// finds what is near, sends what is felt, and publishes to each servo the hands near it.
 #pragma once
 
 #include <array>
@@ -30,11 +30,11 @@
 
 namespace reckon::peer {
 
-/// Reports what of a hand's stiffness its device cannot show.
+/// Reports the stiffness of a hand that its device cannot show.
 void report_softened(std::string_view marking, const DeviceStiffness& device,
                      haptics::SpscRing<Notice>& notices) noexcept;
 
-/// What the other stages own and touch reads or changes; all outlives it.
+/// Parts of other stages that touch reads or changes; all outlive it.
 struct TouchParts {
   OwnedEntities& owned;
   RemoteEntities& remote;
@@ -44,31 +44,31 @@ struct TouchParts {
   ModelCounters& counted;
 };
 
-/// One thread; allocates where hands and bodies are added.
+/// One thread; allocates when hands and bodies are added.
 class TouchStage {
  public:
   /// @param epoch of this process
   TouchStage(const ModelWiring& wiring, std::uint32_t epoch, const TouchParts& parts);
 
-  /// Entity `number` is moved by this device. @throws std::invalid_argument beyond kMaxDevices
+  /// This device moves entity `number`.  @throws std::invalid_argument beyond kMaxDevices
   void add_hand(EntityNumber number, haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
                 haptics::TripleBuffer<haptics::ContactSet>& contacts,
                 const DeviceStiffness& stiffness);
-  /// Entity `number` can be felt and has no device. @param power [W] that it may give
+  /// Entity `number` can be felt and has no device.  @param power [W] that it may give
   void add_body(EntityNumber number, double power);
   void remove_body(EntityNumber number) noexcept;
 
-  /// Takes the newest snapshots of the servos; true where a hand has moved.
+  /// Takes the newest snapshots of the servos; true if a hand has moved.
   bool read_hands() noexcept;
-  /// Bodies give what hands ask of them.
+  /// Gives hands the energy that they request of bodies.
   void answer_bodies(const Pass& pass) noexcept;
-  /// Finds what hands and moving bodies can touch; after both.
+  /// Finds what hands and moving bodies can touch. Call it after read_hands() and answer_bodies().
   void find_near(const Pass& pass) noexcept;
-  /// Sends hands and moving bodies where their updates are due, and impacts.
+  /// Sends due updates of hands and moving bodies, and impacts.
   void consider(const Pass& pass) noexcept;
-  /// Gives the servos what is near.
+  /// Publishes the bodies nearby to the servos.
   void publish_contacts(const Pass& pass) noexcept;
-  /// Keeps what the owner of another body says of its account with ours.
+  /// Records the account of a remote body with ours.
   void note_accounts(const Inbound& update, const Pass& pass) noexcept;
 
   /// Whether a device moves this entity.
@@ -78,18 +78,18 @@ class TouchStage {
   [[nodiscard]] const HandPort* port_of(EntityNumber number) const noexcept;
   [[nodiscard]] const PortlessBody* body_of(EntityNumber number) const noexcept;
   [[nodiscard]] std::size_t hand_count() const noexcept { return hands_.size(); }
-  /// Of the first hand; at rest where there is none.
+  /// Snapshot of the first hand; at rest if there is none.
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept;
-  /// What is near each hand.
+  /// Bodies near each hand.
   [[nodiscard]] std::span<const NearBodies> near() const noexcept {
     return {near_.data(), hands_.size()};
   }
-  /// Copies what all hands touch. @return how many
+  /// Copies what all hands touch.  @return its number
   std::size_t copy_touched(
       std::span<Touched, kMaxDevices * haptics::kMaxRemoteHands> out) const noexcept;
-  /// The last sender that had more near a hand than it takes.
+  /// The last host that had more bodies near a hand than it takes.
   [[nodiscard]] const aoim::SourceAddress& crowder() const noexcept { return crowder_; }
-  /// Fills in our hands. @return the most that a servo has left out
+  /// Fills in our hands.  @return the most bodies that a servo has left out
   std::size_t show(PeerView& view) const noexcept;
 
  private:
@@ -116,12 +116,12 @@ class TouchStage {
   const TimeKeeper& time_;
   ModelCounters& counted_;
   std::vector<HandPort> hands_;                 // at most kMaxDevices
-  std::vector<Touch> touches_;                  // of hands_
-  std::vector<DeviceStiffness> stiffness_;      // of hands_
-  std::array<NearBodies, kMaxDevices> near_{};  // to hands_
+  std::vector<Touch> touches_;                  // by hand
+  std::vector<DeviceStiffness> stiffness_;      // by hand
+  std::array<NearBodies, kMaxDevices> near_{};  // by hand
   std::vector<PortlessBody> bodies_;
-  std::vector<MovingBody> moving_;  // of bodies_, in their order
-  HandsNear hands_near_;            // of moving_
+  std::vector<MovingBody> moving_;  // in the order of bodies_
+  HandsNear hands_near_;            // near moving_
   aoim::SourceAddress crowder_;
   EnergyBooks books_;
   std::uint16_t impacts_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What watchers see of a peer: a view some twenty times a second, and where others are shown.
+// Publishes a view of a peer some twenty times a second, and the shown poses of remote entities.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace reckon::peer {
 
-/// Views may be read by another thread; all else by one. No allocation after construction.
+/// Another thread may read views; all else is for one thread. No allocation after construction.
 class ViewPublisher {
  public:
   static constexpr std::chrono::nanoseconds kPeriod = std::chrono::milliseconds(50);
@@ -25,10 +25,10 @@ class ViewPublisher {
   /// When the next view is due.
   [[nodiscard]] std::chrono::nanoseconds next() const noexcept { return next_; }
 
-  /// Where each remote entity is shown now, where somebody asks.
+  /// Publishes the present shown pose of each remote entity, if that is requested.
   void publish_shown(const RemoteEntities& remote, std::chrono::nanoseconds now) noexcept;
 
-  /// The next view, to be filled in but for remote entities.
+  /// The next view, to be filled in except for remote entities.
   [[nodiscard]] PeerView& begin() noexcept { return views_.write_slot(); }
   /// Adds the remote entities that are nearest to view.middle, and publishes the view.
   void publish(PeerView& view, const RemoteEntities& remote, std::chrono::nanoseconds now) noexcept;

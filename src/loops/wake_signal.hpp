@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a thread that sleeps learns that another has something for it, without a lock between them.
+// Wakes a sleeping thread that has new work, without a lock between the threads.
 #pragma once
 
 #include <atomic>
@@ -9,18 +9,18 @@
 
 namespace reckon::peer {
 
-/// One thread waits, any may notify. What was written before notify() is seen after the wait that
-/// it ends. Several notifications before a wait are one. No allocation.
+/// One thread waits, any may notify. The waiter sees what was written before notify(). Several
+/// notifications before a wait count as one. No allocation.
 class WakeSignal {
  public:
-  /// Ends the wait under way, or the next one. Never blocks: about 10 ns where nobody sleeps, else
-  /// one system call that wakes a processor, 4 to 20 us on a virtual machine. Any thread.
+  /// Ends the present wait, or the next one. Never blocks: about 10 ns if nobody sleeps, else one
+  /// system call that wakes a processor, 4 to 20 us on a virtual machine. Any thread.
   void notify() noexcept {
     if (state_.exchange(kNotified, std::memory_order_acq_rel) == kSleeping) wake_sleeper();
   }
 
   /// Sleeps until notify(), `timeout` [steady time] or a signal to the process; true after
-  /// notify(). Zero or less only looks, nanoseconds::max() waits for ever. One thread.
+  /// notify(). Zero or less only polls, nanoseconds::max() waits without limit. One thread.
   bool wait(std::chrono::nanoseconds timeout) noexcept;
 
  private:

@@ -11,14 +11,14 @@ namespace {
 using aoim::SequenceVerdict;
 using std::chrono::nanoseconds;
 
-// Events taken in one look, so that a flood does not keep whoever looks from all else.
+// Events taken in one call, so that a flood does not keep the caller from other work.
 constexpr std::size_t kMostEvents = std::size_t{1} << 17;
-// Gaps remembered of one stretch; what fills an older one counts as a copy.
+// Most gaps remembered of one stretch; a datagram that fills an older one counts as a copy.
 constexpr std::size_t kMostGaps = 4096;
-// Farther than this from the last one, a number begins a stretch of its own.
+// A number farther than this from the last one begins a new stretch.
 constexpr std::int32_t kFarthestNumber = 1 << 20;
 
-// Serial number arithmetic: numbers may wrap.
+// Serial number arithmetic: numbers may wrap around.
 std::int32_t ahead_of(std::uint32_t number, std::uint32_t other) noexcept {
   return static_cast<std::int32_t>(number - other);
 }
@@ -99,7 +99,7 @@ void DatagramBalance::arrive(const DatagramEvent& event) {
   if (open.gaps.size() > kMostGaps) open.gaps.erase(open.gaps.begin());
 }
 
-// False where the number has arrived before.
+// False if the number has arrived before.
 bool DatagramBalance::fill_gap(OpenStretch& stretch, std::uint32_t number) {
   const auto gap =
       std::find_if(stretch.gaps.rbegin(), stretch.gaps.rend(), [number](const Gap& candidate) {
@@ -120,7 +120,7 @@ bool DatagramBalance::fill_gap(OpenStretch& stretch, std::uint32_t number) {
   return true;
 }
 
-// What the sequence tracker thinks of it, beside what truly came.
+// The verdict of the sequence tracker, besides what really arrived.
 void DatagramBalance::track(const DatagramEvent& event) {
   const SenderInGroup key{event.epoch, event.stream, event.group};
   auto found = tracked_.find(key);
@@ -138,7 +138,7 @@ void DatagramBalance::track(const DatagramEvent& event) {
     open.has_leapt = true;
     return;
   }
-  // Where the numbering has followed a leap, that number counts too.
+  // If the numbering has followed a leap, that number counts too.
   const std::uint32_t greatest =
       ahead_of(event.sequence, open.stretch.last) > 0 ? event.sequence : open.stretch.last;
   const auto window = static_cast<std::int32_t>(aoim::SequenceTracker::kWindow);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The balance of one peer: what became of each datagram that it numbered or that reached it, by
-// sender and group. Its law, which has no tolerance, is in docs/robustness.md.
+// The balance of one peer: the fate of each datagram that it numbered or received, by sender and
+// group. The law that it obeys has no tolerance; it is in docs/robustness.md.
 #pragma once
 
 #include <array>
@@ -15,88 +15,88 @@
 
 namespace reckon::peer {
 
-/// One life of a sender in one group, or one stream of its envelopes there.
+/// One epoch of a sender in one group, or one stream of its envelopes there.
 struct SenderInGroup {
-  std::uint64_t epoch = 0;  ///< as DatagramEvent has it; 0: of datagrams without a number
+  std::uint64_t epoch = 0;  ///< as in DatagramEvent; 0: of datagrams without a number
   std::uint8_t stream = 0;
   GroupAddress group;
   auto operator<=>(const SenderInGroup&) const = default;
 };
 
-/// How many datagrams of one sender in one group met which fate since the last report.
+/// Datagrams of one sender in one group, by fate, since the last report.
 struct FateCounts {
   SenderInGroup key;
   std::array<std::uint64_t, kFates> counts{};
 };
 
-/// The numbers of one sender in one group that arrived while we were a member of it: from the least
-/// to the greatest, last - first + 1 = arrived + missing.
+/// The numbers of one sender in one group that arrived during our membership. From the least to the
+/// greatest, last - first + 1 = arrived + missing.
 struct Stretch {
   SenderInGroup key;
   std::uint32_t first = 0, last = 0;
   std::uint64_t arrived = 0;  ///< different ones
-  /// Lost on the way, dropped by the kernel, or never sent; of envelopes, which are numbered over
-  /// all groups, also what went to others.
+  /// Lost on the way, dropped by the kernel, or never sent. Envelopes are numbered over all groups,
+  /// so those to others count here too.
   std::uint64_t missing = 0;
-  std::uint64_t copies = 0;  ///< of those that arrived
-  /// When the group was joined, as its Membership says; below 0 where none was: a list.
+  std::uint64_t copies = 0;  ///< of arrived numbers
+  /// When the group was joined, from its Membership; below 0 if it was not joined: a list.
   std::chrono::nanoseconds joined{-1};
 };
 
-/// The same as the sequence tracker sees it, of what came from peers known by then: last - first +
-/// 1 = received + lost. It begins anew where the tracker does.
+/// The same by the sequence tracker, of datagrams from peers known at that time: last - first + 1 =
+/// received + lost. It begins anew when the tracker does.
 struct TrackedStretch {
   SenderInGroup key;
   std::uint32_t first = 0, last = 0;
   std::uint64_t received = 0;
-  std::int64_t lost = 0;  ///< as the tracker counts it
+  std::int64_t lost = 0;  ///< by the tracker
 };
 
 /// The socket of a group, from joining to leaving.
 struct Membership {
   GroupAddress group;
-  /// Each when the kernel was asked to and when it had done so, which takes it long while the
-  /// interfaces of any namespace change; < 0: not left.
+  /// When the kernel was asked, and when it had finished, which takes long while the interfaces of
+  /// any namespace change; < 0: not left.
   std::chrono::nanoseconds joining{0}, joined{0}, leaving{-1}, left{-1};
   std::uint64_t kernel_drops = 0;  ///< a run that the kernel held as one counts once
 };
 
-/// What is new since the last report: counts since then, and what is over. Sums of reports are
+/// News since the last report: counts, and finished stretches and memberships. Sums of reports are
 /// totals.
 struct BalanceReport {
   std::vector<FateCounts> fates;
   std::vector<Stretch> stretches;
   std::vector<TrackedStretch> tracked;
   std::vector<Membership> memberships;
-  std::uint64_t missed = 0;  ///< events that were lost since the start: then nothing adds up
+  std::uint64_t missed = 0;  ///< events lost since the start: if any, the sums are wrong
 };
 
-/// Adds up the events of one tap. One thread; allocates. Memory by what is heard at a time: of who
-/// is silent for kSilence the stretch is reported and ended.
+/// Adds up the events of one tap. One thread; allocates. Memory grows with the senders received at
+/// a time: the stretch of a sender silent for kSilence is reported and ended.
 class DatagramBalance {
  public:
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::minutes(5);
 
   explicit DatagramBalance(DatagramTap& tap) : tap_(tap) {}
 
-  /// Takes what has happened since the last call, at most a second's worth of any peer. Call it
-  /// every 100 ms.
+  /// Takes the events since the last call, at most a second's worth of any peer. Call it every 100
+  /// ms.
   void look();
-  /// @param end true: the last one, with all that is not over yet
+  /// @param end true: the last report, with unfinished stretches too
   [[nodiscard]] BalanceReport report(std::chrono::nanoseconds now, bool end);
 
-  /// As events come; look() calls it.
+  /// Takes one event; look() calls it.
   void take(const DatagramEvent& event);
 
  private:
-  /// Numbers that did not arrive between the first and the last of a stretch.
+  /// Numbers between the first and the last of a stretch that did not arrive.
   struct Gap {
     std::uint32_t first = 0, last = 0;
   };
   struct OpenStretch {
     Stretch stretch;
     std::vector<Gap> gaps;  ///< ascending
-    bool heard = true;      ///< since the last report
+    bool heard = true;      ///< received since the last report
     std::chrono::nanoseconds silent_since{0};
   };
   struct OpenTracked {
@@ -120,7 +120,7 @@ class DatagramBalance {
   std::map<SenderInGroup, OpenStretch> open_;
   std::map<SenderInGroup, OpenTracked> tracked_;
   std::map<GroupAddress, Membership> memberships_;
-  BalanceReport over_;  ///< since the last report
+  BalanceReport over_;  ///< finished since the last report
 };
 
 }  // namespace reckon::peer

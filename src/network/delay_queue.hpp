@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Datagrams that wait for their time: a bounded queue ordered by due time, then by arrival.
-// Private to the peer library: what SimulatedNetwork and ImpairedLink have in common.
+// Delayed datagrams: a bounded queue ordered by due time, then by arrival. Private to the peer
+// library: the common part of SimulatedNetwork and ImpairedLink.
 #pragma once
 
 #include <chrono>
@@ -21,15 +21,15 @@ class DelayQueue {
   /// Room for `capacity` datagrams of up to `max_bytes` octets; pages are used as they are needed.
   DelayQueue(std::size_t capacity, std::size_t max_bytes);
 
-  /// Copies a datagram in; false where the queue is full or the datagram too long. O(log n).
+  /// Copies a datagram in; false if the queue is full or the datagram is too long. O(log n).
   bool push(std::chrono::nanoseconds due, const GroupAddress& group, const IpEndpoint& sender,
             std::span<const std::byte> bytes) noexcept;
-  /// Gives back the room of what pop_due() handed out before; its bytes are then invalid.
+  /// Frees the datagrams that pop_due() returned before; their bytes are then invalid.
   void release() noexcept;
-  /// Hands out what is due at `now`, at most out.size(); Datagram::received = due time.
+  /// Returns datagrams that are due at `now`, at most out.size(); Datagram::received = due time.
   std::size_t pop_due(std::chrono::nanoseconds now, std::span<Datagram> out) noexcept;
 
-  /// When the next one is due; nanoseconds::max() where none is held.
+  /// When the next one is due; nanoseconds::max() if the queue is empty.
   [[nodiscard]] std::chrono::nanoseconds next_due() const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return heap_.size(); }
   [[nodiscard]] std::size_t max_bytes() const noexcept { return max_bytes_; }

@@ -10,8 +10,7 @@
 
 namespace reckon::peer {
 
-/// Closes its file descriptor at its end. @throws std::system_error with `what` where it is
-/// negative.
+/// Closes its file descriptor at its end.  @throws std::system_error with `what` if it is negative.
 class Descriptor {
  public:
   Descriptor(int value, const char* what) : value_(value) {

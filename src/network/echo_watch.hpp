@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether what we send to a group that we joined comes back to us, as the kernel does it: the one
-// sign, without anybody else's help, that this host hears a group. Private to the peer library.
+// Detects whether the kernel loops our datagrams to a joined group back to us: without the help of
+// others the only sign that this host receives a group. Private to the peer library.
 #pragma once
 
 #include <atomic>
@@ -15,25 +15,25 @@
 
 namespace reckon::peer {
 
-/// Watches the first group that was joined. send() by the writing thread, all else by the reading
-/// one. No allocation, no clock.
+/// Watches the first group that was joined. The writing thread calls send(), the reading one all
+/// else. No allocation, no clock.
 class EchoWatch {
  public:
-  /// So many datagrams in a row without an echo, for so long, are silence.
+  /// Silence is this many datagrams in a row without an echo, for this long.
   static constexpr std::uint64_t kUnanswered = 3;
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::milliseconds(2500);
 
   enum class Turn : std::uint8_t { none, silent, heard };
 
-  /// A datagram has left.
+  /// Records a sent datagram.
   void send(const IpEndpoint& to) noexcept {
     if (watches(to)) sent_.fetch_add(1, std::memory_order_relaxed);
   }
-  /// Whether that is the group. Any thread.
+  /// Whether that is the watched group. Any thread.
   [[nodiscard]] bool watches(const IpEndpoint& to) const noexcept {
     return hash(to) == watched_.load(std::memory_order_relaxed);
   }
-  /// One of ours came back.
+  /// Records an echo.
   void hear(const GroupAddress& group) noexcept {
     if (hash(group) != watched_.load(std::memory_order_relaxed)) return;
     heard_ = true;
@@ -48,13 +48,13 @@ class EchoWatch {
   void left(const GroupAddress& group) noexcept {
     if (hash(group) == watched_.load(std::memory_order_relaxed)) watched_.store(0);
   }
-  /// What has been sent so far is forgiven: the interface is another one.
+  /// Ignores what has been sent so far, because the interface is another one.
   void restart() noexcept {
     answered_ = sent_.load(std::memory_order_relaxed);
     waits_ = false;
   }
 
-  /// Tells the beginning and the end of silence. Call it when all that came has been taken.
+  /// Returns the beginning and the end of silence. Call it when all arrived datagrams were taken.
   [[nodiscard]] Turn look(std::chrono::nanoseconds now) noexcept {
     const std::uint64_t unanswered = sent_.load(std::memory_order_relaxed) - answered_;
     if (unanswered == 0) {

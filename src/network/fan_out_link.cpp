@@ -14,7 +14,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::size_t kAtOnce = 64;  // datagrams of a batch that are copied at a time
+constexpr std::size_t kAtOnce = 64;  // datagrams of a batch copied at a time
 constexpr std::size_t kSlot = kMaxDatagram + pdu::kUnicastFrameSize;
 
 }  // namespace
@@ -28,7 +28,7 @@ SaidInFront said_in_front(std::span<const std::byte> datagram, const GroupPool& 
   return {place, place == 0 ? pool.base() : pool.address(place - 1), behind};
 }
 
-// The inner link, to whom each datagram goes by it, and which groups are joined.
+// The inner link, the addresses, and the joined groups.
 struct FanOutLink::UnicastGroups {
   UnicastGroups(Link& wrapped, const GroupPool& groups, const FanOutOptions& asked)
       : inner(wrapped), pool(groups), options(asked), joined(groups.size() + 1) {
@@ -50,12 +50,12 @@ struct FanOutLink::UnicastGroups {
   GroupPool pool;
   FanOutOptions options;
   std::vector<std::atomic<bool>> joined;  ///< base group, then the pool
-  std::vector<std::byte> octets;          ///< of the copies that are sent
+  std::vector<std::byte> octets;          ///< of the copies to send
   std::vector<OutgoingDatagram> copies;
   Counter not_listened, joins, leaves;
 };
 
-// What goes on the wire; nothing where it is too long.
+// The datagram as sent; nothing if it is too long.
 std::span<const std::byte> FanOutLink::UnicastGroups::framed(
     std::size_t slot, const OutgoingDatagram& datagram) noexcept {
   if (options.plain) return datagram.bytes;
@@ -70,7 +70,7 @@ std::span<const std::byte> FanOutLink::UnicastGroups::framed(
   return out.first(size + datagram.bytes.size());
 }
 
-// Takes off what is in front; false where it is for others. What has nothing in front is plain DIS.
+// Removes the frame; false if the datagram is for others. One without a frame is plain DIS.
 bool FanOutLink::UnicastGroups::unwrap(Datagram& datagram) noexcept {
   const SaidInFront said = said_in_front(datagram.bytes, pool);
   datagram.bytes = said.bytes;
@@ -83,7 +83,7 @@ bool FanOutLink::UnicastGroups::unwrap(Datagram& datagram) noexcept {
   return false;
 }
 
-// How many of it the inner link is given, which tells what becomes of each.
+// Records the number of copies for the inner link, which reports their fates.
 void FanOutLink::UnicastGroups::note_out(const OutgoingDatagram& datagram, bool goes) noexcept {
   if (options.tap == nullptr) return;
   const std::size_t peers = options.peers.size();
@@ -106,7 +106,7 @@ bool FanOutLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) no
   return send_batch({&datagram, 1}).datagrams == 1;
 }
 
-// Address by address, so that what goes to one is a run.
+// Address by address, so that the datagrams to one address are a run.
 SentBatch FanOutLink::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
   UnicastGroups& s = *groups_;
   SentBatch sent;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Groups where the network carries no multicast, as in clouds: each datagram goes to each address
-// of a list, and says in front to which group it was said. Whoever has not joined that drops it.
+// Groups on networks without multicast, such as clouds. Each datagram goes to each address of a
+// list, with a frame that names its group. Receivers that have not joined that group drop it.
 #pragma once
 
 #include <cstddef>
@@ -17,28 +17,29 @@ namespace reckon::peer {
 
 class DatagramTap;
 
-/// What stands in front of a datagram that went to an address of a list.
+/// The frame before a datagram to an address of a list.
 struct SaidInFront {
   std::optional<std::size_t> place;  ///< 0: the base group, n: the n-th of the pool; else beyond it
   GroupAddress group;                ///< of that place
-  std::span<const std::byte> bytes;  ///< what is behind it
+  std::span<const std::byte> bytes;  ///< the datagram behind the frame
 };
-/// A datagram with nothing in front is plain DIS, of the base group. 5 ns.
+/// A datagram without a frame is plain DIS, of the base group. 5 ns.
 [[nodiscard]] SaidInFront said_in_front(std::span<const std::byte> datagram,
                                         const GroupPool& pool) noexcept;
 
-/// To whom.
+/// The list of recipients, and the frame.
 struct FanOutOptions {
-  std::vector<IpEndpoint> peers;  ///< the own address may be among them; it is left out
-  std::uint8_t exercise = 1;      ///< of what is put in front
-  /// Plain DIS: nothing is put in front, and what comes without it is of the base group.
+  std::vector<IpEndpoint> peers;  ///< may contain the own address, which is left out
+  std::uint8_t exercise = 1;      ///< in the frame
+  /// Plain DIS: no frames are sent, and datagrams without one are of the base group.
   bool plain = false;
-  DatagramTap* tap = nullptr;  ///< of what becomes of each datagram; outlives the link
+  DatagramTap* tap = nullptr;  ///< receives the fate of each datagram; outlives the link
 };
 
-/// Around a link whose own endpoint the others know. One copy to each address, those to one address
-/// in one run, so that the kernel can cut it; cost: that of the inner link times the addresses, and
-/// one copy of the octets. Nothing is joined. Threads as any Link; sending allocates nothing.
+/// A link around another one whose own endpoint the others know. It sends one copy to each address,
+/// those to one address in one run, so that the kernel can cut it. Cost: that of the inner link
+/// times the addresses, and one copy of the octets. Nothing is joined. Threads as for any Link;
+/// sending allocates nothing.
 class FanOutLink final : public Link {
  public:
   /// @param inner outlives this
@@ -46,10 +47,9 @@ class FanOutLink final : public Link {
   ~FanOutLink() override;
 
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
-  /// Counts as sent what went to all of them.
+  /// Counts the datagrams that were sent to all addresses.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
-  /// What was said to groups that are joined; the rest is dropped here, and counted by
-  /// not_listened().
+  /// Returns datagrams to joined groups; the others are dropped here and counted by not_listened().
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;
   void leave(const GroupAddress& group) noexcept override;
@@ -61,9 +61,9 @@ class FanOutLink final : public Link {
   bool take_event(LinkEvent& event) noexcept override;
   void settle() noexcept override;
 
-  /// Datagrams that came for groups that are not joined. Any thread.
+  /// Datagrams received for groups that are not joined. Any thread.
   [[nodiscard]] std::uint64_t not_listened() const noexcept;
-  /// To how many each datagram goes.
+  /// Number of recipients of each datagram.
   [[nodiscard]] std::size_t peers() const noexcept;
 
  private:

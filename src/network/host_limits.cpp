@@ -61,7 +61,7 @@ UdpMulticastOptions link_options(const NetworkInterface& interface, const GroupA
   return options;
 }
 
-// Sends to the group; how long it took to come back, within the limit.
+// Sends to the group; returns the time until it came back, within the limit.
 std::optional<nanoseconds> echo(UdpMulticast& link, const GroupAddress& group, const Clock& clock) {
   const nanoseconds sent = clock.now();
   if (!link.send(group, {})) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<nanoseconds> echo(UdpMulticast& link, const GroupAddress& group, c
   return std::nullopt;
 }
 
-// Runs in a thread of its own, which takes the right and ends with it.
+// Runs in a separate thread, which takes the right and ends with it.
 void* try_real_time(void* result) {
   sched_param parameter{};
   parameter.sched_priority = 50;
@@ -220,7 +220,7 @@ Finding probe_reverse_path_filter(const NetworkInterface& interface) {
   const std::string base = "/proc/sys/net/ipv4/conf/";
   const long all = read_number(base + "all/rp_filter").value_or(0);
   const long own = read_number(base + interface.name + "/rp_filter").value_or(0);
-  const long value = std::max(all, own);  // as the kernel takes it
+  const long value = std::max(all, own);  // the kernel uses this one
   const std::string what = "rp_filter of " + interface.name + " = " + std::to_string(value);
   if (value == 0) return ok(what);
   return {FindingLevel::note, what + ": peers in a subnet without a route from here are not heard",

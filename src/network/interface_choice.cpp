@@ -48,8 +48,8 @@ std::string read_line(const fs::path& path) {
   return line;
 }
 
-// What only sysfs knows. In a network namespace sysfs may show another one's interfaces: its index
-// tells; then nothing is assumed.
+// Properties that only sysfs has. In a network namespace sysfs may show the interfaces of another
+// one, which the index reveals; then nothing is assumed.
 void read_sysfs(NetworkInterface& interface) {
   const fs::path base = fs::path("/sys/class/net") / interface.name;
   if (read_line(base / "ifindex") != std::to_string(interface.index)) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which network interface a peer uses: the user's word, else a stated rule whose scores are
-// reported.
+// Chooses the network interface of a peer: the user's choice, else a stated rule with reported
+// scores.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ struct NetworkInterface {
   std::vector<IpEndpoint> addresses;  ///< port 0
   std::size_t mtu{0};                 ///< [octets]
   bool up{false};
-  bool running{false};  ///< the link is there (cable, association)
+  bool running{false};  ///< the link is up (cable, association)
   bool multicast{false};
   bool loopback{false};
   bool point_to_point{false};
   bool wireless{false};
-  bool virtual_device{false};  ///< bridge, veth, tunnel, ...: nothing to plug a cable into
+  bool virtual_device{false};  ///< bridge, veth, tunnel, ...: it has no cable
 
   /// The address to send from: the first that is not link-local, else the first of the family.
   [[nodiscard]] std::optional<IpEndpoint> address(bool ipv6) const;
@@ -39,7 +39,7 @@ struct NetworkInterface {
 /// All interfaces with their addresses. @throws std::system_error.
 [[nodiscard]] std::vector<NetworkInterface> list_interfaces();
 
-/// How good an interface is for multicast of one address family.
+/// Suitability of an interface for multicast of one address family.
 struct InterfaceScore {
   bool usable{false};  ///< up, running, with an address of the family
   int score{0};        ///< see rate()
@@ -50,29 +50,29 @@ struct InterfaceScore {
 /// +2 not a virtual device, +1 not wireless; loopback counts 0 and comes last.
 [[nodiscard]] InterfaceScore rate(const NetworkInterface& interface, bool ipv6);
 
-/// The interface taken and why, as lines for the user.
+/// The chosen interface with the reason, as lines for the user.
 struct InterfaceChoice {
   NetworkInterface interface;
   std::string explanation;
 };
 
 /// Picks from `candidates` by name, address or index if `requested` is not empty (a missing cable
-/// is only reported then), else by score, the lower index among equals. @throws std::runtime_error,
-/// listing what there is, where nothing fits. Pure.
+/// is then only reported), else by score, the lower index among equals.
+/// @throws std::runtime_error with a list of the interfaces if none fits. Pure.
 [[nodiscard]] InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
                                                std::string_view requested, bool ipv6);
 /// The same over list_interfaces().
 [[nodiscard]] InterfaceChoice choose_interface(std::string_view requested, bool ipv6);
 
-/// Whether the interface that a link was opened on can still carry it.
+/// Whether the interface on which a link was opened can still be used.
 struct InterfaceStanding {
-  std::optional<NetworkInterface> interface;  ///< as it is now; nothing where it carries nothing
+  std::optional<NetworkInterface> interface;  ///< its present state; nothing if it cannot be used
   std::string_view why_not;                   ///< "is gone", "is down", ..., for a sentence
 };
 
-/// Finds the interface of a link again: the one that has the address, where an address was asked
-/// for, else the one of the same name, whatever its index is now. Pure.
-/// @param requested as of choose_interface(). @param used the interface that was taken then
+/// Finds the interface of a link again: the one with the requested address, or the one of the same
+/// name, whatever its index is now. Pure.  @param requested as for choose_interface().
+/// @param used the interface that was chosen then
 [[nodiscard]] InterfaceStanding find_again(std::span<const NetworkInterface> candidates,
                                            std::string_view requested, const NetworkInterface& used,
                                            bool ipv6);

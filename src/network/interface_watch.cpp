@@ -35,8 +35,8 @@ InterfaceWatch::~InterfaceWatch() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-// What has changed is not read from the messages: whoever asks looks at the host anew, so that a
-// message that is lost or cut costs nothing.
+// The messages are not read for their content: the caller examines the host anew, so a lost or
+// truncated message has no effect.
 bool InterfaceWatch::take_changes() noexcept {
   if (descriptor_ < 0) return false;
   std::array<std::byte, 8192> message;

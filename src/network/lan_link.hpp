@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The way of a peer to its LAN: UDP multicast, or to a list of addresses, behind a bad network
-// where one is asked for.
+// The link of a peer to its LAN: UDP multicast, or a list of addresses, optionally behind a
+// simulated bad network.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@
 
 namespace reckon::peer {
 
-/// What to open.
+/// Options of the link.
 struct LanLinkOptions {
   UdpMulticastOptions udp;
-  ImpairmentLaw law;          ///< of what arrives; a perfect one costs nothing
+  ImpairmentLaw law;          ///< of arriving datagrams; a perfect one costs nothing
   std::uint64_t seed{1};      ///< of the law
-  std::uint64_t receiver{0};  ///< number of this peer; those with other numbers lose others
-  /// Where there is no multicast: to whom each datagram goes. Empty: to the groups themselves.
+  std::uint64_t receiver{0};  ///< number of this peer; other numbers lose other datagrams
+  /// Recipients of each datagram if there is no multicast. Empty: the groups themselves.
   std::vector<NamedPeer> peers;
-  GroupPool pool = GroupPool::ipv4_default();  ///< whose groups are distinguished then
+  GroupPool pool = GroupPool::ipv4_default();  ///< distinguished in that case
   std::uint8_t exercise{1};
   bool plain{false};  ///< plain DIS, see FanOutOptions
 };
@@ -34,21 +34,22 @@ struct LanLinkOptions {
 /// Owns the links. The law's outages count from construction.
 class LanLink {
  public:
-  /// `clock` outlives this. @throws what UdpMulticast and ImpairedLink throw.
+  /// @param clock outlives this.  @throws the exceptions of UdpMulticast and ImpairedLink.
   LanLink(const LanLinkOptions& options, const Clock& clock);
 
-  /// What a peer talks to.
+  /// The link for the peer.
   [[nodiscard]] Link& link() noexcept {
     if (impaired_) return *impaired_;
     return fan_out_ ? *fan_out_ : static_cast<Link&>(udp_);
   }
   [[nodiscard]] const UdpMulticast& udp() const noexcept { return udp_; }
-  /// Sentences for the user: the interface taken and why, then what is less than asked for.
+  /// Sentences for the user: the chosen interface with the reason, then what falls short of the
+  /// request.
   [[nodiscard]] std::vector<std::string> report() const;
 
  private:
   UdpMulticast udp_;
-  std::unique_ptr<FanOutLink> fan_out_;  // null where groups are multicast
+  std::unique_ptr<FanOutLink> fan_out_;  // null if groups are multicast
   std::unique_ptr<ImpairedLink> impaired_;
 };
 

@@ -13,7 +13,7 @@
 namespace reckon::peer {
 namespace {
 
-// The last four octets of the address as a number: what groups of a pool differ in.
+// Offset of the last four octets of the address, in which the groups of a pool differ.
 std::size_t tail_offset(const IpEndpoint& endpoint) { return endpoint.is_v6 ? 12 : 0; }
 
 std::uint32_t tail(const IpEndpoint& endpoint) {
@@ -57,7 +57,7 @@ void split(std::string_view text, std::string_view& address, std::string_view& p
   }
 }
 
-/// What the user can do about an error of the kernel.
+/// Remedy for an error of the kernel.
 struct Remedy {
   std::errc error;
   std::string_view what_to_do;

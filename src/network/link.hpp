@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The way octets travel between peers: groups, datagrams, and the Link that carries them.
-// UdpMulticast is the real one, SimulatedNetwork gives them in process, ImpairedLink wraps any.
+// Transport of octets between peers: groups, datagrams, and the Link that carries them.
+// UdpMulticast is the real link, SimulatedNetwork has links inside a process, ImpairedLink wraps
+// any link.
 #pragma once
 
 #include <array>
@@ -29,11 +30,11 @@ struct IpEndpoint {
   /// True for 255.255.255.255, which reaches all of the LAN without a group.
   [[nodiscard]] bool is_broadcast() const noexcept;
   [[nodiscard]] bool is_loopback() const noexcept;
-  /// True where no address is set (0.0.0.0 or ::).
+  /// True if no address is set (0.0.0.0 or ::).
   [[nodiscard]] bool is_unspecified() const noexcept;
 
   /// Reads "239.192.1.0", "239.192.1.0:3000", "ff15::1", "[ff15::1]:3000"; without a port,
-  /// `default_port`. Nothing where the text is none of these.
+  /// `default_port`. Nothing if the text is none of these.
   [[nodiscard]] static std::optional<IpEndpoint> parse(std::string_view text,
                                                        std::uint16_t default_port = 0);
   /// From a host-order IPv4 address.
@@ -45,7 +46,7 @@ struct IpEndpoint {
   [[nodiscard]] std::string text() const;
 };
 
-/// An endpoint whose address is a multicast group, or all of the LAN where multicast is disabled.
+/// An endpoint whose address is a multicast group, or all of the LAN if multicast is disabled.
 using GroupAddress = IpEndpoint;
 
 /// The groups of one world: a base group for presence and `size` groups behind it for the cells.
@@ -56,17 +57,16 @@ class GroupPool {
 
   /// 239.192.1.0:3000 and 256 groups after it (239.192.1.1 to 239.192.2.0).
   [[nodiscard]] static GroupPool ipv4_default() noexcept;
-  /// [ff15::c0:100]:3000 and 256 groups after it; c0:100 so that no Ethernet address of the pool
-  /// is one of those that every switch floods (33:33:00:00:00:xx).
+  /// [ff15::c0:100]:3000 and 256 groups after it; with c0:100, no Ethernet address of the pool is
+  /// one that every switch floods (33:33:00:00:00:xx).
   [[nodiscard]] static GroupPool ipv6_default() noexcept;
 
-  /// The broadcast address has no groups behind it, whatever `size` says: its base alone is used.
-  /// @throws std::invalid_argument where base is neither a multicast group nor the broadcast
-  /// address, its port is 0, size is 0 or above 65535, or the last group would leave the multicast
-  /// range.
+  /// The broadcast address has no further groups, whatever `size` is: only its base is used.
+  /// @throws std::invalid_argument if base is neither a multicast group nor the broadcast address,
+  /// its port is 0, size is 0 or above 65535, or the last group would leave the multicast range.
   GroupPool(const GroupAddress& base, std::size_t size);
 
-  /// Where presence is announced.
+  /// The group of presence announcements.
   [[nodiscard]] const GroupAddress& base() const noexcept { return base_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Group `index`, 0 <= index < size() (assert): base + 1 + index.
@@ -79,111 +79,110 @@ class GroupPool {
   std::size_t size_;
 };
 
-/// Longest payload that peers send or take [octets]: above the 8192 of a DIS bundle.
+/// Longest payload that peers send or accept [octets]: above the 8192 of a DIS bundle.
 inline constexpr std::size_t kMaxDatagram = 9216;
 
 /// One datagram as received. `bytes` stays valid until the next receive() of the same link.
 struct Datagram {
-  GroupAddress group;                 ///< where it was sent to; the link's own endpoint if unicast
-  IpEndpoint sender;                  ///< the unicast endpoint that a reply reaches
+  GroupAddress group;                 ///< destination; the link's own endpoint if unicast
+  IpEndpoint sender;                  ///< the unicast endpoint for replies
   std::span<const std::byte> bytes;   ///< UDP payload
   std::chrono::nanoseconds received;  ///< arrival by the link's clock, steady (kernel time if real)
-  std::uint64_t boot{0};  ///< who has proved to have sent it (SealedLink); 0: nobody
+  std::uint64_t boot{0};  ///< proven sender (SealedLink); 0: none
 };
 
-/// One datagram of a batch that is to be sent. `bytes` have to stay until send_batch() returns.
+/// One datagram of a batch to send. `bytes` must be valid until send_batch() returns.
 struct OutgoingDatagram {
   IpEndpoint to;
   std::span<const std::byte> bytes;
 };
 
-/// What became of a batch: the rest was refused, and is counted by its reason.
+/// Result of a batch: datagrams that were not sent are counted by reason.
 struct SentBatch {
   std::size_t datagrams{0}, octets{0};
 };
 
-/// What a datagram takes on the wire beyond its payload, which alone links and peers count: headers
-/// of UDP and IPv4 [octets].
+/// Headers of UDP and IPv4 [octets], which links and peers do not count with the payload.
 inline constexpr std::size_t kUdpIpv4Headers = 28;
 
-/// What a link has counted since it was made; kernel_drops is loss by a full receive buffer.
-/// A run that the kernel held as one counts once there, see docs/transport.md.
+/// Counts of a link since its construction; kernel_drops is loss by a full receive buffer. A run
+/// that the kernel held as one counts once there, see docs/transport.md.
 struct LinkStatistics {
   std::uint64_t sent{0}, sent_bytes{0};
-  std::uint64_t send_errors{0};  ///< refused by the kernel, for whatever reason
+  std::uint64_t send_errors{0};  ///< refused by the kernel for any reason
   std::uint64_t too_big{0};      ///< of these: above the MTU (never fragmented)
   std::uint64_t send_calls{0};   ///< system calls that sent
-  std::uint64_t held_back{0};    ///< not sent, for they would have waited too long for the wire
+  std::uint64_t held_back{0};    ///< not sent, because they would have waited too long for the wire
   std::uint64_t received{0}, received_bytes{0};
   std::uint64_t own{0};           ///< own datagrams looped back, not delivered
   std::uint64_t truncated{0};     ///< longer than a receive buffer, not delivered
   std::uint64_t kernel_drops{0};  ///< SO_RXQ_OVFL
   std::uint64_t receive_errors{0};
   std::uint64_t joins{0}, leaves{0}, join_errors{0};
-  std::uint64_t interface_losses{0};  ///< times that the interface went away, down or bare
+  std::uint64_t interface_losses{0};  ///< times that the interface was gone, down or bare
   std::uint64_t recoveries{0};        ///< times that all groups were joined again
-  std::uint64_t lost_by_law{0}, duplicated_by_law{0};  ///< impairment: as asked for
+  std::uint64_t lost_by_law{0}, duplicated_by_law{0};  ///< impairment: as configured
   std::uint64_t queue_overflows{0};                    ///< impairment: bounded queue was full
   int last_send_error{0}, last_join_error{0};          ///< errno, no counts; 0: none yet
 
-  /// Calls visit(name, value) for each of them.
+  /// Calls visit(name, value) for each count.
   template <typename Visit>
   void for_each(Visit&& visit) const;
 };
 
-/// Something that befell a link and that it mends by itself, as a sentence for the user.
+/// An event of a link that it repairs by itself, as a sentence for the user.
 struct LinkEvent {
-  std::array<char, 240> text{};  ///< NUL at the end; cut where it would be longer
+  std::array<char, 240> text{};  ///< NUL at the end; longer text is cut
 };
 
-/// Carries datagrams. Two threads may use one link: the reader (receive, wait, join, leave) and the
-/// writer (send). wake() and statistics() are for any thread. Nothing but join and leave allocates.
+/// Transports datagrams. Two threads may use one link: the reader (receive, wait, join, leave) and
+/// the writer (send). wake() and statistics() are for any thread. Only join and leave allocate.
 class Link {
  public:
   virtual ~Link() = default;
 
-  /// Sends one datagram to a group or to a peer's unicast endpoint. False where the kernel refused
-  /// it, which is counted; the caller goes on (DIS repairs by the next update).
+  /// Sends one datagram to a group or to a peer's unicast endpoint. False if the kernel refused it,
+  /// which is counted; the caller goes on (the next update repairs it).
   virtual bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept = 0;
 
-  /// Sends datagrams in their order, as send() would one after the other. A link that can hands
-  /// many to the kernel at once. Any number; no allocation.
+  /// Sends datagrams in their order, with the effect of send() for each. A link may hand many to
+  /// the kernel at once. Any number; no allocation.
   virtual SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept;
 
-  /// Takes what has arrived, at most out.size(), without blocking; returns how many.
+  /// Takes arrived datagrams, at most out.size(), without blocking; returns their number.
   virtual std::size_t receive(std::span<Datagram> out) noexcept = 0;
 
   /// Joins a group; joining twice is no error. Errors are returned and counted, see advice().
   virtual std::error_code join(const GroupAddress& group) noexcept = 0;
-  /// Leaves a group; no error where it was not joined.
+  /// Leaves a group; no error if it was not joined.
   virtual void leave(const GroupAddress& group) noexcept = 0;
 
-  /// Blocks until something can be received, wake() is called or `timeout` is over; true in the
-  /// first two cases. A simulated link never blocks. Zero only looks.
+  /// Blocks until a datagram can be received, wake() is called or `timeout` is over; true in the
+  /// first two cases. A simulated link never blocks. Zero only polls.
   virtual bool wait(std::chrono::nanoseconds timeout) noexcept = 0;
-  /// Ends a wait() now or, where none is under way, the next one. Safe in a signal handler.
+  /// Ends the present wait(), or the next one if there is none. Safe in a signal handler.
   virtual void wake() noexcept = 0;
 
-  /// The own unicast endpoint: the sender of all that this link sends.
+  /// The own unicast endpoint: the source of all sent datagrams.
   [[nodiscard]] virtual IpEndpoint local_endpoint() const noexcept = 0;
-  /// Largest payload [octets] that goes out unfragmented.
+  /// Largest payload [octets] that is sent unfragmented.
   [[nodiscard]] virtual std::size_t max_payload() const noexcept = 0;
   [[nodiscard]] virtual LinkStatistics statistics() const noexcept = 0;
 
-  /// What befell the link since it was asked last, oldest first; false where there is nothing. One
-  /// thread, any; no allocation. A link around another passes on what that one has to tell.
+  /// Takes the events of the link since the last call, oldest first; false if there are none. One
+  /// thread, any; no allocation. A link around another one passes on the events of that one.
   virtual bool take_event(LinkEvent&) noexcept { return false; }
 
   /// Nobody will receive any more: counts what the kernel has dropped since the last datagram, and
-  /// tells a tap of what was not read. By the thread of receive(), or when that has ended.
+  /// reports unread datagrams to a tap. By the thread of receive(), or after its end.
   virtual void settle() noexcept {}
 };
 
-/// What to do about an error of a join or of a send; empty where nothing is known. No allocation.
+/// Remedy for an error of a join or of a send; empty if none is known. No allocation.
 [[nodiscard]] std::string_view join_remedy(const std::error_code& error) noexcept;
 [[nodiscard]] std::string_view send_remedy(const std::error_code& error) noexcept;
 
-/// A sentence for the user: what went wrong at a join and what to do (the sysctl, the limit).
+/// A sentence for the user: the error of a join and its remedy (the sysctl, the limit).
 [[nodiscard]] std::string advice(const std::error_code& error, const GroupAddress& group);
 
 template <typename Visit>
@@ -212,7 +211,7 @@ void LinkStatistics::for_each(Visit&& visit) const {
 
 }  // namespace reckon::peer
 
-/// So that endpoints can be keys of unordered containers.
+/// Makes endpoints usable as keys of unordered containers.
 template <>
 struct std::hash<reckon::peer::IpEndpoint> {
   std::size_t operator()(const reckon::peer::IpEndpoint& endpoint) const noexcept;

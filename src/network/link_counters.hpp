@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a link counts while it runs: LinkStatistics that its threads write.
+// Counters of a running link: LinkStatistics that its threads write.
 #pragma once
 
 #include "reckon/peer/counters/counters.hpp"
@@ -14,7 +14,7 @@ struct LinkCounters {
       own, truncated, kernel_drops, receive_errors, joins, leaves, join_errors, interface_losses,
       recoveries, last_send_error, last_join_error;
 
-  /// As they stand.
+  /// The present values.
   [[nodiscard]] LinkStatistics values() const noexcept {
     LinkStatistics out;
     out.sent = sent.value();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a link of sockets reports to a DatagramTap. Private to the network.
+// Reports of a link with sockets to a DatagramTap. Private to the network.
 #pragma once
 
 #include <chrono>
@@ -14,18 +14,18 @@
 
 namespace reckon::peer {
 
-/// Passes events on, where there is a tap; else does nothing. Threads as a DatagramTap; no
+/// Passes events on if there is a tap; else does nothing. Threads as for a DatagramTap; no
 /// allocation.
 class LinkTap {
  public:
   /// @param tap outlives this; may be null
-  /// @param framed pool of a FanOutLink around the link: then the group of a datagram is the one
-  /// that it says in front
+  /// @param framed pool of a FanOutLink around the link: then the group of a datagram is that of
+  /// its frame
   LinkTap(DatagramTap* tap, const std::optional<GroupPool>& framed) : tap_(tap), framed_(framed) {}
 
   [[nodiscard]] bool is_on() const noexcept { return tap_ != nullptr; }
 
-  /// What became of a datagram. @param place that it was sent to
+  /// Reports the fate of a datagram.  @param place its destination
   void note(DatagramTap::Loop loop, DatagramFate fate, const IpEndpoint& place,
             std::span<const std::byte> bytes) noexcept {
     if (tap_ == nullptr) return;
@@ -33,8 +33,8 @@ class LinkTap {
     const SaidInFront said = said_in_front(bytes, *framed_);
     tap_->note(loop, fate, said.place ? said.group : place, said.bytes);
   }
-  /// A group is joined or left. @param asked when the kernel was asked to  @param done when it had
-  /// done so
+  /// Reports a group that was joined or left.  @param asked when the kernel was asked
+  /// @param done when it had finished
   void note_membership(DatagramFate change, const GroupAddress& group,
                        std::chrono::nanoseconds asked, std::chrono::nanoseconds done) noexcept {
     if (tap_ == nullptr) return;
@@ -45,7 +45,7 @@ class LinkTap {
     event.time = done;
     tap_->push(DatagramTap::Loop::read, event);
   }
-  /// The kernel dropped so many before they were read.
+  /// Reports the number of datagrams that the kernel dropped before they were read.
   void note_drops(const GroupAddress& group, std::uint32_t count) noexcept {
     if (tap_ == nullptr || count == 0) return;
     DatagramEvent event;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The own unicast endpoint of a link, which changes where the interface does. Private to the
-// network.
+// The own unicast endpoint of a link, which changes with the interface. Private to the network.
 #pragma once
 
 #include <mutex>
@@ -10,15 +9,15 @@
 
 namespace reckon::peer {
 
-/// Written by the reading thread alone, read by any.
+/// Only the reading thread writes it; any thread may read it.
 class LocalEndpoint {
  public:
-  /// The reading thread.
+  /// For the reading thread.
   void set(const IpEndpoint& endpoint) {
     const std::lock_guard lock(mutex_);
     endpoint_ = endpoint;
   }
-  /// The reading thread, which takes no lock: nobody else writes.
+  /// For the reading thread, which takes no lock because no other thread writes.
   [[nodiscard]] const IpEndpoint& value() const noexcept { return endpoint_; }
   /// Any thread.
   [[nodiscard]] IpEndpoint copy() const noexcept {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the queue short between a sending socket and a wire that takes less than is sent: what is
-// new must not wait behind what is old. Private to the peer library.
+// Keeps the queue short between a sending socket and a slower wire: new datagrams must not wait
+// behind old ones. Private to the peer library.
 #pragma once
 
 #include <chrono>
@@ -9,17 +9,19 @@
 
 namespace reckon::peer {
 
-/// Learns from the octets that wait in the kernel how fast they leave, and holds back what would
-/// have to wait for longer than kLongest. One thread; no clock, no allocation.
+/// Measures the sending rate from the octets pending in the kernel, and drops datagrams that would
+/// wait for longer than kLongest. One thread; no clock, no allocation.
 class SendPace {
  public:
   static constexpr std::chrono::nanoseconds kLongest = std::chrono::milliseconds(50);
-  /// So long the queue has to last before its rate is known, and so long the rate is then believed.
+  /// The queue has to last this long before its rate is known; the rate is then believed for the
+  /// same time.
   static constexpr std::chrono::nanoseconds kLearn = std::chrono::milliseconds(20);
   static constexpr std::chrono::nanoseconds kRenew = std::chrono::milliseconds(500);
 
-  /// Before a send. @param queued octets that wait in the kernel, as the kernel charges them
-  /// @returns false where another datagram would wait too long: drop it, a newer state follows
+  /// Call it before a send.
+  /// @param queued octets pending in the kernel, as the kernel charges them @returns false if
+  /// another datagram would wait too long: drop it, a newer state follows
   [[nodiscard]] bool may_send(std::size_t queued, std::chrono::nanoseconds now) noexcept {
     if (queued == 0) {
       watching_ = false;
@@ -28,8 +30,8 @@ class SendPace {
     if (!watching_) start(queued, now);
     const std::chrono::nanoseconds lasted = now - since_;
     const double left = static_cast<double>(entered_) - static_cast<double>(queued);
-    // Where nothing has left the host may have been busy: a rate of zero needs as long as what
-    // waits may wait.
+    // If nothing was sent, the host may have been busy: a rate of zero needs as long as the longest
+    // wait.
     if (lasted >= (left > 0 ? kLearn : kLongest)) {
       rate_ = left / std::chrono::duration<double>(lasted).count();
       known_ = true;
@@ -38,12 +40,12 @@ class SendPace {
     if (lasted >= kRenew) start(queued, now);
     return may;
   }
-  /// Whether what is sent behind so many octets waits no longer than it may, by the rate known.
+  /// Whether datagrams behind this many octets wait no longer than they may, at the known rate.
   [[nodiscard]] bool is_short(std::size_t queued) const noexcept {
     return !known_ ||
            static_cast<double>(queued) <= rate_ * std::chrono::duration<double>(kLongest).count();
   }
-  /// After a send that went while octets waited. @param grown by so many of them
+  /// Records a send while octets were pending.  @param grown the octets added
   void sent(std::size_t grown) noexcept { entered_ += grown; }
 
  private:
@@ -54,11 +56,11 @@ class SendPace {
     entered_ = queued;
   }
 
-  bool watching_ = false;  // octets have waited at every send since `since_`
+  bool watching_ = false;  // octets were pending at every send since `since_`
   bool known_ = false;
   std::chrono::nanoseconds since_{0};
-  std::size_t entered_ = 0;  // octets that waited then, and those that came since
-  double rate_ = 0;          // [octets/s] at which they leave
+  std::size_t entered_ = 0;  // octets pending at that time, and those added since
+  double rate_ = 0;          // [octets/s] at which they are sent
 };
 
 }  // namespace reckon::peer

@@ -47,7 +47,7 @@ class SimulatedNetwork::Port final : public Link {
   DelayQueue queue_;
   struct Joined {
     GroupAddress group;
-    nanoseconds open{0};  // from then on it is heard
+    nanoseconds open{0};  // received from then on
   };
   [[nodiscard]] std::vector<Joined>::const_iterator find(const GroupAddress& group) const noexcept;
 
@@ -58,9 +58,9 @@ class SimulatedNetwork::Port final : public Link {
   LinkStatistics statistics_;
 };
 
-// All links of the network, and what each hears of each.
+// All links of the network, and the law of each direction.
 struct SimulatedNetwork::Hub {
-  // What one link hears of another.
+  // The direction from one link to another.
   struct Direction {
     Impairment impairment;
     std::uint64_t next_sequence{0};
@@ -121,7 +121,7 @@ bool SimulatedNetwork::Port::send(const IpEndpoint& to, std::span<const std::byt
   return true;
 }
 
-// Where the group is, or would have to be put.
+// Place of the group, or the place to insert it.
 std::vector<SimulatedNetwork::Port::Joined>::const_iterator SimulatedNetwork::Port::find(
     const GroupAddress& group) const noexcept {
   return std::ranges::lower_bound(groups_, group, {}, &Joined::group);

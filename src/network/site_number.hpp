@@ -9,8 +9,8 @@
 
 namespace reckon::peer {
 
-/// A DIS site, 1 .. 65533, from the address of a host: the same for all its processes, and hardly
-/// ever the same on two hosts.
+/// A DIS site, 1 .. 65533, from the address of a host: the same for all its processes, and rarely
+/// the same on two hosts.
 [[nodiscard]] std::uint16_t site_of(const IpEndpoint& host) noexcept;
 
 }  // namespace reckon::peer

@@ -42,14 +42,14 @@ void check(const UdpMulticastOptions& options) {
   }
 }
 
-// IP_MTU as the kernel has it, else what the interface says.
+// IP_MTU from the kernel, else the value of the interface.
 std::size_t measure_mtu(UdpSocketTable& table, const InterfaceChoice& choice, bool ipv6) {
   const GroupPool pool = ipv6 ? GroupPool::ipv6_default() : GroupPool::ipv4_default();
   const std::size_t mtu = table.mtu(pool.base());
   return mtu == 0 ? choice.interface.mtu : mtu;
 }
 
-// What fits the MTU unfragmented.
+// The largest payload that fits the MTU unfragmented.
 std::size_t payload_of(std::size_t mtu, bool ipv6) {
   const std::size_t header = header_bytes(ipv6);
   return mtu > header ? std::min(mtu - header, kMaxUdpPayload) : 0;
@@ -59,7 +59,7 @@ std::size_t payload_of(std::size_t mtu, bool ipv6) {
 
 std::size_t receive_room(double datagrams_per_second, nanoseconds stall,
                          std::size_t payload) noexcept {
-  // The least room, what there is beside the payload (Ethernet to skb_shared_info), and an sk_buff.
+  // The least size, the overhead besides the payload (Ethernet to skb_shared_info), and an sk_buff.
   constexpr std::size_t kLeast = 576, kHeaders = 400, kDescriptor = 256;
   const std::size_t charged = std::max(std::bit_ceil(payload + kHeaders), kLeast) + kDescriptor;
   const double waiting = datagrams_per_second * std::chrono::duration<double>(stall).count();
@@ -126,7 +126,8 @@ void UdpMulticast::Sockets::warn() {
   }
 }
 
-// What is read before the others: a turn of each that has something, `most` messages in all.
+// Reads the prioritised groups: one turn of each that has datagrams, at most `most` messages in
+// all.
 std::size_t UdpMulticast::Sockets::receive_first(std::span<Datagram> out, std::size_t delivered,
                                                  std::size_t most) noexcept {
   std::array<std::uint32_t, UdpReadiness::kMostFirst> numbers;
@@ -160,7 +161,7 @@ std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
   Sockets& s = *sockets_;
   UdpReceiver& receiver = s.receiver;
   std::size_t delivered = receiver.hand_over(out, 0);
-  // The buffers of what is handed up stay as they are until the next call.
+  // The buffers of returned datagrams stay valid until the next call.
   if (delivered == 0) receiver.recycle();
   std::size_t seen = kMaxBatch + 1;
   std::size_t first = s.options.read_first ? (s.options.batch + 1) / 2 : 0;
@@ -172,7 +173,7 @@ std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
       if (delivered == out.size() || receiver.is_full()) break;
     }
     if (!s.ready.has_next()) {
-      if (receiver.messages() == seen) break;  // nothing came of those that were ready
+      if (receiver.messages() == seen) break;  // the ready sockets had no datagrams
       seen = receiver.messages();
       s.ready.poll(nanoseconds{0});
       if (s.ready.is_first_ready() && !s.ready.has_next()) first = s.options.batch;

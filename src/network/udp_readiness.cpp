@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Tags of what is no socket; the number of a socket is below them.
+// Tags that are no sockets; the number of a socket is below them.
 constexpr std::uint32_t kWakeTag = 0xffffffffu, kHostTag = 0xfffffffeu, kFirstTag = 0xfffffffdu;
 
 }  // namespace
@@ -72,7 +72,7 @@ std::size_t UdpReadiness::find_first(std::span<std::uint32_t> out) noexcept {
 
 void UdpReadiness::wake() noexcept {
   const std::uint64_t one = 1;
-  // It can only fail when the count is full, and then the reader is being woken already.
+  // It can only fail if the count is full, and then the reader is already being woken.
   [[maybe_unused]] const ssize_t written = ::write(wake_.get(), &one, sizeof one);
 }
 

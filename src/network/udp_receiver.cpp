@@ -19,8 +19,8 @@ using std::chrono::nanoseconds;
 // A run of datagrams that the kernel hands over as one is no longer than one IP packet.
 constexpr std::size_t kMostCoalesced = 65536;
 
-// One socket gives no more messages in its turn, so that a flooded group does not keep others from
-// being read; fewer where each is a run of many datagrams.
+// Most messages of one socket in its turn, so that a flooded group does not keep others from being
+// read; fewer if each is a run of many datagrams.
 constexpr std::size_t kMostInTurn = 16, kMostRunsInTurn = 1;
 
 }  // namespace
@@ -40,12 +40,13 @@ UdpReceiver::UdpReceiver(const UdpMulticastOptions& options, const Clock& clock,
 
 void UdpReceiver::reserve(bool coalesces) {
   buffer_size_ = coalesces ? kMostCoalesced : max_datagram_;
-  // One more, where a tap receives what waited in a group that is left while all are in use.
+  // One more, because a tap may have to receive the content of a group that is left while all are
+  // in use.
   const std::size_t most = batch_ + (tap_.is_on() ? 1 : 0);
   buffers_ = std::make_unique_for_overwrite<std::byte[]>(most * buffer_size_);
 }
 
-// Takes up to `count` messages of one socket into the buffers behind those in use.
+// Takes up to `count` messages of one socket into the free buffers.
 void UdpReceiver::take(UdpSlot& slot, std::size_t count) noexcept {
   if (!slot.socket.is_open()) return;
   const std::size_t first = arrived_count_;
@@ -69,7 +70,7 @@ void UdpReceiver::take(UdpSlot& slot, std::size_t count) noexcept {
   if (static_cast<std::size_t>(got) < count) slot.empty = now;
 }
 
-// Notes what is in a buffer, as far as it is for us.
+// Records the content of a buffer, if it is for us.
 void UdpReceiver::accept(UdpSlot& slot, std::size_t buffer, nanoseconds now,
                          nanoseconds utc) noexcept {
   const mmsghdr& message = messages_[buffer];
@@ -89,9 +90,9 @@ void UdpReceiver::accept(UdpSlot& slot, std::size_t buffer, nanoseconds now,
   }
 }
 
-// Reads when it arrived, as steady time, how it is to be cut, and how many were dropped before it.
-// A stamp from before the socket was last seen empty is a clock that was set, not a datagram that
-// waited.
+// Reads the arrival time as steady time, the length of the segments, and the number of drops before
+// it. A stamp from before the socket was last seen empty comes from a clock that was set, not from
+// a datagram that waited.
 void UdpReceiver::read_control(UdpSlot& slot, const msghdr& header, nanoseconds utc,
                                Arrived& out) noexcept {
   nanoseconds age{0};
@@ -115,7 +116,7 @@ void UdpReceiver::read_control(UdpSlot& slot, const msghdr& header, nanoseconds 
   if (age >= nanoseconds{0} && age <= longest) out.received -= age;
 }
 
-// Cuts what has arrived into datagrams.
+// Cuts arrived messages into datagrams.
 std::size_t UdpReceiver::hand_over(std::span<Datagram> out, std::size_t delivered) noexcept {
   const std::size_t before = delivered;
   std::size_t octets = 0;
@@ -137,7 +138,7 @@ std::size_t UdpReceiver::hand_over(std::span<Datagram> out, std::size_t delivere
   return delivered;
 }
 
-// `drops` as the kernel has counted them since the socket was opened.
+// @param drops as counted by the kernel since the socket was opened.
 void UdpReceiver::count_drops(UdpSlot& slot, std::uint32_t drops) noexcept {
   const std::uint32_t more = drops - slot.drops_seen;
   slot.drops_seen = drops;
@@ -145,7 +146,7 @@ void UdpReceiver::count_drops(UdpSlot& slot, std::uint32_t drops) noexcept {
   tap_.note_drops(slot.group, more);
 }
 
-// What is left of it is not handed up; a tap receives why.
+// Discards the rest of a run; a tap receives the reason.
 void UdpReceiver::pass_over(Arrived& run, const std::byte* start, DatagramFate fate) noexcept {
   for (; tap_.is_on() && run.left > 0; --run.left) {
     const std::size_t length = std::min(run.segment, run.length - run.taken);
@@ -166,7 +167,7 @@ void UdpReceiver::forget(const GroupAddress& group) noexcept {
 void UdpReceiver::settle(UdpSlot& slot) noexcept {
   if (!slot.socket.is_open()) return;
   recycle();
-  const std::size_t held = arrived_count_;  // of other groups, not handed up yet
+  const std::size_t held = arrived_count_;  // of other groups, not returned yet
   for (bool more = tap_.is_on() && held < arrived_.size(); more;) {
     take(slot, 1);
     more = arrived_count_ > held;

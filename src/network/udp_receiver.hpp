@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a UdpMulticast receives: messages of the kernel become datagrams. Private to the network.
+// The receiving part of a UdpMulticast: messages of the kernel become datagrams. Private to the
+// network.
 #pragma once
 
 #include <netinet/in.h>
@@ -25,51 +26,52 @@
 
 namespace reckon::peer {
 
-/// Buffers that messages are read into, and cut into datagrams. What is handed up stays as it is
-/// until recycle(). The reading thread's; allocates in reserve() alone.
+/// Buffers into which messages are read, and from which they are cut into datagrams. Returned
+/// datagrams are valid until recycle(). For the reading thread; only reserve() allocates.
 class UdpReceiver {
  public:
   using nanoseconds = std::chrono::nanoseconds;
 
-  /// References outlive this; of the options batch, max_datagram and deliver_own are used.
+  /// References outlive this; of the options, batch, max_datagram and deliver_own are used.
   UdpReceiver(const UdpMulticastOptions& options, const Clock& clock, const UdpReadiness& ready,
               const LocalEndpoint& local, LinkTap& tap, EchoWatch& echo, LinkCounters& counts);
 
-  /// Makes the buffers; before the first read. @param coalesces messages may be runs of datagrams
+  /// Allocates the buffers; before the first read.
+  /// @param coalesces messages may be runs of datagrams
   void reserve(bool coalesces);
 
-  /// A turn of one socket: reads `most` messages or what one turn allows, and hands their datagrams
-  /// up behind the `delivered` that `out` has. @returns how many it has then
+  /// A turn of one socket: reads `most` messages or the limit of one turn, and appends their
+  /// datagrams to the `delivered` ones in `out`. @returns their new number
   std::size_t take_turn(UdpSlot& slot, std::span<Datagram> out, std::size_t delivered,
                         std::size_t most) noexcept;
-  /// Hands up what has been read; @returns as take_turn().
+  /// Returns datagrams that were read; @returns as take_turn().
   std::size_t hand_over(std::span<Datagram> out, std::size_t delivered) noexcept;
-  /// Gives the buffers free, where all that is in them was handed up.
+  /// Frees the buffers if all their datagrams were returned.
   void recycle() noexcept {
     if (next_arrived_ == arrived_count_) arrived_count_ = next_arrived_ = 0;
   }
-  /// Messages that have been read since the buffers were free.
+  /// Messages read since the buffers were free.
   [[nodiscard]] std::size_t messages() const noexcept { return arrived_count_; }
   [[nodiscard]] bool is_full() const noexcept { return arrived_count_ == batch_; }
-  /// Whether there are datagrams that were read and not handed up.
+  /// Whether there are datagrams that were read and not returned.
   [[nodiscard]] bool has_arrived() const noexcept;
 
-  /// What a group that is left still has waiting here is not handed up.
+  /// Discards the unreturned datagrams of a group that was left.
   void forget(const GroupAddress& group) noexcept;
-  /// The last look at a socket: what the kernel dropped behind the last datagram, and, for a tap,
-  /// what waits in it, which is not read any more. Nothing where it is closed.
+  /// The last read of a socket: counts the kernel's drops after the last datagram, and for a tap
+  /// the datagrams pending in it, which are not read any more. Does nothing if it is closed.
   void settle(UdpSlot& slot) noexcept;
 
  private:
-  /// A datagram in a buffer, or several that came as one (UDP_GRO), of which some may have been
-  /// handed up.
+  /// A datagram in a buffer, or several that came as one (UDP_GRO), of which some may already be
+  /// returned.
   struct Arrived {
     GroupAddress group;
     IpEndpoint sender;
     nanoseconds received{0};
     std::size_t length{0}, segment{0};  // [octets] of all, and of each but the last
-    std::size_t taken{0};               // [octets] handed up
-    std::size_t left{0};                // datagrams still to be handed up
+    std::size_t taken{0};               // [octets] returned
+    std::size_t left{0};                // datagrams still to be returned
   };
   /// Arrival stamp (timespec), drop count (u32) and length of a segment, each with its header.
   static constexpr std::size_t kControlBytes =
@@ -96,9 +98,9 @@ class UdpReceiver {
   EchoWatch& echo_;
   LinkCounters& counts_;
 
-  std::size_t buffer_size_ = 0;           // [octets] of each; room for a run where those may come
+  std::size_t buffer_size_ = 0;           // [octets] of each; room for a run if there may be any
   std::unique_ptr<std::byte[]> buffers_;  // pages are taken as they are used
-  std::array<Arrived, kMaxBatch> arrived_{};  // what is in each buffer
+  std::array<Arrived, kMaxBatch> arrived_{};  // content of each buffer
   std::size_t arrived_count_ = 0, next_arrived_ = 0;
   std::array<mmsghdr, kMaxBatch> messages_{};
   std::array<iovec, kMaxBatch> vectors_{};

@@ -15,11 +15,11 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// So often the host is looked at while something is amiss, or where the kernel gives no notice.
+// Period of examining the host during a problem, or if the kernel sends no notices.
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(500);
-// An interface that was chosen by rule may be replaced by another after so long.
+// Time after which an interface chosen by rule may be replaced by another.
 constexpr nanoseconds kChooseAnother = std::chrono::seconds(5);
-// IPv6 tries for a second or two whether an address is free; a longer refusal is reported.
+// IPv6 checks for a second or two whether an address is free; a longer refusal is reported.
 constexpr nanoseconds kAddressTried = std::chrono::seconds(3);
 
 }  // namespace
@@ -45,12 +45,12 @@ void UdpRecovery::recover() noexcept {
     if (!away_) look_for_echo(now);
     report_offload();
   } catch (const std::exception& failure) {
-    next_look_ = now + kLookEvery;  // no descriptor or no memory for now: looked at again
+    next_look_ = now + kLookEvery;  // no descriptor or no memory for now: tried again
     if (has_news) report_hindrance(failure.what());  // else refused groups are reported as such
   }
 }
 
-// Sending goes on without it: whoever sends in bulk should know what it costs.
+// Sending goes on without it, but a bulk sender should know the cost.
 void UdpRecovery::report_offload() {
   const int why = link_.sender.segment_refusal();
   if (why == 0 || refusal_reported_) return;
@@ -59,7 +59,8 @@ void UdpRecovery::report_offload() {
          std::generic_category().message(why) + "); each is sent by itself from now on");
 }
 
-// Once, until a look has gone through. Without an allocation: memory may be what is missing.
+// Once, until the host was examined successfully. Without an allocation, because memory may be
+// short.
 void UdpRecovery::report_hindrance(const char* what) noexcept {
   if (std::exchange(hindered_, true)) return;
   std::array<char, sizeof(LinkEvent::text)> text{};
@@ -93,7 +94,7 @@ void UdpRecovery::lose(const InterfaceStanding& standing, nanoseconds now) {
          ": nothing is sent or heard until that is mended; see ip link and ip addr");
 }
 
-// The interface carries us: as before, or under another index or address.
+// The interface can be used: as before, or with another index or address.
 void UdpRecovery::follow(const NetworkInterface& found) {
   const IpEndpoint address = found.address(link_.options.ipv6).value();
   IpEndpoint before = link_.local.value();
@@ -110,7 +111,7 @@ void UdpRecovery::follow(const NetworkInterface& found) {
   const std::uint16_t port = link_.local.value().port;
   if (const std::error_code error = reopen_sender(address)) {
     if (!away_) away_since_ = link_.clock.now();
-    away_ = true;  // as while IPv6 still tries whether the address is free
+    away_ = true;  // for example while IPv6 still checks whether the address is free
     if (link_.clock.now() - away_since_ < kAddressTried) return;
     throw std::system_error(error, "no socket on " + address.address_text());
   }
@@ -128,7 +129,7 @@ void UdpRecovery::follow(const NetworkInterface& found) {
   report(sentence + "; " + groups_text());
 }
 
-// A socket that is bound to the same address only learns the new index.
+// A socket that is bound to the same address only needs the new index.
 std::error_code UdpRecovery::reopen_sender(const IpEndpoint& address) {
   IpEndpoint bound = address;
   bound.port = link_.local.value().port;
@@ -166,7 +167,7 @@ void UdpRecovery::look_for_echo(nanoseconds now) {
 
 void UdpRecovery::report(std::string_view sentence) noexcept {
   LinkEvent* event = events_.claim();
-  if (event == nullptr) return;  // whoever asks lags by 32 of them
+  if (event == nullptr) return;  // the caller lags by 32 events
   event->text = {};
   sentence.copy(event->text.data(), event->text.size() - 1);
   events_.publish();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a UdpMulticast lives on when its interface goes, comes back, or is another one by that name.
-// Private to the network.
+// Keeps a UdpMulticast working when its interface disappears, returns, or is replaced under the
+// same name. Private to the network.
 #pragma once
 
 #include <chrono>
@@ -22,13 +22,13 @@
 
 namespace reckon::peer {
 
-/// Looks at the host's interfaces where something may have changed, opens sockets anew where it
-/// has, and reports that. The reading thread's, but for take_event().
+/// Examines the host's interfaces after a possible change, reopens sockets if needed, and reports
+/// that. For the reading thread, except take_event().
 class UdpRecovery {
  public:
   using nanoseconds = std::chrono::nanoseconds;
 
-  /// What it needs of the link, which outlives this.
+  /// Parts of the link, which outlives this.
   struct Surroundings {
     const UdpMulticastOptions& options;
     const Clock& clock;
@@ -42,11 +42,11 @@ class UdpRecovery {
 
   UdpRecovery(const Surroundings& link, const NetworkInterface& used);
 
-  /// To be called while the reading thread has nothing to read. Some ns where nothing has changed;
-  /// a look at the host costs some 0.2 ms, and allocates.
+  /// Call it while the reading thread has nothing to read. Some ns if nothing has changed;
+  /// examining the host costs some 0.2 ms, and allocates.
   void recover() noexcept;
 
-  /// What was reported since it was asked last, oldest first; one thread, any.
+  /// Takes the reports since the last call, oldest first; one thread, any.
   bool take_event(LinkEvent& event) noexcept { return events_.pop(event); }
 
  private:
@@ -63,8 +63,8 @@ class UdpRecovery {
 
   Surroundings link_;
   NetworkInterface used_;
-  bool away_ = false;              // the interface carries nothing
-  bool hindered_ = false;          // the last look at the host failed, and that is reported
+  bool away_ = false;              // the interface cannot be used
+  bool hindered_ = false;          // the last examination of the host failed, and that is reported
   bool refusal_reported_ = false;  // that the kernel does not cut runs
   nanoseconds away_since_{0};
   nanoseconds next_look_{0};

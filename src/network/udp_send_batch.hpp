@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Many datagrams in one system call: runs of one length to one group become one message that the
-// kernel cuts (UDP_SEGMENT), what is left goes as it is. Private to the peer library.
+// kernel cuts (UDP_SEGMENT); the rest is sent as it is. Private to the peer library.
 #pragma once
 
 #include <netinet/in.h>
@@ -19,19 +19,19 @@ namespace reckon::peer {
 /// Most datagrams of one system call.
 inline constexpr std::size_t kMaxBatch = 64;
 
-/// What UDP_SEGMENT takes at once: segments (kernels before 6.9), and octets of one IPv4 packet.
+/// Limits of UDP_SEGMENT: segments (kernels before 6.9), and octets of one IPv4 packet.
 inline constexpr std::size_t kMostSegments = 64, kMostSegmented = 65507;
 
-/// How many at the front of `batch`, not empty, the kernel can cut from one message: to one
-/// endpoint, of one length that is neither 0 nor above `max_payload`; the last one may be shorter.
-/// 1 where it is to go alone.
+/// Number of datagrams at the front of `batch`, not empty, that the kernel can cut from one
+/// message. They go to one endpoint and have one length that is neither 0 nor above `max_payload`;
+/// the last one may be shorter. 1 if the first one has to be sent alone.
 [[nodiscard]] std::size_t segment_run(std::span<const OutgoingDatagram> batch,
                                       std::size_t max_payload) noexcept;
 
-/// Messages for sendmmsg, and which datagrams each carries. One thread; no allocation.
+/// Messages for sendmmsg, with the datagrams of each. One thread; no allocation.
 class UdpSendBatch {
  public:
-  /// Lays out anew. @param batch up to kMaxBatch, which stay until they are sent
+  /// Plans a new batch.  @param batch up to kMaxBatch, valid until they are sent
   /// @param max_payload of a segment; 0: none are made
   void plan(std::span<const OutgoingDatagram> batch, std::size_t max_payload,
             unsigned interface_index) noexcept;

@@ -19,11 +19,11 @@ using std::chrono::nanoseconds;
 
 constexpr int kFlags = MSG_DONTWAIT | MSG_NOSIGNAL;
 
-// What the kernel charges a waiting datagram besides its octets, roughly.
+// The kernel's approximate charge for a pending datagram besides its octets.
 constexpr std::size_t kChargedMore = 768;
 
-// Why a message that is to be cut is refused, but not each of its datagrams: the kernel, the device
-// or a rule of IPsec cannot cut, or a length is above an MTU that has shrunk.
+// Errors with which a message to be cut is refused, but not its single datagrams: the kernel, the
+// device or an IPsec rule cannot cut, or a length is above an MTU that has shrunk.
 bool is_refusal_to_cut(int error) {
   return error == EINVAL || error == EMSGSIZE || error == EIO || error == EOPNOTSUPP;
 }
@@ -41,7 +41,7 @@ UdpSender::UdpSender(const UdpOutput& output, const Clock& clock, LinkTap& tap, 
       echo_(echo),
       counts_(counts) {}
 
-// Octets that have not left the host, as the kernel charges them. Some 0.1 us.
+// Octets that are still on the host, as the kernel charges them. Some 0.1 us.
 std::size_t UdpSender::queued() const noexcept {
   int octets = 0;
   return ioctl(socket_, SIOCOUTQ, &octets) == 0 ? static_cast<std::size_t>(octets) : 0;
@@ -55,7 +55,7 @@ void UdpSender::count_sent(const OutgoingDatagram& datagram) noexcept {
 }
 
 void UdpSender::count_refused(std::span<const OutgoingDatagram> datagrams, int error) noexcept {
-  // Why before that: another thread may look in between.
+  // The reason before the count, because another thread may read in between.
   counts_.last_send_error.set(static_cast<std::uint64_t>(error));
   if (error == EMSGSIZE) counts_.too_big.add(datagrams.size());
   counts_.send_errors.add(datagrams.size());
@@ -78,13 +78,13 @@ bool UdpSender::send_alone(const OutgoingDatagram& datagram) noexcept {
   return true;
 }
 
-// Leaves out what would wait too long behind what waits already; the rest is in `going_`.
+// Leaves out datagrams that would wait too long behind pending ones; the rest is in `going_`.
 std::size_t UdpSender::choose_going(std::span<const OutgoingDatagram> batch,
                                     std::size_t waiting) noexcept {
   const bool may = pace_.may_send(waiting, waiting > 0 ? clock_.now() : nanoseconds(0));
   std::size_t count = 0, charged = waiting;
   for (const OutgoingDatagram& datagram : batch) {
-    // The first group that was joined is the peers' own business: it goes before states.
+    // The first joined group carries the peers' protocol, which goes before states.
     const bool fits = waiting == 0 || (may && pace_.is_short(charged));
     if (!fits && !echo_.watches(datagram.to)) {
       counts_.held_back.add();
@@ -127,7 +127,7 @@ SentBatch UdpSender::send_going(std::size_t count) noexcept {
   return sent;
 }
 
-// One by one what was not to be cut; where that goes, the socket does not try again.
+// Sends a run that was not cut one by one; if that succeeds, the socket does not try to cut again.
 void UdpSender::send_uncut(std::span<const OutgoingDatagram> run, int why,
                            SentBatch& sent) noexcept {
   const std::size_t before = sent.datagrams;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How a UdpMulticast sends: by one socket, many datagrams in one system call, and no more than the
-// wire takes. Private to the network.
+// The sending part of a UdpMulticast: one socket, many datagrams in one system call, and no more
+// than the wire takes. Private to the network.
 #pragma once
 
 #include <array>
@@ -18,34 +18,34 @@
 
 namespace reckon::peer {
 
-/// By what a UdpSender sends.
+/// Output of a UdpSender.
 struct UdpOutput {
   int socket{-1};               ///< descriptor, whose number never changes
   unsigned interface_index{0};  ///< scope of link-local IPv6
-  std::size_t max_payload{0};   ///< [octets] that go out unfragmented
-  int segment_refusal{0};       ///< errno by which runs are not cut (UDP_SEGMENT); 0: they are
+  std::size_t max_payload{0};   ///< [octets] that are sent unfragmented
+  int segment_refusal{0};       ///< errno of the refusal to cut runs (UDP_SEGMENT); 0: they are cut
 };
 
-/// The writing thread's, except what says otherwise. No allocation.
+/// For the writing thread, unless noted. No allocation.
 class UdpSender {
  public:
   /// References outlive this.
   UdpSender(const UdpOutput& output, const Clock& clock, LinkTap& tap, EchoWatch& echo,
             LinkCounters& counts);
 
-  /// Sends one, by the shorter way; false where it is held back or the kernel refuses it.
+  /// Sends one datagram by the shorter path; false if it is held back or the kernel refuses it.
   bool send(const OutgoingDatagram& datagram) noexcept;
-  /// Sends all in their order; what is held back or refused is left out, and counted.
+  /// Sends all in their order; held back and refused ones are omitted and counted.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept;
 
   [[nodiscard]] std::size_t max_payload() const noexcept { return max_payload_; }
-  /// errno by which the kernel refused to cut runs, 0: it does. Any thread.
+  /// errno with which the kernel refused to cut runs, 0: it cuts them. Any thread.
   [[nodiscard]] int segment_refusal() const noexcept {
     return segment_refusal_.load(std::memory_order_relaxed);
   }
-  /// Of a socket that is new by that number; any thread.
+  /// Of a new socket with that number; any thread.
   void set_segment_refusal(int error) noexcept { segment_refusal_ = error; }
-  /// The interface has another index; any thread.
+  /// Sets another index of the interface; any thread.
   void set_interface(unsigned index) noexcept {
     interface_index_.store(index, std::memory_order_relaxed);
   }

@@ -11,15 +11,15 @@
 
 namespace reckon::peer {
 
-/// A socket with what its reader knows of it. The reading thread's, but for the descriptor of the
-/// unicast socket, by which the writing thread sends.
+/// A socket with the state of its reader. For the reading thread, except for the descriptor of the
+/// unicast socket, with which the writing thread sends.
 struct UdpSlot {
   asio::ip::udp::socket socket;
   GroupAddress group;                 ///< of the unicast socket: the own endpoint
-  std::uint32_t drops_seen{0};        ///< as the kernel has counted them since it was opened
-  std::chrono::nanoseconds empty{0};  ///< when nothing waited in it last
+  std::uint32_t drops_seen{0};        ///< as counted by the kernel since it was opened
+  std::chrono::nanoseconds empty{0};  ///< last time at which it was empty
   bool brings_runs{false};            ///< its last message was several datagrams in one
-  bool first{false};                  ///< it is read before the others
+  bool first{false};                  ///< prioritised
 };
 
 }  // namespace reckon::peer

@@ -39,7 +39,7 @@ udp::endpoint to_asio(const IpEndpoint& endpoint, unsigned interface_index) {
   return out;
 }
 
-// RCVBUFFORCE passes rmem_max where we may; else RCVBUF takes what is allowed, silently.
+// RCVBUFFORCE exceeds rmem_max if permitted; else RCVBUF silently takes what is allowed.
 void set_receive_buffer(udp::socket& socket, std::size_t octets, std::error_code& error) {
   if (error) return;
   const int asked = static_cast<int>(octets);
@@ -48,7 +48,7 @@ void set_receive_buffer(udp::socket& socket, std::size_t octets, std::error_code
   if (refused) set_option(socket, SOL_SOCKET, SO_RCVBUF, asked, error);
 }
 
-// What both kinds of sockets need: room, arrival times, a count of what was dropped, no foreign
+// Options of both kinds of sockets: buffer size, arrival times, a count of drops, no foreign
 // groups.
 void set_receive_options(udp::socket& socket, const UdpSocketOptions& options,
                          std::error_code& error) {
@@ -79,7 +79,7 @@ void set_outgoing_interface(udp::socket& socket, const UdpSocketOptions& options
   set_option(socket, IPPROTO_IP, IP_MULTICAST_IF, request, error);
 }
 
-// The kernel refuses what exceeds the MTU instead of cutting it into fragments.
+// Makes the kernel refuse datagrams above the MTU instead of fragmenting them.
 void forbid_fragments(udp::socket& socket, bool ipv6, std::error_code& error) {
   if (ipv6) {
     set_option(socket, IPPROTO_IPV6, IPV6_MTU_DISCOVER, int{IPV6_PMTUDISC_DO}, error);
@@ -88,7 +88,7 @@ void forbid_fragments(udp::socket& socket, bool ipv6, std::error_code& error) {
   }
 }
 
-// `name_v4` and `name_v6`: the options that join a group, or those that leave it.
+// @param name_v4, name_v6: the options that join a group, or those that leave it.
 void change_membership(udp::socket& socket, const UdpSocketOptions& options,
                        const GroupAddress& group, int name_v4, int name_v6,
                        std::error_code& error) {
@@ -181,8 +181,8 @@ udp::socket open_group(asio::io_context& context, const UdpSocketOptions& option
   set_receive_options(socket, options, error);
   if (!error) socket.set_option(asio::socket_base::reuse_address(true), error);
   if (options.ipv6 || everybody) {
-    // IPv6 matches memberships by address only, a broadcast needs none; the binding keeps other
-    // interfaces out.
+    // IPv6 matches memberships only by address, and a broadcast needs none; the binding excludes
+    // other interfaces.
     const int index = static_cast<int>(options.interface_index);
     set_option(socket, SOL_SOCKET, SO_BINDTOIFINDEX, index, error);
   }
@@ -195,7 +195,7 @@ udp::socket open_group(asio::io_context& context, const UdpSocketOptions& option
 
 void leave_group(udp::socket& socket, const UdpSocketOptions& options,
                  const GroupAddress& group) noexcept {
-  std::error_code ignored;  // of a broadcast address there is no membership
+  std::error_code ignored;  // a broadcast address has no membership
   change_membership(socket, options, group, IP_DROP_MEMBERSHIP, IPV6_LEAVE_GROUP, ignored);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How UDP sockets for multicast are opened here: every option that a default would get wrong.
-// Private to the peer library: no other header includes it.
+// Opens UDP sockets for multicast, with every option whose default would be wrong. Private to the
+// peer library: no other header includes it.
 #pragma once
 
 #include <sys/socket.h>
@@ -15,54 +15,54 @@
 
 namespace reckon::peer {
 
-/// What all sockets of a link share.
+/// Options that all sockets of a link share.
 struct UdpSocketOptions {
   unsigned interface_index{0};
   bool ipv6{false};
   int ttl{1};
-  std::size_t receive_buffer{0};  ///< [octets] asked of SO_RCVBUF
+  std::size_t receive_buffer{0};  ///< [octets] requested for SO_RCVBUF
   bool broadcast{false};          ///< the sending socket may reach broadcast addresses
   bool coalesce{false};           ///< runs of datagrams may come as one (UDP_GRO)
 };
 
-/// An endpoint as the kernel wants it. `interface_index` gives link-local IPv6 its scope.
+/// Converts an endpoint for the kernel. `interface_index` gives link-local IPv6 its scope.
 socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
                       sockaddr_storage& out) noexcept;
-/// And back; unspecified for other families.
+/// The inverse; unspecified for other families.
 [[nodiscard]] IpEndpoint from_sockaddr(const sockaddr_storage& address) noexcept;
 
 /// An error of Asio's own category as one that compares equal to std::errc.
 [[nodiscard]] std::error_code generic(const std::error_code& error) noexcept;
 
 /// The sending socket, bound to `local` (port 0 = a free one): outgoing interface, TTL, loopback
-/// on, never fragments. Errors in `error`, as generic() gives them.
+/// on, never fragments. Errors in `error`, as returned by generic().
 [[nodiscard]] asio::ip::udp::socket open_sender(asio::io_context& context,
                                                 const UdpSocketOptions& options,
                                                 const IpEndpoint& local, std::error_code& error);
 
-/// Names the outgoing interface of multicast anew, on a socket that is in use. Any thread.
+/// Sets the outgoing interface of multicast anew, on a socket in use. Any thread.
 [[nodiscard]] std::error_code set_outgoing_interface(asio::ip::udp::socket& socket,
                                                      const UdpSocketOptions& options);
 
-/// A receiving socket bound to `group`, joined on the interface, blind to groups of others.
+/// A receiving socket bound to `group`, joined on the interface, without datagrams of other groups.
 [[nodiscard]] asio::ip::udp::socket open_group(asio::io_context& context,
                                                const UdpSocketOptions& options,
                                                const GroupAddress& group, std::error_code& error);
 
-/// Ends the membership: from then on nothing more comes, and what waits can still be read.
+/// Ends the membership: nothing more arrives, and pending datagrams can still be read.
 void leave_group(asio::ip::udp::socket& socket, const UdpSocketOptions& options,
                  const GroupAddress& group) noexcept;
 
-/// IP_MTU towards `group` [octets], 0 where the kernel does not tell.
+/// IP_MTU towards `group` [octets], 0 if the kernel does not know it.
 [[nodiscard]] std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
                                    const GroupAddress& group);
 
-/// Whether the kernel hands runs over as one there.
+/// Whether the kernel hands over runs as one there.
 [[nodiscard]] bool coalesces(asio::ip::udp::socket& socket) noexcept;
-/// 0 where the kernel knows how to cut a run (UDP_SEGMENT), else its errno.
+/// 0 if the kernel can cut a run (UDP_SEGMENT), else its errno.
 [[nodiscard]] int segment_error(asio::ip::udp::socket& socket) noexcept;
 
-/// SO_RCVBUF [octets], in the unit in which it is asked for; less where it was capped.
+/// SO_RCVBUF [octets], in the unit of the request; less if it was capped.
 [[nodiscard]] std::size_t receive_buffer_of(asio::ip::udp::socket& socket);
 
 }  // namespace reckon::peer

@@ -18,7 +18,7 @@ using std::chrono::nanoseconds;
 
 udp::socket open_unicast_or_throw(asio::io_context& context, const UdpSocketOptions& options,
                                   const NetworkInterface& interface, std::uint16_t port) {
-  IpEndpoint local = interface.address(options.ipv6).value();  // chosen for having one
+  IpEndpoint local = interface.address(options.ipv6).value();  // chosen because it has one
   local.port = port;
   std::error_code error;
   udp::socket socket = open_sender(context, options, local, error);
@@ -43,7 +43,7 @@ UdpSocketTable::UdpSocketTable(const Surroundings& link, const NetworkInterface&
   take_local_endpoint();
   options_.coalesce = asked.offload && peer::coalesces(slots_[0].socket);
   if (!watch(0)) throw std::system_error(errno, std::generic_category(), "epoll_ctl");
-  if (asked.framed) {  // where all of a list come to
+  if (asked.framed) {  // the destination of all datagrams of a list
     link.tap.note_membership(DatagramFate::joined, slots_[0].group, slots_[0].empty,
                              slots_[0].empty);
   }
@@ -82,7 +82,7 @@ UdpSlot* UdpSocketTable::find(const GroupAddress& group) noexcept {
   return nullptr;
 }
 
-// Keeps an open socket in the slot of a group that was left, else in a new one.
+// Keeps an open socket in the slot of a former group, else in a new one.
 std::error_code UdpSocketTable::adopt(udp::socket socket, const GroupAddress& group) {
   auto slot = std::find_if(slots_.begin() + 1, slots_.end(),
                            [](const UdpSlot& candidate) { return !candidate.socket.is_open(); });
@@ -121,15 +121,15 @@ std::error_code UdpSocketTable::open(const GroupAddress& group) noexcept {
   return error;
 }
 
-// Leaves the group. Where a tap asks for what waits, the membership ends before that is read:
-// closing can wait for the kernel's lock of interfaces, and what came meanwhile would be reported
-// nowhere.
+// Leaves the group. If a tap needs the pending datagrams, the membership ends before they are read:
+// closing can wait for the kernel's lock of interfaces, and datagrams of that time would not be
+// reported.
 void UdpSocketTable::close(UdpSlot& slot) noexcept {
   const nanoseconds asked = link_.clock.now();
   if (link_.tap.is_on()) leave_group(slot.socket, options_, slot.group);
   const nanoseconds left = link_.clock.now();
   link_.receiver.settle(slot);
-  std::error_code ignored;  // closing leaves the group and epoll whatever it says
+  std::error_code ignored;  // closing leaves the group and epoll in any case
   slot.socket.close(ignored);
   link_.tap.note_membership(DatagramFate::left, slot.group, asked, left);
 }

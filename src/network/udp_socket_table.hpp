@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The open sockets of a UdpMulticast: that of unicast, and one of each group that is joined.
-// Private to the network.
+// The open sockets of a UdpMulticast: that of unicast, and one of each joined group. Private to the
+// network.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -25,16 +25,16 @@
 
 namespace reckon::peer {
 
-/// Slots by number, which is the one that UdpReadiness gives. Slot 0 sends and takes unicast, the
-/// others are of groups, open or free. The reading thread's; joining and leaving may allocate.
+/// Slots by number, the same as in UdpReadiness. Slot 0 sends and receives unicast, the others are
+/// of groups, open or free. For the reading thread; joining and leaving may allocate.
 class UdpSocketTable {
  public:
-  /// What it needs of the link, which outlives this.
+  /// Parts of the link, which outlives this.
   struct Surroundings {
     const UdpMulticastOptions& options;
     const Clock& clock;
     UdpReadiness& ready;
-    UdpReceiver& receiver;  ///< reads what waits in a socket that is closed
+    UdpReceiver& receiver;  ///< reads pending datagrams of a closing socket
     LocalEndpoint& local;
     LinkTap& tap;
     EchoWatch& echo;
@@ -51,29 +51,29 @@ class UdpSocketTable {
   std::error_code join(const GroupAddress& group) noexcept;
   void leave(const GroupAddress& group) noexcept;
 
-  /// All groups are left and joined again: a membership belongs to an interface, not to its name.
+  /// Leaves and rejoins all groups: a membership belongs to an interface, not to its name.
   void rejoin();
-  /// Joins what rejoin() could not, as far as it can be by now.
+  /// Joins groups that rejoin() could not, as far as possible by now.
   void join_missing();
-  /// Groups that are joined, and those that were and could not be joined again.
+  /// Joined groups, and those that could not be joined again.
   [[nodiscard]] std::size_t joined() const noexcept;
   [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
 
-  /// All are opened on this interface from now on.
+  /// Opens all further sockets on this interface.
   void set_interface(unsigned index) noexcept { options_.interface_index = index; }
-  /// The unicast socket learns the index of the interface.
+  /// Sets the new index of the interface on the unicast socket.
   [[nodiscard]] std::error_code renew_outgoing_interface();
-  /// The unicast socket is another one, bound to this endpoint, or to another port where that is
-  /// taken. It takes the number of the old one, so that the writing thread never sees none.
+  /// Replaces the unicast socket by one bound to this endpoint, or to another port if that is in
+  /// use. It keeps the number of the old one, so that the writing thread always has a socket.
   [[nodiscard]] std::error_code reopen_unicast(const IpEndpoint& endpoint);
 
-  /// Whether the kernel hands runs of datagrams over as one.
+  /// Whether the kernel hands over runs of datagrams as one.
   [[nodiscard]] bool coalesces() const noexcept { return options_.coalesce; }
-  /// 0 where the kernel knows how to cut a run, else its errno.
+  /// 0 if the kernel can cut a run, else its errno.
   [[nodiscard]] int segment_error() noexcept;
-  /// SO_RCVBUF of the unicast socket [octets], in the unit in which it is asked for.
+  /// SO_RCVBUF of the unicast socket [octets], in the unit of the request.
   [[nodiscard]] std::size_t receive_buffer();
-  /// IP_MTU towards that group [octets], 0 where the kernel does not know.
+  /// IP_MTU towards that group [octets], 0 if the kernel does not know it.
   [[nodiscard]] std::size_t mtu(const GroupAddress& group);
 
  private:
@@ -89,7 +89,7 @@ class UdpSocketTable {
   UdpSocketOptions options_;
   asio::io_context context_{1};  // owns the sockets; its own loop never runs, see docs/transport.md
   std::vector<UdpSlot> slots_;
-  std::vector<GroupAddress> missing_;  // lost with the interface and not back yet
+  std::vector<GroupAddress> missing_;  // lost with the interface and not rejoined yet
 };
 
 }  // namespace reckon::peer

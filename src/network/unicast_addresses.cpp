@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the names of a list become addresses.
+// Resolves the names of a list to addresses.
 #include <netdb.h>
 #include <sys/socket.h>
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [aoim]: cells, groups and who hands them out, and what of it cannot be had with the rest of a
-// file.
+// [aoim]: cells, groups and their assignment, and what of it excludes other parts of a file.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -28,7 +27,7 @@ void check_aoim(TomlReader& table, AoimConfig& config) {
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }
 
-/// Groups of more tiers are as many again as those of the cells.
+/// Each further tier needs as many groups as the cells have.
 void check_pool(TomlReader& file, const SceneFile& scene) {
   const AoimConfig& aoim = scene.aoim;
   if (aoim.all_groups() == aoim.pool) return;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Of [aoim], what a peer is aware of among all that it hears.
+// The part of [aoim] that selects entities among the received ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Section<OccluderConfig> occluder_section() {
           }};
 }
 
-/// The kind of this name, in any case of letters; as many as there are where it is none.
+/// The kind with this name, in upper or lower case; the number of kinds if there is none.
 unsigned kind_of(std::string_view word) {
   const auto equal = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
   unsigned kind = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Names of beacons, by which peers find the cell of an entity wherever it is.
+// Names of beacons, by which peers find the cell of an entity anywhere.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,15 @@
 
 namespace reckon::peer {
 
-/// Beacons that one peer follows at most, and letters of a beacon's name.
+/// Most beacons that one peer follows, and longest name of a beacon.
 inline constexpr std::size_t kMostFollowed = 16, kLongestBeacon = 31;
 
-/// Whether a beacon may have this name: 1 to kLongestBeacon letters of ASCII, digits, '-', '_',
-/// '.'.
+/// Whether a beacon may have this name: 1 to kLongestBeacon ASCII letters, digits, '-', '_', '.'.
 [[nodiscard]] bool is_beacon_name(std::string_view name) noexcept;
 
-/// The names in a list as "gate, ferry"; none where it is empty.
-/// @throws std::invalid_argument, with the name and the remedy, for one that no beacon may have or
-/// that is there twice, and for more than kMostFollowed.
+/// The names in a list such as "gate, ferry"; none if it is empty.
+/// @throws std::invalid_argument with the name and the remedy, for an invalid or repeated name, and
+/// for more than kMostFollowed.
 [[nodiscard]] std::vector<std::string> beacon_names(std::string_view list);
 
 }  // namespace reckon::peer

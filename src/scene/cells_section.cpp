@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Of [aoim], how space is cut where cells are not equal.
+// The part of [aoim] for cells of unequal size.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ Section<LocaleConfig> locale_section() {
       }};
 }
 
-/// The cells that `leaves` names; what is no cell is a problem.
+/// The cells in `leaves`; an invalid one is a problem.
 std::vector<aoim::CellId> named_cells(TomlReader& table, const std::string& leaves) {
   std::vector<aoim::CellId> cells;
   std::istringstream words(leaves);
@@ -86,7 +86,7 @@ std::vector<aoim::CellId> named_cells(TomlReader& table, const std::string& leav
   return cells;
 }
 
-/// Divides the square, once its keys are known to be good.
+/// Divides the square, after its keys were checked.
 void divide(TomlReader& table, AoimConfig& config) {
   QuadTreeConfig& tree = config.quad_tree;
   const bool limited = !config.hand_out && tree.most > config.pool;
@@ -98,13 +98,13 @@ void divide(TomlReader& table, AoimConfig& config) {
   try {
     tree.cells = tree.density.empty() ? named_cells(table, tree.leaves)
                                       : divided_by(config, read_density(tree.density, tree.reach));
-    const aoim::CellPartition made = cells_of(config);  // what one key cannot say
+    const aoim::CellPartition made = cells_of(config);  // checks beyond single keys
   } catch (const std::exception& error) {
     table.problem("quadtree", fmt::format("'quadtree': {}", error.what()));
   }
 }
 
-/// Whether the locales fit together.
+/// Checks that the locales fit together.
 void lay_out(TomlReader& table, const AoimConfig& config) {
   const std::size_t most = config.hand_out ? aoim::kMaximumPool : config.pool;
   if (config.locales.size() > most)
@@ -119,8 +119,7 @@ void lay_out(TomlReader& table, const AoimConfig& config) {
   }
 }
 
-/// Whether the file has this scheme, with the table that belongs to it; one without the other is a
-/// problem.
+/// Whether the file has this scheme and its table; one without the other is a problem.
 bool check_scheme(TomlReader& table, const AoimConfig& config, aoim::CellScheme scheme,
                   std::string_view key) {
   const bool is_it = config.scheme == scheme, has_table = table.has(key);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The ways to couple two ends of a delayed line that a study can choose between. All but the last
-// are there to be compared against: docs/baselines.md tells what each is and where it fails.
+// Couplings of two ends of a delayed line, for studies. All but the last serve only for comparison:
+// docs/baselines.md explains each and where it fails.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace reckon::peer {
 
 enum class CouplingMode : std::uint8_t {
   velocity_exchange,       ///< thesis (4.1): own speed less the other's feeds a local environment
-  effort_flow,             ///< (4.12): flow goes out, effort comes back, both late
+  effort_flow,             ///< (4.12): flow is sent, effort returns, both delayed
   transmission_line,       ///< (4.14): the same as waves of a lossless line
-  gain_cut,                ///< a stiffness so low that the known delay is passive
+  gain_cut,                ///< a stiffness low enough to be passive with the known delay
   passivity_controller,    ///< printed dead reckoning with an energy observer and a damper
-  printed_dead_reckoning,  ///< a received model, each update applied as it comes
+  printed_dead_reckoning,  ///< a received model, each update applied on arrival
   reckon,                  ///< the product: the same model behind the energy port
 };
 
@@ -30,7 +30,7 @@ inline constexpr std::array kCouplingModes{CouplingMode::velocity_exchange,
                                            CouplingMode::printed_dead_reckoning,
                                            CouplingMode::reckon};
 
-/// As scene files and tables have it: "velocity_exchange", .., "reckon".
+/// Name in scene files and tables: "velocity_exchange", .., "reckon".
 [[nodiscard]] constexpr std::string_view name_of(CouplingMode mode) noexcept {
   constexpr std::array<std::string_view, kCouplingModes.size()> kNames{"velocity_exchange",
                                                                        "effort_flow",
@@ -42,7 +42,7 @@ inline constexpr std::array kCouplingModes{CouplingMode::velocity_exchange,
   return kNames[static_cast<std::size_t>(mode)];
 }
 
-/// Nothing where no mode has that name.
+/// Nothing if no mode has that name.
 [[nodiscard]] constexpr std::optional<CouplingMode> coupling_mode(std::string_view name) noexcept {
   for (const CouplingMode mode : kCouplingModes) {
     if (name_of(mode) == name) return mode;

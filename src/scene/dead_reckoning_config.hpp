@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How an owner sends what moves. Filled by scene_file.hpp, and by programs.
+// Settings for sending a moving entity. Filled by scene_file.hpp, and by programs.
 #pragma once
 
 #include <chrono>
@@ -12,15 +12,15 @@
 
 namespace reckon::peer {
 
-/// How far a remote copy may be off before an update is sent.
+/// Tolerated error of a remote copy before an update is sent.
 struct DeadReckoningConfig {
-  /// None: the one that needs the fewest updates, as the motion goes (deadreckon::ModelChoice).
+  /// None: the one that needs the fewest updates for the present motion (deadreckon::ModelChoice).
   std::optional<pdu::DeadReckoningAlgorithm> algorithm;
-  /// [m], [rad], [N], each > 0; raising one sends less and shows more of that error.
+  /// [m], [rad], [N], each > 0; a larger one sends less and shows more of that error.
   deadreckon::Thresholds thresholds = {0.0005, 0.05235987755982989, 0.05};
-  /// Row of kSendRules: how an error of position is held against the threshold.
+  /// Row of kSendRules: how an error of position is compared with the threshold.
   const deadreckon::SendRule* rule = &deadreckon::kDefaultSendRule;
-  /// What peers mean by the acceleration of RVB; all peers of a scene have to agree.
+  /// Meaning of the acceleration of RVB; all peers of a scene must have the same.
   deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);  ///< time-out is 2.4 of these
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sample of where the entities of an exercise are, by which a quad-tree is divided.
+// A sample of the positions of an exercise's entities, by which a quad-tree is divided.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace reckon::peer {
 
-/// More places than these, all together and at one instant, take too long to divide a square by.
+/// Most places in all and at one instant: more would take too long to divide a square.
 inline constexpr std::size_t kMostPlaces = 50'000, kMostAtOnce = 10'000;
 
-/// Reads a CSV table with a header: columns x_m and y_m, or px_m and py_m, in S; t_s too where
-/// there are several instants. Others are ignored, so recorded traffic and tracks will do. Each
-/// place listens within `reach` [m] at its instant.
+/// Reads a CSV table with a header: columns x_m and y_m, or px_m and py_m, in S; also t_s if there
+/// are several instants. Other columns are ignored, so recorded traffic and tracks can be used.
+/// Each place listens within `reach` [m] at its instant.
 /// @throws CsvError "file:line:column: what", with the remedy, also for too many places.
 [[nodiscard]] std::vector<aoim::Demand> read_density(const std::filesystem::path& file,
                                                      double reach);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[entity]]: what a peer owns and no device moves.
+// [[entity]]: an entity that a peer owns and no device moves.
 #include <fmt/format.h>
 
 #include <optional>
@@ -22,7 +22,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr double kJitter = 1.1;  // a heartbeat comes as late as this share of itself
+constexpr double kJitter = 1.1;  // a heartbeat comes after at most this multiple of its period
 
 void check_force_model(TomlReader& table, TouchModel& model) {
   table.require("kind");
@@ -38,7 +38,7 @@ void check_force_model(TomlReader& table, TouchModel& model) {
   }
 }
 
-/// A rule that is named here leaves what the scene's rule looks at behind.
+/// A rule that is given here does not inherit the quantities of the scene's rule.
 void check_own_rule(TomlReader& table, DeadReckoningConfig& config) {
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
     if (config.rule->name == Rule::kName) return;
@@ -49,7 +49,7 @@ void check_own_rule(TomlReader& table, DeadReckoningConfig& config) {
   check_dead_reckoning(table, config);
 }
 
-/// Keys as in [dead_reckoning], without the one that all peers share.
+/// Keys as in [dead_reckoning], except the one that all peers share.
 Section<DeadReckoningConfig> own_dead_reckoning_section() {
   Section<DeadReckoningConfig> section{{}, check_own_rule};
   for (const auto& row : dead_reckoning_section().rows) {
@@ -91,7 +91,7 @@ void read_place(TomlReader& table, const deadreckon::LocalFrame& frame, EntityCo
   }
 }
 
-/// The scene's, as far as an entity that is not felt has no standard of its own.
+/// The scene's settings, unless an entity that is not felt has a default of its own.
 DeadReckoningConfig inherited(const DeadReckoningConfig& scene, const EntityConfig& entity) {
   DeadReckoningConfig config = scene;
   if (entity.model) return config;

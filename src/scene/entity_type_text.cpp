@@ -77,10 +77,10 @@ std::string_view first_words(std::string_view text, std::size_t n) {
   return text.substr(0, end);
 }
 
-/// Kind, domain, country, category by their names, each of the table that those before choose.
+/// Kind, domain, country and category by name, each from the table that the earlier ones select.
 class WordSearch {
  public:
-  /// True where `text` is names from `part` on; fills the parts.
+  /// True if `text` is names from `part` on; fills the parts.
   bool match(std::string_view text, std::size_t part) {
     text = without_blanks(text);
     if (text.empty() && part >= kLeast) return true;
@@ -99,7 +99,7 @@ class WordSearch {
 
   [[nodiscard]] const Parts& parts() const { return parts_; }
 
-  /// What could not be read on, and what may be meant.
+  /// The part that could not be read, and the likely meaning.
   [[nodiscard]] std::string error() const {
     if (stuck_.empty()) return fmt::format("it says no {}", kPartNames[stuck_part_]);
     const std::string hint = nearest();
@@ -141,7 +141,7 @@ class WordSearch {
     }
   }
 
-  /// By as many words as a name has.
+  /// Compares as many words as a name has.
   [[nodiscard]] std::string nearest() const {
     for (std::size_t words = 6; words > 0; --words) {
       std::vector<std::string_view> names;

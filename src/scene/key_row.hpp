@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // One row for each key of a section: its name, the member that it fills, unit, range and sentence.
-// The default is what the struct has when a file says nothing. Private to the scene reader.
+// The default is the struct's initial value. Private to the scene reader.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@
 
 namespace reckon::peer {
 
-/// A value as a file would say it.
+/// A value as written in a file.
 struct Written {
   KeyKind kind;
   std::string text;
@@ -51,7 +51,7 @@ inline Written written(bool value, std::string_view) {
   return {KeyKind::boolean, value ? "true" : "false"};
 }
 
-/// None: what holds then is in the sentence.
+/// None: the sentence states the effect of absence.
 inline Written written(const std::optional<bool>& value, std::string_view) {
   return {KeyKind::boolean, !value ? "" : *value ? "true" : "false"};
 }
@@ -60,7 +60,7 @@ inline Written written(const std::string& value, std::string_view) {
   return {KeyKind::text, value};
 }
 
-/// None is the only default that there is.
+/// None is the only possible default.
 inline Written written(const std::vector<std::string>&, std::string_view) {
   return {KeyKind::texts, ""};
 }
@@ -79,7 +79,7 @@ Written written(const T& value, std::string_view) {
   return {KeyKind::choice, std::string(word_of(value))};
 }
 
-/// What a number may be.
+/// Range of a number.
 struct Range {
   std::string_view unit;
   double least, most;  ///< [unit], inclusive
@@ -91,7 +91,7 @@ constexpr Range within(std::string_view unit, double least, double most) {
   return {unit, least, most, true};
 }
 
-/// The same for a key that itself declares what it measures, so that there is no default.
+/// The same for a key that declares a measured value, and so has no default.
 constexpr Range declared(std::string_view unit, double least, double most) {
   return {unit, least, most, false};
 }
@@ -102,18 +102,18 @@ constexpr auto in(Outer outer, Inner inner) {
   return [=](auto& of) -> auto& { return std::invoke(inner, std::invoke(outer, of)); };
 }
 
-/// Where in its struct a member lies, in octets.
+/// Offset of a member in its struct [octets].
 struct MemberPlace {
   std::size_t offset, size, alignment;
 };
 
-/// What `get` gives of an S: a reference fills it, a value does not.
+/// Result of `get` for an S: a reference is to be filled, a value is not.
 template <class S, class Get>
 using Got = std::invoke_result_t<const Get&, S&>;
 template <class S, class Get>
 using ValueOf = std::remove_cvref_t<Got<S, Get>>;
 
-/// What has to have a range.
+/// Types that must have a range.
 template <class T>
 concept Measured = std::same_as<T, double> || std::same_as<T, std::chrono::nanoseconds> ||
     std::same_as<T, Eigen::Vector3d> ||(std::integral<T> && !std::same_as<T, bool>);
@@ -126,9 +126,9 @@ inline constexpr bool kIsVector<std::vector<T>> = true;
 template <class S>
 struct Section;
 
-/// A key of a section whose values go to an S. `get` is a pointer to the member, or a function of
-/// an S& that returns a reference to what the key fills. Where it returns a value, that is type and
-/// default alone: the section's check reads such a key, for it takes others to do so.
+/// A key of a section whose values fill an S. `get` is a pointer to the member, or a function of an
+/// S& that returns a reference to what the key fills. If it returns a value, that only gives type
+/// and default: the section's check reads such a key, because it depends on others.
 template <class S>
 class Row {
  public:
@@ -139,7 +139,7 @@ class Row {
     set(key, get, range, sentence);
   }
 
-  /// A text, true or false, or one of the words of its type.
+  /// A text, a boolean, or one of the words of its type.
   template <class Get>
   requires(!Measured<ValueOf<S, Get>>)
       Row(std::string_view key, Get get, std::string_view sentence) {
@@ -147,7 +147,7 @@ class Row {
     if constexpr (HasWords<ValueOf<S, Get>>) key_.words = words_of<ValueOf<S, Get>>();
   }
 
-  /// One of the words of its type, or a whole number for what has none.
+  /// One of the words of its type, or a whole number for a value without a word.
   template <class Get>
   requires HasWords<ValueOf<S, Get>> Row(std::string_view key, Get get, const Range& range,
                                          std::string_view sentence) {
@@ -155,7 +155,7 @@ class Row {
     key_.words = words_of<ValueOf<S, Get>>();
   }
 
-  /// A table with the keys `inside`, or where `get` gives a vector any number of them.
+  /// A table with the keys `inside`; if `get` gives a vector, any number of tables.
   template <class Get, class Inner>
   Row(std::string_view key, Get get, const Section<Inner>& inside, std::string_view sentence)
       : inside_(inside.keys(std::string(key))) {
@@ -182,29 +182,29 @@ class Row {
     }
   }
 
-  /// The same key where its sentence, or its section's, tells what holds when it is absent.
+  /// The same key, if its sentence or its section's states the effect of absence.
   [[nodiscard]] Row without_default() const {
     Row row = *this;
     row.key_.standard.clear();
     return row;
   }
 
-  /// The same key where a percentage of another one, a time of the same section, is good too.
+  /// The same key, which also accepts a percentage of another one, a time of the same section.
   [[nodiscard]] Row or_share_of(std::string_view key) const {
     Row row = *this;
     row.key_.share_of = key;
     return row;
   }
 
-  /// Leaves `out` as it is when the key is absent or bad; a bad one becomes a problem.
+  /// Leaves `out` as it is if the key is absent or invalid; an invalid one becomes a problem.
   void read(TomlReader& table, S& out) const {
     if (read_ && table.has(key_.key)) read_(table, out);
   }
 
   [[nodiscard]] const SceneKey& key() const { return key_; }
-  /// The keys of its table; their sections begin with this key.
+  /// The keys of its table; their section names begin with this key.
   [[nodiscard]] const std::vector<SceneKey>& inside() const { return inside_; }
-  /// What the key, or those of its table, fill of an S.
+  /// The members of an S that the key, or those of its table, fill.
   [[nodiscard]] const std::vector<MemberPlace>& places() const { return places_; }
 
  private:
@@ -247,9 +247,9 @@ class Row {
 template <class S>
 struct Section {
   std::vector<Row<S>> rows;
-  /// What one row cannot say, after all have been read; may be null.
+  /// Checks beyond single rows, after all were read; may be null.
   void (*check)(TomlReader& table, S& out) = nullptr;
-  /// Adds keys that stand in a list of their own; may be null.
+  /// Adds keys of a separate list; may be null.
   void (*add_more)(std::vector<SceneKey>& keys) = nullptr;
 
   void read(TomlReader& table, S& out) const {
@@ -270,7 +270,8 @@ struct Section {
     return keys;
   }
 
-  /// What its keys fill of an S, between the begin and the end of S, which have no size.
+  /// The members of an S that its keys fill, between entries of size 0 for the begin and the end of
+  /// S.
   [[nodiscard]] std::vector<MemberPlace> places() const {
     std::vector<MemberPlace> places = {{0, 0, alignof(S)}, {sizeof(S), 0, alignof(S)}};
     for (const Row<S>& row : rows) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whose orders to stop and to go on (Stop/Freeze, Start/Resume) a peer obeys.
+// The senders whose orders to stop and resume (Stop/Freeze, Start/Resume) a peer obeys.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,19 @@
 
 namespace reckon::peer {
 
-/// What `allow_management` of a scene says. A value.
+/// The `allow_management` of a scene. A value.
 class ManagementRule {
  public:
   /// Nobody.
   ManagementRule() = default;
-  /// "nobody", "members" (the other peers of the scene), "anyone", or the numbers of those who may,
-  /// "1:2" or "1:2, 40:1", peers or programs of plain DIS. Nothing where the text is none of these.
+  /// "nobody", "members" (the other peers of the scene), "anyone", or the numbers of permitted
+  /// peers or plain DIS programs, "1:2" or "1:2, 40:1". Nothing if the text is none of these.
   [[nodiscard]] static std::optional<ManagementRule> parse(std::string_view text);
-  /// As parse() takes it.
+  /// The text that parse() reads.
   [[nodiscard]] std::string text() const;
 
-  /// @param originator of the order. @param member a peer of the scene that speaks for itself
+  /// @param originator of the order.
+  /// @param member whether it is a peer of the scene that sends in its own name
   [[nodiscard]] bool allows(const aoim::PeerId& originator, bool member) const noexcept;
 
  private:

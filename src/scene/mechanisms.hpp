@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of what the mechanisms of a peer need of one another, and what they take from one
+// THE list of the conditions that the mechanisms of a peer need, remove and provide for one
 // another. Private to the scene reader.
 #pragma once
 
@@ -15,35 +15,35 @@ namespace reckon::peer {
 
 class TomlReader;
 
-/// What a mechanism counts on. The first ones are there unless a mechanism takes them away, the
-/// last ones where a mechanism gives them.
+/// A condition that a mechanism may need. The first ones hold unless a mechanism removes them, the
+/// last ones hold if a mechanism provides them.
 enum class Condition : unsigned char {
-  own_datagrams,  ///< what plain DIS does not know may be sent
+  own_datagrams,  ///< PDUs unknown to plain DIS may be sent
   many_groups,    ///< there are groups behind the base group
-  fixed_groups,   ///< each cell has the same groups for ever
-  plain_states,   ///< Entity States go out as DIS has them
-  whole_states,   ///< nothing is left out of an Entity State
-  one_stream,     ///< all who listen to a cell receive the same
+  fixed_groups,   ///< the groups of a cell never change
+  plain_states,   ///< Entity States are sent as defined by DIS
+  whole_states,   ///< no part of an Entity State is omitted
+  one_stream,     ///< all listeners of a cell receive the same
   leaders,        ///< cells have leaders
-  group_map,      ///< a map says which cell has which group
+  group_map,      ///< a map assigns groups to cells
 };
 
 /// A mechanism that a scene file can switch on.
 struct Mechanism {
-  std::string_view table, key;  ///< where it is switched on
+  std::string_view table, key;  ///< the key that switches it on
   bool (*is_on)(const SceneFile& scene);
   std::vector<Condition> needs, takes, gives;
   std::string_view value =
-      {};  ///< with which the key switches it on, where others have the key too
-  /// Which of the tables under the key switches it on, from 0; null where the key has none.
+      {};  ///< its value with which the key switches it on, if others use the key too
+  /// Index from 0 of the table under the key that switches it on; null if the key has no tables.
   std::size_t (*row)(const SceneFile& scene) = nullptr;
 };
 
 /// Each mechanism once.
 [[nodiscard]] std::span<const Mechanism> mechanisms();
 
-/// Reports, at the key of each mechanism that is on, what it needs and does not have, with the
-/// remedy.
+/// Reports, at the key of each mechanism that is on, the conditions that it needs and that do not
+/// hold, with the remedy.
 void check_mechanisms(TomlReader& file, const SceneFile& scene);
 
 }  // namespace reckon::peer

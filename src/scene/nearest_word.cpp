@@ -10,7 +10,7 @@
 namespace reckon::peer {
 namespace {
 
-/// Edits (insert, delete, replace, swap of neighbours) from one word to the other. Holds three rows
+/// Edits (insert, delete, replace, swap of neighbours) from one word to the other. Keeps three rows
 /// of their table.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1);
@@ -38,7 +38,7 @@ std::string_view nearest_word(std::string_view typed,
   std::string_view nearest;
   std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
   for (const std::string_view candidate : candidates) {
-    // Words are at least as many edits apart as their lengths differ.
+    // Two words are at least as many edits apart as their lengths differ.
     const auto [shorter, longer] = std::minmax({typed.size(), candidate.size()});
     if (longer - shorter >= least) continue;
     const std::size_t edits = distance(typed, candidate);

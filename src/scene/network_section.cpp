@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [network] and [impairment]: where and how a peer speaks, and what becomes of what it hears.
+// [network] and [impairment]: how a peer sends, and how received datagrams are impaired.
 #include <fmt/format.h>
 
 #include <cstdint>

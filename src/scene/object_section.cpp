@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[object]] and its patches: shapes, effects, and what does not fit together of them.
+// [[object]] and its patches: shapes, effects, and combinations of them that are refused.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -18,12 +18,12 @@
 namespace reckon::peer {
 namespace {
 
-/// The parameters of an effect, by the effect's own table.
+/// The parameters of an effect, from the effect's own table.
 template <class Effect>
 void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Parameters& values) {
   for (const auto& row : Effect::kParameters) table.number(row.key, values.*row.field);
   try {
-    const Effect checked(values);  // what one table row cannot say
+    const Effect checked(values);  // checks beyond single rows
   } catch (const std::invalid_argument& error) {
     owner.problem(Effect::kKey, error.what());
   }
@@ -36,7 +36,7 @@ void read_effect(TomlReader& object_table, haptics::SceneObject& object) {
   if (table) read_parameters<Effect>(object_table, *table, object.effects.declare<Effect>());
 }
 
-/// What a patch does not say is the object's.
+/// A patch inherits the values that it does not give from the object.
 void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
   const Section<haptics::SurfacePatch> section = patch_section();
   std::set<std::string> names;

@@ -23,7 +23,7 @@ deadreckon::ForceModel to_force_model(const HandModel& hand) {
 
 namespace {
 
-/// Whether `type` is one of `pattern`, of which a 0 is any.
+/// Whether `type` matches `pattern`, in which 0 matches any number.
 bool is_of(const pdu::EntityType& type, const pdu::EntityType& pattern) noexcept {
   const auto fits = [](auto value, auto wanted) {
     return wanted == decltype(wanted){} || value == wanted;
@@ -53,7 +53,7 @@ double nimbus_of(const std::vector<NimbusClass>& classes, const pdu::EntityType&
 
 namespace {
 
-/// North, east and down to S; its own inverse.
+/// From north, east and down to S; its own inverse.
 Eigen::Quaterniond from_north_east_down() {
   return {0.0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0.0};
 }

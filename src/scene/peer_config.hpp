@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What configures a peer before it starts: plain structs with the defaults of docs/scene_files.md.
-// scene_file.hpp fills them; nothing here changes once a peer runs.
+// Configuration of a peer before it starts: plain structs with the defaults of docs/scene_files.md.
+// scene_file.hpp fills them; nothing here changes while a peer runs.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,122 +31,123 @@
 
 namespace reckon::peer {
 
-/// Where the scene's tangent frame S (east, north, up) touches the WGS84 ellipsoid.
+/// The point at which the scene's tangent frame S (east, north, up) touches the WGS84 ellipsoid.
 struct OriginConfig {
   double latitude = 0.0;   ///< [rad], -pi/2 .. pi/2
   double longitude = 0.0;  ///< [rad], -pi .. pi
-  double height = 0.0;     ///< [m] over the ellipsoid
+  double height = 0.0;     ///< [m] above the ellipsoid
 };
 
 /// The force model that this peer's own hand shows to others: a sphere that pushes back with
 /// F = k1 d + k3 d^3 - damping * d'.
 struct HandModel {
   double radius = 0.02;         ///< [m] > 0; also the probe radius against remote hands
-  double contact_radius = 0.0;  ///< [m] >= 0, of the ball that its device feels objects with
-  /// [N/m] >= 0; the receiver caps it at what its device can show. By default, with the damper
-  /// beside it, all that a device of defaults holds.
+  double contact_radius = 0.0;  ///< [m] >= 0, of the ball with which its device feels objects
+  /// [N/m] >= 0; the receiver limits it to the stiffness that its device can show. The default,
+  /// with its damper, is the limit of a device of defaults.
   double k1 = 475.0;
   double k3 = 0.0;                ///< [N/m^3] >= 0
   double damping = 0.5;           ///< [N s/m] >= 0
   double static_friction = 0.4;   ///< coefficient >= kinetic_friction; 0 = none
   double kinetic_friction = 0.3;  ///< coefficient >= 0
-  std::chrono::nanoseconds validity = std::chrono::seconds(12);  ///< then the force fades out
+  std::chrono::nanoseconds validity = std::chrono::seconds(12);  ///< the force fades out after this
 };
 
-/// `hand` as the force model that is sent: kind sphere, both points at the body's origin.
+/// `hand` as the force model to send: kind sphere, both points at the body's origin.
 [[nodiscard]] deadreckon::ForceModel to_force_model(const HandModel& hand);
 
-/// What moves a simulated hand.
+/// Motion of a simulated hand.
 enum class OperatorKind : std::uint8_t { passive, trace, sweep };
 
-/// One simulated hand: a spring-damper (the grip) between the device and a target that moves so.
+/// One simulated hand: a spring-damper (the grip) between the device and a moving target.
 struct OperatorConfig {
   OperatorKind kind = OperatorKind::passive;
   std::filesystem::path trace;  ///< kind trace: CSV t_s,px_m,py_m,pz_m; absolute once loaded
-  /// Kind trace: the recording is centred in this box [m] of S and shrunk until it fits; set by
-  /// programs.
+  /// Kind trace: the recording is centred in this box [m] of S and shrunk to fit; set by programs.
   std::optional<Eigen::AlignedBox3d> fit_to = {};
   double speed = 1.0;                 ///< kind trace: 2 plays twice as fast; > 0
-  std::chrono::nanoseconds begin{0};  ///< kind trace: of the recording, where it begins, >= 0
-  /// [m] S, kind trace: where it is at first, beside that point; it goes there until `start`.
+  std::chrono::nanoseconds begin{0};  ///< kind trace: start within the recording, >= 0
+  /// [m] S, kind trace: offset of its first position from the point of `begin`, which it reaches at
+  /// `start`.
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S: passive: held point; trace: added
   Eigen::Vector3d from = Eigen::Vector3d::Zero();      ///< [m] S: sweep: one end
   Eigen::Vector3d to = Eigen::Vector3d::Zero();        ///< [m] S: sweep: the other end
-  std::chrono::nanoseconds period = std::chrono::seconds(2);  ///< sweep: there and back, > 0
-  std::chrono::nanoseconds start{0};                          ///< rests until then, >= 0
+  std::chrono::nanoseconds period = std::chrono::seconds(2);  ///< sweep: time there and back, > 0
+  std::chrono::nanoseconds start{0};                          ///< at rest until then, >= 0
   double stiffness = 300.0;                                   ///< [N/m] of the grip, >= 0
   double damping = 3.0;                                       ///< [N s/m] of the grip, >= 0
 };
 
-/// Which way something is turned, as DIS means it. [rad]
+/// Orientation as defined by DIS [rad].
 struct Attitude {
   double heading = 0.0;  ///< clockwise from north, seen from above
-  double pitch = 0.0;    ///< nose up
-  double roll = 0.0;     ///< right side down
+  double pitch = 0.0;    ///< nose up positive
+  double roll = 0.0;     ///< right side down positive
 };
 
 /// Unit quaternion, body (x forward, y right, z down) to S (x east, y north, z up).
 [[nodiscard]] Eigen::Quaterniond orientation_of(const Attitude& attitude) noexcept;
-/// The same for the axes of a device (x right, y forward, z up): all zero is no turn.
+/// The same for the axes of a device (x right, y forward, z up): all zero is the identity.
 [[nodiscard]] Eigen::Quaterniond device_orientation_of(const Attitude& attitude) noexcept;
 
 /// An entity that a peer owns and no device moves: a vehicle, a post, a robot's tip.
 struct EntityConfig {
   std::uint32_t peer = 1;  ///< number of the peer that owns it, from 1; others only see it
   std::string marking;     ///< at most 11 ASCII characters
-  pdu::EntityType type{};  ///< of which SISO-REF-010 is the list
+  pdu::EntityType type{};  ///< numbers of SISO-REF-010
   pdu::ForceId force_id = pdu::ForceId::other;
-  std::uint32_t appearance = 0;    ///< as on the wire; deactivated and frozen are set by the peer
+  std::uint32_t appearance = 0;    ///< as on the wire; the peer sets deactivated and frozen
   std::uint32_t capabilities = 0;  ///< as on the wire
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S; with a track: added to it
   /// Body (forward, right, down) to S; level, its nose to the north.
   Eigen::Quaterniond orientation = orientation_of({});
-  std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: it stands
+  std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: at rest
   double speed = 1.0;           ///< of the track: 2 plays twice as fast; > 0
-  std::optional<bool> repeat;   ///< of the track; none: where its end lies at its begin
-  /// With a track: by its columns of orientation; without such nose ahead, unless hands feel it.
+  std::optional<bool> repeat;   ///< of the track; none: true if its end lies at its begin
+  /// With a track: whether it turns, by the track's columns of orientation. Without such columns
+  /// its nose points ahead, unless hands feel it.
   bool turns = true;
-  DeadReckoningConfig dead_reckoning;           ///< as docs/scene_files.md, [[entity]] says
+  DeadReckoningConfig dead_reckoning;           ///< as in docs/scene_files.md, [[entity]]
   std::optional<deadreckon::ForceModel> model;  ///< what hands feel of it, body axes
-  double power = 0.05;  ///< [W] >= 0 that a moving one may give to the hands it pushes
+  double power = 0.05;  ///< [W] >= 0 that it may give to the hands it pushes, while it moves
   std::string beacon;   ///< name by which others find its cell; empty: none
 };
 
 /// A simulated haptic device of one peer, and the hand that it moves.
 struct DeviceConfig {
-  std::uint32_t peer = 1;             ///< number of the peer it stands at, from 1
-  std::uint32_t operator_number = 1;  ///< which [[operator]] holds it, from 1
+  std::uint32_t peer = 1;             ///< number of its peer, from 1
+  std::uint32_t operator_number = 1;  ///< number of the [[operator]] that holds it, from 1
   std::string marking;                ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
   double max_force = 10.0;                                          ///< [N] > 0
-  double damping = 1.0;        ///< [N s/m] >= 0, physical, sure
-  double max_stiffness = 0.0;  ///< [N/m]; 0: as much as its damping allows
-  double max_speed = 2.0;      ///< [m/s] > 0; faster readings cut the force
-  /// [N/s], fastest growth and turning of its force; 0: as haptics::ServoConfig has it.
+  double damping = 1.0;        ///< [N s/m] >= 0, guaranteed physical damping
+  double max_stiffness = 0.0;  ///< [N/m]; 0: the limit by its damping
+  double max_speed = 2.0;      ///< [m/s] > 0; a faster reading switches the force off
+  /// [N/s], fastest change of its force in size and direction; 0: as in haptics::ServoConfig.
   double max_force_rate = 0.0;
-  double received_power = 0.2;  ///< [W] > 0, most that others put into its hand, on average
+  double received_power = 0.2;  ///< [W] > 0, largest average power that others put into its hand
   double resolution = 0.0;      ///< [m] >= 0, step of its position sensors; 0: exact
   int delay_samples = 0;        ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
 };
 
-/// What the shown pose of a remote entity follows.
+/// Basis of the shown pose of a remote entity.
 enum class Prediction : std::uint8_t {
   as_sent,  ///< the model of its last update
   adaptive  ///< the extrapolator that predicted its last updates best
 };
 
-/// How remote entities are shown. The servo always has the model as sent.
+/// How remote entities are shown. The servo always uses the model as sent.
 struct ConvergenceConfig {
   deadreckon::ConvergenceSettings settings;
   Prediction prediction = Prediction::as_sent;
 };
 
-/// How far entities of one type make themselves felt beyond themselves.
+/// Range at which entities of one type can be sensed beyond themselves.
 struct NimbusClass {
-  pdu::EntityType type{};  ///< of which a 0 is any
+  pdu::EntityType type{};  ///< 0 matches any number
   double nimbus = 0.0;     ///< [m] >= 0
 };
 
@@ -155,33 +156,33 @@ struct OccluderConfig {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< corners [m]
 };
 
-/// Of whom this peer is aware among those whom it hears, and how much it can take of them.
+/// Selection among the received entities, and the budget for their updates.
 struct AwarenessConfig {
-  double budget = 0.0;  ///< [B/s] that this peer can take of updates; 0: any number
+  double budget = 0.0;  ///< [B/s] of updates that this peer can take; 0: unlimited
   std::string kinds;    ///< wanted, as written; empty: all
   std::uint32_t kinds_wanted = 0xFFFFFFFFU;  ///< bit k: kind k
   double aura = 0.0;                         ///< [m]; 0: no bound
-  std::vector<NimbusClass> nimbus;           ///< the first one that fits holds
+  std::vector<NimbusClass> nimbus;           ///< the first match applies
   std::vector<OccluderConfig> occluders;
 };
 
-/// A square, quartered again and again where many are. A fact of the scene.
+/// A square, quartered repeatedly where there are many entities. A fact of the scene.
 struct QuadTreeConfig {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the square [m] S; z plays no part
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the square [m] S; z has no effect
   double side = 1000.0;                              ///< of the square [m] > 0
   double smallest = 10.0;                            ///< no cell has a shorter side [m] > 0
   std::uint32_t most = 0;           ///< cells; 0: as many as can have a group or a number
   std::filesystem::path density;    ///< see read_density(); absolute once loaded; empty: `leaves`
-  double reach = 0.0;               ///< [m] that those of the sample sense, > 0 with `density`
+  double reach = 0.0;               ///< [m] range of the entities of the sample, > 0 with `density`
   std::string leaves;               ///< as written
-  std::vector<aoim::CellId> cells;  ///< what either comes to; see aoim::QuadTree::of_cells
+  std::vector<aoim::CellId> cells;  ///< result of either; see aoim::QuadTree::of_cells
 };
 
-/// A piece of the world with a frame of its own, e.g. a room. A fact of the scene.
+/// A part of the world with its own frame, for example a room. A fact of the scene.
 struct LocaleConfig {
   std::string name;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of its frame, its middle [m] S
-  double yaw = 0.0;                                  ///< of its x axis, from S's x axis [rad]
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of its frame, the centre [m] S
+  double yaw = 0.0;                                  ///< from S's x axis to its x axis [rad]
   Eigen::Vector3d size = Eigen::Vector3d::Zero();    ///< [m] > 0 along its axes; z 0: any height
   std::string neighbours;                            ///< names, as written
 };
@@ -192,18 +193,19 @@ struct AoimConfig {
   double cell = 1.0;  ///< [m] > 0: side of a square, or corner radius of a hexagon
   QuadTreeConfig quad_tree;
   std::vector<LocaleConfig> locales;
-  double radius = 2.0;  ///< [m] > 0: how far this peer senses; joins here, leaves at 1.1 of it
+  double radius = 2.0;  ///< [m] > 0: range of this peer; joins within it, leaves beyond 1.1 of it
   std::uint32_t pool = aoim::kDefaultPool;  ///< groups; see aoim::is_pool
-  /// Groups of the pool joined at once, 1 .. aoim::kMaximumPool; what is beyond is not heard.
+  /// Most groups of the pool joined at once, 1 .. aoim::kMaximumPool; groups beyond that are not
+  /// received.
   std::uint32_t groups = aoim::kMaximumPool;
-  bool leaders = false;  ///< each cell has a leader, which tells late comers; all peers alike
-  /// Cells get groups of the pool from who leads the scene, not by the fixed tile; all peers alike.
+  bool leaders = false;  ///< each cell has a leader, which serves newcomers; the same at all peers
+  /// The leader of the scene assigns groups of the pool to cells, instead of the fixed tile; the
+  /// same at all peers.
   bool hand_out = false;
-  Tiers tiers;         ///< all peers alike
-  std::string follow;  ///< names of beacons whose cells are listened to; see beacon_names
+  Tiers tiers;         ///< the same at all peers
+  std::string follow;  ///< names of beacons whose cells are subscribed to; see beacon_names
   AwarenessConfig awareness;
-  /// Groups behind the base group: those of the pool, and as many for each tier that has groups of
-  /// its own.
+  /// Groups behind the base group: those of the pool, and as many for each tier with own groups.
   [[nodiscard]] std::size_t all_groups() const noexcept {
     return pool * (1 + own_group_count(tiers) + (has_touch_tier(tiers) ? 1 : 0));
   }
@@ -213,51 +215,52 @@ struct AoimConfig {
 [[nodiscard]] double nimbus_of(const std::vector<NimbusClass>& classes,
                                const pdu::EntityType& type) noexcept;
 
-/// How long updates wait for company: time-out, quorum or both (hybrid). What is new or felt never
-/// waits.
+/// How long updates wait for a bundle: time-out, quorum or both (hybrid). New and felt updates
+/// never wait.
 struct BundlePolicy {
-  /// The time-out: a pose waits so long, 0 .. 1 s; with a quorum the longest leaves that alone.
+  /// The time-out: a pose waits this long, 0 .. 1 s; with a quorum, the longest time-out leaves
+  /// only the quorum.
   std::chrono::nanoseconds hold{0};
-  std::uint32_t updates = 0;  ///< the quorum: so many leave together; 0 = by size alone
+  std::uint32_t updates = 0;  ///< the quorum: this many are sent together; 0 = by size alone
 };
 
 /// The policy of the entities of one type.
 struct BundleClass {
-  pdu::EntityType type{};  ///< of which a 0 is any
+  pdu::EntityType type{};  ///< 0 matches any number
   BundlePolicy policy;
 };
 
-/// Where and how this peer speaks.
+/// Address and manner of sending.
 struct NetworkConfig {
   GroupAddress group = GroupAddress::v4(0xEFC00100, 3000);  ///< base group; the pool follows it
   bool interop = false;           ///< plain DIS to the base group, no Reckon trailer
   std::uint8_t exercise = 1;      ///< DIS exercise ID
-  bool exercise_named = false;    ///< whether the file says so; set by the reader
+  bool exercise_named = false;    ///< whether the file gives it; set by the reader
   std::uint8_t ttl = 1;           ///< hops; 1 = this LAN
   std::size_t bundle_max = 1288;  ///< [octets] of a datagram's payload
   /// [1/s] datagrams in one group, from all peers; the receive buffer holds 50 ms of them.
   std::size_t rate = 20'000;
-  bool offload = true;  ///< runs of datagrams are cut and gathered by the kernel, where it can
-  BundlePolicy bundle;  ///< of what is of none of the classes
-  std::vector<BundleClass> bundle_classes;  ///< the first one that fits holds
-  /// Form that Entity States go out in; the peers of a scene agree on it.
+  bool offload = true;  ///< the kernel cuts and gathers runs of datagrams, if it can
+  BundlePolicy bundle;  ///< of updates that match no class
+  std::vector<BundleClass> bundle_classes;  ///< the first match applies
+  /// Form of sent Entity States; the peers of a scene must have the same.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
-  /// Where there is no multicast: to whom each datagram goes, see FanOutLink; empty: to groups.
+  /// Recipients of each datagram without multicast, see FanOutLink; empty: groups.
   std::vector<NamedPeer> peers;
-  /// [octets] that what is kept of the entities of plain DIS programs takes at most
+  /// Most memory [octets] for the entities of plain DIS programs
   std::size_t strangers_memory = std::size_t{32} << 20;
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
-  TouchRule touch;            ///< whose bodies are felt
+  TouchRule touch;            ///< which force models are felt
 };
 
 /// The policy of the entities of this type. Some ns for each class.
 [[nodiscard]] const BundlePolicy& bundle_policy_of(const NetworkConfig& network,
                                                    const pdu::EntityType& type) noexcept;
 
-/// How hands are coupled in a study of this scene. Peers have one way alone, the default.
+/// Coupling of hands in a study of this scene. Peers always use the default.
 struct CouplingConfig {
   CouplingMode mode = CouplingMode::reckon;
 };

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of keys that scene files had once, and what stands for them now. Private to the scene
-// reader.
+// THE list of former keys of scene files with their replacements. Private to the scene reader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -12,10 +11,10 @@
 
 namespace reckon::peer {
 
-/// A key that is refused with what to write in its place.
+/// A key that is refused with its replacement.
 struct RenamedKey {
   std::string_view section, key;  ///< as in scene_keys()
-  /// @param table the one that has the key
+  /// @param table the table that has the key
   std::string (*sentence)(const toml::table& table);
 };
 

@@ -56,7 +56,7 @@ std::string read_bytes(const fs::path& path) {
   return bytes;
 }
 
-/// A rule and the quantities that it alone looks at belong together.
+/// A rule and the quantities that it alone uses must appear together.
 template <class Rule>
 void check_rule(TomlReader& table, const DeadReckoningConfig& config) {
   const auto& values = config.thresholds.of<Rule>();

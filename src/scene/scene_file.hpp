@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Scene files: TOML in, plain structs out. Every unknown key, wrong unit and value out of range is
-// refused with its place and its remedy. The keys are listed in docs/scene_files.md.
+// Scene files: TOML in, plain structs out. Unknown keys, wrong units and values out of range are
+// refused with place and remedy. docs/scene_files.md lists the keys.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +32,9 @@ struct SceneFile {
   NetworkConfig network;
   ImpairmentConfig impairment;
   CouplingConfig coupling;
-  /// What peers must share to meet: origin, objects with the content of their meshes, effects,
-  /// cells and pool, the reading of accelerations. Comments, order of keys, units and what is each
-  /// peer's own do not change it.
+  /// Hash of what peers must share: origin, objects with the content of their meshes, effects,
+  /// cells and pool, the reading of accelerations. Comments, order of keys, units and settings of a
+  /// single peer do not change it.
   std::uint64_t hash = 0;
 };
 
@@ -42,7 +42,7 @@ struct SceneFile {
 struct SceneProblem {
   std::uint32_t line = 0;    ///< from 1; 0 = the file as a whole
   std::uint32_t column = 0;  ///< from 1, in code points
-  std::string sentence;      ///< what is wrong and what to do
+  std::string sentence;      ///< error and remedy
 };
 
 /// A scene file that cannot be used; what() has one line `FILE:LINE:COLUMN: sentence` per problem.
@@ -59,12 +59,12 @@ class SceneFileError : public std::runtime_error {
 /// Reads the scene at `path`. Set-up code: allocates and throws SceneFileError with all problems.
 [[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path);
 
-/// The same for text; `file` names it in messages and relative paths start at `folder`.
+/// The same for text; `file` is its name in messages, and relative paths start at `folder`.
 [[nodiscard]] SceneFile parse_scene_file(std::string_view text, const std::string& file,
                                          const std::filesystem::path& folder = ".");
 
-/// For whoever renders to hands: baselines are for studies of simulated devices and have no way to
-/// any other. @throws SceneFileError with the remedy where the scene is to be coupled by one
+/// For programs that render to hands: baselines are only for studies of simulated devices.
+/// @throws SceneFileError with the remedy if the scene selects a baseline
 void refuse_baseline(const SceneFile& scene);
 
 /// The hash of a scene that was changed or made in code; load_scene_file calls it.

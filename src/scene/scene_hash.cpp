@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The hash by which peers find out whether they are in the same world.
+// The hash by which peers compare their worlds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace reckon::peer {
 namespace {
 
-/// FNV-1a, 64 bits: no secret, the same on every host.
+/// FNV-1a, 64 bits: not secret, the same on every host.
 class Hash {
  public:
   void bytes(std::string_view text) {
@@ -28,7 +28,7 @@ class Hash {
     }
   }
 
-  /// One named fact. Its end is marked, so that "ab" "c" and "a" "bc" differ.
+  /// One named fact. A mark ends it, so that "ab" "c" and "a" "bc" differ.
   void fact(std::string_view name, std::string_view value) {
     bytes(name);
     bytes({"\0", 1});
@@ -91,7 +91,8 @@ void add(Hash& hash, const haptics::EllipsoidShape& ellipsoid) {
   hash.fact("ellipsoid", ellipsoid.semi_axes);
 }
 
-/// As a matrix, for a quaternion and its negative are the same orientation; 1e-9 is beyond meaning.
+/// As a matrix, because a quaternion and its negative are the same orientation; below 1e-9
+/// differences mean nothing.
 void add(Hash& hash, const Eigen::Quaterniond& orientation) {
   const Eigen::Matrix3d rotation = orientation.normalized().toRotationMatrix();
   for (const double entry : rotation.reshaped()) {
@@ -121,7 +122,7 @@ void add_effect(Hash& hash, const haptics::SceneObject& object) {
   if (values != nullptr) add_values<Effect>(hash, *values);
 }
 
-/// In the order of their names: the order in a file means nothing.
+/// In the order of their names, because the order in a file means nothing.
 void add_patches(Hash& hash, std::vector<haptics::SurfacePatch> patches) {
   std::ranges::sort(patches, {}, &haptics::SurfacePatch::name);
   for (const haptics::SurfacePatch& patch : patches) {
@@ -131,7 +132,7 @@ void add_patches(Hash& hash, std::vector<haptics::SurfacePatch> patches) {
   }
 }
 
-/// Of equal cells their size; of others what lies where, however that was said.
+/// For equal cells their size; for others the resulting cells, independent of their spelling.
 void add_cells(Hash& hash, const AoimConfig& aoim) {
   const auto cells = uneven_cells(aoim);
   if (!cells) hash.fact("cell", aoim.cell);
@@ -152,7 +153,7 @@ void add_cells(Hash& hash, const AoimConfig& aoim) {
   }
 }
 
-/// Who receives by a group of its own, and how well: the groups follow from the rows.
+/// The tiers with own groups and their accuracy: the groups follow from the rows.
 void add_own_groups(Hash& hash, const Tiers& tiers) {
   hash.fact("near_groups", "true");
   for (const aoim::Channel& row : channels_of(tiers)) {
@@ -183,7 +184,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   add_cells(hash, file.aoim);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
   if (has_distance_tiers(file.aoim.tiers)) hash.fact("channels", "by distance");
-  // The usual reading is no fact: scenes that say nothing of it keep their hash.
+  // The usual reading is no fact, so that scenes without it keep their hash.
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
     hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A scene file by value, for headers that need not know what is in one.
+// A scene file by value, for headers that need not include its contents.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@ namespace reckon::peer {
 
 struct SceneFile;
 
-/// Holds a whole SceneFile; copies copy it. Never empty but when moved from. Include scene_file.hpp
-/// to look into it.
+/// Holds a whole SceneFile; a copy copies it. Empty only after a move. Include scene_file.hpp to
+/// access it.
 class SceneHolder {
  public:
   SceneHolder();  ///< a scene of defaults

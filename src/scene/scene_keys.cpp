@@ -27,7 +27,7 @@ SceneKey number(std::string section, std::string key, std::string unit, double l
           std::move(standard), std::move(sentence)};
 }
 
-/// "Higher sticks longer." as the other rows are written.
+/// Formats "Higher sticks longer." like the other rows.
 std::string as_row(std::string_view sentence) {
   std::string row(sentence);
   if (row.ends_with('.')) row.pop_back();
@@ -45,7 +45,7 @@ void add_effect_table(Keys& keys, const std::string& section) {
                        fmt::format("the effect {}; costs {}", Effect::kName, Effect::kCost)));
 }
 
-/// @param standard whether a default holds where a key is absent
+/// @param standard whether a default applies if a key is absent
 template <class Effect>
 void add_effect_keys(Keys& keys, const std::string& section, bool standard) {
   for (const auto& row : Effect::kParameters) {
@@ -75,7 +75,7 @@ void add_patch_effects(Keys& keys) {
 
 namespace {
 
-/// "1 mm to 1 m", or nothing where there is no range to tell.
+/// "1 mm to 1 m", or nothing if there is no range to state.
 std::string range_of(const SceneKey& key) {
   if (key.kind == KeyKind::integer || (key.kind == KeyKind::choice && key.most > 0))
     return fmt::format("{:.0f} to {:.0f}", key.least, key.most);

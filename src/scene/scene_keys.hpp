@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of what a scene file may say. The reader refuses what is not in it, takes units and
+// THE list of the keys of a scene file. The reader refuses keys that are not in it, takes units and
 // ranges from it, and docs/scene_files.md is checked against it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace reckon::peer {
 
-/// What the value of a key looks like.
+/// Form of a key's value.
 enum class KeyKind : std::uint8_t {
   number,   ///< 0.5 or "500 mm"
   integer,  ///< 256
@@ -29,20 +29,20 @@ struct SceneKey {
   std::string section;  ///< "" is the file itself; "scene.origin" is [scene] origin = {..}
   std::string key;
   KeyKind kind = KeyKind::number;
-  std::string unit;      ///< SI, as units.hpp names it; empty for plain numbers
-  double least = 0.0;    ///< [unit], inclusive
-  double most = 0.0;     ///< [unit], inclusive
-  std::string standard;  ///< what holds when the key is absent, as written in a file; may be empty
-  std::string sentence;  ///< what it means
+  std::string unit;                          ///< SI, as units.hpp names it; empty for plain numbers
+  double least = 0.0;                        ///< [unit], inclusive
+  double most = 0.0;                         ///< [unit], inclusive
+  std::string standard;                      ///< default as written in a file; may be empty
+  std::string sentence;                      ///< meaning
   std::vector<std::string_view> words = {};  ///< choice: one of them
   /// Another key of the section, a time, of which this one may be a share: "40 %". Empty: none.
   std::string_view share_of = {};
 };
 
-/// The list, with the parameters of all effects in it; made once.
+/// The list, including the parameters of all effects; made once.
 [[nodiscard]] const std::vector<SceneKey>& scene_keys();
 
-/// "[hand]", "[[object]]" or "the file", as a person would name a section.
+/// A section for the user: "[hand]", "[[object]]" or "the file".
 [[nodiscard]] std::string section_name(std::string_view section);
 
 /// "number [m]", "text", "one of square, hexagonal"...

@@ -72,7 +72,7 @@ Section<OperatorConfig> sweep_section() {
   }};
 }
 
-/// The quantities that the rules of sending look at, each by the rule's own table.
+/// The quantities of the rules of sending, from each rule's own table.
 std::vector<Row<DeadReckoningConfig>> rows_of_rules() {
   std::vector<Row<DeadReckoningConfig>> rows;
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The sections of a scene file, and what a row of theirs cannot say. Private to the scene reader.
+// The sections of a scene file, and their checks beyond single rows. Private to the scene reader.
 #pragma once
 
 #include <numbers>
@@ -14,14 +14,14 @@
 
 namespace reckon::peer {
 
-/// What the keys of an entity's force model start from: those of [hand], of no kind yet.
+/// Initial values of an entity's force model: those of [hand], without a kind.
 struct TouchModel : deadreckon::ForceModel {
   TouchModel() : ForceModel(to_force_model(HandModel{})) { kind = pdu::ForceModelKind::none; }
 };
 
-/// The whole file with all that is in it.
+/// The whole file with all sections.
 [[nodiscard]] const Section<SceneFile>& file_section();
-/// The tables that a file may have any number of.
+/// Tables that a file may have repeatedly.
 [[nodiscard]] Section<haptics::SceneObject> object_section();
 [[nodiscard]] Section<haptics::SurfacePatch> patch_section();
 [[nodiscard]] Section<OperatorConfig> operator_section();
@@ -29,23 +29,23 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] Section<EntityConfig> entity_section();
 [[nodiscard]] Section<TouchModel> force_model_section();
 [[nodiscard]] Section<DeviceConfig> device_section();
-/// Tables with files of their own.
+/// Tables with source files of their own.
 [[nodiscard]] Section<AoimConfig> aoim_section();
 [[nodiscard]] Section<NetworkConfig> network_section();
 [[nodiscard]] Section<ImpairmentConfig> impairment_section();
-/// Tables that stand in others.
+/// Tables inside other tables.
 [[nodiscard]] std::vector<Row<AoimConfig>> awareness_rows();
 [[nodiscard]] std::vector<Row<AoimConfig>> cell_rows();
 [[nodiscard]] Section<TierConfig> tier_section();
 [[nodiscard]] Section<OriginConfig> origin_section();
 [[nodiscard]] Section<DeadReckoningConfig> dead_reckoning_section();
 
-/// What the effects say of themselves.
+/// Adds the keys of the effects.
 void add_effects(std::vector<SceneKey>& keys);
-/// The same of those that a patch may change.
+/// Adds those of the effects that a patch may change.
 void add_patch_effects(std::vector<SceneKey>& keys);
 
-// Each reads what takes more than one key, and tells what does not fit together.
+// Reads what depends on several keys, and reports contradictions.
 void check_file(TomlReader& table, SceneFile& file);
 void check_hand(TomlReader& table, HandModel& hand);
 void check_operator(TomlReader& table, OperatorConfig& config);
@@ -56,26 +56,27 @@ void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_cells(TomlReader& table, AoimConfig& config);
 /// @param aoim the table that has them
 void check_tiers(TomlReader& aoim, const Tiers& tiers);
-/// What of [aoim] cannot be had with the rest of the file.
+/// Reports what of [aoim] excludes other parts of the file.
 void check_aoim_of(TomlReader& file, const SceneFile& scene);
 
-// The tables [[entity]] and [[device]], which take what the file says elsewhere.
+// Reads the tables [[entity]] and [[device]], which use values from elsewhere in the file.
 void read_entities(TomlReader& file, SceneFile& out);
 void read_devices(TomlReader& file, SceneFile& out);
 
-/// Which of `keys` the table has; anything but exactly one is a problem, reported with `what`.
+/// The one of `keys` that the table has; anything but exactly one is a problem, reported with
+/// `what`.
 std::string only_one(TomlReader& table, const std::vector<std::string_view>& keys,
                      std::string_view what);
 /// The key type, by numbers or in words.
 void read_entity_type(TomlReader& table, pdu::EntityType& type);
 /// At most 11 printable ASCII characters; else a problem at the key marking.
 void check_marking(TomlReader& table, const std::string& marking);
-/// The key orientation, three angles about S's axes; none is no turn.
+/// The key orientation, three angles about S's axes; the identity if it is absent.
 [[nodiscard]] Eigen::Quaterniond read_orientation(TomlReader& table);
-/// The keys heading, pitch and roll; nothing where there is none of them.
+/// The keys heading, pitch and roll; nothing if all are absent.
 [[nodiscard]] std::optional<Attitude> read_attitude(TomlReader& table);
 
-/// As far as a local tangent frame makes sense [m].
+/// Largest extent for which a local tangent frame is meaningful [m].
 inline constexpr double kWorld = 1e6;
 
 /// The keys heading, pitch and roll of an S, whose check reads them.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE words of a scene file for what is chosen from a list, one table for each type: the same rows
-// read a word and write it back.
+// THE words of a scene file for values from a list, one table for each type: the same rows read a
+// word and write it.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,18 @@
 
 namespace reckon::peer {
 
-/// One word and what it means.
+/// One word and its value.
 template <class T>
 struct Word {
   std::string_view name;
   T value;
 };
 
-/// The words of T in the order in which messages tell them; a type without words has none.
+/// The words of T in the order of messages; a type without words has none.
 template <class T>
 inline constexpr std::array<Word<T>, 0> kWords{};
 
-/// Also the keys of [[operator]] of which one is wanted.
+/// Also the keys of [[operator]], exactly one of which is required.
 template <>
 inline constexpr auto kWords<OperatorKind> =
     std::to_array<Word<OperatorKind>>({{"trace", OperatorKind::trace},
@@ -111,7 +111,7 @@ inline constexpr auto kWords<CouplingMode> = [] {
   return words;
 }();
 
-/// The names of a list that stands elsewhere; `meaning` gives what one of its rows is chosen for.
+/// The names of a list that is defined elsewhere; `meaning` gives the value for one of its rows.
 template <class T, class List, class Meaning>
 constexpr auto names_as_words(const List& list, Meaning meaning) {
   std::array<Word<T>, std::tuple_size_v<List>> words{};
@@ -134,14 +134,14 @@ inline constexpr auto kWords<deadreckon::ConvergenceCurve> =
 template <class T>
 concept HasWords = !kWords<T>.empty();
 
-/// "rvw", "square"; empty where no word means the value.
+/// "rvw", "square"; empty if the value has no word.
 template <HasWords T>
 [[nodiscard]] constexpr std::string_view word_of(const T& value) {
   const auto row = std::ranges::find(kWords<T>, value, &Word<T>::value);
   return row == kWords<T>.end() ? std::string_view() : row->name;
 }
 
-/// The inverse of word_of(); nothing where no value has the word.
+/// The inverse of word_of(); nothing if no value has the word.
 template <HasWords T>
 [[nodiscard]] constexpr std::optional<T> value_of(std::string_view word) {
   const auto row = std::ranges::find(kWords<T>, word, &Word<T>::name);

@@ -17,7 +17,7 @@ namespace {
 constexpr Range kLength = declared("m", 1e-4, 1e3);
 constexpr Range kRadiusOrTip = declared("m", 0, 1e3);
 
-/// The key by which a shape is said.
+/// The key of a shape.
 template <class S>
 constexpr std::string_view key_of() {
   using namespace haptics;
@@ -28,7 +28,7 @@ constexpr std::string_view key_of() {
   return "part";
 }
 
-/// Whether a solid can be made of it; a problem tells why not.
+/// Whether the values make a solid; if not, a problem states the reason.
 template <class S>
 void try_solid(TomlReader& table, std::string_view key, const S& shape) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a scene file says of implicit solids: cylinder, cone, torus, ellipsoid, and the parts of a
-// solid that is made of several. Private to the scene reader.
+// Implicit solids in a scene file: cylinder, cone, torus, ellipsoid, and the parts of a solid made
+// of several. Private to the scene reader.
 #pragma once
 
 #include <string_view>
@@ -12,7 +12,7 @@
 
 namespace reckon::peer {
 
-/// The shape of an object or of a part, which becomes one of kind S.
+/// The shape of an object or of a part, set to kind S.
 template <class S>
 auto as_shape() {
   return [](auto& owner) -> S& {
@@ -21,7 +21,7 @@ auto as_shape() {
   };
 }
 
-/// A member of that.
+/// A member of that shape.
 template <class S, class T>
 auto of_shape(T S::*member) {
   return [member](auto& owner) -> T& { return as_shape<S>()(owner).*member; };
@@ -32,7 +32,7 @@ auto of_shape(T S::*member) {
 [[nodiscard]] Section<haptics::TorusShape> torus_section();
 [[nodiscard]] Section<haptics::CsgPart> part_section();
 
-/// The keys by which an object and a part both say a shape.
+/// The keys of a shape that objects and parts share.
 template <class Owner>
 [[nodiscard]] std::vector<Row<Owner>> solid_rows() {
   return {
@@ -52,7 +52,7 @@ template <class Owner>
   };
 }
 
-/// What the values of these keys cannot be, but for their ranges.
+/// Checks the values of these keys beyond their ranges.
 void check_solid(TomlReader& table, const haptics::SceneObject& object);
 
 }  // namespace reckon::peer

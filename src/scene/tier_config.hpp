@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The recipient tiers of a scene: who receives an update, how often and how well.
+// The recipient tiers of a scene: the recipients of an update, its rate and its accuracy.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace reckon::peer {
 
-/// What makes a peer a recipient of an entity's updates.
+/// Condition for receiving an entity's updates.
 enum class Recipients : std::uint8_t {
-  touch,    ///< it can touch the entity: what is felt goes by a group of its own of each cell
+  touch,    ///< it can touch the entity: felt updates use a separate group of each cell
   distance  ///< it is within a distance of the entity
 };
 
@@ -23,27 +23,27 @@ enum class Recipients : std::uint8_t {
 struct TierConfig {
   Recipients to = Recipients::distance;
   aoim::Channel channel;   ///< of a tier by distance
-  bool own_group = false;  ///< of a tier by distance: it has a group of its own of each cell
+  bool own_group = false;  ///< of a tier by distance: it has a separate group of each cell
 };
 
-/// The tiers of a scene, inmost first: at most one of touch, which is the first, then those by
-/// distance. None: everything goes to all. For set-up: the functions below may allocate.
+/// The tiers of a scene, innermost first: at most one of touch, which is the first, then those by
+/// distance. None: all peers receive everything. For set-up: the functions below may allocate.
 using Tiers = std::vector<TierConfig>;
 
 [[nodiscard]] bool has_touch_tier(const Tiers& tiers) noexcept;
 [[nodiscard]] bool has_distance_tiers(const Tiers& tiers) noexcept;
 /// The rows by distance, the nearest first.
 [[nodiscard]] std::vector<aoim::Channel> channels_of(const Tiers& tiers);
-/// Why the tier at this place can have no group of its own; empty where it can have one.
+/// Reason why the tier at this place cannot have its own group; empty if it can.
 [[nodiscard]] std::string own_group_refusal(const Tiers& tiers, std::size_t place);
-/// Tiers by distance that have groups of their own.
+/// Tiers by distance that have their own groups.
 [[nodiscard]] std::size_t own_group_count(const Tiers& tiers) noexcept;
 
-/// Tiers by distance of these rows.
-/// @param own_groups whether those that can have one have a group of their own
+/// Tiers by distance from these rows.
+/// @param own_groups whether each tier that can have its own group has one
 [[nodiscard]] Tiers distance_tiers(std::span<const aoim::Channel> rows, bool own_groups = false);
 
-/// The rows of [[aoim.tier]] that say these tiers, each line with its end.
+/// The rows of [[aoim.tier]] with these tiers, each line with its end.
 [[nodiscard]] std::string tiers_text(const Tiers& tiers);
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// [[aoim.tier]]: who receives an update, how often and how well.
+// [[aoim.tier]]: the recipients of an update, its rate and its accuracy.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void check_touch(TomlReader& aoim, const Tiers& tiers) {
   }
 }
 
-/// What is wrong with a row behind this one before it; nothing where both are good.
+/// The error of a row relative to the row before it; nothing if both are valid.
 std::optional<std::string> refusal_of(std::span<const aoim::Channel> pair) {
   try {
     static_cast<void>(aoim::ChannelTable(pair));

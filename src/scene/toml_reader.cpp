@@ -45,7 +45,7 @@ std::string range_text(const SceneKey& spec) {
   return fmt::format("{} to {}", shown(spec.least), shown(spec.most));
 }
 
-/// The three texts of "0 0 10 cm", each with the unit; empty when there are not three numbers.
+/// The three texts of "0 0 10 cm", each with the unit; empty if there are not three numbers.
 std::vector<std::string> split_point(std::string_view text) {
   std::vector<std::string> words;
   while (words.size() < 3) {
@@ -143,7 +143,7 @@ std::optional<double> TomlReader::in_range(double value, const toml::node& node,
 
 Quantity TomlReader::parse(const std::string& text, const SceneKey& spec) const {
   if (spec.share_of.empty()) return parse_quantity(text, spec.unit);
-  // A bad value of the other key is reported where that key is read.
+  // An invalid value of the other key is reported where that key is read.
   std::vector<SceneProblem> reported;
   std::chrono::nanoseconds whole{0};
   TomlReader(*table_, section_, folder_, reported).read(spec.share_of, whole);
@@ -159,7 +159,7 @@ std::optional<double> TomlReader::quantity(const toml::node& node, const SceneKe
     add(node.source(), fmt::format("'{}': {}", spec.key, parsed.error));
     return std::nullopt;
   }
-  // Not value<double>(): it has none for a whole number that a double must round.
+  // Not value<double>(): it fails for a whole number that is not exact as a double.
   if (const auto* whole = node.as_integer())
     return in_range(static_cast<double>(whole->get()), node, spec);
   if (const auto* number = node.as_floating_point()) return in_range(number->get(), node, spec);
@@ -226,7 +226,7 @@ void TomlReader::each_text(std::string_view key,
   }
 }
 
-// What cannot be opened is a problem, and so is a device, which may have no end.
+// A file that cannot be opened is a problem, and so is a device, which may be endless.
 void TomlReader::read(std::string_view key, fs::path& target) {
   const std::string* said = text(key);
   if (said == nullptr) return;

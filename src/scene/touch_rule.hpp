@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whose bodies our hands and bodies feel.
+// The owners whose bodies our hands and bodies feel.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,22 @@
 
 namespace reckon::peer {
 
-/// What `touch` of a scene says. A value.
+/// The `touch` of a scene. A value.
 class TouchRule {
  public:
-  /// All may.
+  /// All owners.
   TouchRule() = default;
-  /// "all", "members" (who has proved that it has the key of the exercise), or the numbers of the
-  /// peers that may, "1:2" or "1:2, 40:1". Nothing where the text is none of these.
+  /// "all", "members" (owners that have proved to have the key of the exercise), or the numbers of
+  /// permitted peers, "1:2" or "1:2, 40:1". Nothing if the text is none of these.
   [[nodiscard]] static std::optional<TouchRule> parse(std::string_view text);
-  /// As parse() takes it.
+  /// The text that parse() reads.
   [[nodiscard]] std::string text() const;
 
-  /// Whether it means something in a sealed exercise alone.
+  /// Whether the rule has a meaning only in a sealed exercise.
   [[nodiscard]] bool wants_key() const noexcept { return who_ == Who::members; }
-  /// @param owner of the body. @param alive a peer that announced itself under this number and is
-  /// the one that speaks: a program of plain DIS is not
+  /// @param owner of the body.
+  /// @param alive whether the sender is the peer that announced itself with this number; false for
+  /// a plain DIS program
   [[nodiscard]] bool allows(const aoim::PeerId& owner, bool alive) const noexcept;
 
  private:

@@ -14,8 +14,8 @@
 namespace reckon::peer {
 namespace {
 
-/// One spelling of one unit: value [SI] = number * multiply / divide. Two whole numbers, because
-/// 7 / 1000 is the double nearest to 0.007 and 7 * 0.001 need not be.
+/// One spelling of one unit: value [SI] = number * multiply / divide. Two whole numbers, because 7
+/// / 1000 is the double nearest to 0.007 and 7 * 0.001 need not be.
 struct Unit {
   std::string_view si;
   std::string_view name;
@@ -94,7 +94,7 @@ const Unit* find_unit(std::string_view name, std::string_view si) {
 
 std::string example(std::string_view si) { return si.empty() ? "0.5" : fmt::format("5 {}", si); }
 
-/// How far from 1 .. 1000 `unit` shows `magnitude`, as a factor; 1 is best.
+/// Factor by which `magnitude` in `unit` is outside 1 .. 1000; 1 is best.
 double clumsiness(const Unit& unit, double magnitude) {
   const double shown = magnitude * unit.divide / unit.multiply;
   if (shown < 0.9999999) return 1 / shown;

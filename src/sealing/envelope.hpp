@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The 52 octets that a sealed datagram has beyond what it carries: a header in front, a tag behind.
-// And what the tag covers without being sent: where the datagram went.
+// The 52 octets that a sealed datagram has beyond its content: a header in front, a tag behind.
+// Also the destination, which the tag covers without being sent.
 #pragma once
 
 #include <array>
@@ -17,22 +17,22 @@
 
 namespace reckon::peer {
 
-/// First octet of what is sealed: never a DIS protocol version (0 to 7).
+/// First octet of a sealed datagram: never a DIS protocol version (0 to 7).
 inline constexpr std::uint8_t kSealedOctet = 0xE7;
-inline constexpr std::size_t kEnvelopeHeader = 36;  ///< [octets] in front, read by anybody
+inline constexpr std::size_t kEnvelopeHeader = 36;  ///< [octets] in front, not encrypted
 inline constexpr std::size_t kEnvelopeTag = 16;     ///< [octets] behind
 inline constexpr std::size_t kEnvelope = kEnvelopeHeader + kEnvelopeTag;
-inline constexpr int kEnvelopeCountBits = 48;  ///< of the sequence; the stream is above them
+inline constexpr int kEnvelopeCountBits = 48;  ///< of the sequence; the stream is in the bits above
 inline constexpr std::uint64_t kEnvelopeCountMask = (std::uint64_t{1} << kEnvelopeCountBits) - 1;
 
-/// The primitives of an exercise; the key file says which, nobody negotiates.
+/// The primitives of an exercise; the key file selects them, and there is no negotiation.
 enum class SealingSuite : std::uint8_t {
   aes_256_gcm = 0x11,         ///< needs AES instructions in the CPU
-  xchacha20_poly1305 = 0x12,  ///< for CPUs without
+  xchacha20_poly1305 = 0x12,  ///< for CPUs without them
 };
 
-/// One opening of a sealed link. `boot` is drawn at random at each, so it alone tells one from
-/// another; site and application are what the program was called then, for people.
+/// One opening of a sealed link. `boot` is drawn at random each time, so it alone distinguishes
+/// two; site and application are the numbers of the program at that time, for people.
 struct Sealer {
   std::uint64_t boot{0};
   std::uint16_t site{0}, application{0};
@@ -45,22 +45,22 @@ struct Sealer {
 /// stamp, 28 salt.
 struct EnvelopeHeader {
   SealingSuite suite{SealingSuite::aes_256_gcm};
-  std::uint16_t epoch{0};  ///< which of the group's keys
+  std::uint16_t epoch{0};  ///< number of the group's key
   Sealer sealer;
   std::uint16_t stream{0};  ///< one for each sending thread of the sealer
-  std::uint64_t count{0};   ///< of the stream, below 2^48
-  /// [us] When it was sealed, by the sealer's steady clock from an origin of its own, modulo 2^32.
+  std::uint64_t count{0};   ///< in the stream, below 2^48
+  /// [us] Time of sealing by the sealer's steady clock from an origin of its own, modulo 2^32.
   std::uint32_t stamp{0};
-  /// Drawn at random, so that a copy of the sealer shares no key with it (AES) or no nonce.
+  /// Drawn at random, so that a copy of the sealer uses another key (AES) or another nonce.
   std::uint64_t salt{0};
 
   bool operator==(const EnvelopeHeader&) const = default;
 };
 
-/// Where a datagram was sent, as its tag covers it: 0 kind (0: to one host, 1: to a group by a list
-/// of addresses, 4 and 6: to a group), 1 exercise, 2 port, 4 address, or number of the group where
-/// there is a list; what one host is sent has neither port nor address, for it knows itself by
-/// others than the sender may.
+/// Destination of a datagram, covered by its tag: 0 kind (0: one host, 1: a group by a list of
+/// addresses, 4 and 6: a group), 1 exercise, 2 port, 4 address, or number of the group with a list.
+/// For one host, port and address are 0, because the host may know itself by others than the sender
+/// does.
 using Destination = std::array<std::byte, 20>;
 
 /// A group, or one host. 3 ns, any thread.
@@ -75,7 +75,7 @@ using Destination = std::array<std::byte, 20>;
   return out;
 }
 
-/// A group by a list: its number, 0 for the base group, as what is in front says it.
+/// A group by a list: its number as in the frame, 0 for the base group.
 [[nodiscard]] inline Destination listed_destination(std::uint16_t number,
                                                     std::uint8_t exercise) noexcept {
   Destination out{std::byte{1}, std::byte{exercise}};
@@ -83,10 +83,10 @@ using Destination = std::array<std::byte, 20>;
   return out;
 }
 
-/// Where the datagrams of one exercise go.
+/// Destinations of the datagrams of one exercise.
 struct ExercisePlaces {
   std::uint8_t exercise{1};
-  std::optional<GroupPool> listed;  ///< its groups, where all goes to a list of addresses
+  std::optional<GroupPool> listed;  ///< its groups, if all datagrams go to a list of addresses
 
   [[nodiscard]] Destination of(const GroupAddress& to) const noexcept {
     if (!listed) return destination_of(to, exercise);
@@ -97,13 +97,13 @@ struct ExercisePlaces {
   }
 };
 
-/// Whether the octets claim to be sealed. 1 ns.
+/// Whether the octets claim to be a sealed datagram. 1 ns.
 [[nodiscard]] inline bool is_sealed(std::span<const std::byte> datagram) noexcept {
   return datagram.size() >= kEnvelope && datagram[0] == std::byte{kSealedOctet};
 }
 
-/// The header as it claims to be, nothing proved. False where the datagram is not sealed, is too
-/// short or of no known suite. 3 ns, any thread.
+/// Reads the header, which is not verified. False if the datagram is not sealed, is too short or of
+/// no known suite. 3 ns, any thread.
 [[nodiscard]] inline bool read_envelope(std::span<const std::byte> datagram,
                                         EnvelopeHeader& out) noexcept {
   if (!is_sealed(datagram)) return false;
@@ -123,7 +123,7 @@ struct ExercisePlaces {
   return true;
 }
 
-/// The same; nothing for false.
+/// The same; nothing instead of false.
 [[nodiscard]] inline std::optional<EnvelopeHeader> read_envelope(
     std::span<const std::byte> datagram) noexcept {
   EnvelopeHeader header;

@@ -14,7 +14,7 @@ EnvelopeOpener::EnvelopeOpener(const GroupKey& key, const Sealer& own, const Exe
   prepare_sealing();
 }
 
-// All that costs no cryptography.
+// All checks without cryptography.
 SealedVerdict EnvelopeOpener::check(const EnvelopeHeader& header, std::size_t& epoch,
                                     nanoseconds now) const noexcept {
   if (header.suite != key_.suite) return SealedVerdict::other_suite;
@@ -23,7 +23,7 @@ SealedVerdict EnvelopeOpener::check(const EnvelopeHeader& header, std::size_t& e
   const auto found = key_.find(header.epoch);
   if (!found) return SealedVerdict::unknown_epoch;
   epoch = *found;
-  // Later ones of our file are taken at any time: who has them is a member.
+  // Later epochs of our file are accepted at any time: a sender that has them is a member.
   const bool is_over = epoch < epoch_ && (epoch + 1 != epoch_ || now > grace_until_);
   return is_over ? SealedVerdict::old_epoch : SealedVerdict::opened;
 }
@@ -60,7 +60,7 @@ OpenedDatagram EnvelopeOpener::open(const Datagram& datagram, nanoseconds since,
   return result;
 }
 
-// The tag is right; only what is of now moves anything.
+// The tag is right; only a timely datagram changes the state.
 void EnvelopeOpener::take(OpenedDatagram& result, std::size_t epoch, const Datagram& datagram,
                           nanoseconds since, nanoseconds now) noexcept {
   const EnvelopeHeader& header = result.header;
@@ -116,7 +116,7 @@ void EnvelopeOpener::follow_time(nanoseconds now, nanoseconds utc) noexcept {
   const std::size_t epoch = key_.epoch_at(utc);
   const bool is_first_look = !std::exchange(has_time_, true);
   if (epoch <= epoch_) return;
-  // Whoever opens long after the change owes the epoch before nothing.
+  // An opener that starts long after the change needs no grace period for the epoch before.
   const nanoseconds begun = key_.epochs[epoch].from.value_or(std::chrono::seconds(0));
   move_to(epoch,
           is_first_look ? now + kGrace - std::min<nanoseconds>(kGrace, utc - begun) : now + kGrace);

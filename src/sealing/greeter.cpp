@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-constexpr nanoseconds kGather = milliseconds(5);  // what comes meanwhile is answered together
+constexpr nanoseconds kGather = milliseconds(5);  // arrivals of this time are answered together
 constexpr nanoseconds kLeastGap = milliseconds(20);
 constexpr nanoseconds kFirstPatience = milliseconds(50);
 constexpr nanoseconds kLongestPatience = seconds(1);
@@ -37,7 +37,7 @@ void Greeter::charge(nanoseconds now) noexcept {
                           now + (kStrangersAtOnce + 1) * kStrangersGap);
 }
 
-// Those who are trusted, or those who are not.
+// Answers the trusted senders, or the others.
 Greeter::Answered Greeter::answer(SealedSenders& senders, bool trusted,
                                   HelloWriter& writer) const noexcept {
   Answered answered;
@@ -77,8 +77,8 @@ std::span<const std::byte> Greeter::write(SealedSenders& senders, std::span<std:
 
 void Greeter::meet(const SealedSenders& senders, nanoseconds now) noexcept {
   patience_ = kFirstPatience;
-  // What was heard of one that has lost its place can be sent to us again, with our nonce of then.
-  // Another nonce than ever before is enough: answers are sealed.
+  // Old datagrams of a dropped sender can be replayed to us with our nonce of that time. A new
+  // nonce is enough, because answers are sealed.
   if (dropped_ != senders.trusted_dropped()) ++own_.nonce;
   dropped_ = senders.trusted_dropped();
   hurry_for_stranger(now);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When a sealed link greets, and what: proves to others that it is alive, and asks them to.
+// Schedule and content of the greetings of a sealed link, which prove to others that it is alive
+// and ask them for the same.
 #pragma once
 
 #include <chrono>
@@ -13,44 +14,43 @@
 
 namespace reckon::peer {
 
-/// One greeting answers many, and at most 50 go out in a second; for the sake of boots that have
-/// not proved to be alive, as recordings cannot, far fewer. One thread; no allocation.
+/// One greeting answers many, and at most 50 are sent in a second; far fewer for boots that have
+/// not proved to be alive, which may be recordings. One thread; no allocation.
 class Greeter {
  public:
   static constexpr std::size_t kShortest = HelloWriter::kHead + HelloWriter::kEcho;
   static constexpr std::size_t kLongest = 1320;  ///< [octets]: 81 answers
-  /// Greetings for strangers, all together: so many at once, then one each so long.
+  /// Greetings for all strangers together: this many at once, then one in each kStrangersGap.
   static constexpr int kStrangersAtOnce = 8;
   static constexpr std::chrono::nanoseconds kStrangersGap = std::chrono::milliseconds(125);
-  /// A new nonce for the sake of what came outdated: one each so long.
+  /// Least gap between new nonces because of outdated datagrams.
   static constexpr std::chrono::nanoseconds kDoubtGap = std::chrono::seconds(1);
 
-  /// @param boot own. @param nonce what others have to send back; drawn at random
+  /// @param boot own.  @param nonce that others have to send back; drawn at random
   Greeter(std::uint64_t boot, std::uint64_t nonce) noexcept : own_{boot, nonce} {}
 
-  /// Nothing that was said to us before proves anything any more.
+  /// Invalidates everything that others proved before.
   void begin_anew(std::uint64_t boot, std::uint64_t nonce) noexcept {
     *this = Greeter(boot, nonce);
   }
 
-  /// When the next greeting is due; at once at first, never where nobody has to be answered or
-  /// asked.
+  /// When the next greeting is due; at once at first, never if no answer or request is pending.
   [[nodiscard]] std::chrono::nanoseconds next() const noexcept { return next_; }
 
-  /// Writes it and plans the next one. @param room at least kShortest octets
+  /// Writes the greeting and plans the next one.  @param room at least kShortest octets
   [[nodiscard]] std::span<const std::byte> write(SealedSenders& senders, std::span<std::byte> room,
                                                  std::chrono::nanoseconds now) noexcept;
 
-  /// A sender was heard for the first time.
+  /// Records the first datagram of a sender.
   void meet(const SealedSenders& senders, std::chrono::nanoseconds now) noexcept;
 
-  /// A greeting of a sender, who becomes trusted where our nonce is in it. False where the octets
-  /// are none. @param received when it came
+  /// Takes a greeting of a sender, which becomes trusted if it contains our nonce. False if the
+  /// octets are no greeting.  @param received time of arrival
   [[nodiscard]] bool hear(const OpenedDatagram& greeting, std::chrono::nanoseconds received,
                           std::chrono::nanoseconds now) noexcept;
 
-  /// One that is trusted says something later than ever, and at another time as it seems: a clock
-  /// has leapt. All are asked anew.
+  /// A trusted sender has sent its latest datagram at an implausible time: a clock has jumped. All
+  /// are asked anew.
   void doubt(std::chrono::nanoseconds now) noexcept;
 
  private:
@@ -72,7 +72,7 @@ class Greeter {
   std::chrono::nanoseconds next_ = std::chrono::nanoseconds::min();
   std::chrono::nanoseconds last_ = -std::chrono::seconds(1);
   std::chrono::nanoseconds patience_{0};
-  std::chrono::nanoseconds spent_until_ = -std::chrono::seconds(1);  ///< what strangers have had
+  std::chrono::nanoseconds spent_until_ = -std::chrono::seconds(1);  ///< used by strangers
   std::chrono::nanoseconds doubted_ = -kDoubtGap;
 };
 

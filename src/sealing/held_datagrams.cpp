@@ -11,7 +11,7 @@ namespace reckon::peer {
 HeldDatagrams::HeldDatagrams()
     : octets_(std::make_unique_for_overwrite<std::byte[]>(kMost * kLongest)) {}
 
-// Where the one of them lies that was sealed first; kMost where there is none.
+// Place of the sender's datagram that was sealed first; kMost if there is none.
 std::size_t HeldDatagrams::earliest_of(const SealedSender& sender) const noexcept {
   std::size_t earliest = kMost;
   for (std::size_t i = 0; i < kMost; ++i) {
@@ -37,7 +37,7 @@ bool HeldDatagrams::push(SealedSender& sender, const EnvelopeHeader& header,
       if (slots_[place].count < slot.count) put(place, slot);
       return false;
     }
-    sender.held = 0;  // all have made room for others
+    sender.held = 0;  // all were replaced by others
   }
   ++sender.held;
   put(next_, slot);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What senders said before it was known that they are of today: a few datagrams each, opened.
+// Opened datagrams of senders that have not proved to be live, a few for each.
 #pragma once
 
 #include <array>
@@ -15,27 +15,28 @@
 
 namespace reckon::peer {
 
-/// A ring: the oldest goes first. One thread; allocates at construction alone.
+/// A ring: the oldest is replaced first. One thread; allocates only at construction.
 class HeldDatagrams {
  public:
   static constexpr std::size_t kMost = 512;         ///< of all senders
-  static constexpr std::uint8_t kMostOfSender = 8;  ///< the ones that were sealed last
+  static constexpr std::uint8_t kMostOfSender = 8;  ///< those sealed last
   static constexpr std::size_t kLongest = 1500;     ///< [octets]; longer ones are not held
 
   HeldDatagrams();
 
-  /// In the place of the sender's earliest where it has kMostOfSender; false where that one goes,
-  /// or this one does, being earlier still or too long. @param since when its group was joined
+  /// Adds a datagram, in the place of the sender's earliest if it has kMostOfSender. False if an
+  /// earlier one is replaced, or this one is refused because it is earlier still or too long.
+  /// @param since when its group was joined
   [[nodiscard]] bool push(SealedSender& sender, const EnvelopeHeader& header,
                           const Datagram& datagram, std::chrono::nanoseconds since) noexcept;
 
-  /// The sender is trusted: those of its that are timely may be taken from now on, its others are
-  /// forgotten.
+  /// The sender is trusted: its timely datagrams may be taken from now on, its others are
+  /// discarded.
   void release(const SealedSender& sender) noexcept;
 
   [[nodiscard]] bool has_released() const noexcept { return released_ > 0; }
-  /// The next one in `out`, in the order in which they came, its octets copied to `room` (at least
-  /// kLongest); false where there is none.
+  /// Returns the next one in `out`, in the order of arrival, and copies its octets to `room` (at
+  /// least kLongest); false if there is none.
   [[nodiscard]] bool take(Datagram& out, std::span<std::byte> room) noexcept;
 
  private:
@@ -46,7 +47,7 @@ class HeldDatagrams {
     std::uint64_t count{0};
     std::uint32_t stamp{0};
     std::chrono::nanoseconds since{0};
-    Datagram datagram;  // its octets lie in octets_
+    Datagram datagram;  // its octets are in octets_
   };
   [[nodiscard]] std::byte* octets_of(std::size_t slot) noexcept {
     return octets_.get() + slot * kLongest;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What sealed links say to each other, in the stream `control`: a nonce of one's own, and those of
-// others in return. Who sends back the nonce of now is alive now, and no recording.
+// The protocol between sealed links, in the stream `control`: the own nonce, and the nonces of
+// others in return. A sender that returns the present nonce is live, and no recording.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace reckon::peer {
 
-/// One nonce sent back.
+/// One returned nonce.
 struct NonceEcho {
-  std::uint64_t boot{0};   ///< whose
-  std::uint64_t nonce{0};  ///< as last heard
+  std::uint64_t boot{0};   ///< its owner
+  std::uint64_t nonce{0};  ///< last one received
 };
 
 /// Writes one hello: own nonce u64, number of echoes u16, of wanted u16, 4 octets of zero, the
@@ -25,9 +25,9 @@ class HelloWriter {
   /// @param room at least kHead octets (assert)
   HelloWriter(std::uint64_t nonce, std::span<std::byte> room) noexcept;
 
-  /// Adds one; false where the room is full. All echoes before the first boot that is wanted.
+  /// Adds one; false if the room is full. All echoes come before the first wanted boot.
   [[nodiscard]] bool echo(const NonceEcho& echo) noexcept;
-  /// Asks this boot to answer.
+  /// Requests an answer of this boot.
   [[nodiscard]] bool want(std::uint64_t boot) noexcept;
 
   [[nodiscard]] std::span<const std::byte> finish() noexcept;
@@ -41,16 +41,16 @@ class HelloWriter {
   std::uint16_t echoes_ = 0, wanted_ = 0;
 };
 
-/// One hello as heard. A view: valid while the octets are.
+/// One received hello. A view: valid while the octets are.
 class Hello {
  public:
-  /// False where the octets are none.
+  /// False if the octets are no hello.
   [[nodiscard]] bool read(std::span<const std::byte> octets) noexcept;
 
   [[nodiscard]] std::uint64_t nonce() const noexcept;
   /// Whether this nonce of this boot is among the echoes.
   [[nodiscard]] bool has_echo(const NonceEcho& echo) const noexcept;
-  /// Whether this boot is asked to answer.
+  /// Whether this boot is requested to answer.
   [[nodiscard]] bool wants(std::uint64_t boot) const noexcept;
 
  private:

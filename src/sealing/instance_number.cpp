@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kBootId = "/proc/sys/kernel/random/boot_id";
 constexpr std::string_view kCopied = "NEW_VMGENID=1";
 constexpr std::size_t kLongestEvent = 8192;
-constexpr int kMostEvents = 64;  // looked at in one call
+constexpr int kMostEvents = 64;  // examined in one call
 
 // FNV-1a.
 std::uint64_t folded(std::uint64_t sum, std::string_view octets) noexcept {
@@ -27,7 +27,7 @@ std::uint64_t folded(std::uint64_t sum, std::string_view octets) noexcept {
   return sum;
 }
 
-// What the kernel says of its devices; negative where it tells us nothing.
+// A socket for the kernel's device events; negative if it sends us none.
 int open_events() noexcept {
   const int events =
       ::socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_KOBJECT_UEVENT);
@@ -40,7 +40,7 @@ int open_events() noexcept {
   return -1;
 }
 
-// How often this machine has become a copy so far.
+// Number of times that this machine has become a copy.
 std::uint64_t copies() noexcept {
   static const int kEvents = open_events();
   static std::atomic<std::uint64_t> count{0};

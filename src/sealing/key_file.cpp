@@ -17,7 +17,7 @@ constexpr std::array kSuites = {
     std::pair{SealingSuite::xchacha20_poly1305, std::string_view("xchacha20-poly1305")}};
 constexpr std::size_t kLongestName = 32;
 
-/// Takes the next word off the line; empty at its end.
+/// Takes the next word of the line; empty at its end.
 std::string_view next_word(std::string_view& line) {
   const auto is_blank = [](char letter) {
     return letter == ' ' || letter == '\t' || letter == '\r';
@@ -55,7 +55,7 @@ bool read_secret(std::string_view digits, KeyOctets& secret) {
   return true;
 }
 
-/// Reads the lines of one file. Its words are never shown: one of them is the secret.
+/// Reads the lines of one file. Messages never show its words: one of them is the secret.
 class KeyReader {
  public:
   explicit KeyReader(const std::string& file) : file_(file) {}
@@ -222,7 +222,7 @@ std::string group_key_text(const GroupKey& key) {
   return text;
 }
 
-// A key of a suite that nothing is sealed with.
+// The fingerprint uses a suite with which nothing is sealed.
 std::string fingerprint(const GroupEpoch& epoch) {
   constexpr std::size_t kOctets = 6;
   EnvelopeHeader header;

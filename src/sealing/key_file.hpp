@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The file that makes somebody a member of a sealed exercise.
+// The key file, whose holder is a member of a sealed exercise.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@
 
 namespace reckon::peer {
 
-/// One secret of the group and when it begins. Wiped when it goes.
+/// One secret of the group and its begin. Erased at its end.
 struct GroupEpoch {
   std::uint16_t number = 1;
   std::optional<std::chrono::seconds> from;  ///< UTC since 1970; none: always
@@ -30,23 +30,23 @@ struct GroupEpoch {
   ~GroupEpoch() { wipe(secret); }
 };
 
-/// What a key file says.
+/// Content of a key file.
 ///
-///     # Whoever can read this takes part.
-///     group crane
-///     suite aes-256-gcm
-///     epoch 1 secret 64 hexadecimal digits
-///     epoch 2 from 2026-12-01T06:00:00Z secret 64 hexadecimal digits
+///   # Whoever can read this takes part.
+///   group crane
+///   suite aes-256-gcm
+///   epoch 1 secret 64 hexadecimal digits
+///   epoch 2 from 2026-12-01T06:00:00Z secret 64 hexadecimal digits
 struct GroupKey {
   static constexpr std::size_t kMostEpochs = 64;
 
   std::string group;  ///< for people; 1 to 32 letters, digits, '-', '_' and '.'
   SealingSuite suite = SealingSuite::aes_256_gcm;
-  std::vector<GroupEpoch> epochs;  ///< at least one; numbers and times grow
+  std::vector<GroupEpoch> epochs;  ///< at least one; numbers and times increase
 
-  /// Index of the epoch that holds at this UTC: the last that has begun, else the first.
+  /// Index of the epoch that is valid at this UTC: the last that has begun, else the first.
   [[nodiscard]] std::size_t epoch_at(std::chrono::nanoseconds utc) const noexcept;
-  /// Index of the epoch of this number; nothing where the file has none.
+  /// Index of the epoch with this number; nothing if the file has none.
   [[nodiscard]] std::optional<std::size_t> find(std::uint16_t number) const noexcept;
 };
 
@@ -64,20 +64,21 @@ class KeyFileError : public std::runtime_error {
 [[nodiscard]] std::optional<std::chrono::seconds> parse_utc(std::string_view text) noexcept;
 [[nodiscard]] std::string utc_text(std::chrono::seconds utc);
 
-/// Reads the text of a key file; `file` names it in messages. @throws KeyFileError
+/// Reads the text of a key file; `file` is its name in messages.  @throws KeyFileError
 [[nodiscard]] GroupKey parse_group_key(std::string_view text, const std::string& file);
 
-/// Reads the file, which has to belong to the user of this process and which nobody else may read
-/// or write (mode 0600 or less), and asks whether this CPU has its suite. From then on the process
-/// writes no core dump and is no other process's to trace (PR_SET_DUMPABLE, RLIMIT_CORE).
+/// Reads the file and checks that this CPU supports its suite. The file must belong to the user of
+/// this process, and nobody else may read or write it (mode 0600 or less). From then on the process
+/// writes no core dump and cannot be traced (PR_SET_DUMPABLE, RLIMIT_CORE).
 /// @throws KeyFileError with the remedy
 [[nodiscard]] GroupKey load_group_key(const std::filesystem::path& path);
 
 /// The text of a file that parse_group_key() reads.
 [[nodiscard]] std::string group_key_text(const GroupKey& key);
 
-/// Puts the key into a file of mode 0600. @param replace an old one is replaced at once and whole;
-/// else there must be none. @throws KeyFileError
+/// Saves the key in a file of mode 0600.
+/// @param replace an old file is replaced atomically; else there must be none.
+/// @throws KeyFileError
 void save_group_key(const GroupKey& key, const std::filesystem::path& path, bool replace);
 
 /// Twelve hexadecimal digits by which people compare secrets without showing them.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Key files on disk: who may read them, and how one is written.
+// Key files on disk: their permissions, and how one is written.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -61,7 +61,7 @@ void check_owner_alone(const std::filesystem::path& path, const File& file) {
                            state.st_mode & 07777, path.string()));
 }
 
-// Neither a crash nor a debugger of the same user gets at what the process holds.
+// Hides the process's memory from core dumps and from debuggers of the same user.
 void keep_out_of_core_dumps() noexcept {
   static_cast<void>(::prctl(PR_SET_DUMPABLE, 0));
   rlimit limit{};
@@ -70,7 +70,7 @@ void keep_out_of_core_dumps() noexcept {
   static_cast<void>(::setrlimit(RLIMIT_CORE, &limit));
 }
 
-/// A text that leaves nothing behind.
+/// A text that is erased at its end.
 class SecretText {
  public:
   ~SecretText() { wipe(std::as_writable_bytes(std::span(octets_))); }

@@ -22,7 +22,7 @@ bool has_rdrand() noexcept {
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_RDRND) != 0;
 }
 
-// Adds what the CPU draws by itself: it is nowhere in the memory that a copied machine shares.
+// Adds random octets of the CPU: they are not in the memory that copies of a machine share.
 __attribute__((target("rdrnd"))) void mix_in(std::span<std::byte> out) noexcept {
   static const bool kHas = has_rdrand();
   for (std::size_t i = 0; kHas && i < out.size(); i += sizeof(unsigned long long)) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where boots and nonces come from.
+// Source of boots and nonces.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace reckon::peer {
 
-/// Fills the octets with random ones; false where it cannot.
+/// Fills the octets with random ones; false if it cannot.
 using RandomSource = bool (*)(std::span<std::byte>) noexcept;
 
-/// The kernel's, getrandom(2), and where the CPU has RDRAND its own added: two copies of one
-/// machine may draw the same from their kernels until these notice. 1 us.
+/// Octets of the kernel's random source, getrandom(2), combined with RDRAND if the CPU has it: two
+/// copies of one machine may get the same octets from their kernels for a time. 1 us.
 [[nodiscard]] bool system_random(std::span<std::byte> out) noexcept;
 
-/// The random source has failed: no exercise is sealed without. Neither a fault of usage nor of the
-/// network.
+/// The random source has failed, and an exercise cannot be sealed without it. An error of neither
+/// usage nor the network.
 class RandomSourceError : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override {
@@ -27,7 +27,7 @@ class RandomSourceError : public std::exception {
   }
 };
 
-/// A number of that source. @throws RandomSourceError
+/// A number from that source.  @throws RandomSourceError
 [[nodiscard]] std::uint64_t draw(RandomSource source);
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which groups were joined lately: what was said there before is nobody's to tell us now.
+// Recently joined groups: datagrams from before the join are not accepted.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ class RecentJoins {
     }
   }
 
-  /// When the group was joined; the beginning of time where that is longer ago than anything that
-  /// is taken at all.
+  /// When the group was joined; the earliest time if that is longer ago than the age of any
+  /// accepted datagram.
   [[nodiscard]] std::chrono::nanoseconds since(const GroupAddress& group) noexcept {
     if (joins_.empty()) return std::chrono::nanoseconds::min();
     const auto place = find(group);

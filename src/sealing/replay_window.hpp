@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which datagrams of one stream have been taken: a bit for each of the newest 1024.
+// The accepted datagrams of one stream: a bit for each of the newest 1024.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace reckon::peer {
 
-/// Take a count only once its tag has proved right: else a forged one moves the window and shuts
-/// out the genuine. 136 octets.
+/// Call take() only after the tag was verified: else a forged count moves the window and excludes
+/// the genuine ones. 136 octets.
 class ReplayWindow {
  public:
-  static constexpr std::uint64_t kSpan = 1024;  ///< how far behind the newest one may come
+  static constexpr std::uint64_t kSpan = 1024;  ///< largest distance behind the newest one
 
   /// Whether this count was not taken and is not too old. Counts begin at 1. 2 ns.
   [[nodiscard]] bool is_fresh(std::uint64_t count) const noexcept {
@@ -24,7 +24,7 @@ class ReplayWindow {
 
   [[nodiscard]] std::uint64_t newest() const noexcept { return newest_; }
 
-  /// A fresh one.
+  /// Records a fresh count.
   void take(std::uint64_t count) noexcept {
     if (count > newest_) advance(count);
     taken_[index(count)] |= bit(count);

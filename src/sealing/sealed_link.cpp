@@ -22,16 +22,17 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// Datagrams taken from the inner link at once, and how often in one receive(): a flood that is
-// refused must not hold the reader.
+// Datagrams taken from the inner link at once, and the most turns in one receive(): a refused flood
+// must not delay the reader.
 constexpr std::size_t kInnerBatch = 64;
 constexpr int kBatchesPerReceive = 8;
 constexpr nanoseconds kLookAtTime = milliseconds(100);
 constexpr nanoseconds kHeldFor = std::chrono::seconds(3);
-// Steady clock and UTC may part by so much between two looks: more is a machine that slept.
+// Largest difference of steady clock and UTC between two looks: a larger one means that the machine
+// slept.
 constexpr nanoseconds kMostLeap = std::chrono::seconds(2);
 
-/// What is counted, under the names that a peer lists.
+/// Counters with the names that a peer lists.
 struct Counts {
   explicit Counts(Counters& c)
       : verdicts{&c.make("sealed_in", "sealed datagrams opened"),
@@ -58,7 +59,7 @@ struct Counts {
   Counter &held, &held_lost, &hellos_in, &hellos_out, &trusted, &exhausted;
 };
 
-// Two streams of one boot count by themselves.
+// Two streams of one boot count separately.
 bool envelope_number(std::span<const std::byte> octets, DatagramEvent& out) noexcept {
   EnvelopeHeader header;
   if (!read_envelope(octets, header)) return false;
@@ -78,7 +79,8 @@ GroupAddress sealed_group(GroupAddress base) {
   return base;
 }
 
-// One boot in a sealed exercise: what it seals with, whom it trusts, and what waits for trust.
+// One boot in a sealed exercise: its sealer, its trusted senders, and datagrams that wait for
+// trust.
 struct SealedLink::Session {
   Session(Link& wrapped, SealedLinkOptions asked, const Clock& steady)
       : inner(wrapped),
@@ -102,8 +104,8 @@ struct SealedLink::Session {
   void begin_anew(nanoseconds now) noexcept;
   void tend(nanoseconds now) noexcept;
   void greet(nanoseconds now) noexcept;
-  /// Sealed, and sent. What the inner link reports of its sends is reported under the lock too: two
-  /// threads send.
+  /// Seals and sends. The reports of the inner link about its sends are under the lock too, because
+  /// two threads send.
   [[nodiscard]] bool send(SealingStream stream, const IpEndpoint& to,
                           std::span<const std::byte> bytes, std::span<std::byte> room,
                           nanoseconds now) noexcept;
@@ -137,13 +139,13 @@ struct SealedLink::Session {
   std::unique_ptr<Counts> counts;
   std::unique_ptr<std::byte[]> sealed, hello, plain;
   std::array<Datagram, kInnerBatch> batch{};
-  std::mutex sending;                 // greetings leave by the reader, all else by the writer
-  std::atomic<std::size_t> epoch{0};  // the reader follows it, the writer seals with it
+  std::mutex sending;                 // greetings are sent by the reader, all else by the writer
+  std::atomic<std::size_t> epoch{0};  // set by the reader, used by the writer
   nanoseconds next_look{0};
-  std::uint64_t instance;                  // whose boot it is
-  nanoseconds utc_ahead;                   // of the steady clock
-  nanoseconds begun = nanoseconds::min();  // nothing from before is taken
-  std::uint64_t dropped = 0;               // trusted senders so far
+  std::uint64_t instance;                  // of the process that has the boot
+  nanoseconds utc_ahead;                   // of UTC, relative to the steady clock
+  nanoseconds begun = nanoseconds::min();  // nothing from before is accepted
+  std::uint64_t dropped = 0;               // trusted senders dropped so far
 };
 
 void SealedLink::Session::follow_time(nanoseconds now) noexcept {
@@ -152,7 +154,7 @@ void SealedLink::Session::follow_time(nanoseconds now) noexcept {
   next_look = now + kLookAtTime;
 }
 
-// Nobody can do anything about a random source that fails; the next look asks it again.
+// A failure of the random source has no remedy; the next look tries it again.
 void SealedLink::Session::begin_anew(nanoseconds now) noexcept {
   std::uint64_t nonce = 0;
   if (!options.random(std::as_writable_bytes(std::span(&nonce, 1)))) return;
@@ -216,15 +218,14 @@ std::size_t SealedLink::Session::take_released(std::span<Datagram> out, std::siz
   return at;
 }
 
-// One that is trusted may have lost its place to the newcomer, and what was taken of it is
-// forgotten.
+// A trusted sender may have lost its place to the newcomer, and its replay windows with it.
 void SealedLink::Session::meet(nanoseconds now) noexcept {
   if (opener.senders().trusted_dropped() != dropped) begun = now;
   dropped = opener.senders().trusted_dropped();
   greeter.meet(opener.senders(), now);
 }
 
-// Whether `out` is to be handed up.
+// Whether `out` is to be returned.
 bool SealedLink::Session::take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
                                   Datagram& out) noexcept {
   const auto tell = [&](DatagramFate fate) {
@@ -265,7 +266,7 @@ void SealedLink::Session::take_hello(const OpenedDatagram& opened, nanoseconds r
   held.release(sender);
 }
 
-// Of who has not answered for long nothing is kept: a recording never will.
+// Nothing is kept of a sender that has not answered for long: a recording never will.
 void SealedLink::Session::hold(const OpenedDatagram& opened, const Datagram& datagram,
                                nanoseconds since, nanoseconds now) noexcept {
   SealedSender& sender = *opened.sender;
@@ -322,7 +323,7 @@ std::error_code SealedLink::join(const GroupAddress& group) noexcept {
 
 void SealedLink::leave(const GroupAddress& group) noexcept { session_->inner.leave(group); }
 
-// No longer than until it is time to greet.
+// At most until the next greeting is due.
 bool SealedLink::wait(nanoseconds timeout) noexcept {
   Session& s = *session_;
   if (s.held.has_released()) return true;

@@ -51,7 +51,7 @@ SealedSender* SealedSenders::find(const Sealer& sealer) noexcept {
   return nullptr;
 }
 
-// The worst of those that may have to go: not trusted first, then longest silent.
+// The first to be replaced: an untrusted one, then the one silent for the longest.
 std::size_t SealedSenders::place_for(const IpEndpoint& address) noexcept {
   std::size_t of_address = 0, worst = kMost, worst_of_address = kMost;
   const auto rank = [&](std::size_t i) {

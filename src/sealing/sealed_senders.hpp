@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whoever has proved to hold the group's key: keys, windows and whether he is of today.
+// Senders that have proved to hold the group's key: their keys, windows and whether they are live.
 #pragma once
 
 #include <array>
@@ -22,33 +22,33 @@ struct SealedSender {
   /// Of each stream: that of the last salt or epoch, and of the one before.
   static constexpr std::size_t kKeys = 2;
 
-  /// A key of its, and what it was made from.
+  /// A key with its salt and epoch.
   struct Kept {
     bool is_made{false};
     std::uint16_t epoch{0};
-    std::uint64_t salt{0};  ///< 0 where keys have none
+    std::uint64_t salt{0};  ///< 0 if keys have none
     SealingKey key;
   };
 
   Sealer sealer;
   bool trusted{false};      ///< has answered our nonce, so it is no recording
-  bool has_nonce{false};    ///< of its own, which is `nonce`
-  bool echo_due{false};     ///< it waits for an answer of ours
+  bool has_nonce{false};    ///< its own nonce is known, in `nonce`
+  bool echo_due{false};     ///< it waits for our answer
   std::uint8_t held{0};     ///< datagrams that wait for its answer
   std::uint16_t next{0};    ///< of the same bucket
-  std::uint64_t serial{0};  ///< of this entry: one that comes back has another
+  std::uint64_t serial{0};  ///< of this entry: a sender that returns gets another
   std::uint64_t nonce{0};
-  std::uint64_t nonce_count{0};  ///< of the greeting that said it
+  std::uint64_t nonce_count{0};  ///< of the greeting with it
   std::chrono::nanoseconds since{0}, heard{0};
-  IpEndpoint address;  ///< where it was heard first
-  SenderTime time;     ///< where trusted
+  IpEndpoint address;  ///< first source address
+  SenderTime time;     ///< if trusted
   std::array<ReplayWindow, kSealingStreams> windows;
   std::array<std::uint8_t, kSealingStreams> latest{};  ///< in `keys`
   std::array<std::array<Kept, kKeys>, kSealingStreams> keys;
 
-  /// Its key for this header; null where none is kept.
+  /// Its key for this header; null if none is kept.
   [[nodiscard]] const SealingKey* key_of(const EnvelopeHeader& header) const noexcept;
-  /// Keeps the key, in the place of the older one of the stream.
+  /// Keeps the key in the place of the older one of the stream.
   void keep(const EnvelopeHeader& header, const SealingKey& kept) noexcept;
 };
 
@@ -57,8 +57,8 @@ struct SealedSender {
 class SealedSenders {
  public:
   static constexpr std::size_t kMost = 4096;
-  /// Boots that are not trusted of one endpoint. Whoever passes on what members say is the address
-  /// where these are heard first, so they do not count.
+  /// Most untrusted boots of one endpoint. Members first received through a relay have its address,
+  /// so trusted boots do not count.
   static constexpr std::size_t kMostOfAddress = 4;
 
   SealedSenders();
@@ -66,21 +66,20 @@ class SealedSenders {
   SealedSenders(const SealedSenders&) = delete;
   SealedSenders& operator=(const SealedSenders&) = delete;
 
-  /// Null where it is not known. 3 ns.
+  /// Null if it is not known. 3 ns.
   [[nodiscard]] SealedSender* find(const Sealer& sealer) noexcept;
 
-  /// A sender that is not known yet; not trusted, without a key. Where its address or the table is
-  /// full it takes the place of the one longest silent, and of one not trusted before any trusted.
+  /// Adds an unknown sender: not trusted, without a key. If its address or the table is full, it
+  /// replaces the one silent for the longest, untrusted ones first.
   [[nodiscard]] SealedSender& add(const Sealer& sealer, const IpEndpoint& address,
                                   std::chrono::nanoseconds now) noexcept;
 
-  /// All are forgotten.
+  /// Removes all.
   void clear() noexcept;
 
   [[nodiscard]] std::span<SealedSender> all() noexcept { return {senders_, size_}; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// Trusted ones that lost their place: their windows are forgotten, so the own nonce has to
-  /// change.
+  /// Trusted senders that were replaced: their windows are lost, so the own nonce has to change.
   [[nodiscard]] std::uint64_t trusted_dropped() const noexcept { return trusted_dropped_; }
 
  private:

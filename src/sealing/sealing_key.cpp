@@ -18,9 +18,9 @@ static_assert(crypto_aead_xchacha20poly1305_ietf_ABYTES == kEnvelopeTag);
 static_assert(crypto_aead_aes256gcm_KEYBYTES == kKeyOctets);
 static_assert(crypto_aead_xchacha20poly1305_ietf_KEYBYTES == kKeyOctets);
 
-constexpr std::size_t kSequence = 16, kStamp = 24, kSalt = 28;  // where the header has them
+constexpr std::size_t kSequence = 16, kStamp = 24, kSalt = 28;  // offsets in the header
 constexpr std::size_t kSequenceOctets = 8, kStampOctets = 4, kSaltOctets = 8;
-// What of the header makes the key: all but the first octet, up to the sequence.
+// First octet of the header that enters the key: all but octet 0, up to the sequence.
 constexpr std::size_t kKeyBegin = 1;
 constexpr std::size_t kKeyEnd = kSequence;
 
@@ -29,7 +29,7 @@ const unsigned char* octets(const std::byte* from) noexcept {
 }
 unsigned char* octets(std::byte* from) noexcept { return reinterpret_cast<unsigned char*>(from); }
 
-/// Stamp and sequence at the end; the salt first, where there is room for it, and zeros between.
+/// Stamp and sequence at the end; the salt first, if there is room for it, and zeros in between.
 template <std::size_t Octets>
 std::array<unsigned char, Octets> nonce_of(const std::byte* header) noexcept {
   std::array<unsigned char, Octets> nonce{};
@@ -47,8 +47,8 @@ auto xchacha_nonce(const std::byte* header) noexcept {
   return nonce_of<crypto_aead_xchacha20poly1305_ietf_NPUBBYTES>(header);
 }
 
-/// What the tag covers beside the sealed octets: the header up to the sequence, and where it goes.
-/// What is behind them is in the nonce or in the key.
+/// The additional data of the tag: the header up to the sequence, and the destination. The rest of
+/// the header is in the nonce or in the key.
 using Covered = std::array<std::byte, kSequence + std::tuple_size_v<Destination>>;
 Covered covered_of(const std::byte* header, const Destination& to) noexcept {
   Covered all;

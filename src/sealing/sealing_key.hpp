@@ -16,42 +16,44 @@ namespace reckon::peer {
 inline constexpr std::size_t kKeyOctets = 32;
 using KeyOctets = std::array<std::byte, kKeyOctets>;
 
-/// Makes libsodium ready; a second call costs nothing. @throws std::runtime_error where it cannot.
+/// Initialises libsodium; a second call costs nothing.  @throws std::runtime_error on failure.
 void prepare_sealing();
 
-/// Whether this CPU has what the suite needs.
+/// Whether this CPU supports the suite.
 [[nodiscard]] bool can_seal(SealingSuite suite);
 
-/// Overwrites the octets, and is not optimised away.
+/// Overwrites the octets; never optimised away.
 void wipe(std::span<std::byte> octets) noexcept;
 
-/// BLAKE2b-256 under the group's secret of octets 1 to 15 of the header: suite, epoch and sealer,
-/// so that no two sealers and no two epochs share a key; for AES-256-GCM, whose nonce has no room
-/// for it, of the salt behind them. 0.2 us.
+/// BLAKE2b-256, keyed with the group's secret, of octets 1 to 15 of the header: suite, epoch and
+/// sealer, so that no two sealers and no two epochs share a key. For AES-256-GCM, whose nonce has
+/// no room for it, also of the salt behind them. 0.2 us.
 [[nodiscard]] KeyOctets derive_key(const KeyOctets& secret, const EnvelopeHeader& header) noexcept;
 
-/// The salt as far as it is in the key: 0 with XChaCha20, which has it in the nonce.
+/// The part of the salt in the key: 0 with XChaCha20, which has it in the nonce.
 [[nodiscard]] inline std::uint64_t key_salt(const EnvelopeHeader& header) noexcept {
   return header.suite == SealingSuite::aes_256_gcm ? header.salt : 0;
 }
 
-/// Seals and opens under one key; set_key() first. No allocation; const functions by any threads.
+/// Seals and opens with one key; call set_key() first. No allocation; const functions by any
+/// threads.
 class SealingKey {
  public:
-  /// Of a suite that this CPU can (assert).
+  /// The CPU must support the suite (assert).
   void set_key(SealingSuite suite, const KeyOctets& key) noexcept;
   void wipe() noexcept { peer::wipe(state_); }
 
-  /// Writes header, sealed `plain` and tag to `out`. The header's stamp and sequence are the nonce,
-  /// with XChaCha20 its salt too: the same twice under one key gives both datagrams away.
-  /// @param to where it goes; covered by the tag. @param out plain.size() + kEnvelope octets, not
-  /// over `plain` (assert). 0.7 us at 1400 octets.
+  /// Writes header, sealed `plain` and tag to `out`. The nonce is the header's stamp and sequence,
+  /// with XChaCha20 also its salt. The same nonce twice with one key reveals both datagrams.
+  /// @param to destination, covered by the tag.
+  /// @param out plain.size() + kEnvelope octets, not overlapping `plain` (assert). 0.7 us at 1400
+  /// octets.
   void seal(const EnvelopeHeader& header, const Destination& to, std::span<const std::byte> plain,
             std::span<std::byte> out) const noexcept;
 
-  /// Opens what read_envelope() took for sealed; false where the tag is not right, for whatever
-  /// reason, and `out` is then zero. @param to where it came. @param out datagram.size() -
-  /// kEnvelope octets (assert)
+  /// Opens a datagram that read_envelope() accepted. False if the tag is wrong for any reason;
+  /// `out` is then zero.  @param to its destination.
+  /// @param out datagram.size() - kEnvelope octets (assert)
   [[nodiscard]] bool open(std::span<const std::byte> datagram, const Destination& to,
                           std::span<std::byte> out) const noexcept;
 

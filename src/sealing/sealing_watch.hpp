@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a user has to know of datagrams that a sealed link refuses: rarely, and in one line.
+// Reports to the user about datagrams that a sealed link refuses: rarely, and in one line.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,13 @@
 
 namespace reckon::peer {
 
-/// Something to tell.
+/// A report.
 struct SealingNews {
   enum class Kind : std::uint8_t {
     forged,         ///< more than 100 wrong tags in a second
-    other_key,      ///< wrong tags only, for 3 s: others have another key file
+    other_key,      ///< only wrong tags, for 3 s: others have another key file
     unknown_epoch,  ///< for 3 s
-    plain,          ///< something that is not sealed
+    plain,          ///< a datagram that is not sealed
     unanswered,     ///< a sender that does not send our nonce back, for 3 s
   };
   Kind kind = Kind::forged;
@@ -32,22 +32,22 @@ struct SealingNews {
   [[nodiscard]] std::string text() const;
 };
 
-/// Looks at what is refused. The reader looks and the ring's other side is for one thread more. No
+/// Watches refused datagrams. The reader calls look(), and one more thread may read the ring. No
 /// allocation after construction.
 class SealingWatch {
  public:
   SealingWatch() : news_(64) {}
 
-  /// Each datagram with its verdict.
+  /// Takes each datagram with its verdict.
   void look(const OpenedDatagram& opened, const IpEndpoint& from,
             std::chrono::nanoseconds now) noexcept;
-  /// Some times a second.
+  /// Call it some times a second.
   void tick(std::chrono::nanoseconds now) noexcept;
 
   [[nodiscard]] haptics::SpscRing<SealingNews>& news() noexcept { return news_; }
 
  private:
-  /// Something that has to last before it is reported, and is reported once a minute.
+  /// A condition that has to last before it is reported, once a minute.
   struct Lasting {
     std::chrono::nanoseconds first{-1}, reported{-1};
     [[nodiscard]] bool turn(std::chrono::nanoseconds now, std::chrono::nanoseconds span) noexcept;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kEnd = -1;
 
-// What a message repeats of a cell.
+// The part of a cell that a message shows.
 std::string shown(std::string_view text) {
   constexpr std::size_t kMost = 24;
   std::string out;
@@ -139,7 +139,7 @@ void CsvReader::read_quoted() {
   }
 }
 
-// `stop`: the comma, the end of the line or of the file behind the cell.
+// @param stop the comma, the end of the line or of the file after the cell.
 void CsvReader::read_cell(int& stop) {
   while (peek() == ' ') (void)letter();
   Cell cell{row_.size(), row_.size(), column_ + 1};

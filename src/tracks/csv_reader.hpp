@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows of numbers from a CSV file with a header, one at a time: RFC 4180 with its quotes, any ends
-// of lines. What is wrong is reported with file, line and column.
+// Rows of numbers from a CSV file with a header, one at a time: RFC 4180 with its quotes, any line
+// ends. Errors are reported with file, line and column.
 //
 //   CsvReader csv("hand.csv");
 //   const auto time = csv.find("t_s");
@@ -21,7 +21,7 @@
 
 namespace reckon::peer {
 
-/// The file cannot be read, or is no such table; the text has the place and the remedy.
+/// The file cannot be read, or is no valid table; the text has the place and the remedy.
 struct CsvError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -29,12 +29,12 @@ struct CsvError : std::runtime_error {
 /// Reads a file once from begin to end; memory is that of the longest row. One thread.
 class CsvReader {
  public:
-  /// A row may be so long [octets]; a file with a longer one is no table.
+  /// Longest row [octets]; a file with a longer one is no valid table.
   static constexpr std::size_t kLongestRow = std::size_t{1} << 20;
 
   static constexpr std::size_t kMostColumns = 4096;
 
-  /// Reads the header. @throws CsvError where the file cannot be read or has none.
+  /// Reads the header.  @throws CsvError if the file cannot be read or has none.
   explicit CsvReader(const std::filesystem::path& path);
 
   /// Names of the columns in lower case, without blanks around them.
@@ -42,15 +42,15 @@ class CsvReader {
   /// Place of the column `name`, or nothing.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
 
-  /// The next row that is not empty; false at the end. @throws CsvError where it has more or fewer
-  /// cells than the header, or quotes that do not end.
+  /// Reads the next row that is not empty; false at the end.
+  /// @throws CsvError if it has more or fewer cells than the header, or an unclosed quote.
   [[nodiscard]] bool next();
 
   /// Text of a cell of this row, without blanks around it. `column` < columns().size().
   [[nodiscard]] std::string_view text(std::size_t column) const noexcept;
   /// A finite number; nothing for an empty cell. @throws CsvError for anything else.
   [[nodiscard]] std::optional<double> number(std::size_t column) const;
-  /// The same where an empty cell is wrong too.
+  /// The same, but an empty cell is an error too.
   [[nodiscard]] double required(std::size_t column) const;
 
   /// @throws CsvError "file:line:column: what".
@@ -59,7 +59,7 @@ class CsvReader {
  private:
   struct Cell {
     std::size_t begin = 0, end = 0;  // in row_
-    std::size_t column = 1;          // of its first letter in the line, from 1
+    std::size_t column = 1;          // of its first character in the line, from 1
   };
   struct Close {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -77,7 +77,7 @@ class CsvReader {
   std::unique_ptr<std::FILE, Close> file_;
   std::array<char, 65536> buffer_{};
   std::size_t at_ = 0, filled_ = 0;
-  std::size_t line_ = 1, column_ = 0;  // of the last letter read
+  std::size_t line_ = 1, column_ = 0;  // of the last character read
   std::size_t row_line_ = 1;
   std::string row_;
   std::vector<Cell> cells_;

@@ -15,9 +15,9 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kNear = 1.5;    // mean steps between the ends of what repeats by itself
-constexpr double kSame = 0.1;    // mean steps between points that are taken for one
-constexpr double kStops = 0.05;  // of the greatest speed: slower has no direction
+constexpr double kNear = 1.5;    // mean steps between the ends of a track that repeats by default
+constexpr double kSame = 0.1;    // mean steps between points that count as one
+constexpr double kStops = 0.05;  // of the greatest speed: a slower motion has no direction
 
 /// Value and slope of the parabola through three neighbours, from the slopes of its two sides.
 struct Parabola {
@@ -66,7 +66,7 @@ bool ends_meet(const std::vector<Vector3d>& positions, double length) {
   return (positions.back() - positions.front()).norm() <= kNear * step;
 }
 
-/// Within a round of `end` [s] where it repeats; a time that is none is 0.
+/// The time within a round of `end` [s] if it repeats; 0 for an invalid time.
 double wrapped(double time, double end, bool repeat) {
   if (!(time > 0)) return 0;
   if (!repeat || time < end) return time;
@@ -117,8 +117,8 @@ std::vector<TrackCurve::Knot> TrackCurve::knots_of(const TrackSamples& samples) 
   return knots;
 }
 
-// The last point is the first, or more of them lead there at the mean speed, as far apart as the
-// others. They are at most as many, for the way back is no longer.
+// The last point equals the first, or further points lead there at the mean speed, as far apart as
+// the others. They are at most as many, because the way back is not longer.
 void TrackCurve::close(std::vector<Knot>& knots) const {
   const Knot first = knots.front(), last = knots.back();
   const Vector3d way = first.position - last.position;
@@ -239,7 +239,7 @@ void TrackCurve::build_index() {
   }
 }
 
-// Rounding at a border may give the neighbour, whose polynomial goes on there.
+// Rounding at a border may give the neighbour, whose polynomial is continuous there.
 const TrackPiece& TrackCurve::piece_at(double time) const noexcept {
   const auto step =
       std::min(static_cast<std::size_t>(time * steps_per_second_), pieces_.size() - 1);

@@ -156,7 +156,7 @@ class EntityTrack {
 /// Curves by file, each read once.
 class TrackShelf {
  public:
-  /// @throws CsvError as read_track_samples.
+  /// @throws CsvError from read_track_samples.
   [[nodiscard]] std::shared_ptr<const TrackCurve> curve(const std::filesystem::path& file,
                                                         std::optional<bool> repeat = {},
                                                         TrackTurn turn = TrackTurn::nose_ahead);

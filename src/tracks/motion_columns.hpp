@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The columns that every recorded motion has: t_s, px_m, py_m, pz_m. Private to the readers of
-// tracks.
+// The columns of every recorded motion: t_s, px_m, py_m, pz_m. Private to the readers of tracks.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +11,17 @@
 
 namespace reckon::peer {
 
-/// Time and position of the rows of a table that outlives it.
+/// Time and position of the rows of a table, which outlives this.
 class MotionColumns {
  public:
-  /// @throws CsvError where a column is missing.
+  /// @throws CsvError if a column is missing.
   explicit MotionColumns(const CsvReader& csv);
 
-  /// [s] of this row; grows from row to row. @throws CsvError where it does not.
+  /// [s] of this row; grows from row to row.  @throws CsvError if it does not.
   [[nodiscard]] double time();
   /// [m] of this row.
   [[nodiscard]] Eigen::Vector3d position() const;
-  /// Column of t_s, to point at.
+  /// Column of t_s, for error messages.
   [[nodiscard]] std::size_t time_column() const noexcept { return time_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The samples of a track from a file, and the shelf that keeps the curves made of them.
+// Reads the samples of a track from a file, and keeps the curves made of them.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace reckon::peer {
 namespace {
 
-/// The orientation of each row; nothing where the file has no columns for it.
+/// The orientation of each row; nothing if the file has no columns for it.
 class OrientationColumns {
  public:
   explicit OrientationColumns(const CsvReader& csv) : csv_(csv), heading_(csv.find("heading_rad")) {

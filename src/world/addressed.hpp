@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whom a simulation manager means: one entity, one simulation, or all; and what is no entity.
+// Recipients of a simulation management PDU: one entity, one simulation or all; and IDs that no
+// entity has.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,10 @@
 
 namespace reckon::peer {
 
-/// Site, application or entity of an ID that means each of them.
+/// Site, application or entity number that addresses all of them.
 inline constexpr std::uint16_t kEverybody = 0xFFFF;
 
-/// Whether `receiver` means the simulation `own`, or an entity of it.
+/// Whether `receiver` addresses the simulation `own` or one of its entities.
 [[nodiscard]] constexpr bool is_addressed(const pdu::EntityId& receiver,
                                           const pdu::SimulationAddress& own) noexcept {
   const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
@@ -21,14 +22,14 @@ inline constexpr std::uint16_t kEverybody = 0xFFFF;
   return matches(receiver.site, own.site) && matches(receiver.application, own.application);
 }
 
-/// Whether it means the simulation as a whole: entity 0, or all.
+/// Whether it addresses the whole simulation: entity 0, or all.
 [[nodiscard]] constexpr bool is_whole(const pdu::EntityId& receiver) noexcept {
   return receiver.entity == 0 || receiver.entity == kEverybody;
 }
 
-/// Whether an entity can have this ID: each of the three numbers 0 names nobody (NO_SITE,
-/// NO_APPLIC, NO_ENTITY), 65535 all, and entity 65534 one that is to be numbered yet
-/// (RQST_ASSIGN_ID). IEEE 1278.1-2012 6.2.28, 6.2.80.
+/// Whether an entity can have this ID. In each of the three numbers, 0 means none (NO_SITE,
+/// NO_APPLIC, NO_ENTITY) and 65535 means all; entity 65534 has no number yet (RQST_ASSIGN_ID). IEEE
+/// 1278.1-2012 6.2.28, 6.2.80.
 [[nodiscard]] constexpr bool is_nameable(const pdu::EntityId& id) noexcept {
   constexpr std::uint16_t kAsksForNumber = 0xFFFE;
   const auto is_given = [](std::uint16_t number) { return number != 0 && number != kEverybody; };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When a datagram came, and of which life of its sender.
+// Time of arrival of a datagram, and its sender.
 #pragma once
 
 #include <chrono>
@@ -12,15 +12,15 @@
 
 namespace reckon::peer {
 
-/// What is known of an update besides its octets.
+/// Metadata of an update, besides its octets.
 struct Arrival {
   std::chrono::nanoseconds now{0};      ///< steady time of this pass
   std::chrono::nanoseconds utc{0};      ///< the same instant in UTC
-  std::chrono::nanoseconds arrival{0};  ///< steady time at which the link had it, <= now
+  std::chrono::nanoseconds arrival{0};  ///< steady time at which the link received it, <= now
   std::uint32_t epoch = 0;              ///< 0 = plain DIS
-  ClockEvidence clock;                  ///< what is known of the sender's clock
-  aoim::SourceAddress from = {};        ///< where it says it comes from
-  /// The near or contact group that it came by; the base group for all others.
+  ClockEvidence clock;                  ///< knowledge of the sender's clock
+  aoim::SourceAddress from = {};        ///< stated source address
+  /// The near or contact group in which it arrived; the base group for all others.
   aoim::GroupIndex group = aoim::kBaseGroup;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// To whom an update of an entity of ours goes, where not all receive the same: those who hear its
-// contact group, those who hear the group of a near row of channels, and all. Part of the model
-// loop.
+// Recipient tiers of an entity of ours whose peers do not all receive the same updates: the
+// listeners of its contact group, those of the group of a near row of channels, and all peers. Part
+// of the model loop.
 #pragma once
 
 #include <chrono>
@@ -19,76 +19,78 @@
 
 namespace reckon::peer {
 
-/// An update to everybody.
+/// An update for all peers.
 inline constexpr std::size_t kAllAudiences = std::numeric_limits<std::size_t>::max();
 
-/// The audiences of one entity, from the inmost, 0, on. An update for an audience is heard by it
-/// and by all before it. What the inmost know is the entity's own policy; what each other one
-/// knows, a SeenSide. Times are seconds of one steady clock. One thread; allocates at construction.
+/// The recipient tiers of one entity, from the innermost, 0, on. An update for a tier is received
+/// by it and all inner ones. The entity's own policy holds what the innermost tier knows, and a
+/// SeenSide that of each other tier. Times are seconds of one steady clock. One thread; allocates
+/// at construction.
 class Audiences {
  public:
-  /// Who says that it listens may not be known otherwise; nor is who was near gone at once.
+  /// A subscription may not be known at once, and a peer that was near does not leave at once.
   static constexpr std::chrono::nanoseconds kGrace = std::chrono::seconds(1);
 
-  /// @param felt those who hear the contact group are the inmost  @param rows of the channels that
-  /// are not kept, the nearest first, an audience each; empty: all are one
-  /// @param inmost thresholds and heartbeat of the entity  @param first_repeat of what is seen [s];
-  /// it and the thresholds grow by Channel::coarser, but not the repetition of an event
+  /// @param felt whether the listeners of the contact group are the innermost tier
+  /// @param rows of the channels that are not kept, the nearest first, one tier each; empty: all
+  /// are one tier  @param inmost thresholds and heartbeat of the entity
+  /// @param first_repeat of visible changes [s]; it and the thresholds grow by Channel::coarser,
+  /// but the repetition of an event does not
   Audiences(bool felt, std::span<const aoim::Channel> rows, const deadreckon::UpdatePolicy& inmost,
             const deadreckon::SendRule& rule, double first_repeat);
 
   [[nodiscard]] bool has_felt() const noexcept { return felt_; }
-  /// The audience that is everybody.
+  /// The tier of all peers.
   [[nodiscard]] std::size_t last() const noexcept { return sides_.size(); }
-  /// The row of channels of an audience that is not the contact group's.
+  /// The row of channels of a tier other than the contact group's.
   [[nodiscard]] std::size_t row_of(std::size_t audience) const noexcept {
     return felt_ ? audience - 1 : audience;
   }
   [[nodiscard]] std::size_t audience_of(std::size_t row) const noexcept {
     return felt_ ? row + 1 : row;
   }
-  /// The outmost one that receives articulated parts.
+  /// The outermost tier that receives articulated parts.
   [[nodiscard]] std::size_t receive_parts() const noexcept { return receive_parts_; }
 
-  // Of those behind the inmost: audiences from 1 on.
+  // Outer tiers: from 1 on.
 
-  /// The next decide() of these says `event`.
+  /// Makes the next decide() of these tiers return `event`.
   void event(std::size_t outmost) noexcept;
   [[nodiscard]] deadreckon::SendReason decide(std::size_t audience, const deadreckon::Pose& truth,
                                               double now) const noexcept {
     return sides_[audience - 1].decide(truth, now);
   }
-  /// An update went to this audience. @param whole all that there is to say of it
+  /// Records an update for this tier.  @param whole whether the update is complete
   void note_sent(std::size_t audience, const deadreckon::KinematicState& as_received, double now,
                  deadreckon::SendReason reason, bool whole) noexcept;
-  /// Whether something was sent to those before it and not to it.
+  /// Whether inner tiers have received an update that this one has not.
   [[nodiscard]] bool is_behind(std::size_t audience) const noexcept {
     return sides_[audience - 1].is_behind();
   }
-  /// When something was sent to it last [s].
+  /// Time of the last update for this tier [s].
   [[nodiscard]] double last_sent_at(std::size_t audience) const noexcept {
     return sides_[audience - 1].last_sent();
   }
-  /// When decide() is due for one of those from `audience` on though nothing changes.
+  /// When decide() is due for a tier from `audience` on, even without a change.
   [[nodiscard]] double next(std::size_t audience) const noexcept;
 
-  // Whom it is of use to tell.
+  // Tiers with listeners.
 
-  /// How far off [m] others may be from where their last update put them, as far as their
-  /// updates are as coarse as this entity's.
+  /// Largest error [m] of other entities against their last update, if their updates are as coarse
+  /// as those of this entity.
   [[nodiscard]] double slack() const noexcept { return slack_; }
-  /// In the rows before this one nobody is known to listen.
+  /// The first row with known listeners; inner rows have none.
   [[nodiscard]] std::size_t served_row() const noexcept { return served_row_; }
-  /// The same as an audience: 0 where somebody may listen to the nearest row.
+  /// The same as a tier: 0 if the nearest row may have listeners.
   [[nodiscard]] std::size_t served() const noexcept {
     return served_row_ == 0 ? 0 : audience_of(served_row_);
   }
   [[nodiscard]] bool has_to_look(std::chrono::nanoseconds now) const noexcept {
     return now >= look_again_;
   }
-  /// Whether nobody is known any more to hear what was sent to those before this audience alone,
-  /// last at `last_sent` [s]: it is sent to this one once, so that whoever does hear it knows no
-  /// more than is watched.
+  /// Whether no listener is known any more for the updates that only inner tiers got, last at
+  /// `last_sent` [s]. The update is then sent once to this tier, so that an unknown listener has no
+  /// state that is not watched.
   [[nodiscard]] bool is_out_of_step(std::size_t audience, double last_sent,
                                     double now) const noexcept {
     return audience > 0 && audience <= served() && is_behind(audience) &&
@@ -100,7 +102,7 @@ class Audiences {
   }
 
  private:
-  std::vector<SeenSide> sides_;  // of audiences 1 ..
+  std::vector<SeenSide> sides_;  // of tiers 1 ..
   bool felt_;
   std::size_t receive_parts_ = 0;
   double slack_ = 0.0;

@@ -4,7 +4,7 @@
 
 namespace reckon::peer {
 
-// Gone can be at most what stood in the table at the last take().
+// At most the rows of the last take() can be removed.
 ChangeList::ChangeList(std::size_t capacity) : noted_(capacity) {
   present_.reserve(capacity);
   gone_.reserve(capacity);
@@ -46,7 +46,7 @@ void ChangeList::forget(std::uint32_t entry) noexcept {
 }
 
 std::span<const EntityChange> ChangeList::take(std::span<const RemoteEntity> rows) noexcept {
-  // Who comes back under an ID has gone under it before.
+  // An entity that returns under an ID was removed under it before.
   taken_.assign(gone_.begin(), gone_.end());
   for (const Present& present : present_) {
     taken_.push_back({rows[present.row].id, present.change});

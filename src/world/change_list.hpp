@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What has come, changed and gone among the remote entities, for a copy of the table elsewhere.
+// Changes among the remote entities (new, changed, removed), for a copy of the table elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,12 @@ struct EntityChange {
   Change change = Change::updated;
 };
 
-/// The changes of the rows of one table between two calls of take(), at most one of each row and
-/// one of each entity that has gone. It follows the table row by row, as a RowColumn does. One
-/// thread; allocates only at construction.
+/// The changes of a table's rows between two calls of take(): at most one for each row and one for
+/// each removed entity. It follows the table row by row, like a RowColumn. One thread; allocates
+/// only at construction.
 ///
-/// An entity that comes and goes in between is not listed; one that goes and comes back is, as
-/// removed and then discovered.
+/// An entity that appears and disappears in between is not listed. One that disappears and returns
+/// is listed as removed and then discovered.
 class ChangeList {
  public:
   /// @param capacity rows of the table; 0 records nothing, and then every call is free.
@@ -35,11 +35,11 @@ class ChangeList {
   void discovered();
   /// The row at this place has changed.
   void updated(std::size_t place) noexcept;
-  /// The row of `id` at this place goes, and the last row goes there.
+  /// The row of `id` at this place is removed, and the last row takes its place.
   void removed(std::size_t place, const pdu::EntityId& id) noexcept;
 
-  /// All changes since the last call, in an order in which they can be followed; good until the
-  /// next call. @param rows those of the table now. Some ns a change.
+  /// Takes all changes since the last call, in an order in which a copy can apply them; valid until
+  /// the next call.  @param rows those of the table now. Some ns a change.
   [[nodiscard]] std::span<const EntityChange> take(std::span<const RemoteEntity> rows) noexcept;
 
  private:
@@ -53,9 +53,9 @@ class ChangeList {
   void forget(std::uint32_t entry) noexcept;
 
   RowColumn<std::uint32_t> noted_;   // of each row: its place in present_, or kNone
-  std::vector<Present> present_;     // rows that have come or changed
-  std::vector<EntityChange> gone_;   // that have been listed
-  std::vector<EntityChange> taken_;  // at the last take()
+  std::vector<Present> present_;     // new or changed rows
+  std::vector<EntityChange> gone_;   // removed entities that were listed before
+  std::vector<EntityChange> taken_;  // by the last take()
 };
 
 }  // namespace reckon::peer

@@ -81,14 +81,14 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
     case pdu::PduType::group_map:
     case pdu::PduType::cell_snapshot:
     case pdu::PduType::datagram_trailer:
-      return;  // the area-of-interest manager and the peers' clocks have taken these
+      return;  // handled by the area-of-interest manager and the peers' clocks
     default:
       if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
       return unknown_.add();
   }
 }
 
-// Decodes where it stays, unless there is something of this entity already.
+// Decodes in place, unless an update of this entity is staged already.
 void DatagramDecoder::take_plain(std::span<const std::byte> bytes) noexcept {
   pdu::EntityState& state = staged_[count_].state;
   if (pdu::decode(bytes, state) != DecodeError::none) return malformed_.add();
@@ -206,7 +206,7 @@ Inbound* DatagramDecoder::stage(Inbound::Kind kind, const pdu::EntityId& entity)
   return &staged_[count_ - 1];
 }
 
-// There is room. The state is left as it is.
+// There is room for it. The state is left as it is.
 void DatagramDecoder::add_staged(Inbound::Kind kind, const pdu::EntityId& entity) noexcept {
   entities_[count_] = kind == Inbound::Kind::entity ? entity.key() : kNoEntity;
   Inbound& update = staged_[count_++];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a datagram to updates of entities: takes a bundle apart, refuses what is damaged or of
-// another exercise, and joins an Entity State with the force model that follows it.
+// Decodes a datagram into updates of entities. It takes a bundle apart, refuses damaged PDUs and
+// those of another exercise, and joins an Entity State with its force model.
 #pragma once
 
 #include <array>
@@ -21,20 +21,20 @@
 
 namespace reckon::peer {
 
-/// Something that another peer said, decoded and bounded.
+/// A decoded and bounded PDU of another peer.
 struct Inbound {
   enum class Kind : std::uint8_t {
     entity,
     stop_freeze,
     start_resume,
     other,
-    claim,  ///< said of an entity by who cannot be its owner; all that it states is whose it is
+    claim,  ///< a state from a sender that cannot own its entity; only `entity` is set
   };
-  /// Entities of ours that one of others can touch at a time; further ones are counted.
+  /// Most entities of ours that a remote one can touch at a time; further ones are counted.
   static constexpr std::size_t kAccounts = 8;
 
   Kind kind = Kind::entity;
-  pdu::EntityId entity;          ///< whose update; receiver of a stop or start
+  pdu::EntityId entity;          ///< updated entity; receiver of a stop or start
   pdu::EntityId originator;      ///< of a stop or start
   std::uint32_t request_id = 0;  ///< of a stop or start
   bool has_state = false, has_model = false;
@@ -42,35 +42,35 @@ struct Inbound {
   pdu::HapticRecord model;
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
   std::size_t account_count = 0;
-  std::uint8_t accounts_told = 0;  ///< of all, whomever they name
-  pdu::BundledPdu pdu;             ///< the whole of it, for all kinds but entity and claim
+  std::uint8_t accounts_told = 0;  ///< number of all accounts, also of those that name others
+  pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
 };
 
-/// The decoder. One thread, never throws; allocates where an entity is new whose states come
-/// compressed.
+/// The decoder. One thread, never throws; allocates for a new entity with compressed states.
 class DatagramDecoder {
  public:
-  /// @param exercise PDUs of other exercises are dropped. @param counters outlives the decoder.
-  /// @param form that the scene compresses states in. @param capacity entities whose keys are kept
+  /// @param exercise PDUs of other exercises are dropped.  @param counters outlives the decoder.
+  /// @param form compression of the scene's states.
+  /// @param capacity entities whose key states are kept
   DatagramDecoder(std::uint8_t exercise, Counters& counters,
                   pdu::CompressedForm form = pdu::CompressedForm::none, std::size_t capacity = 1);
 
-  /// What a datagram says, good until the next call and while its octets are. @param own whose
-  /// entities' accounts are picked out. @param overtaken bit i: PDU i is a state that is not worth
-  /// taking (OvertakenStates), and is counted alone. @param speaker whose words may be keys of
-  /// compressed states, and whose may lean on them; by default nobody's
+  /// Decodes a datagram. The result is valid until the next call and as long as the octets are.
+  /// @param own whose entities' accounts are selected.
+  /// @param overtaken bit i: PDU i is an overtaken state (OvertakenStates), which is only counted.
+  /// @param speaker whose states may be key states, and whose compressed states may depend on them;
+  /// by default nobody's
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::SimulationAddress& own,
                                                 std::uint64_t overtaken = 0,
                                                 const KeySpeaker& speaker = {}) noexcept;
-  /// A peer's life is over: its keys are forgotten.
+  /// Forgets the key states of a peer whose epoch has ended.
   void forget_keys(std::uint32_t epoch) noexcept { restorer_.forget(epoch); }
-  /// Counts so many states that are not worth taking, of a datagram with nothing else in it but a
-  /// trailer, if any.
+  /// Counts this many overtaken states of a datagram that has nothing else but perhaps a trailer.
   void leave_out(std::size_t overtaken, bool trailer) noexcept;
 
  private:
-  static constexpr std::size_t kMaxUpdates = 128;  // 9 to 40 PDUs fit a bundle below the MTU
+  static constexpr std::size_t kMaxUpdates = 128;  // a bundle below the MTU has 9 to 40 PDUs
 
   void take_pdu(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
   void take_plain(std::span<const std::byte> bytes) noexcept;
@@ -92,7 +92,7 @@ class DatagramDecoder {
   std::size_t count_ = 0;
 
   StateRestorer restorer_;
-  KeySpeaker speaker_;  // of the datagram at hand
+  KeySpeaker speaker_;  // of the present datagram
   Counter& pdus_;
   Counter& malformed_;
   Counter& foreign_;

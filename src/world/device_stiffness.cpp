@@ -10,7 +10,8 @@
 namespace reckon::peer {
 namespace {
 
-// To twelve digits: a wall of 475 N/m is not softened where the limit is 475 but for the last bit.
+// To twelve digits: a wall of 475 N/m is not softened by a limit that differs from 475 in the last
+// bit.
 double rounded(double value) {
   if (!(value > 0) || !std::isfinite(value)) return value;
   const double scale = std::pow(10.0, 11 - std::floor(std::log10(value)));

@@ -6,7 +6,7 @@
 
 namespace reckon::peer {
 
-// By the host that speaks: its ports are cheap.
+// By the sending host: its ports cost it nothing.
 Disputes::Pair* Disputes::find(const Dispute& dispute) noexcept {
   const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(count_);
   const auto found = std::find_if(pairs_.begin(), end, [&](const Pair& pair) {

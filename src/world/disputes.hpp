@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who speaks in the name of another: each pair of owner and speaker is news once, however often it
-// is heard.
+// Impostors: each pair of owner and sender is reported once, however often it is received.
 #pragma once
 
 #include <array>
@@ -15,26 +14,26 @@
 
 namespace reckon::peer {
 
-/// Somebody said something of an entity that is another's.
+/// A PDU about an entity that another sender owns.
 struct Dispute {
-  aoim::PeerId name;          ///< in which was spoken
-  aoim::SourceAddress owner;  ///< whose it is
+  aoim::PeerId name;          ///< peer in whose name it was sent
+  aoim::SourceAddress owner;  ///< owner of the entity
   aoim::SourceAddress speaker;
 };
 
 /// The disputes of one peer. One thread; no allocation.
 class Disputes {
  public:
-  /// Pairs remembered; of more, the one that has been quiet for the longest is forgotten.
+  /// Pairs remembered; the one that was quiet for the longest makes room for a new one.
   static constexpr std::size_t kPairs = 32;
-  /// A pair that comes back after so long a quiet is news again.
+  /// A pair that returns after this time is reported again.
   static constexpr std::chrono::nanoseconds kQuiet = std::chrono::minutes(1);
-  /// Least time between two news, so that a flood of names fills no terminal.
+  /// Least time between two reports, so that a flood of names does not fill a terminal.
   static constexpr std::chrono::nanoseconds kGap = std::chrono::seconds(1);
 
-  /// One more datagram or update refused. Some 20 ns.
+  /// Records one more refused datagram or update. Some 20 ns.
   void note(const Dispute& dispute, std::chrono::nanoseconds now) noexcept;
-  /// The oldest that has not been reported, at most one each kGap.
+  /// The oldest dispute that is not reported yet, at most one in kGap.
   [[nodiscard]] std::optional<Dispute> take_news(std::chrono::nanoseconds now) noexcept;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The energy accounts between entities of ours and those that touch them, as heard from the others:
-// what they have given to us and what they ask for. For an entity that no device moves also what we
-// gave: it has no port whose ledger would know.
+// The energy accounts between entities of ours and those that touch them, as received from the
+// others: what they gave to us and what they request. For an entity without a device also what we
+// gave, because it has no port with a ledger.
 #pragma once
 
 #include <chrono>
@@ -22,22 +22,22 @@ namespace reckon::peer {
 struct HeardAccount {
   pdu::EntityId other;
   EntityNumber own = 0;
-  double given = 0.0;        ///< [J], running total that the other has given to us, as it says
-  double need = 0.0;         ///< [J], what it asks of us
-  double spring_need = 0.0;  ///< [J], what it would like beyond
-  bool unanswered = false;   ///< it was heard since we last gave
-  double we_gave = 0.0;      ///< [J], running total; entities without a device alone
+  double given = 0.0;        ///< [J], running total that the other states to have given to us
+  double need = 0.0;         ///< [J], what it requests of us
+  double spring_need = 0.0;  ///< [J], what it would like in addition
+  bool unanswered = false;   ///< received since we last gave
+  double we_gave = 0.0;      ///< [J], running total; only of entities without a device
   std::chrono::nanoseconds heard{0};
 };
 
-/// The pairs, a fixed number: of more the one that was silent longest is forgotten, which can lose
-/// energy but never make any. One thread; allocates at construction alone.
+/// The pairs, a fixed number. A new pair replaces the one that was silent for the longest, which
+/// can lose energy but never create any. One thread; allocates only at construction.
 class EnergyBooks {
  public:
   static constexpr std::size_t kPairs = 1024;
   EnergyBooks();
 
-  /// The pair, made empty where it is new.
+  /// The pair; it is made empty if it is new.
   HeardAccount& pair(EntityNumber own, const pdu::EntityId& other,
                      std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] const HeardAccount* find(EntityNumber own,
@@ -55,19 +55,19 @@ class EnergyBooks {
   KeyIndex index_;
 };
 
-/// What an entity that moves without a device may give: so many watts while it moves, saved for
-/// kSaved at most. What it gives is put in by its owner, and counted.
+/// What an entity without a device may give: its power while it moves, saved for at most kSaved.
+/// Its owner puts that energy in, and it is counted.
 class PowerBudget {
  public:
-  /// Full, the default of 50 mW has what a hand's full ledger has.
+  /// When full, the default of 50 mW equals a hand's full ledger.
   static constexpr double kSaved = 0.4;  // [s]
 
   /// @param power [W] >= 0
   explicit PowerBudget(double power) noexcept : power_(power) {}
 
-  /// Time passes. @param dt [s] >= 0
+  /// Advances the time.  @param dt [s] >= 0
   void advance(double dt, bool moves) noexcept;
-  /// At most `wanted` [J], and what there is.
+  /// Takes at most `wanted` [J], and no more than there is.
   double take(double wanted) noexcept;
   [[nodiscard]] double level() const noexcept { return level_; }
 

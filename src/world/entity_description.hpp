@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What an owner says of an entity (who it is, how exactly it is sent, what hands feel of it) and
-// where it truly is. A hand, a truck and a post are described in the same words.
+// The owner's description of an entity (identity, accuracy of its updates, force model) and its
+// true motion. A hand, a truck and a post are described in the same way.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ using EntityNumber = std::uint16_t;
 /// Most entities that one peer can own: the numbers that IEEE 1278.1 leaves for them.
 inline constexpr std::size_t kMostOwned = 65534;
 
-/// What does not change with the motion.
+/// The properties that do not change with the motion.
 ///
 ///   EntityDescription truck;
 ///   truck.marking = "TRUCK1";
@@ -32,25 +32,25 @@ struct EntityDescription {
   std::string marking;  ///< at most 11 ASCII characters; longer ones are cut
   pdu::EntityType type{};
   pdu::ForceId force_id = pdu::ForceId::other;
-  std::uint32_t appearance = 0;    ///< as on the wire; frozen and deactivated are the peer's own
+  std::uint32_t appearance = 0;    ///< as on the wire; the peer itself sets frozen and deactivated
   std::uint32_t capabilities = 0;  ///< as on the wire
   /// Thresholds, model and heartbeat. Default: 1 m and 3 degrees as in IEEE 1278.1, RVW, and the
   /// heartbeat of the type.
   DeadReckoningConfig dead_reckoning = ordinary();
   /// What hands of others and of this peer feel of it, body axes; none: nothing.
   std::optional<deadreckon::ForceModel> model;
-  /// [W] >= 0 that it may give to hands which it pushes, while it moves. Not for an entity that a
-  /// device moves: that one gives what its hand puts in.
+  /// Power [W] >= 0 that it may give to the hands that it pushes while it moves. It does not apply
+  /// to an entity with a device, which gives what its hand puts in.
   double power = 0.05;
-  /// Name by which others find its cell wherever it goes, as is_beacon_name has it; empty: none.
-  /// Nothing where the scene hands out no groups.
+  /// Name by which others find its cell anywhere, valid by is_beacon_name; empty: none. No effect
+  /// if the scene assigns no groups.
   std::string beacon = {};
 
-  /// What an entity of ordinary size is sent with; heartbeat 0 = that of the type.
+  /// Settings of an entity of ordinary size; heartbeat 0 = that of the type.
   [[nodiscard]] static DeadReckoningConfig ordinary();
 };
 
-/// Where an owned entity truly is and how it moves, scene frame S.
+/// True position and motion of an owned entity, scene frame S.
 struct EntityTruth {
   std::chrono::nanoseconds time{0};                    ///< steady
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
@@ -59,8 +59,8 @@ struct EntityTruth {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< [m/s]
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      ///< [m/s^2]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s], body axes
-  /// What of the velocity is worth predicting, where that is not all of it (hands that touch); it
-  /// is then sent as FPW, or with the acceleration, if there is one, as FVW.
+  /// The part of the velocity to predict with, if that is not all of it (hands that touch). The
+  /// entity is then sent as FPW, or as FVW if there is an acceleration.
   std::optional<Eigen::Vector3d> lasting_velocity = {};
 };
 

@@ -7,18 +7,18 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// How long its owner may say nothing at all and still own it.
+// Longest silence of the owner after which it still owns the row.
 nanoseconds patience_with(const RemoteEntity& row) {
   return row.epoch != 0 ? RowOwners::kSilence : RowOwners::patience_with_guest(row.timeout);
 }
 
 }  // namespace
 
-// `row`: of the entity, null where it has none. `owner`: set where it is refused.
+// @param row of the entity, null if it has none  @param owner set if the sender is refused
 Voice EntityOwnership::voice_of(const pdu::EntityId& id, const Arrival& arrival,
                                 const RemoteEntity* row,
                                 aoim::SourceAddress& owner) const noexcept {
-  // RemoteEntities::claim() sees to it that it is.
+  // RemoteEntities::claim() ensures that it is.
   if (row != nullptr && is_owner(*row, arrival)) return Voice::owner;
   const aoim::Presence& presence = aoim_.presence();
   if (const auto epoch = presence.epoch_of(id.simulation())) {

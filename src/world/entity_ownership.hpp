@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who may speak for an entity, and who did without being its owner.
+// Who may send in the name of an entity, and who did without owning it.
 #pragma once
 
 #include <array>
@@ -20,43 +20,43 @@
 
 namespace reckon::peer {
 
-/// In whose name somebody speaks, as far as we know.
+/// In whose name a sender sends, as far as we know.
 enum class Voice : std::uint8_t {
-  owner,    ///< in his own: the entity, or its site and application, is his
-  nobody,   ///< in that of an entity which nobody has that we hear
-  refused,  ///< in another's
+  owner,    ///< its own: it owns the entity, or its site and application
+  nobody,   ///< an entity that no known sender owns
+  refused,  ///< another owner's
 };
 
-/// The rule of ownership, see RemoteEntities, over the rows and their owners. It changes none of
-/// them: what it keeps are the disputes. One thread; no allocation.
+/// The rule of ownership (see RemoteEntities) over rows and owners. It changes neither; it keeps
+/// only the disputes. One thread; no allocation.
 class EntityOwnership {
  public:
-  /// References outlive this. @param refused counts what was said in another's name
+  /// References outlive this.  @param refused counts what was sent in another's name
   EntityOwnership(aoim::AreaOfInterestManager& aoim, const StateTable& table,
                   const RowOwners& owners, const OutsideEntities& outside, Counter& refused)
       : aoim_(aoim), table_(table), owners_(owners), outside_(outside), refused_(refused) {}
 
-  /// Whether this came from the life and the sender that made the row. Asked at each update.
+  /// Whether this came from the epoch and the sender that made the row. Called for each update.
   [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
     return row.epoch == arrival.epoch && is_sender(row, arrival);
   }
-  /// Whether it came from where the owner of the row speaks from.
+  /// Whether this came from the address of the row's owner.
   [[nodiscard]] bool is_sender(const RemoteEntity& row, const Arrival& arrival) const noexcept {
     return same(owners_.owner(table_.place_of(row)), arrival.from);
   }
   /// Whether a state of this entity may be taken; else it is counted as a dispute.
-  /// @param row of the entity; null where it has none
+  /// @param row of the entity; null if it has none
   [[nodiscard]] bool may_speak(const pdu::EntityId& id, const Arrival& arrival,
                                const RemoteEntity* row) noexcept;
   /// See RemoteEntities::hear.
   [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept;
-  /// Who spoke for entities of others, see Disputes::take_news.
+  /// Impostors, see Disputes::take_news.
   [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
     return disputes_.take_news(now);
   }
 
  private:
-  // As ==, without a call.
+  // As ==, inlined.
   [[nodiscard]] static bool same(const aoim::SourceAddress& a,
                                  const aoim::SourceAddress& b) noexcept {
     if ((a.boot | b.boot) != 0) return a.boot == b.boot;

@@ -26,13 +26,13 @@ bool ForceModelIntake::take(RemoteEntity& row, std::size_t place,
   row.model = model;
   row.haptic = true;
   row.party = owners_.party(place);
-  // Its owner may be silent for as long as it lets the force be believed.
+  // Its owner may be silent for the validity of the force model.
   row.timeout = std::max(deadreckon::timeout(deadreckon::kHapticHeartbeat), model.validity);
   row.valid_until = row.last_heard + pdu::from_seconds(model.validity);
   return true;
 }
 
-// The rule of ownership has seen to it that a row with an epoch is of the peer of its number.
+// The rule of ownership ensures that a row with an epoch belongs to the peer of its number.
 bool ForceModelIntake::may_touch(const RemoteEntity& row, std::size_t place) noexcept {
   if (settings_.touch.allows(row.id.simulation(), row.epoch != 0)) return true;
   last_untouchable_ = {row.id, owners_.owner(place)};

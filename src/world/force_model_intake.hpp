@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which force models of remote entities are taken: by their values, and by who may touch.
+// Selects the force models of remote entities that are taken: by their values, and by the touch
+// rule.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace reckon::peer {
 
-/// Who has a force model and may not touch.
+/// An entity with a force model that may not touch.
 struct Untouchable {
   pdu::EntityId id;
   aoim::SourceAddress from;
@@ -29,13 +30,13 @@ class ForceModelIntake {
                    const RemoteCounters& counts)
       : settings_(settings), owners_(owners), counts_(counts) {}
 
-  /// Gives the row at `place` the model that came with its last update; false, and the row keeps
-  /// the one it had, where that is refused, which is counted.
+  /// Gives the row at `place` the model of its last update. Returns false if the model is refused,
+  /// which is counted; the row then keeps the old one.
   bool take(RemoteEntity& row, std::size_t place, const pdu::HapticRecord& record) noexcept;
 
-  /// Whose was the last to be refused for its values.
+  /// Entity of the last model refused for its values.
   [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
-  /// How many came of those who may not touch, and whose the last of them was.
+  /// Number of models from entities that may not touch, and the last such entity.
   [[nodiscard]] std::uint64_t untouchable() const noexcept { return counts_.untouchables.value(); }
   [[nodiscard]] const Untouchable& last_untouchable() const noexcept { return last_untouchable_; }
 

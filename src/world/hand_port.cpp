@@ -20,35 +20,36 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 // hands of 0.1 kg over 500 N/m ring at 16 Hz, above it they lag behind a common motion;
 // docs/measurements/touch.md has the table.
 constexpr double kContactSmoothing = 0.05;
-// It is half as long where a hand slides over another at this speed [m/s], a third at twice as
-// much: what moves it along the normal then is the shape that it slides over, not the spring.
+// The time constant is halved for a hand that slides over another at this speed [m/s], and divided
+// by three at twice the speed: its motion along the normal then comes from the shape that it slides
+// over, not from the spring.
 constexpr double kSliding = 0.01;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
-// One that slides so fast [m/s] is sent by its thresholds alone: meeting and parting change nothing
-// of how it moves, and what it sends for its motion carries the accounts in time.
+// A hand that slides this fast [m/s] is sent by its thresholds alone: begin and end of a touch
+// hardly change its motion, and its updates carry the accounts in time.
 constexpr double kGliding = 0.1;
 constexpr std::chrono::milliseconds kGlidingAccounts{40};
-// One that rubs so fast [m/s] tells its acceleration too, all of it from twice that speed on, where
-// it is so many times what may be noise: felt, noise costs more than lag. Velocities alone come
-// back through a stiff contact too late, and hands go on swinging at 18 Hz, which takes an update
-// of both every 8 ms. Without sliding the acceleration is the spring's.
+// A hand that rubs this fast [m/s] also sends its acceleration, in full from twice that speed on,
+// if the acceleration is well above its noise: a hand feels noise more than lag. Velocities alone
+// come back through a stiff contact too late, and hands go on swinging at 18 Hz, which takes an
+// update of both every 8 ms. Without sliding the acceleration is the spring's.
 constexpr double kRubbing = 0.015;
 constexpr double kSureInContact = 4.0;
-// What is sent is what it will be so much later [s], about half way to the next update; but half of
-// it at most is guessed so, for where hands meet and part it changes all at once.
+// The acceleration is sent as it will be after this time [s], about half way to the next update. At
+// most half of it is guessed this way, because it changes abruptly when hands meet and part.
 constexpr double kAhead = 0.004;
 constexpr double kGuessed = 0.5;
-// Free, the servo's acceleration is sent, unless the last velocities differ by more than may be
-// noise, and than this [m/s^2]: a millimetre in 70 ms.
+// A free hand sends the servo's acceleration, unless the last velocities differ from it by more
+// than their noise and by more than this [m/s^2]: a millimetre in 70 ms.
 constexpr double kSteady = 0.4;
 
-// None where `size` is at most `doubt`, all where it is twice as much.
+// 0 if `size` is at most `doubt`, 1 if it is twice as much.
 double sure_share(double size, double doubt) {
   return doubt > 0 ? std::clamp(size / doubt - 1.0, 0.0, 1.0) : 1.0;
 }
 
-// Of a hand: a body that nobody holds feels nothing.
+// True for a hand: a body that nobody holds feels nothing.
 bool is_felt(const haptics::ContactAccount& contact) {
   return contact.has_device && contact.ungated_force.squaredNorm() > 0.0;
 }
@@ -88,8 +89,8 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   if (silent && snapshot.time - felt_at_ < kAfterTouch) entity.felt_event();
 }
 
-// Where hands meet head-on, of the motion that made them meet nothing is left; where one slides
-// over the other, most of it is.
+// When hands meet head-on, nothing of their approach remains; when one slides over the other, most
+// of it does.
 void HandPort::note_touch(OwnedEntity& entity) noexcept {
   sliding_ = 0.0;
   bool touching = false;
@@ -142,10 +143,10 @@ void HandPort::smooth_velocity() noexcept {
   contact_velocity_ += share * (snapshot.velocity - contact_velocity_);
 }
 
-// While hands touch, the quick part of the motion of each along the normal is the other's doing:
-// extrapolated, it would come back through the contact too late for a spring's force, and the pair
-// would ring until its ledgers are empty. The slow part, which both make together, is what a
-// prediction is for. Across the normal no spring rings.
+// While hands touch, the quick part of the motion of each along the normal comes from the other.
+// Extrapolated, it would come back through the contact too late for a spring's force, and the pair
+// would ring until its ledgers are empty. The slow part is common to both and is predicted. Across
+// the normal no spring rings.
 Eigen::Vector3d HandPort::lasting_velocity() const noexcept {
   Eigen::Vector3d velocity = servo().velocity;
   for (const haptics::ContactAccount& contact : contacts(servo())) {
@@ -163,7 +164,7 @@ Eigen::Vector3d HandPort::free_acceleration() const noexcept {
   return steady + sure_share(ahead.norm(), kSteady + trend_.doubt()) * ahead;
 }
 
-// What bends the way of a hand that slides over another is the shape of both.
+// The shape of both hands bends the path of a hand that slides over another.
 Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
   const double size = trend_.acceleration().norm();
   const double sure = sure_share(size, kSureInContact * trend_.doubt());

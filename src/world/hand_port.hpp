@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand: an owned entity whose truth comes from a haptic device. Between the servo's snapshots and
-// the entity; part of the model loop.
+// A hand: an owned entity that a haptic device moves. Connects the servo's snapshots with the
+// entity; part of the model loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,43 +17,43 @@
 
 namespace reckon::peer {
 
-/// Most haptic devices of one peer: two hands with three fingers each, and two to spare.
+/// Most haptic devices of one peer: two hands with three fingers each, and two spare ones.
 inline constexpr std::size_t kMaxDevices = 8;
 
-/// What a hand is to others: life form, land.
+/// Entity type of a hand: life form, land.
 [[nodiscard]] pdu::EntityType hand_type() noexcept;
 
-/// One haptic device as the model loop sees it. One thread; no allocation.
+/// One haptic device in the model loop. One thread; no allocation.
 class HandPort {
  public:
-  /// While hands touch, no silence is longer: the loss of one update would be felt, and who is
+  /// Longest silence while hands touch: the loss of one update would be felt, and a peer that is
   /// silent for ten times as long is doubted (SilenceWatch).
   static constexpr std::chrono::milliseconds kContactPeriod{60};
-  /// Nor this one for kBlow after a blow began: who did not hear that it stopped our hand would see
-  /// it fly on into his.
+  /// Longest silence for kBlow after a blow began: a peer that lost the update of our stop would
+  /// see our hand fly on into its own.
   static constexpr std::chrono::milliseconds kBlowPeriod{10}, kBlow{25};
-  /// Nor this one, doubled with each word, for kAfterTouch: who did not hear that a touch ended
+  /// Longest silence for kAfterTouch, doubled with each update: a peer that lost the end of a touch
   /// would go on feeling us.
   static constexpr std::chrono::milliseconds kAfterTouchPeriod{100}, kAfterTouch{600};
 
-  /// @param snapshots, contacts of the device's servo; outlive the port. @param hand the entity
-  /// that the device moves.
+  /// @param snapshots, contacts of the device's servo; outlive the port.
+  /// @param hand the entity that the device moves.
   HandPort(haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
            haptics::TripleBuffer<haptics::ContactSet>& contacts, EntityNumber hand) noexcept
       : snapshots_(&snapshots), contacts_(&contacts), hand_(hand) {}
 
   [[nodiscard]] EntityNumber hand() const noexcept { return hand_; }
-  /// Takes the newest snapshot; false where there is none since the last call.
+  /// Takes the newest snapshot; false if there is none since the last call.
   bool update() noexcept { return snapshots_->update(); }
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return snapshots_->read(); }
-  /// Where the next picture of the hands near is written; publish_contacts() hands it over.
+  /// Slot for the next set of hands nearby; publish_contacts() publishes it.
   [[nodiscard]] haptics::ContactSet& contact_slot() noexcept { return contacts_->write_slot(); }
   void publish_contacts() noexcept { contacts_->publish(); }
 
-  /// Tells the entity what the snapshot shows: its motion, where its sphere is, make and break of
-  /// a touch, energy asked for or given.
+  /// Updates the entity from the snapshot: its motion, the position of its sphere, begin and end of
+  /// a touch, energy requested or given.
   void tell(OwnedEntity& entity) noexcept;
-  /// A hand of others is so near that its owner may feel ours already: bounds the silence.
+  /// Bounds the silence, because a remote hand is so near that its owner may already feel ours.
   void note_near(OwnedEntity& entity) const noexcept;
   /// The energy accounts of the snapshot.
   [[nodiscard]] std::span<const EnergyAccount> accounts() const noexcept {
@@ -77,10 +77,10 @@ class HandPort {
   std::size_t account_count_ = 0;
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
-  std::chrono::nanoseconds felt_at_{-kAfterTouch};              // last
+  std::chrono::nanoseconds felt_at_{-kAfterTouch};              // last touch
   std::chrono::nanoseconds blow_until_{0};
   VelocityTrend trend_;   // of the SCP, S
-  double sliding_ = 0.0;  // over the hands near, the fastest [m/s]
+  double sliding_ = 0.0;  // over the hands nearby, the fastest [m/s]
   bool touching_ = false;
 };
 

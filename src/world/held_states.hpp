@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What was said of remote entities in the rows of channels behind the nearest that we listen to:
-// who goes away from an entity goes back to what its owner knows those have heard who are farther.
+// States of remote entities that arrived in outer rows of channels. When we move away from an
+// entity, we go back to the state that its owner knows the outer listeners to have.
 #pragma once
 
 #include <chrono>
@@ -15,17 +15,17 @@
 
 namespace reckon::peer {
 
-/// A state, as it was heard.
+/// A state as received.
 struct HeldState {
   deadreckon::KinematicState state;  ///< S frame, at time
   std::chrono::nanoseconds time{0};  ///< our steady time
   std::uint32_t timestamp = 0;       ///< as sent
-  aoim::GroupIndex group;            ///< near group that it came by; the base group: none
+  aoim::GroupIndex group;            ///< near group in which it arrived; the base group: none
   bool is_heard = false;
 };
 
-/// Beside the rows of a StateTable, 200 octets an entity and near row, touched as entities come; no
-/// octet where there are no near groups. One thread; allocates at construction alone.
+/// Beside the rows of a StateTable: 200 octets for each entity and near row, touched as entities
+/// come; nothing without near groups. One thread; allocates only at construction.
 class HeldStates {
  public:
   /// @param near_rows of the channels  @param capacity most entities
@@ -35,12 +35,12 @@ class HeldStates {
   void push();
   void erase(std::size_t place) noexcept;
 
-  /// Something was said by a group of this row, near_rows for that of the cell, whether or not it
-  /// is the newest. @param newest it is, so it is what is shown
+  /// Records a state from a group of this row, or of the cell for near_rows, even if it is not the
+  /// newest.  @param newest whether it is the newest, so that it is shown
   void note(std::size_t place, std::size_t row, const HeldState& heard, bool newest) noexcept;
 
-  /// Calls visit(place, HeldState) for each entity that is shown by what came by this near group,
-  /// and goes back to the newest that came by a row behind it; where nothing did, it stays.
+  /// Calls visit(place, HeldState) for each entity whose shown state came in this near group, so
+  /// that it goes back to the newest state of an outer row. An entity without one stays as it is.
   template <typename Visit>
   void leave(aoim::GroupIndex group, std::size_t row, Visit&& visit) {
     for (std::size_t place = 0; place < shown_by_.size(); ++place) {
@@ -51,18 +51,18 @@ class HeldStates {
       visit(place, held);
     }
   }
-  /// The near group that what is shown came by; the base group: none.
+  /// The near group of the shown state; the base group: none.
   [[nodiscard]] aoim::GroupIndex shown_by(std::size_t place) const noexcept {
     return shown_by_[place];
   }
-  /// The newest that came by a row behind this one; not heard where nothing did.
+  /// The newest state of rows outside this one; without a reception time if there is none.
   [[nodiscard]] const HeldState& behind(std::size_t place, std::size_t row) const noexcept {
     return behind_[row][place];
   }
 
  private:
-  std::vector<RowColumn<HeldState>> behind_;  // by near row: the newest by a row behind it
-  RowColumn<aoim::GroupIndex> shown_by_;      // near group of what is shown; the base group: none
+  std::vector<RowColumn<HeldState>> behind_;  // by near row: the newest of an outer row
+  RowColumn<aoim::GroupIndex> shown_by_;      // near group of the shown state; the base group: none
 };
 
 }  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A hand that strikes another, as a Collision-Elastic PDU.
+// A blow of a hand on another one, as a Collision-Elastic PDU.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@
 
 namespace reckon::peer {
 
-/// The impact of our hand, of `radius` [m], on a remote one at `now`; header, issuer and event are
-/// left to the caller. Nullopt where the contact is too slow to be a collision.
+/// The impact of our hand, of `radius` [m], on a remote one at `now`; the caller sets header,
+/// issuer and event. Nullopt if the contact is too slow for a collision.
 [[nodiscard]] std::optional<pdu::CollisionElastic> impact_of(const haptics::ServoSnapshot& servo,
                                                              double radius,
                                                              const haptics::ContactAccount& contact,

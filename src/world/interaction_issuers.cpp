@@ -14,7 +14,7 @@ namespace {
 
 using pdu::PduType;
 
-// How an ID lies on the wire.
+// Layout of an ID on the wire.
 enum class Form : std::uint8_t { none, entity, simulation, live_entity };
 
 constexpr std::size_t size_of(Form form) noexcept {
@@ -41,7 +41,7 @@ struct IssuerPlaces {
   std::size_t count = 0;
 };
 
-// Of types whose first ID is not the issuer's, or not always: the fields that are.
+// Types whose issuer is not, or not always, the first ID: the fields with the issuer.
 struct OtherIssuers {
   PduType type;
   std::array<std::string_view, InteractionIssuers::kMost> fields;
@@ -57,7 +57,7 @@ constexpr std::array kOtherIssuers{
     OtherIssuers{PduType::areal_object_state, {"object_id", "requester_simulation_address"}},
 };
 
-// Visitor: where the IDs of the fixed part lie that may be an issuer's.
+// Visitor that finds the IDs of the fixed part that may be the issuer's.
 class IssuerFinder {
  public:
   constexpr explicit IssuerFinder(PduType type) {
@@ -82,7 +82,7 @@ class IssuerFinder {
   constexpr void count(std::string_view, const Span&, pdu::Records<Record, Count>) {
     offset_ += sizeof(Count);
   }
-  // Behind the fixed part an ID lies here or there.
+  // Behind the fixed part, the position of an ID varies.
   template <typename Span, typename Record, typename Count>
   constexpr void records(std::string_view, const Span&, pdu::Records<Record, Count>) {}
   template <typename View>
@@ -108,7 +108,7 @@ class IssuerFinder {
 template <typename T>
 consteval IssuerPlaces issuer_places() {
   IssuerFinder finder(T::kPduType);
-  T pdu{};  // not const: nothing is looked for behind the fixed part
+  T pdu{};  // not const: nothing behind the fixed part is read
   fields(finder, pdu);
   return finder.found();
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// In whose name a PDU is said that is no Entity State: the entity or simulation that issues it.
+// The issuer of a PDU that is no Entity State: an entity or a simulation.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace reckon::peer {
 
-/// The IDs that a PDU may be said in the name of. Of one issued by a simulation the entity is 0.
+/// The IDs in whose name a PDU may be sent. If a simulation issues it, the entity is 0.
 class InteractionIssuers {
  public:
   static constexpr std::size_t kMost = 2;
@@ -26,11 +26,11 @@ class InteractionIssuers {
   std::size_t count_ = 0;
 };
 
-/// Of nearly all types the first ID behind the header; of those that answer or ask the owner of
-/// the first, the second (Resupply Offer, Repair Complete, Minefield Query and Response NACK); of
-/// those that either may say, both (Resupply Cancel, states of point, linear and areal objects,
-/// which who wants them changed may send). None of types that have no field table, and of PDUs too
-/// short. Any octets may come. Some ns, no allocation.
+/// For nearly all types the first ID behind the header. For answers and requests to the owner of
+/// the first ID, the second (Resupply Offer, Repair Complete, Minefield Query and Response NACK).
+/// Both if either may send it (Resupply Cancel, states of point, linear and areal objects, which a
+/// requester of a change may send). None for types without a field table and for PDUs that are too
+/// short. Accepts any octets. Some ns, no allocation.
 [[nodiscard]] InteractionIssuers issuers_of(const pdu::PduHeader& header,
                                             std::span<const std::byte> pdu) noexcept;
 

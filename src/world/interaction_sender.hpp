@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who said an interaction, as far as a peer knows.
+// Sender of an interaction, as far as a peer knows.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace reckon::peer {
 
-/// Who said an interaction: one in the name of another's entity is refused before anybody hears it.
-/// A value.
+/// Sender of an interaction. One in the name of another owner's entity is refused before it is
+/// delivered. A value.
 struct InteractionSender {
-  /// Where its datagram came from. Without a key an address proves nothing but that an answer to it
-  /// would come there.
+  /// Source address of its datagram. Without a key an address proves only that an answer would
+  /// reach it.
   aoim::SourceAddress address = {};
-  /// The peer of this scene that said it; none: a program of plain DIS, or one that is not known.
+  /// The peer of this scene that sent it; none: a plain DIS program, or an unknown one.
   std::optional<aoim::PeerId> peer = {};
-  /// The entity in whose name it is said is the sender's, by what it says of itself. False: nobody
-  /// is heard under that name, so that anybody may have made it up, or the PDU names none.
+  /// Whether the sender owns the issuing entity, by its own statements. False if no entity of that
+  /// name is received, so that anybody may have invented it, or if the PDU names none.
   bool owns = false;
 };
 

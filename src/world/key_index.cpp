@@ -34,7 +34,7 @@ KeyIndex::KeyIndex(const KeyIndex& other)
 
 KeyIndex& KeyIndex::operator=(const KeyIndex& other) { return *this = KeyIndex(other); }
 
-// calloc takes large tables from the system as they come, without writing zeros over them.
+// calloc gets large tables from the system as they are, without writing zeros over them.
 KeyIndex::Slots KeyIndex::zeroed(std::size_t count) {
   auto* slots = static_cast<Slot*>(std::calloc(count, sizeof(Slot)));
   if (slots == nullptr) throw std::bad_alloc();
@@ -93,7 +93,7 @@ void KeyIndex::shrink() noexcept {
   std::fill_n(slots_, before / 2, Slot{});
   for (std::size_t i = 0; i < before; ++i)
     if (wide[i].mark != 0) slots_[slot_of(wide[i].key)] = wide[i];
-  std::fill_n(wide, before, Slot{});  // as the next doubling wants them
+  std::fill_n(wide, before, Slot{});  // as the next doubling needs them
   give_back_pages(wide, before * sizeof(Slot));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Where the row of a key stands in a dense array: under the state table of a peer and the picture
-// of a listener.
+// Maps keys to rows of a dense array: for the state table of a peer and the picture of a listener.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +10,20 @@
 
 namespace reckon::peer {
 
-/// Places by 64-bit key: open addressing, at most half full. Whoever holds the rows tells where
-/// they go:
+/// Places by 64-bit key: open addressing, at most half full. The holder of the rows sets their
+/// places:
 ///
 ///   if (index.find(key) == KeyIndex::kNone) index.put(key, rows.size()), rows.push_back(row);
 ///
-/// One thread. Allocates nothing while it holds no more keys than it was made for; beyond them it
-/// doubles what it has. Memory is reserved at once and touched as keys come: it starts with few
-/// slots and takes twice as many when half are in use, which costs some 20 ns a key each time. Where
-/// it has many it gives half of them back when a sixteenth is in use.
+/// One thread. Allocates nothing up to the number of keys of construction; beyond it the capacity
+/// doubles. Memory is reserved at once and touched as keys come: it starts with few slots and
+/// doubles them when half are in use, which costs some 20 ns a key each time. A large index halves
+/// its slots when a sixteenth is in use.
 class KeyIndex {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// @param keys that it holds without allocating, up to 2^31. @throws std::bad_alloc
+  /// @param keys capacity without allocating, up to 2^31.  @throws std::bad_alloc
   explicit KeyIndex(std::size_t keys);
   KeyIndex(const KeyIndex& other);
   KeyIndex& operator=(const KeyIndex& other);
@@ -32,23 +31,23 @@ class KeyIndex {
   KeyIndex& operator=(KeyIndex&&) noexcept = default;
   ~KeyIndex() = default;
 
-  /// The place of `key`; kNone where it has none. Some ns.
+  /// The place of `key`; kNone if it has none. Some ns.
   [[nodiscard]] std::uint32_t find(std::uint64_t key) const noexcept {
     return slots_[slot_of(key)].mark - 1;
   }
-  /// Has the memory that find(key) will look at brought near.
+  /// Prefetches the memory that find(key) reads.
   void prefetch(std::uint64_t key) const noexcept { __builtin_prefetch(&slots_[home(key)]); }
-  /// Says that `key` stands at `place`, below 2^32 - 1, now or from now on.
+  /// Sets the place of `key`, below 2^32 - 1.
   void put(std::uint64_t key, std::size_t place);
-  /// Forgets a key; nothing happens where it has no place.
+  /// Removes a key; does nothing if it has no place.
   void erase(std::uint64_t key) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// Keys that it holds without allocating.
+  /// Capacity in keys without allocating.
   [[nodiscard]] std::size_t room() const noexcept { return reserved_ / 4; }
 
  private:
-  // All zero where free, as pages are that nobody has touched.
+  // All zero if free, as untouched pages are.
   struct Slot {
     std::uint64_t key;
     std::uint32_t mark;  // place + 1
@@ -72,7 +71,7 @@ class KeyIndex {
   void grow();
   void shrink() noexcept;
 
-  // n slots stand from place n on, n a power of two, so that each doubling finds its own zeros.
+  // n slots begin at place n, n a power of two, so that each doubling finds its own zeros.
   std::size_t reserved_;
   Slots reserve_;
   std::size_t mask_;  // slots - 1

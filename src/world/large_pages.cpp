@@ -14,7 +14,7 @@ void advise_large_pages(const void* begin, std::size_t octets) noexcept {
   const std::uintptr_t first = (start + kSmallTable + kPage - 1) / kPage * kPage;
   const std::uintptr_t last = (start + octets) / kPage * kPage;
   if (first >= last) return;
-  // Where it is refused, pages stay small.
+  // If the system refuses, pages stay small.
   static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Ours are not a host's: no row owner has this number.
+// Host number of our own bodies: no row owner has it.
 constexpr std::uint16_t kOwnHost = 0xFFFF;
 
 // Whether a hand would feel it, a decimetre deep or at 1 m/s.
@@ -21,14 +21,14 @@ bool is_weak(const deadreckon::ForceModel& model) noexcept {
              NearBodies::kLeastForce;
 }
 
-// A number that is the greater, the greater `value`.
+// A number that grows with `value`.
 std::uint64_t in_order(double value) noexcept {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 
-// The values, each of so many bits, as one number: the first weighs most.
+// The values, with the given number of bits each, as one number: the first is the most significant.
 template <typename... Values>
 std::uint64_t packed(const std::pair<Values, int>&... fields) noexcept {
   std::uint64_t sum = 0;
@@ -102,7 +102,7 @@ NearBodies::Rank NearBodies::rank_of(const NearBody& body) const noexcept {
   return rank;
 }
 
-// The bodies in the order of `rank_key`, a number of their rank; the deeper first where it is one.
+// The bodies in the order of `rank_key`, a number from their rank; of equal ones the deeper first.
 template <typename RankKey>
 std::span<const NearBodies::Key> NearBodies::sorted(const RankKey& rank_key) noexcept {
   for (std::size_t i = 0; i < count_; ++i)
@@ -114,7 +114,7 @@ std::span<const NearBodies::Key> NearBodies::sorted(const RankKey& rank_key) noe
 
 void NearBodies::choose() noexcept {
   if (count_ <= 1) return;
-  // How many of its group, those for which `same` holds, go before each.
+  // The number of bodies of its group before each; `same` defines a group.
   const auto number_each = [&](std::span<const Key> order, std::uint8_t Rank::* place, auto same) {
     ranks_[order[0].at].*place = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies that an entity of ours could touch within an update: of others and our own, and which
-// of them a servo takes where they are more than it can hold.
+// The bodies, remote and our own, that an entity of ours could touch within an update, and the
+// selection for a servo that cannot hold all of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +19,16 @@
 
 namespace reckon::peer {
 
-/// Farther away than this between surfaces [m], a body is not worth the servo's time; nothing moves
-/// so far within one update.
+/// Largest distance between surfaces [m] at which a body is given to the servo: nothing moves
+/// farther within one update.
 inline constexpr double kContactReach = 0.25;
 
 /// One body with a force model: a row of the state table or an entity of ours.
 struct NearBody {
-  const RemoteEntity* row = nullptr;                   ///< null for one of ours
-  const OwnedEntity* own = nullptr;                    ///< null for one of others
+  const RemoteEntity* row = nullptr;                   ///< null for an own entity
+  const OwnedEntity* own = nullptr;                    ///< null for a remote one
   pdu::EntityId id;
-  EntityNumber number = 0;                             ///< of ours
+  EntityNumber number = 0;                             ///< of an own entity
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of its model's point, S [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< S [m/s]
   double depth = 0.0;                                  ///< [m]; below 0 the surfaces are apart
@@ -36,49 +36,50 @@ struct NearBody {
   [[nodiscard]] const deadreckon::ForceModel& model() const noexcept {
     return row != nullptr ? row->model : own->touch()->model();
   }
-  /// Whether somebody holds it, who feels what touches it.
+  /// Whether a person holds it and feels what touches it.
   [[nodiscard]] bool is_hand() const noexcept {
     return (row != nullptr ? row->type.kind : own->type().kind) == pdu::EntityKind::life_form;
   }
 };
 
-/// The bodies near one probe. Pointers are good until the state table or the owned ones change.
+/// The bodies near one probe. Pointers are valid until the state table or the owned entities
+/// change.
 ///
-/// Where they are more than a servo can hold, places are shared: whoever sends the most gives up
-/// first. Each host has kSure of them before any has more, and its senders take turns; among equals
-/// what touches or nearly does goes before what is farther, a peer's before a guest's, what was
-/// touched at the last look before what is new, the deeper before the others. What can give no force
-/// that a hand feels comes last. One thread; no allocation.
+/// If a servo cannot hold all of them, hosts share the places, and the host that sends the most
+/// loses some first. Each host has kSure bodies before any has more, and its senders take turns.
+/// Among equals these go first: bodies that touch or nearly do, those of peers before those of
+/// guests, those touched at the last check, and the deeper ones. Bodies whose force no hand can
+/// feel come last. One thread; no allocation.
 class NearBodies {
  public:
   static constexpr std::size_t kMost = haptics::kMaxRemoteHands;
-  /// Of one host, before what is left goes by rank.
+  /// Places of one host before the remaining places go by rank.
   static constexpr std::size_t kSure = 4;
-  /// Apart by less [m], two bodies may touch before the next look at 2 m/s and 15 ms.
+  /// Closer than this [m], two bodies may touch before the next check at 2 m/s and 15 ms.
   static constexpr double kSoonTouching = 0.03;
-  /// [N] a decimetre deep, or at 1 m/s: less is not felt.
+  /// Force [N] a decimetre deep, or at 1 m/s, below which nothing is felt.
   static constexpr double kLeastForce = 1e-3;
 
-  /// A new look begins: those touched at the last one are kept in mind.
+  /// Begins a new check; remembers the bodies touched at the last one.
   void clear() noexcept;
-  /// One of others within reach; choose() is to follow. Some 20 ns; where they are many 100 ns.
+  /// Adds a remote body within reach; choose() follows. Some 20 ns; 100 ns if they are many.
   void add(const RemoteEntity& row, const deadreckon::Contact& touch,
            const Eigen::Vector3d& velocity) noexcept;
-  /// Looks at our own, but for `except`, and chooses.
+  /// Adds our own bodies except `except`, and chooses.
   void add_own(const OwnedEntities& owned, EntityNumber except, const deadreckon::ProbeState& probe,
                std::chrono::nanoseconds now) noexcept;
-  /// Orders them by rank and leaves out those without a place; after the last one was added.
+  /// Orders the bodies by rank and drops those without a place. Call it after the last add().
   void choose() noexcept;
 
   [[nodiscard]] std::span<const NearBody> bodies() const noexcept {
     return {bodies_.data(), count_};
   }
-  /// Near by, but beyond what a servo can hold.
+  /// Bodies nearby that the servo cannot hold.
   [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
-  /// Where some are left out: one of the host that has the most here, null where that is ours.
+  /// If some are left out: a body of the host that has the most here, null if that is ours.
   [[nodiscard]] const RemoteEntity* crowding() const noexcept { return crowding_; }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-  /// Whether a hand of others is touched, or apart by less than `margin` [m].
+  /// Whether a remote hand is touched or closer than `margin` [m].
   [[nodiscard]] bool has_hand(double margin) const noexcept;
 
  private:
@@ -86,10 +87,10 @@ class NearBodies {
   struct Rank {
     Party party;
     bool weak = false, far = false, fresh = false;
-    std::uint8_t of_sender = 0, of_host = 0;  // how many of them go before it
-    std::uint64_t shallow = 0;  // the less, the deeper
+    std::uint8_t of_sender = 0, of_host = 0;  // bodies before it of the same sender, host
+    std::uint64_t shallow = 0;  // smaller if deeper
   };
-  // What bodies are sorted by: the first of these that differs.
+  // Sort key of bodies: the first value that differs decides.
   struct Key {
     std::uint64_t rank, shallow;
     std::uint8_t at;  // in bodies_
@@ -109,14 +110,14 @@ class NearBodies {
   std::size_t count_ = 0;
   std::size_t left_out_ = 0;
   const RemoteEntity* crowding_ = nullptr;
-  std::array<pdu::EntityId, kMost> touched_{};  // at the last look
+  std::array<pdu::EntityId, kMost> touched_{};  // at the last check
   std::size_t touched_count_ = 0;
 };
 
-/// The hands among the bodies as probes at which a force has to be right; returns how many were
-/// written. At what nobody holds, nobody feels ours. One that is apart by less than `margin` [m] is
-/// so much larger: its owner's hand may be nearer by then than its copy, and what is off by a
-/// little there is felt as soon as both touch.
+/// Writes the hands among the bodies as probes at which a force has to be right; returns their
+/// number. A body without a hand feels nothing of ours. A hand closer than `margin` [m] is made
+/// larger by that: its owner's hand may be nearer by then than its copy, and an error there is felt
+/// as soon as both touch.
 std::size_t to_probes(std::span<const NearBody> bodies, double margin,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept;
 

@@ -23,7 +23,7 @@ constexpr double kHorizonSeconds = std::chrono::duration<double>(NearSearch::kHo
 
 constexpr double kLeap = kHorizonSeconds * NearSearch::kHandSpeed;
 
-// How the gap between an entity and a hand may close within kHorizon.
+// Motion by which the gap between an entity and a hand may close within kHorizon.
 class Closing {
  public:
   Closing(const RemoteEntity& row, const Pose& pose) : turn_(pose.angular_velocity.norm()) {
@@ -34,19 +34,19 @@ class Closing {
     if (kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field) turn_ = 0;
   }
 
-  // An entity as a hand that a body of ours meets: the body turns, by its place.
+  // An entity as a hand that meets a body of ours: the turn of the body counts at the hand's place.
   static Closing of_hand(const RemoteEntity& row, const Pose& pose) {
     Closing closing(row, pose);
     closing.turn_ = NearSearch::kBodyTurn;
     return closing;
   }
 
-  // The least time [s] for so much [m], by a probe so far from the model's point.
+  // The least time [s] to cover a gap [m], by a probe at this distance from the model's point.
   [[nodiscard]] double time(double gap, double distance) const {
     if (!(gap > 0)) return 0;
     if (turn_ == 0)
       return 2 * gap / (speed_ + std::sqrt(speed_ * speed_ + 2 * acceleration_ * gap));
-    // A plane that turns sweeps faster what is farther away.
+    // A plane that turns sweeps distant points faster.
     const double speed = speed_ + kHorizonSeconds * acceleration_;
     return gap / (speed + turn_ * (distance + kHorizonSeconds * speed));
   }
@@ -84,7 +84,7 @@ void NearSearch::erase_row(std::size_t place) noexcept {
     row_of_[entry_of_[place]] = static_cast<std::uint32_t>(place);
 }
 
-// What comes, goes or leaps may be near anything: then all are looked at.
+// A body that appears, disappears or jumps may be near anything: then all rows are checked.
 void NearSearch::advance(const Search& search) noexcept {
   const double way = std::max(way_of_probes(search.probes), way_of_bodies(search.bodies));
   const nanoseconds by_way = pdu::from_seconds(way / kHandSpeed);
@@ -92,21 +92,21 @@ void NearSearch::advance(const Search& search) noexcept {
   last_ = search.now;
 }
 
-// How far the one went that went farthest [m], at most kLeap.
+// The longest way of a probe [m], at most kLeap.
 double NearSearch::way_of_probes(std::span<const ProbeState> probes) noexcept {
   double way = probes.size() == probe_count_ ? 0.0 : kLeap;
   for (std::size_t i = 0; i < std::min(probes.size(), probe_count_); ++i) {
     const double moved = (probes[i].position - probes_[i].position).norm() +
                          std::abs(probes[i].radius - probes_[i].radius);
-    way = std::max(way, moved < kLeap ? moved : kLeap);  // a leap where it is not a number
+    way = std::max(way, moved < kLeap ? moved : kLeap);  // not a number: a jump
   }
   probe_count_ = probes.size();
   std::copy(probes.begin(), probes.end(), probes_.begin());
   return way;
 }
 
-// The same of bodies; a turn counts as the way that a hand makes in the time that it should take.
-// That the last one goes brings nothing nearer.
+// The same for bodies; a turn counts as the way that a hand makes in its nominal time. If the last
+// body is removed, nothing comes nearer.
 double NearSearch::way_of_bodies(std::span<const MovingBody> bodies) noexcept {
   double way = bodies.size() <= bodies_.size() ? 0.0 : kLeap;
   for (std::size_t i = 0; i < std::min(bodies.size(), bodies_.size()); ++i) {
@@ -135,7 +135,7 @@ void NearSearch::find(std::span<const RemoteEntity> rows, std::span<const ProbeS
   hands.sort();
 }
 
-// Of many rows some at a time, so that they come from memory together: none is near there.
+// Of many rows some at a time, so that memory fetches them together: none is near there.
 void NearSearch::look_at_due(std::span<const RemoteEntity> rows, const Search& search) noexcept {
   constexpr std::size_t kMany = 16'384, kMostTogether = 16;
   const std::size_t together = look_at_.size() < kMany ? 1 : kMostTogether;
@@ -157,13 +157,13 @@ void NearSearch::look_at_due(std::span<const RemoteEntity> rows, const Search& s
   }
 }
 
-// For how long the row is not within reach of any probe or body [s], 0 to kHorizon; where it is, it
-// is among what was found.
+// Time for which the row is not within reach of any probe or body [s], 0 to kHorizon. A row within
+// reach is added to the results.
 double NearSearch::look(const RemoteEntity& row, const Search& search) noexcept {
   ++looks_;
   const Pose pose = row.predicted(search.now);
   const Closing closing(row, pose);
-  constexpr double kGolden = 0.6180339887498949;  // spreads any number of looks evenly
+  constexpr double kGolden = 0.6180339887498949;  // spreads any number of checks evenly
   phase_ += phase_ < 1 - kGolden ? kGolden : kGolden - 1;
   double calm = kHorizonSeconds * (0.5 + 0.5 * phase_);
   for (std::size_t i = 0; i < search.probes.size(); ++i) {
@@ -177,7 +177,7 @@ double NearSearch::look(const RemoteEntity& row, const Search& search) noexcept 
   return 0.999 * calm;  // room for rounding
 }
 
-// The same of bodies, which hands of others touch by their middle.
+// The same for bodies, which remote hands touch with their centre.
 double NearSearch::look_from_bodies(const RemoteEntity& row, const Pose& pose,
                                     const Search& search) const noexcept {
   const ProbeState hand{pose.position + pose.orientation * row.model.point, pose.velocity,
@@ -218,7 +218,7 @@ void HandsNear::sort() noexcept {
   });
 }
 
-// Those that no body has a place for.
+// Removes the hands for which no body has a place.
 void HandsNear::leave_out() noexcept {
   sort();
   std::size_t kept = 0, of_body = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which remote entities our hands could touch now, and which hands of others what moves of ours,
-// without a look at all of them at each step.
+// Finds the remote entities that our hands could touch now, and the remote hands that our moving
+// bodies could touch, without checking all at each step.
 #pragma once
 
 #include <array>
@@ -25,8 +25,7 @@ struct MovingBody {
   deadreckon::Pose pose;  ///< S
 };
 
-/// Which hands of others are within reach of which body, as probes. Places are shared by host, as
-/// those of NearBodies.
+/// The remote hands within reach of each body, as probes. Hosts share places as in NearBodies.
 class HandsNear {
  public:
   static constexpr std::size_t kMost = 4096;  ///< of all bodies together
@@ -35,10 +34,9 @@ class HandsNear {
   void clear() noexcept { found_.clear(); }
   void add(std::size_t body, const deadreckon::ProbeState& hand, const Party& party,
            double depth) noexcept;
-  /// To be called between the last add() and the first of().
+  /// Call it between the last add() and the first of().
   void sort() noexcept;
-  /// Writes the hands near `body`, the first by rank as many as there is room for; returns how
-  /// many.
+  /// Writes the hands near `body`, best rank first, as far as there is room; returns their number.
   std::size_t of(std::size_t body, std::span<deadreckon::ProbeState> out) const noexcept;
   /// Of all bodies.
   [[nodiscard]] std::size_t size() const noexcept { return found_.size(); }
@@ -49,23 +47,22 @@ class HandsNear {
     deadreckon::ProbeState hand;
     Party party;
     double depth;              // [m]
-    std::size_t of_host = 0;  // how many of its host go before it
+    std::size_t of_host = 0;  // number of its host's before it
   };
   void leave_out() noexcept;
 
   std::vector<Found> found_;
 };
 
-/// The search among the rows that have a force model. Each is looked at again only when it could
-/// have come within reach: its distance, divided by what its model and our hands can make of it in
-/// a second, tells when. Hands and bodies of ours are taken to move at kHandSpeed, and bodies to
-/// turn at kBodyTurn; while they are faster, the instants come sooner, so that nothing is missed at
-/// any speed.
+/// The search among the rows that have a force model. Each is checked again only when it could be
+/// within reach: at its distance divided by the distance that its model and our hands can cover in
+/// a second. Our hands and bodies are assumed to move at kHandSpeed, and bodies to turn at
+/// kBodyTurn. While they are faster, checks come sooner, so that nothing is missed at any speed.
 ///
-/// It follows the table row by row, as a RowColumn does. One thread; allocates only at construction
-/// and in expect_bodies(). A step costs about 60 ns for each entity within reach, or which an
-/// update has moved, or whose instant has come: of 10,000 that are far away 3 at 500 Hz. After a
-/// leap of a hand it is all of them.
+/// It follows the table row by row, like a RowColumn. One thread; allocates only at construction
+/// and in expect_bodies(). A step costs about 60 ns for each entity that is within reach, was moved
+/// by an update, or is due: of 10,000 distant ones 3 at 500 Hz. After a jump of a hand it is all of
+/// them.
 class NearSearch {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -73,46 +70,47 @@ class NearSearch {
   /// [m/s], a brisk movement of an arm.
   static constexpr double kHandSpeed = 2.0;
   static constexpr double kBodyTurn = 1.0;  ///< [rad/s]
-  /// After half of it to all of it the farthest is looked at again, although nothing has changed:
-  /// not all of them at one step.
+  /// The farthest rows are checked again after half of this to all of it, even without a change,
+  /// and so not all in one step.
   static constexpr Nanoseconds kHorizon = std::chrono::seconds(8);
 
   /// @param capacity rows of the table  @param reach [m] between surfaces, >= 0
   NearSearch(std::size_t capacity, double reach);
 
-  /// A row without a force model was added at the end.
+  /// Adds a row without a force model at the end.
   void add_row() { entry_of_.push(kNone); }
-  /// The row at this place has a force model from now on, or has been updated.
+  /// The row at this place has a new force model, or was updated.
   void note_model(std::size_t place);
   void note_update(std::size_t place) noexcept;
-  /// Has what note_update(place) looks at brought near.
+  /// Prefetches the memory that note_update(place) reads.
   void prefetch(std::size_t place) const noexcept { entry_of_.prefetch(place); }
-  /// The row at this place goes, and the last row goes there.
+  /// Removes the row at this place; the last row takes its place.
   void erase_row(std::size_t place) noexcept;
 
-  /// Fills `found[i]` with what is less than the reach away from `probes[i]` at `now`.
-  /// @param rows those of the table now  @param probes at most kMostProbes; `found` is as long.
+  /// Fills `found[i]` with the rows closer than the reach to `probes[i]` at `now`.
+  /// @param rows those of the table now
+  /// @param probes at most kMostProbes; `found` has the same length.
   void find(std::span<const RemoteEntity> rows, std::span<const deadreckon::ProbeState> probes,
             Nanoseconds now, std::span<NearBodies> found) noexcept {
     find(rows, probes, now, found, {}, no_hands_);
   }
-  /// The same, and at once which rows are within the reach of `bodies`, as many as were expected at
-  /// most; `hands` is cleared first.
+  /// The same, and the rows within reach of `bodies`, at most as many as expected; `hands` is
+  /// cleared first.
   void find(std::span<const RemoteEntity> rows, std::span<const deadreckon::ProbeState> probes,
             Nanoseconds now, std::span<NearBodies> found, std::span<const MovingBody> bodies,
             HandsNear& hands) noexcept;
-  /// So many bodies may move from now on.
+  /// Reserves room for this many moving bodies.
   void expect_bodies(std::size_t count) { bodies_.reserve(count); }
 
   /// Rows that have a force model.
   [[nodiscard]] std::size_t size() const noexcept { return row_of_.size(); }
-  /// Looks at a row since construction: what the search costs.
+  /// Checks of rows since construction: the cost of the search.
   [[nodiscard]] std::uint64_t looks() const noexcept { return looks_; }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  // What one call of find() looks for, and what it fills.
+  // Inputs and results of one find().
   struct Search {
     std::span<const deadreckon::ProbeState> probes;
     std::span<NearBodies> found;
@@ -131,8 +129,8 @@ class NearSearch {
   double reach_;
   RowColumn<std::uint32_t> entry_of_;  // of each row: its place in the two below, or kNone
   RowColumn<std::uint32_t> row_of_;    // of each row with a model
-  DueColumn look_at_;                  // the same, when to look at it again, by hurry_
-  /// Time, faster while a hand moves faster than kHandSpeed, or a body of ours than it is taken to.
+  DueColumn look_at_;                  // when to check each row with a model again, by hurry_
+  /// Time that runs faster while a hand or a body of ours is faster than assumed.
   Nanoseconds hurry_{0};
   Nanoseconds last_{0};
   std::array<deadreckon::ProbeState, kMostProbes> probes_{};  // at last_
@@ -140,7 +138,7 @@ class NearSearch {
   std::vector<MovingBody> bodies_;  // at last_
   HandsNear no_hands_;
   std::uint64_t looks_ = 0;
-  double phase_ = 0;  // 0 to 1, another at each look
+  double phase_ = 0;  // 0 to 1, another value at each check
 };
 
 }  // namespace reckon::peer

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What was heard of entities outside the radius of interest, kept until they come within: one that
-// stands says so once a minute, and the one that moves may be we.
+// Entities outside the radius of interest, kept until they come within. A resting one sends an
+// update only once a minute, and we may be the one that moves.
 #pragma once
 
 #include <array>
@@ -27,25 +27,25 @@ class OutsideEntity {
   static constexpr std::size_t kParts = 6;
 
   OutsideEntity() = default;
-  /// @param state that of the update, S frame  @param timeout [s] of silence that it is owed
+  /// @param state that of the update, S frame  @param timeout [s] of silence that it may have
   OutsideEntity(const Inbound& update, const Arrival& arrival,
                 const deadreckon::KinematicState& state, double timeout) noexcept;
 
-  /// The update as it was; what it refers to is good while this is neither moved nor copied.
+  /// The update as it was. Its views are valid until this is moved or copied.
   [[nodiscard]] Inbound update() const noexcept;
   [[nodiscard]] const Arrival& arrival() const noexcept { return arrival_; }
   [[nodiscard]] const deadreckon::KinematicState& state() const noexcept { return state_; }
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return pdu_.entity_id; }
   [[nodiscard]] const pdu::EntityType& type() const noexcept { return pdu_.entity_type; }
-  /// [S], as if it had arrived at once: where it may be, not where it is shown.
+  /// Position [S] as if it had arrived at once: where the entity may be, not where it is shown.
   [[nodiscard]] Eigen::Vector3d position(std::chrono::nanoseconds now) const noexcept;
-  /// Steady time; at the earliest that of the update.
+  /// Steady time; not before that of the update.
   [[nodiscard]] std::chrono::nanoseconds last_heard() const noexcept { return last_heard_; }
   void set_last_heard(std::chrono::nanoseconds last_heard) noexcept { last_heard_ = last_heard; }
-  /// [s] of silence that it is owed.
+  /// [s] of silence that it may have.
   [[nodiscard]] double timeout() const noexcept { return timeout_; }
   [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
-  /// A force model that came alone, or with the state before this one.
+  /// Sets a force model that came alone, or with the state before this one.
   void set_model(const pdu::HapticRecord& model) noexcept;
   void take_model_of(const OutsideEntity& former) noexcept;
 
@@ -61,43 +61,44 @@ class OutsideEntity {
   double timeout_ = 0;
 };
 
-/// By entity ID. One thread; allocates only at construction, memory is touched as entities come,
-/// some 700 octets each, and given back when most have gone. Where it is full further ones are not
-/// kept: they are seen with their next update.
+/// Entities by ID. One thread; allocates only at construction. Memory is touched as entities come,
+/// some 700 octets each, and given back when most have gone. When it is full, further ones are not
+/// kept: they appear with their next update.
 class OutsideEntities {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
-  /// Each is looked at again after so long at the earliest and at the latest.
+  /// Least and longest time before an entity is checked again.
   static constexpr Nanoseconds kSoonest = std::chrono::milliseconds(100);
   static constexpr Nanoseconds kLatest = std::chrono::seconds(1);
-  /// [m/s] by which something may be faster than it says before it is late.
+  /// [m/s] by which an entity may exceed its stated speed before a check is late.
   static constexpr double kSpareSpeed = 2.0;
 
   /// @param capacity most entities.
   explicit OutsideEntities(std::size_t capacity)
       : rows_(capacity), look_at_(capacity), places_(capacity), owners_(capacity) {}
 
-  /// Keeps it in place of what was kept of the same entity. @param guest_room whether there is room
-  /// for one more of a plain DIS program; else another such goes, of the host that has the most, or
-  /// this is not kept
+  /// Keeps it in place of an earlier state of the same entity.
+  /// @param guest_room whether there is room for one more of a plain DIS program; else it replaces
+  /// one of the host that has the most, or is not kept
   void keep(const OutsideEntity& entity, bool guest_room = true) noexcept;
-  /// One of a plain DIS program makes room, of the host that has the most; false where none was
-  /// found.
+  /// Removes an entity of a plain DIS program, of the host that has the most; false if there is
+  /// none.
   bool give_up_guest() noexcept;
-  /// Something came from there. One look-up; nothing where none of a plain DIS program is kept.
+  /// Records a datagram from this address. One look-up; does nothing if no entity of a plain DIS
+  /// program is kept.
   void heard(const aoim::SourceAddress& from, Nanoseconds now) noexcept {
     if (guests() > 0) owners_.heard(from, now);
   }
-  /// Where the plain DIS program whose entity this is speaks from, as long as it may be silent;
-  /// null where none is kept under this ID.
+  /// Address of the plain DIS program that owns this entity, while it may be silent; null if none
+  /// is kept under this ID.
   [[nodiscard]] const aoim::SourceAddress* guest_of(const pdu::EntityId& id,
                                                     Nanoseconds now) const noexcept;
-  /// Those of plain DIS programs.
+  /// Entities of plain DIS programs.
   [[nodiscard]] std::size_t guests() const noexcept { return owners_.guests(); }
   void set_model(const pdu::EntityId& id, std::uint32_t epoch,
                  const pdu::HapticRecord& model) noexcept;
   void forget(const pdu::EntityId& id) noexcept;
-  /// Forgets those for which `is_gone(entity)` holds. Looks at all.
+  /// Removes those for which `is_gone(entity)` holds. Visits all.
   template <typename Predicate>
   void forget_if(Predicate&& is_gone) {
     for (std::size_t i = 0; i < rows_.size();) {
@@ -115,10 +116,9 @@ class OutsideEntities {
     for (const OutsideEntity& entity : rows_.all()) visit(entity);
   }
 
-  /// Asks `gap(position)` of those whose instant has come: how far [m] they are from the nearest
-  /// place of interest; calls enter(entity, when something came from its owner last) for each that
-  /// is within, which is then forgotten; the silent are forgotten, too. @param speed [m/s] of that
-  /// place
+  /// Calls `gap(position)`, the distance [m] to the nearest place of interest, for the entities
+  /// that are due. Calls enter(entity, last datagram of its owner) for each that is within, and
+  /// removes it. Silent ones are removed, too.  @param speed [m/s] of that place
   template <typename Gap, typename Enter>
   void look(Nanoseconds now, double speed, Gap&& gap, Enter&& enter) {
     for (std::size_t i = look_at_.next_due(now, 0); i < rows_.size();
@@ -142,7 +142,7 @@ class OutsideEntities {
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
 
  private:
-  /// How long nothing at this distance [m] and speed [m/s] need be looked at.
+  /// Time for which an entity at this distance [m] and speed [m/s] needs no check.
   [[nodiscard]] static Nanoseconds patience(double away, double speed) noexcept;
   void erase(std::size_t place) noexcept;
 

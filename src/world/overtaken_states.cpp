@@ -13,15 +13,16 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::size_t kEntitiesPerDatagram = 8;  // for which there is room, on average
-constexpr std::size_t kPlacesTried = 16;         // then a state is taken as it is
+constexpr std::size_t kEntitiesPerDatagram = 8;  // average number for which the table has room
+constexpr std::size_t kPlacesTried = 16;         // beyond them a state is taken as it is
 constexpr std::int32_t kSecond = pdu::kTimestampUnitsPerHour / 3600;
 
-// In an Entity State PDU (IEEE 1278.1-2012 7.2.2).
+// Offsets in an Entity State PDU (IEEE 1278.1-2012 7.2.2).
 constexpr std::size_t kParametersAt = 19, kAppearanceAt = 84;
 constexpr std::size_t kFixed = pdu::kFixedSize<pdu::EntityState>;
 
-// Another core has written them, and nobody reads backwards by itself.
+// Datagrams prefetched in advance: another core has written them, and no hardware prefetcher reads
+// backwards.
 constexpr std::size_t kAhead = 3;
 constexpr std::size_t kLine = 64;  // of a processor's cache [octets]
 
@@ -33,7 +34,7 @@ bool same_sender(const Arrival& a, const Arrival& b) {
   return a.epoch == b.epoch && a.from == b.from && a.group == b.group;
 }
 
-// As decoding it would find.
+// Whether decoding would find a whole state.
 bool is_whole_state(std::span<const std::byte> octets) {
   if (octets.size() < kFixed) return false;
   const auto parameters = std::to_integer<std::size_t>(octets[kParametersAt]);
@@ -61,7 +62,7 @@ void OvertakenStates::begin_look() noexcept {
   }
 }
 
-// From the last to the first, so that whatever is found has been overtaken already.
+// From the last to the first, so that a state found later is already overtaken.
 void OvertakenStates::look(std::span<const ArrivedDatagram> datagrams) noexcept {
   assert(datagrams.size() <= found_.size());
   begin_look();
@@ -81,7 +82,7 @@ void OvertakenStates::look(std::span<const ArrivedDatagram> datagrams) noexcept 
   }
 }
 
-// Most datagrams have the sender of another.
+// Most datagrams have the sender of another one.
 std::uint16_t OvertakenStates::sender_of(const Arrival& arrival) noexcept {
   const auto known = std::find_if(senders_.begin(), senders_.end(), [&](const Arrival* sender) {
     return same_sender(*sender, arrival);
@@ -115,7 +116,7 @@ OvertakenStates::Pdu OvertakenStates::look_at(const pdu::BundledPdu& pdu,
   return overtaken ? Pdu::overtaken : Pdu::more;
 }
 
-// True where a later state tells all that this one does.
+// True if a later state has all information of this one.
 bool OvertakenStates::is_plain(const pdu::BundledPdu& pdu) const noexcept {
   const auto appearance = pdu::load_big_endian<std::uint32_t>(pdu.bytes.data() + kAppearanceAt);
   const bool has_parts = pdu.bytes[kParametersAt] != std::byte{0};
@@ -123,7 +124,8 @@ bool OvertakenStates::is_plain(const pdu::BundledPdu& pdu) const noexcept {
          (appearance & pdu::kAppearanceDeactivated) == 0;
 }
 
-// Where the newest state of this key is or belongs; null where too many others are in the way.
+// Place of the newest state of this key, or a free one for it; null if too many others are in the
+// way.
 OvertakenStates::Newest* OvertakenStates::find(std::uint64_t key) noexcept {
   auto place = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
   for (std::size_t i = 0; i < kPlacesTried; ++i, place = (place + 1) & (newest_.size() - 1)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Newest wins among datagrams that wait: where updates come faster than they are taken, an entity
-// costs one update, however many states of it wait.
+// The newest state wins among pending datagrams: if updates come faster than they are taken, an
+// entity costs one update, however many of its states are pending.
 #pragma once
 
 #include <cstddef>
@@ -14,39 +14,37 @@
 
 namespace reckon::peer {
 
-/// A datagram that is to be read, and what is known of it besides its octets.
+/// A datagram to be read, with its metadata.
 struct ArrivedDatagram {
   std::span<const std::byte> octets;
   Arrival arrival;
 };
 
-/// Finds among datagrams the Entity States that a later one has overtaken: a whole state of the
-/// same entity, from the same sender in the same life and by the same row of channels, in a later
-/// datagram, stamped later by less than a second. Such a state would be shown for no time at all.
-/// Never overtaken are states with which records come (force models, energy accounts), with
-/// `bodies_in_part` those that tell of parts, which a later one may leave out, those that say
-/// good-bye, and those whose stamps are out of order, equal, or of a clock that leaps: they tell
-/// more than a pose. Where there are more than kMostSenders at a time, those of the further ones
-/// are taken.
+/// Finds Entity States that a later datagram has overtaken. The later state is a whole one of the
+/// same entity, from the same sender in the same epoch and row of channels, stamped later by less
+/// than a second. The overtaken state would be shown for no time at all. Some states carry more
+/// than a pose and are never overtaken: those with records (force models, energy accounts), with
+/// `bodies_in_part` those with parts, which a later one may omit, farewells, and those whose stamps
+/// are equal, out of order, or of a clock that jumps. If there are more than kMostSenders at a
+/// time, all states of the further ones are taken.
 ///
-/// One thread; allocates only at construction. Some 15 ns a state looked at.
+/// One thread; allocates only at construction. Some 15 ns for each examined state.
 class OvertakenStates {
  public:
-  /// PDUs of a datagram that are looked at; below the MTU there are no more of 144 octets.
+  /// Most PDUs of a datagram that are examined; below the MTU there are no more of 144 octets.
   static constexpr std::size_t kMostPdus = 64;
   static constexpr std::size_t kMostSenders = 64;
 
-  /// @param exercise whose states count  @param datagrams looked at at a time, at
-  /// most; below 65,536
+  /// @param exercise whose states count  @param datagrams most at a time; below 65,536
   OvertakenStates(std::uint8_t exercise, std::size_t datagrams, bool bodies_in_part = false);
 
-  /// Looks at datagrams, in the order in which they came; as many as were said at construction.
+  /// Examines datagrams in the order of their arrival, at most as many as stated at construction.
   void look(std::span<const ArrivedDatagram> datagrams) noexcept;
-  /// Of the datagram at this place of the last look: bit i is set where its PDU i is overtaken.
+  /// Bit i is set if PDU i of this datagram of the last look is overtaken.
   [[nodiscard]] std::uint64_t of(std::size_t datagram) const noexcept {
     return found_[datagram].overtaken;
   }
-  /// True where nothing else is in it that could be taken, but a trailer.
+  /// True if the datagram has nothing else to take but perhaps a trailer.
   [[nodiscard]] bool is_whole(std::size_t datagram) const noexcept {
     return found_[datagram].overtaken != 0 && !found_[datagram].has_more;
   }
@@ -60,11 +58,11 @@ class OvertakenStates {
     std::uint16_t sender = kNoSender;  // in senders_
     bool has_more = false;
   };
-  // The newest state of an entity and a sender, as far as has been looked.
+  // The newest known state of an entity and a sender.
   struct Newest {
     std::uint64_t key = 0;  // 48 bits of the entity, 16 of the sender
     std::uint32_t timestamp = 0;
-    std::uint16_t look = 0;  // in which it was found; of former ones the place is free
+    std::uint16_t look = 0;  // in which it was found; places of earlier looks are free
     std::uint16_t datagram = 0;
   };
   enum class Pdu : std::uint8_t { overtaken, nothing, more };

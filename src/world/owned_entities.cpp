@@ -70,7 +70,7 @@ void OwnedEntities::note_sent(EntityNumber number) noexcept {
   if (find(number) != nullptr) schedule(slots_[number - 1u], number);
 }
 
-// One entry a slot counts: the one of `scheduled`. A later one is put in when that comes up.
+// One entry of a slot counts: the one of `scheduled`. When it comes up, a later one may be added.
 void OwnedEntities::schedule(Slot& slot, EntityNumber number) noexcept {
   const nanoseconds time = slot.entity->next_heartbeat();
   if (time >= slot.scheduled) return;

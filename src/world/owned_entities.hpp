@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// All entities that this peer owns, and which of them have to be looked at now: those whose truth
-// was updated, those whose heartbeat is due. One that rests costs nothing in between.
+// All entities that this peer owns, and those to check now: with a new truth or a due heartbeat. An
+// entity at rest costs nothing in between.
 #pragma once
 
 #include <algorithm>
@@ -21,25 +21,25 @@
 
 namespace reckon::peer {
 
-/// What all entities of an owner share.
+/// Settings that all entities of an owner share.
 struct OwnerSettings {
   pdu::SimulationAddress simulation;  ///< first two numbers of their IDs
   std::uint8_t exercise = 1;
   double teleport_distance = 10.0;  ///< [m] > 0
   /// Motion is rounded to the quanta of the compressed forms, unless there is none.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
-  bool touch_tier = false;  ///< who can touch receives what is felt apart
+  bool touch_tier = false;  ///< peers that can touch it receive the felt part separately
   /// With near groups: the rows of channels that are not kept, the nearest first.
   std::vector<aoim::Channel> rows = {};
 };
 
-/// The numbers of a peer's entities. A number that was given back is the last to be given again, so
-/// that nobody takes a new entity for the old one.
+/// The numbers of a peer's entities. A number that was given back is assigned last, so that no peer
+/// takes a new entity for the old one.
 class EntityNumbers {
  public:
-  /// @param taken numbers up to this one are somebody's already
+  /// @param taken numbers up to this one are in use
   explicit EntityNumbers(std::size_t taken = 0) : next_(taken) {}
-  /// None where all are taken.
+  /// None if all are in use.
   std::optional<EntityNumber> take();
   void give_back(EntityNumber number) { free_.push_back(number); }
 
@@ -48,41 +48,42 @@ class EntityNumbers {
   std::deque<EntityNumber> free_;
 };
 
-/// The table. One thread. add() allocates, all else only where more entities wait than ever before.
+/// The table. One thread. add() allocates; the rest allocates only when more entities are pending
+/// than ever before.
 class OwnedEntities {
  public:
   /// @param frame outlives the table.
   OwnedEntities(const deadreckon::LocalFrame& frame, const OwnerSettings& settings)
       : frame_(frame), settings_(settings) {}
 
-  /// A new entity under a number of 1 .. kMostOwned, to be looked at at once where `truth` has a
-  /// time. False where the number is taken.
+  /// Adds an entity under a number of 1 .. kMostOwned, to be checked at once if `truth` has a time.
+  /// False if the number is in use.
   bool add(EntityNumber number, const EntityDescription& description,
            const EntityTruth& truth = {});
-  /// Forgets an entity; nothing happens where there is none.
+  /// Removes an entity; does nothing if there is none.
   void remove(EntityNumber number) noexcept;
 
   [[nodiscard]] OwnedEntity* find(EntityNumber number) noexcept;
   [[nodiscard]] const OwnedEntity* find(EntityNumber number) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// No number above this one is taken.
+  /// Upper bound of the numbers in use.
   [[nodiscard]] std::size_t last_number() const noexcept { return slots_.size(); }
   /// Those that hands can feel, in the order of add().
   [[nodiscard]] std::span<const EntityNumber> touchable() const noexcept { return touchable_; }
-  /// First half of their IDs; entity 0 is the simulation as a whole.
+  /// First half of their IDs; entity 0 is the whole simulation.
   [[nodiscard]] pdu::EntityId simulation() const noexcept {
     return {settings_.simulation.site, settings_.simulation.application, 0};
   }
-  /// Another first half after an identity conflict: an event for each of them.
+  /// Changes the first half after an identity conflict: an event for each entity.
   void rename(const pdu::SimulationAddress& simulation) noexcept;
 
-  /// To be looked at in the next pass.
+  /// Has the entity checked in the next pass.
   void look_at(EntityNumber number) noexcept;
-  /// An update of it went out: its next repetition is to be watched for.
+  /// Records a sent update, after which the next repetition is scheduled.
   void note_sent(EntityNumber number) noexcept;
 
-  /// Calls visit(OwnedEntity&, EntityNumber) for each that has to be looked at, oldest first, until
-  /// it returns false: that one and the rest stay for the next pass.
+  /// Calls visit(OwnedEntity&, EntityNumber) for each entity to check, oldest first, until it
+  /// returns false: that one and the rest stay for the next pass.
   template <typename Visit>
   void for_each_waiting(std::chrono::nanoseconds now, Visit&& visit) {
     wake_due(now);
@@ -105,7 +106,7 @@ class OwnedEntities {
   void for_each(Visit&& visit) {
     for_each_in(0, slots_.size(), visit);
   }
-  /// The same for the next `count` places of the table, going round.
+  /// The same for the next `count` places of the table, cyclically.
   template <typename Visit>
   void for_each_next(std::size_t count, Visit&& visit) {
     count = std::min(count, slots_.size());
@@ -116,7 +117,7 @@ class OwnedEntities {
     cursor_ = slots_.empty() ? 0 : (cursor_ + count) % slots_.size();
   }
 
-  /// Steady time at which the next one has to be looked at; max where none.
+  /// Steady time at which the next one has to be checked; max if none.
   [[nodiscard]] std::chrono::nanoseconds next_due() const noexcept;
 
  private:

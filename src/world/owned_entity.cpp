@@ -19,16 +19,16 @@ using deadreckon::ConversionError;
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-// A change is said again after this [s] without another one, then after twice as long, and so on:
-// what was lost on the way is so mended soon. What is felt cannot wait as long as what is seen.
+// A change is repeated after this [s] without another one, then after twice as long, and so on:
+// this soon repairs a loss. A felt change cannot wait as long as a visible one.
 constexpr double kFirstRepeatFelt = 0.2;
 constexpr double kFirstRepeat = 1.0;
-// Accounts alone make at most one packet in this time. What is lost on the way goes out again with
-// the next repetition: totals are said, not differences.
+// Accounts alone cause at most one packet in this time. The next repetition repairs a loss, because
+// accounts are totals, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
 
-// An update that tells every hand there is room for what it was given travels in one datagram, of
-// the size that a scene file has unless it says otherwise.
+// An update with an account for every hand that there is room for fits one datagram of the default
+// size of a scene file.
 constexpr std::size_t kBareEntityState = 144;
 constexpr std::size_t kUsualDatagram = 1288;
 static_assert(kBareEntityState + pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
@@ -39,7 +39,7 @@ constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbe
 
 constexpr std::uint32_t kOwnBits = pdu::kAppearanceFrozen | pdu::kAppearanceDeactivated;
 
-// As it is sent: one that nobody repeats is believed no shorter than that.
+// As it is sent: an entity without repetitions is believed at least that long.
 deadreckon::ForceModel believed(deadreckon::ForceModel model) {
   model.validity = std::max(model.validity, kLeastValidity);
   return model;
@@ -51,7 +51,7 @@ double heartbeat_of(const EntityDescription& description) {
     return stated > nanoseconds(0) ? pdu::to_seconds(stated)
                                    : deadreckon::nominal_heartbeat(description.type);
   }
-  // A force that fades out before it is said again would come and go; one update may be lost.
+  // A force that fades out before its repetition would come and go; one update may be lost.
   const double wanted =
       stated > nanoseconds(0) ? pdu::to_seconds(stated) : deadreckon::kHapticHeartbeat;
   return std::min(wanted, believed(*description.model).validity / deadreckon::kTimeoutMultiplier);
@@ -194,7 +194,7 @@ EntityTruth OwnedEntity::truth_at(nanoseconds now) const noexcept {
   return later;
 }
 
-// What peers are to believe: the truth, or where it froze.
+// What peers shall predict: the truth, or the state in which it was frozen.
 EntityTruth OwnedEntity::stated_truth(nanoseconds now) const noexcept {
   if (!frozen_) return truth_at(now);
   EntityTruth stated = frozen_at_;
@@ -229,7 +229,7 @@ deadreckon::KinematicState OwnedEntity::motion_of(const EntityTruth& truth) cons
   if (deadreckon::drm_terms(state.algorithm).body_axes) {
     const Eigen::Quaterniond to_body = truth.orientation.conjugate();
     state.velocity = to_body * state.velocity;
-    // In body axes it is the rate of the body's components.
+    // In body axes: the rate of the body's components.
     state.acceleration =
         to_body * state.acceleration - state.angular_velocity.cross(state.velocity);
   }
@@ -299,7 +299,7 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
 
   if (compressor_) static_cast<void>(pdu::quantise(update.state, {}));
 
-  // Predict from what peers will decode, not from what we had: the wire rounds to float32.
+  // Predicts from what peers will decode, not from our values: the wire rounds to float32.
   deadreckon::KinematicState decoded;
   if (deadreckon::from_wire(update.state, *frame_, decoded, config_.acceleration) !=
       ConversionError::none) {
@@ -353,7 +353,7 @@ bool OwnedEntity::hold_back(nanoseconds time) noexcept {
   return first;
 }
 
-// Where nobody listens nothing is due.
+// Without listeners nothing is due.
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
   const nanoseconds own = last_built_ + pdu::from_seconds(policy_.silence());
   if (!audiences_) return std::min(held_until_, own);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The owner's side of the predictors: when has an entity of ours to be sent, and what goes out. The
-// same for a hand, a truck and a post. Part of the model loop.
+// The owner's side of the predictors: decides when an entity of ours has to be sent, and builds the
+// update. The same for a hand, a truck and a post. Part of the model loop.
 #pragma once
 
 #include <algorithm>
@@ -34,14 +34,14 @@ namespace reckon::peer {
 struct EnergyAccount {
   pdu::EntityId counterpart;
   double given = 0.0;        ///< [J], running total that we have given
-  double need = 0.0;         ///< [J], what we ask for
-  double spring_need = 0.0;  ///< [J], what we would like beyond, see haptics::EnergyDemand
+  double need = 0.0;         ///< [J], what we request
+  double spring_need = 0.0;  ///< [J], what we would like in addition, see haptics::EnergyDemand
 };
 
 /// Most counterparts of one entity at a time.
 inline constexpr std::size_t kMostAccounts = haptics::kMaxRemoteHands;
 
-/// What one update of an entity consists of.
+/// Content of one update of an entity.
 struct EntityUpdate {
   pdu::EntityState state;  ///< its variable parameters are a view of `parts`
   bool has_model = false;
@@ -51,7 +51,7 @@ struct EntityUpdate {
   std::array<std::byte, 32 * deadreckon::PartState::kCapacity> parts{};
 };
 
-/// Octets that the records of any update fit into.
+/// Largest size of the records of an update [octets].
 inline constexpr std::size_t kMaxEntityRecords =
     pdu::kHapticRecordLength + kMostAccounts * pdu::kEnergyAccountRecordLength;
 
@@ -59,23 +59,24 @@ inline constexpr std::size_t kMaxEntityRecords =
 std::size_t store_records(const EntityUpdate& update,
                           std::span<std::byte, kMaxEntityRecords> records) noexcept;
 
-/// What of an entity hands feel: made at registration for entities with a force model alone.
+/// The felt side of an entity: made at registration, only for entities with a force model.
 class TouchSide {
  public:
   explicit TouchSide(const deadreckon::ForceModel& model)
       : model_(model), k1_(model.k1), k3_(model.k3) {}
 
   [[nodiscard]] const deadreckon::ForceModel& model() const noexcept { return model_; }
-  /// The model's point moves within the body [m], body axes.
+  /// Moves the model's point within the body [m], body axes.
   void move_point(const Eigen::Vector3d& point) noexcept { model_.point = point; }
 
-  /// The model is so much softer than it was made, (0, 1]: what our device shows, others show too.
+  /// Softens the model to this share of its original stiffness, (0, 1]: others show it as our
+  /// device does.
   void soften(double share) noexcept {
     model_.k1 = share * k1_;
     model_.k3 = share * k3_;
   }
 
-  /// The probe at which the force that peers compute is farthest beyond what is allowed there.
+  /// The probe at which the peers' force exceeds the tolerance the most.
   struct Miss {
     double error = 0;  ///< [N], of the force that peers compute
     double truth = 0;  ///< [N], of the true one
@@ -84,132 +85,134 @@ class TouchSide {
                                 std::span<const deadreckon::ProbeState> probes,
                                 const deadreckon::Thresholds& limits) const noexcept;
 
-  /// Whether the accounts are worth an update.
+  /// Whether the accounts have changed enough for an update.
   [[nodiscard]] bool accounts_changed(std::span<const EnergyAccount> accounts) const noexcept;
 
  private:
   friend class OwnedEntity;
   deadreckon::ForceModel model_;
-  double k1_, k3_;  // as made
+  double k1_, k3_;  // original values
   deadreckon::ForcePredictor predictor_;
   std::array<pdu::EnergyAccountRecord, kMostAccounts> sent_{};
   std::size_t sent_count_ = 0;
 };
 
-/// One owned entity. Runs the predictors that its peers run and tells when they are off. One
-/// thread; allocates at construction alone. A decision costs some 100 ns.
+/// One owned entity. Runs the predictors that its peers run and detects threshold crossings. One
+/// thread; allocates only at construction. A decision costs some 100 ns.
 class OwnedEntity {
  public:
-  /// @param frame outlives the entity. @param teleport_distance [m] > 0: a truth so far from the
-  /// one before, and from where that led, is an event.
+  /// @param frame outlives the entity.
+  /// @param teleport_distance [m] > 0: a truth at this distance from both the last truth and its
+  /// extrapolation is an event.
   OwnedEntity(const deadreckon::LocalFrame& frame, const EntityDescription& description,
               const pdu::EntityId& id, std::uint8_t exercise, double teleport_distance);
 
   [[nodiscard]] pdu::EntityId id() const noexcept { return template_.entity_id; }
   [[nodiscard]] const pdu::EntityType& type() const noexcept { return template_.entity_type; }
-  /// Another number after an identity conflict; the next decide() says `event`.
+  /// Changes the number after an identity conflict; the next decide() returns `event`.
   void rename(const pdu::EntityId& id) noexcept;
 
-  /// The next decide() says `event`: a newcomer has to hear of it, or something abrupt happened.
+  /// Makes the next decide() return `event`, for a newcomer or an abrupt change.
   void event() noexcept { event(kAllAudiences); }
-  /// The same for an audience and those before it.
+  /// The same for a recipient tier and the inner ones.
   void event(std::size_t audience) noexcept {
     policy_.event();
     if (audiences_) audiences_->event(audience);
   }
-  /// The same of what concerns those alone who may touch it.
+  /// The same for the tier that may touch it alone.
   void felt_event() noexcept { policy_.event(); }
-  /// Appearance as on the wire, but for the bits that the peer sets itself. An event.
+  /// Sets the appearance as on the wire, except for the bits that the peer sets itself. An event.
   void set_appearance(std::uint32_t appearance) noexcept;
   /// While frozen, updates state that it stays where it was, whatever its truth does.
   void set_frozen(bool frozen) noexcept;
   [[nodiscard]] bool is_frozen() const noexcept { return frozen_; }
   void set_deactivated() noexcept;
-  /// Its articulated parts; an event only where peers are wrong about them. Allocates the first
+  /// Sets its articulated parts; an event only if peers predict them wrongly. Allocates the first
   /// time.
   void set_parts(const deadreckon::PartState& parts);
 
-  /// Where it truly is. False, and nothing changes, where that is not finite or older than what is
-  /// known.
+  /// Sets the true state. Returns false and changes nothing if it is not finite or older than the
+  /// present one.
   bool move(const EntityTruth& truth) noexcept;
-  /// The last truth, carried on to `now` by its own rates.
+  /// The last truth, extrapolated to `now` by its own rates.
   [[nodiscard]] EntityTruth truth_at(std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] const EntityTruth& truth() const noexcept { return truth_; }
-  /// Whether its last truth stands still.
+  /// Whether its last truth is at rest.
   [[nodiscard]] bool is_resting() const noexcept;
 
-  /// Null for what nobody feels.
+  /// Null for an entity that nobody feels.
   [[nodiscard]] TouchSide* touch() noexcept { return touch_.get(); }
   [[nodiscard]] const TouchSide* touch() const noexcept { return touch_.get(); }
 
-  /// An event where the accounts have changed by more than peers should be left to guess, at most
-  /// one in 20 ms. True where it is.
+  /// Makes an event if the accounts have changed by more than peers may be left to guess, at most
+  /// one in 20 ms. Returns true if it did.
   bool consider_accounts(std::chrono::nanoseconds now,
                          std::span<const EnergyAccount> accounts) noexcept;
 
-  /// Why to send what is true at `now`; `none` where peers still predict it well enough.
-  /// @param probes at which the force has to be right, as they lie now
+  /// Reason to send the truth at `now`; `none` if peers still predict it well enough.
+  /// @param probes at which the force has to be right, at their present positions
   [[nodiscard]] deadreckon::SendReason decide(
       std::chrono::nanoseconds now, std::span<const deadreckon::ProbeState> probes = {}) noexcept;
 
-  /// From now on some receive what others do not: with `felt`, what is felt, by contact
-  /// groups; with two rows of channels or more, by near groups. What hands feel is sent by near
-  /// groups only where that is sent by contact groups.
+  /// From now on tiers receive different updates: with `felt`, the felt tier by contact groups;
+  /// with two or more rows of channels, each row by near groups. A felt entity uses near groups
+  /// only if it uses contact groups too.
   void tell_apart(bool felt, std::span<const aoim::Channel> rows);
-  /// Null where all receive the same.
+  /// Null if all peers receive the same.
   [[nodiscard]] Audiences* audiences() noexcept { return audiences_.get(); }
   [[nodiscard]] const Audiences* audiences() const noexcept { return audiences_.get(); }
-  /// Why an update is due to this audience, 1 or more; `none` where it is not.
+  /// Reason for an update to this tier, 1 or more; `none` if none is due.
   [[nodiscard]] deadreckon::SendReason decide_for(std::size_t audience,
                                                   std::chrono::nanoseconds now) const noexcept;
-  /// Steady time at which an audience was sent its last update.
+  /// Steady time of the last update to a tier.
   [[nodiscard]] std::chrono::nanoseconds last_sent_at(std::size_t audience) const noexcept;
 
-  /// Fills `update` with what is true at `now` and notes it as sent. `utc` is the same instant.
-  /// False where the state cannot be sent (beyond the wire's range): nothing is noted.
-  /// @param body what of it: without its parts, or without what is felt, these count as not said
-  /// @param audience who hears it: parts that not all hear who want them count as not said, too
+  /// Fills `update` with the truth at `now` and records it as sent. `utc` is the same instant.
+  /// Returns false and records nothing if the state exceeds the range of the wire.
+  /// @param body without parts or without the felt side, those count as not sent
+  /// @param audience recipient tier: parts that do not reach all interested peers count as not
+  /// sent, too
   [[nodiscard]] bool build(std::chrono::nanoseconds now, std::chrono::nanoseconds utc,
                            deadreckon::SendReason reason, std::span<const EnergyAccount> accounts,
                            EntityUpdate& update, aoim::Body body = aoim::Body::full,
                            std::size_t audience = kAllAudiences) noexcept;
 
-  /// Whether an update with so much of the body leaves out what it has: its parts, what is felt.
+  /// Whether an update with this body omits something that the entity has: its parts or felt side.
   [[nodiscard]] bool is_thinned(aoim::Body body) const noexcept {
     return (touch_ && body != aoim::Body::full) || (parts_ && body == aoim::Body::rigid);
   }
 
-  /// What would be sent now may wait: it is looked at again at `time`, if nothing goes out before.
-  /// True where nothing has waited since the last update.
+  /// Defers a due update to `time`, unless an update is sent before. True if nothing was deferred
+  /// since the last update.
   bool hold_back(std::chrono::nanoseconds time) noexcept;
-  /// It is looked at again at `time`, if nothing goes out before.
+  /// Has it checked again at `time`, unless an update is sent before.
   void look_again(std::chrono::nanoseconds time) noexcept {
     held_until_ = std::min(held_until_, time);
   }
-  /// It is looked at: what was held back until `now` waits no more, unless it is held back again.
+  /// Records a check: what was deferred until `now` is no longer, unless it is deferred again.
   void let_go(std::chrono::nanoseconds now) noexcept {
     if (held_until_ <= now) held_until_ = std::chrono::nanoseconds::max();
   }
 
-  /// The motion that an update says at `now`, S frame.
+  /// The motion that an update at `now` states, S frame.
   [[nodiscard]] deadreckon::KinematicState motion_at(std::chrono::nanoseconds now) const noexcept;
   /// Steady time of the last update; far in the past before the first.
   [[nodiscard]] std::chrono::nanoseconds last_built() const noexcept { return last_built_; }
-  /// Steady time at which it has to be looked at again though nothing changes.
+  /// Steady time at which it has to be checked again, even without a change.
   [[nodiscard]] std::chrono::nanoseconds next_heartbeat() const noexcept;
 
   /// From now on updates are rounded to quanta, so that a compressed form carries them exactly, and
-  /// go out in it; `none`: neither. What hands feel, and what may be off by less than four quanta,
-  /// stays plain. Allocates.
+  /// are sent in it; `none`: neither. Updates stay plain for felt entities and for those with
+  /// thresholds below four quanta. Allocates.
   void compress(pdu::CompressedForm form);
-  /// Null where they go out plain.
+  /// Null if they are sent plain.
   [[nodiscard]] StateCompressor* compressor() noexcept { return compressor_.get(); }
 
-  aoim::GroupIndex last_group;  ///< where the last update for all went
-  /// Steady time of the pass in which that was.
+  aoim::GroupIndex last_group;  ///< of the last update for all peers
+  /// Steady time of the pass of that update.
   std::chrono::nanoseconds last_sent{std::chrono::nanoseconds::min() / 2};
-  /// The same of the last that tells a newcomer everything: no part left out for the distance, nor
-  /// leaning on a key that it has not heard.
+  /// The same of the last update that is complete for a newcomer: no part omitted for distance, no
+  /// dependence on a key state that the newcomer lacks.
   std::chrono::nanoseconds last_whole{std::chrono::nanoseconds::min() / 2};
 
  private:
@@ -229,13 +232,13 @@ class OwnedEntity {
   EntityTruth truth_;
   bool frozen_ = false;
   std::chrono::nanoseconds held_until_ = std::chrono::nanoseconds::max();
-  bool has_waited_ = false;  // something, since the last update
+  bool has_waited_ = false;  // an update was deferred since the last one
   std::chrono::nanoseconds last_built_{std::chrono::nanoseconds::min() / 2};
   DeadReckoningConfig config_;
   double teleport_distance_;
-  std::unique_ptr<deadreckon::ModelChoice> choice_;  // where the configuration names no model
+  std::unique_ptr<deadreckon::ModelChoice> choice_;  // if the configuration names no model
   std::unique_ptr<TouchSide> touch_;
-  std::unique_ptr<Audiences> audiences_;  // where some receive more than others
+  std::unique_ptr<Audiences> audiences_;  // if tiers receive different updates
   std::unique_ptr<StateCompressor> compressor_;
   std::unique_ptr<Parts> parts_;
   EntityTruth frozen_at_;

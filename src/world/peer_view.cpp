@@ -66,7 +66,7 @@ void ViewChoice::offer(const Candidate& candidate) noexcept {
   std::push_heap(begin, begin + static_cast<std::ptrdiff_t>(count_));
 }
 
-// One whose row has moved is found again when its new place is looked at.
+// An entity whose row has moved is found again when its new place is examined.
 void ViewChoice::offer_again(std::span<const RemoteEntity> rows,
                              const Eigen::Vector3d& from) noexcept {
   constexpr double kStays = 0.9 * 0.9;

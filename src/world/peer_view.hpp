@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer shows of itself to terminals, files and measurements: copies that the model loop
-// publishes, so that looking never disturbs a loop.
+// A peer's state for terminals, files and measurements: copies that the model loop publishes, so
+// that reading never disturbs a loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,18 +27,18 @@ struct EntityView {
   pdu::EntityKind kind = pdu::EntityKind::other;
   pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::static_;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< as shown, S [m]
-  double rate_hz = 0.0;                                ///< updates a second since first heard
-  double jump_m = 0.0;                                 ///< innovation of the last update
-  double age = 0.0;                                    ///< [s] since the last update
+  double rate_hz = 0.0;  ///< updates a second since the first reception
+  double jump_m = 0.0;   ///< innovation of the last update
+  double age = 0.0;      ///< [s] since the last update
   bool haptic = false;
   bool frozen = false;
-  bool refused = false;   ///< the force model that it sent last: impossible values
-  double force_n = 0.0;   ///< magnitude rendered on our hand now, the most of several
+  bool refused = false;   ///< its last force model had impossible values
+  double force_n = 0.0;   ///< magnitude on our hand now, the largest of several
   double k1 = 0.0;        ///< [N/m] as received
-  double k1_felt = 0.0;   ///< [N/m] that our devices show of it, the least of those near it
+  double k1_felt = 0.0;   ///< [N/m], least stiffness at which our devices near it show it
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
-  std::uint8_t parts = 0;  ///< numbers of its articulated parts
+  std::uint8_t parts = 0;  ///< parameters of its articulated parts, one or more for each part
 };
 
 /// One hand of this peer.
@@ -48,7 +48,7 @@ struct HandView {
   DeviceStiffness stiffness;
 };
 
-/// Who leads the scene and the cells of a peer, where the scene has leaders.
+/// Leaders of the scene and of a peer's cells, if the scene has leaders.
 struct LeadersView {
   static constexpr std::size_t kCells = 64;  ///< shown; `cells` counts all
   struct Cell {
@@ -60,17 +60,17 @@ struct LeadersView {
   struct Followed {
     std::array<char, 32> name{};  ///< NUL at the end
     bool found = false;
-    std::int32_t column = 0, row = 0;  ///< its cell, where it is found
-    std::uint16_t group = 0;           ///< in which that is spoken in; 0: the base group
+    std::int32_t column = 0, row = 0;  ///< its cell, if it is found
+    std::uint16_t group = 0;           ///< used for its traffic; 0: the base group
   };
 
   bool on = false;
-  pdu::SimulationAddress scene;   ///< who leads the scene; 0:0: none is known
-  std::uint32_t map_version = 0;  ///< of the map of groups that is in use; 0: none
-  std::size_t map_cells = 0;      ///< that have a group in it
-  std::size_t cells = 0;          ///< in which this peer is
-  std::size_t led = 0;            ///< of these, by this peer
-  std::size_t leaderless = 0;     ///< of these, by nobody as far as known
+  pdu::SimulationAddress scene;   ///< leader of the scene; 0:0: none is known
+  std::uint32_t map_version = 0;  ///< of the map of groups in use; 0: none
+  std::size_t map_cells = 0;      ///< cells with a group in it
+  std::size_t cells = 0;          ///< cells of which this peer is a member
+  std::size_t led = 0;            ///< of these, led by this peer
+  std::size_t leaderless = 0;     ///< of these, without a known leader
   std::size_t count = 0;
   std::array<Cell, kCells> rows{};
   std::size_t followed_count = 0;
@@ -82,11 +82,11 @@ struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
 
   std::chrono::nanoseconds time{0};
-  pdu::EntityId own;      ///< first entity of this peer; entity 0 where it has none
+  pdu::EntityId own;      ///< first entity of this peer; entity 0 if it has none
   std::size_t owned = 0;  ///< entities of this peer
-  /// When those that follow tracks set out; negative: not yet.
+  /// When the entities on tracks started; negative: not yet.
   std::chrono::nanoseconds set_out{-1};
-  double power_given = 0;  ///< [J] that those without a device put into hands
+  double power_given = 0;  ///< [J] given to hands by entities without a device
   std::array<HandView, kMaxDevices> hands{};
   std::size_t hand_count = 0;
   std::size_t entities = 0;  ///< remote ones known
@@ -95,12 +95,12 @@ struct PeerView {
   LeadersView leaders;
   bool frozen = false;
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown
-  /// What the rows are the nearest to: the first hand, the first entity or the origin, S [m].
+  /// Centre of the selection of rows: the first hand, the first entity or the origin, S [m].
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   std::array<EntityView, kRows> rows{};  ///< in the order of their IDs
 
-  /// Of the first hand; all zero where there is none.
+  /// Of the first hand; all zero if there is none.
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return hands[0].servo; }
   [[nodiscard]] std::span<const HandView> own_hands() const noexcept {
     return {hands.data(), hand_count};
@@ -110,23 +110,23 @@ struct PeerView {
 /// The row of a remote entity at `now`, with the force it puts on our hands.
 [[nodiscard]] EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
                                  std::chrono::nanoseconds now) noexcept;
-/// Which entities a picture has where there are more than it has rows: the nearest, and those of
-/// the picture before until another is a tenth nearer, so that none come and go at the edge.
+/// Selects the entities of a picture if there are more than rows: the nearest, and those of the
+/// last picture until another is a tenth nearer, so that none flickers at the edge.
 ///
-/// Of a large table each picture looks at kLooks rows further on, and at those of the picture
-/// before: all have been looked at within 100,000 / kLooks = 13 pictures.
+/// In a large table each picture examines kLooks further rows and those of the last picture: all
+/// are examined within 100,000 / kLooks = 13 pictures.
 class ViewChoice {
  public:
   static constexpr std::size_t kLooks = 8192;
 
-  /// Where the chosen ones stand in `rows`, in the order of their IDs; good until the next call.
-  /// Nearest to `from` [m] by where they last said to be. Some 10 ns a look.
+  /// Places of the selected entities in `rows`, in the order of their IDs; valid until the next
+  /// call. Nearest to `from` [m] by their last stated position. Some 10 ns for each examined row.
   [[nodiscard]] std::span<const std::uint32_t> choose(std::span<const RemoteEntity> rows,
                                                       const Eigen::Vector3d& from) noexcept;
 
  private:
   struct Candidate {
-    double distance = 0;  // squared [m^2], less where it was chosen last time
+    double distance = 0;  // squared [m^2], less if it was chosen last time
     std::uint32_t place = 0;
     friend bool operator<(const Candidate& a, const Candidate& b) noexcept {
       return a.distance < b.distance;
@@ -139,13 +139,14 @@ class ViewChoice {
 
   std::array<Candidate, PeerView::kRows> nearest_{};  // a heap, the farthest at its head
   std::array<std::uint32_t, PeerView::kRows> places_{};
-  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // in order, at places_
+  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // IDs of the rows at places_
   std::size_t count_ = 0;
   std::size_t chosen_count_ = 0;
-  std::size_t next_ = 0;  // row to look at
+  std::size_t next_ = 0;  // next row to examine
 };
 
-/// What was shown of one remote entity at one model step; a measurement compares it with the truth.
+/// The shown state of one remote entity at one model step, which a measurement compares with the
+/// truth.
 struct ShownSample {
   std::chrono::nanoseconds time{0};
   pdu::EntityId id;

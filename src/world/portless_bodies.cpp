@@ -12,7 +12,7 @@ using std::chrono::nanoseconds;
 
 namespace {
 
-// What stands still is said again to our own hands, whose record of it would expire.
+// A resting body is repeated to our own hands, whose record of it would expire.
 constexpr std::chrono::seconds kRefresh{1};
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Entities of ours that hands feel but no device moves: a post, a wall, a robot's tip. They have no
-// port, hence no ledger: one that stands still needs and gives nothing, one that moves gives to the
-// hands it pushes from a stated power, and what it gives is booked as put in by its owner.
+// port and no ledger. A resting one neither needs nor gives energy. A moving one gives to the hands
+// that it pushes from a stated power, booked as put in by its owner.
 #pragma once
 
 #include <array>
@@ -17,22 +17,22 @@
 
 namespace reckon::peer {
 
-/// One of them.
+/// One such entity.
 class PortlessBody {
  public:
   PortlessBody(EntityNumber number, double power) noexcept : number_(number), budget_(power) {}
 
   [[nodiscard]] EntityNumber number() const noexcept { return number_; }
-  /// What goes out with its updates; good until the next answer().
+  /// Accounts for its next update; valid until the next answer().
   [[nodiscard]] std::span<const EnergyAccount> accounts() const noexcept {
     return {accounts_.data(), account_count_};
   }
-  /// Counts whatever hands near have to hear of; see RemoteHand::version.
+  /// Counts changes that hands nearby have to receive; see RemoteHand::version.
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
   /// Whether it moved since the last answer().
   [[nodiscard]] bool moves() const noexcept { return moves_; }
 
-  /// Gives what is asked for, as far as there is any. Returns what that was [J].
+  /// Gives the requested energy as far as there is any. Returns the energy given [J].
   double answer(const OwnedEntity& entity, EnergyBooks& books, std::chrono::nanoseconds now);
 
  private:
@@ -49,7 +49,7 @@ class PortlessBody {
   std::size_t account_count_ = 0;
 };
 
-/// Enters what our own hands ask of entities of ours, as their servos show it.
+/// Enters the requests of our own hands to entities of ours, from their servos.
 void note_own_needs(std::span<const HandPort> hands, const OwnedEntities& owned, EnergyBooks& books,
                     std::chrono::nanoseconds now) noexcept;
 

@@ -15,7 +15,7 @@ namespace {
 using deadreckon::ConversionError;
 using std::chrono::nanoseconds;
 
-// Whether a state says, by the same timestamp, what is known already.
+// Whether a state repeats, with the same timestamp, what is known already.
 bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) {
   return row.updates > 0 && row.timestamp == pdu.header.timestamp &&
@@ -92,7 +92,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   return true;
 }
 
-// The rest of what an update does, once its state has been taken.
+// The remaining effects of an update, after its state was taken.
 void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexcept {
   if (update.has_model) take_model(row, update.model);
   ++row.version;
@@ -104,7 +104,7 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
   changes_.updated(place);
 }
 
-// What was said already tells nothing new, but that it is still there.
+// A repetition shows only that the entity still exists.
 bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
                                  const HeardState& heard) noexcept {
   counts_.repeats.add();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What is kept of entities beside what is shown of them: those outside the radius of interest, and
-// what was said to those who are farther away than we are.
+// States of entities that are kept but not shown: of those outside the radius of interest, and
+// those for listeners that are farther away than we are.
 #include <algorithm>
 #include <array>
 
@@ -16,7 +16,7 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-// Of one outside nothing is kept that its owner does not keep right for those who are so far away.
+// Of an entity outside, only states are kept that its owner keeps right for listeners so far away.
 void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
                                   const deadreckon::KinematicState& state,
                                   const RemoteEntity* row) noexcept {
@@ -36,7 +36,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   keep_outside(OutsideEntity(known, then, held.state, timeout));
 }
 
-// As if it had been received out there: when it was said is known, so no clock is asked again.
+// As if it had been received outside: its time is known, so no clock is asked again.
 void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   const std::size_t place = table_.place_of(row);
   HeldState known{row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
@@ -60,7 +60,7 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
     pdu.variable_parameters = std::span(parts).first(deadreckon::to_wire(*state, parts));
   deadreckon::ForceModel model = row.model;
   model.validity = std::max(pdu::to_seconds(row.valid_until - row.last_heard), 0.0);
-  // One that was doubted is not felt when it comes back either, until it says where it is.
+  // A doubted entity is not felt after its return either, until it sends its position.
   const bool felt = row.haptic && row.felt_until == RemoteEntity::kTrusted;
   update.has_model =
       felt && deadreckon::to_wire(model, update.model) == deadreckon::ConversionError::none;

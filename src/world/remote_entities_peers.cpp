@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of the entities of peers that go, fall silent and are heard again.
+// Entities of peers that leave, become silent and are received again.
 #include <algorithm>
 
 #include "reckon/peer/world/remote_entities.hpp"
@@ -52,7 +52,7 @@ void RemoteEntities::let_go(const pdu::EntityId& id) noexcept {
   if (row != nullptr) let_go(*row);
 }
 
-// Long ago, so that nothing is left to fade: who is heard has had the time to say that it is there.
+// Long ago, so that no force is left to fade: the owner had time to send a state.
 void RemoteEntities::let_go(RemoteEntity& row) noexcept {
   row.felt_until = std::min(row.felt_until, row.last_heard);
 }

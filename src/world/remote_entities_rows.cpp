@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which rows there are: how entities come into the table, out of sight and go.
+// The rows: how entities enter the table, go out of sight and are removed.
 #include <algorithm>
 #include <cstdint>
 
@@ -14,13 +14,13 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// [m] that we withdraw before what is near the border is looked at again.
+// [m] that we withdraw before rows near the border are checked again.
 constexpr double kLeastStep = 0.01;
 
 }  // namespace
 
-// The row that a state belongs to, `row` or a new one; null where the entity leaves, is of no
-// interest, or has no room.
+// The row for a state, `row` or a new one; null if the entity leaves, is of no interest, or has no
+// room.
 RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
                                       const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
@@ -33,7 +33,7 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
   if (row != nullptr &&
       (row->epoch != arrival.epoch ||
        (moved && !owners_.hand_over(table_.place_of(*row), arrival.from, arrival.now)))) {
-    drop(table_.place_of(*row), counts_.left);  // a new life of its owner
+    drop(table_.place_of(*row), counts_.left);  // its owner has a new epoch
     row = nullptr;
   }
   if (moved && row != nullptr) row->party = owners_.party(table_.place_of(*row));
@@ -73,7 +73,7 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
     const double nimbus = nimbus_of(settings_.nimbus, row.type);
     const double speed = deadreckon::stands_still(row.state) ? 0.0 : pose.velocity.norm();
     double spare = aoim_.sight().spare(position, nimbus, kind);
-    // It counts what leaves; on the very border it stays.
+    // judge() counts entities that leave; on the very border an entity stays.
     if (!(spare > 0.0) && aoim::is_accepted(aoim_.sight().judge(position, nimbus, kind, true)))
       spare = kLeastStep;
     return {spare, speed};
@@ -94,7 +94,7 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
       [&](const OutsideEntity& entity, nanoseconds owner_heard) { enter(entity, owner_heard); });
 }
 
-// As if it had been within when it was heard.
+// As if it had been within when it was received.
 void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
   if (!ownership_.may_speak(entity.id(), entity.arrival(), nullptr)) return;
@@ -104,7 +104,7 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
   if (row == nullptr) return;
   const Inbound update = entity.update();
   if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
-    return drop(table_.place_of(*row), counts_.left);  // its first timestamp is none
+    return drop(table_.place_of(*row), counts_.left);  // it has no first timestamp
   }
   row->last_heard = std::max(row->last_heard, entity.last_heard());
   note_sight(*row, aoim::InterestVerdict::inside, row->state, entity.arrival().now);
@@ -128,7 +128,7 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   return row;
 }
 
-// In the table and all beside it the last row goes to `place`.
+// In the table and all columns beside it the last row moves to `place`.
 void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   RemoteEntity& row = table_.rows()[place];
   parts_.release(row);
@@ -150,7 +150,7 @@ void RemoteEntities::expire(nanoseconds now) noexcept {
     if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
       drop(i, counts_.timed_out);
     } else {
-      time_outs_.set(i, now + nanoseconds(1));  // not yet, by a nanosecond of rounding
+      time_outs_.set(i, now + nanoseconds(1));  // not yet due, by a nanosecond of rounding
     }
   }
 }

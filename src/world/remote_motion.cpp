@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// What updates of this model say to an extrapolator.
+// The rates that updates of this model give to an extrapolator.
 deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
   if (terms.acceleration) return deadreckon::SentRates::acceleration;
@@ -110,8 +110,8 @@ bool RemoteMotion::is_teleport(const deadreckon::Pose& shown,
          !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
 }
 
-// Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
-// instants a better knowledge of the sender's clock has turned back.
+// The history before an abrupt change predicts nothing after it. A history also ends if a better
+// estimate of the sender's clock has reversed its instants.
 void RemoteMotion::note_history(RemoteEntity& row, std::size_t place,
                                 const deadreckon::Pose& expected, bool abrupt) noexcept {
   const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How what is shown of remote entities follows the states that their owners send.
+// Moves the shown state of remote entities to the received states.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@
 
 namespace reckon::peer {
 
-/// A state being taken, with when it came and our hand then.
+/// A state that is being taken, with its arrival and our hand at that time.
 struct HeardState {
   const pdu::EntityState& pdu;
   const deadreckon::KinematicState& state;  ///< the same, S frame
@@ -31,35 +31,35 @@ struct HeardState {
   const haptics::ServoSnapshot& servo;
 };
 
-/// Beside the rows of a StateTable: the clock of each sender, and the history in scenes of adaptive
-/// prediction. It writes a row's state and its convergence, and measures how far each update was
-/// from what had been predicted. One thread; allocates at construction alone.
+/// Beside the rows of a StateTable: the clock of each sender, and the history in scenes with
+/// adaptive prediction. It writes a row's state and convergence, and measures the distance of each
+/// update from its prediction. One thread; allocates only at construction.
 class RemoteMotion {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
   enum class Outcome : std::uint8_t {
-    stale,   ///< older than what is known: nothing has changed, it is counted
-    smooth,  ///< what is shown converges to it
+    stale,   ///< older than the known state: ignored and counted
+    smooth,  ///< the shown pose converges to it
     abrupt,  ///< it is shown at once: a teleport, frozen or resumed
   };
 
   /// References outlive this.
   RemoteMotion(const RemoteSettings& settings, const RemoteCounters& counts);
 
-  /// A row was added at the end.
+  /// Adds a row at the end.
   void add(RemoteEntity& row);
-  /// The last row has gone to `place`. @param rows without the one that was erased
+  /// Moves the last row to `place`.  @param rows without the erased one
   void erase(std::size_t place, std::span<RemoteEntity> rows) noexcept;
-  /// Has what take() looks at brought near.
+  /// Prefetches the memory that take() reads.
   void prefetch(std::size_t place) const noexcept { clocks_.prefetch(place); }
 
-  /// The row at `place` takes a state.
+  /// Applies a state to the row at `place`.
   Outcome take(RemoteEntity& row, std::size_t place, const HeardState& heard) noexcept;
-  /// It goes back to a state that was heard before, without a jump.
+  /// Returns to a state that was received before, without a jump.
   void go_back(RemoteEntity& row, std::size_t place, const HeldState& held,
                Nanoseconds now) noexcept;
-  /// Its owner is believed again: it goes on from where it is shown, at once where that is too far
-  /// from what was predicted meanwhile.
+  /// Its owner is believed again: the entity moves on from where it is shown, or jumps if that is
+  /// too far from the continued prediction.
   void resume(RemoteEntity& row, Nanoseconds now) noexcept;
 
   /// Innovations, see RemoteEntities. Any thread.
@@ -68,7 +68,7 @@ class RemoteMotion {
 
  private:
   static void note_state(RemoteEntity& row, const HeardState& heard, Nanoseconds time) noexcept;
-  /// `expected`: what the update before said of this one's instant.
+  /// @param expected prediction by the last update for this one's instant
   void note_history(RemoteEntity& row, std::size_t place, const deadreckon::Pose& expected,
                     bool abrupt) noexcept;
   [[nodiscard]] bool is_teleport(const deadreckon::Pose& shown,

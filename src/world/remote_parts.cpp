@@ -15,7 +15,7 @@ using deadreckon::PartParameter;
 using deadreckon::PartReading;
 using deadreckon::PartState;
 
-// Parts of a frozen entity stand as received.
+// Parts of a frozen entity keep their received values.
 PartState standing(const PartState& state) {
   PartState still;
   for (PartParameter part : state.parameters()) {
@@ -62,7 +62,7 @@ void RemoteParts::update(RemoteEntity& row, std::span<const std::byte> records,
   row.parts = static_cast<std::uint8_t>(state.parameters().size());
 }
 
-// The place of a row, a free one where it has none; null where there is none.
+// The place of a row, or a free one for it; null if there is none.
 PartConvergence* RemoteParts::claim(RemoteEntity& row) noexcept {
   if (row.parts_place == RemoteEntity::kNoParts) {
     if (free_.empty()) return nullptr;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The articulated parts of remote entities as shown: turrets, guns, flaps. Beside the state table,
-// because few entities have any: only those take a place here.
+// The shown articulated parts of remote entities: turrets, guns, flaps. Few entities have parts, so
+// they are kept beside the state table.
 #pragma once
 
 #include <chrono>
@@ -16,16 +16,16 @@
 
 namespace reckon::peer {
 
-/// One number of one part at one instant.
+/// One parameter of one part at one instant.
 struct ShownPart {
   std::uint32_t part = 0;         ///< class of the part, SISO UID 59, without the metric
   std::uint16_t attached_to = 0;  ///< 0 = the entity itself, else a part
   deadreckon::PartMetric metric = deadreckon::PartMetric::azimuth;
-  double value = 0;  ///< unit as the metric says
+  double value = 0;  ///< unit by the metric
   double rate = 0;   ///< the unit a second
 };
 
-/// The parts of one entity at one instant; good until the next update of RemoteEntities.
+/// The parts of one entity at one instant; valid until the next update of RemoteEntities.
 class ShownParts {
  public:
   ShownParts() = default;
@@ -46,9 +46,9 @@ class ShownParts {
   double now_ = 0;
 };
 
-/// A fixed pool of entities that have parts; a row knows its place. One thread; allocates only at
-/// construction. An update costs some 80 ns a number, 5 us with 255 hostile records, 2 ns for an
-/// entity without.
+/// A fixed pool for entities with parts; a row has the place of its entry. One thread; allocates
+/// only at construction. An update costs some 80 ns a number, 5 us with 255 hostile records, 2 ns
+/// for an entity without parts.
 class RemoteParts {
  public:
   static constexpr std::size_t kEntities = 256;  ///< each about 1,600 octets
@@ -56,16 +56,16 @@ class RemoteParts {
   /// @param counters outlives this.
   RemoteParts(const deadreckon::ConvergenceSettings& settings, Counters& counters);
 
-  /// Takes the records of an update that `row` has taken already, at `now`: its instant, time-out
-  /// and freeze are the row's. Without a good record the row has no parts any more. Bad records are
-  /// left out and counted; where the pool is full the entity goes without parts and is counted.
-  /// @param abrupt the entity is shown at once, so its parts are.
+  /// Takes the parts of an update at `now` that `row` has already taken: the instant, time-out and
+  /// freeze are those of the row. Without a valid record the row loses its parts. Invalid records
+  /// are ignored and counted. If the pool is full, the entity is shown without parts and counted.
+  /// @param abrupt the entity is shown at once, and so are its parts.
   void update(RemoteEntity& row, std::span<const std::byte> records, std::chrono::nanoseconds now,
               bool abrupt) noexcept;
-  /// Gives the place of a row back; nothing happens where it has none.
+  /// Gives the place of a row back; does nothing if it has none.
   void release(RemoteEntity& row) noexcept;
 
-  /// What the last update stated of them; null where the row has none.
+  /// The parts of the last update; null if the row has none.
   [[nodiscard]] const deadreckon::PartState* received(const RemoteEntity& row) const noexcept {
     if (row.parts_place == RemoteEntity::kNoParts) return nullptr;
     return &places_[row.parts_place].state();

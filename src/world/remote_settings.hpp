@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How remote entities are read and shown.
+// Settings for receiving and showing remote entities.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,24 @@
 
 namespace reckon::peer {
 
-/// How remote entities are read and shown, and how many.
+/// Settings for receiving and showing remote entities, and their limits.
 struct RemoteSettings {
   double probe_radius = 0.02;  ///< [m] of our own hand, for the force innovation; >= 0
   ConvergenceConfig convergence;
   deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
-  /// Most entities, 1 .. 2^24. Room is reserved for all, memory is touched as they come: some 900
-  /// octets each, 1,500 in scenes of adaptive prediction.
+  /// Most entities, 1 .. 2^24. Address space is reserved for all, and memory is touched as they
+  /// come: some 900 octets each, 1,500 in scenes with adaptive prediction.
   std::size_t capacity = 100'000;
-  /// What is kept of the entities of plain DIS programs, which nobody vouches for, takes no more
-  /// [octets].
+  /// Most memory for entities of plain DIS programs, whose identity is unproven [octets].
   std::size_t strangers_memory = std::size_t{32} << 20;
-  double contact_reach = kContactReach;  ///< [m], >= 0, within which find_near() finds
+  double contact_reach = kContactReach;  ///< [m], >= 0, reach of find_near()
   bool record_changes = false;           ///< for take_changes()
-  /// An update without articulated parts says nothing of them, for owners leave them out.
+  /// An update without articulated parts does not remove them, because owners omit them.
   bool bodies_in_part = false;
-  std::vector<NimbusClass> nimbus = {};  ///< by type; the first that fits holds
-  std::size_t near_rows = 0;             ///< of channels, that have groups
-  TouchRule touch = {};                  ///< whose force models are taken
-  /// [s] for which a force model is believed at most without an update, whatever it says.
+  std::vector<NimbusClass> nimbus = {};  ///< by type; the first match applies
+  std::size_t near_rows = 0;             ///< rows of channels with groups
+  TouchRule touch = {};                  ///< which force models are taken
+  /// Longest time [s] for which a force model is believed without an update, whatever its validity.
   double longest_validity = 65.0;
 
   [[nodiscard]] bool is_adaptive() const noexcept {

@@ -9,7 +9,7 @@
 namespace reckon::peer {
 namespace {
 
-// Of one entity that is shown, in all tables that have a row for it.
+// Size of one shown entity, in all tables that have a row for it.
 std::size_t row_octets(const RemoteSettings& settings) {
   constexpr std::size_t kBeside = 320;  // owner, instants, index, near search, list of changes
   std::size_t octets = sizeof(RemoteEntity) + sizeof(SenderClock) + kBeside;

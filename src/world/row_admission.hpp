@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Who gets a row of the state table where room is short, and whose row makes it.
+// Selects who gets a row of the state table when room is short, and which row is dropped for it.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,18 @@
 
 namespace reckon::peer {
 
-/// Two bounds: the capacity of the table, and the memory of guests, which are plain DIS programs
-/// that nobody vouches for. One thread; no allocation.
+/// Two bounds: the capacity of the table, and the memory of guests, which are plain DIS programs of
+/// unproven identity. One thread; no allocation.
 class RowAdmission {
  public:
-  /// References outlive this. Of the settings strangers_memory is used, and what sizes a row.
+  /// References outlive this. Of the settings it uses strangers_memory and those that determine the
+  /// size of a row.
   RowAdmission(const RemoteSettings& settings, const StateTable& table, RowOwners& owners,
                OutsideEntities& outside, const RemoteCounters& counts);
 
-  /// Makes room for a row more of this sender, who owns it from then on; calls drop(place) for each
-  /// row that goes for it, which counts it as evicted. False, and no row, where there is no room,
-  /// which is counted.
+  /// Makes room for one more row of this sender, which then owns it. Calls drop(place) for each row
+  /// that is dropped for it, which counts it as evicted. Returns false and makes no row if there is
+  /// no room, which is counted.
   template <typename Drop>
   [[nodiscard]] bool admit(const Arrival& arrival, Drop&& drop) noexcept {
     const bool guest = arrival.epoch == 0;
@@ -45,24 +46,24 @@ class RowAdmission {
   [[nodiscard]] bool has_room_outside() const noexcept {
     return guests_octets() + kOutsideOctets <= settings_.strangers_memory;
   }
-  /// What is kept of guests' entities, shown or not, may take so much now [octets].
+  /// Upper bound of the memory for guests' entities, shown or not [octets].
   [[nodiscard]] std::size_t guests_octets() const noexcept {
     return owners_.guests() * row_octets_ + outside_.guests() * kOutsideOctets;
   }
 
-  /// Rows that made room for others', and whose the last of them was.
+  /// Rows dropped to make room for others, and the owner of the last one.
   [[nodiscard]] std::uint64_t evicted() const noexcept { return counts_.evicted.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
-  /// Entities of guests for which there was no room, and who said the last of them.
+  /// Entities of guests refused for want of room, and the sender of the last one.
   [[nodiscard]] std::uint64_t refused() const noexcept { return counts_.strangers_full.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_refused() const noexcept { return last_stranger_; }
 
  private:
-  // Of one entity outside: its row, instants, owner and place in the index.
+  // Size of one entity outside: its row, instants, owner and place in the index.
   static constexpr std::size_t kOutsideOctets = sizeof(OutsideEntity) + 192;
 
-  // Guests share what strangers may have. What is shown makes room of what is not, up to half of
-  // it; then a row of the host with the most makes it.
+  // Bounds the memory that guests share. A shown entity replaces outside ones, up to half of the
+  // memory; then a row of the host with the most is dropped.
   template <typename Drop>
   [[nodiscard]] bool make_guest_room(const Arrival& arrival, Drop&& drop) noexcept {
     const std::size_t most = settings_.strangers_memory;
@@ -75,7 +76,7 @@ class RowAdmission {
     }
     return true;
   }
-  // In a full table, a row of who has too many makes it.
+  // In a full table, drops a row of a host that has too many.
   template <typename Drop>
   [[nodiscard]] bool make_room(const Arrival& arrival, Drop&& drop) noexcept {
     if (table_.rows().size() < table_.capacity()) return true;
@@ -95,7 +96,7 @@ class RowAdmission {
   RowOwners& owners_;
   OutsideEntities& outside_;
   const RemoteCounters& counts_;
-  std::size_t row_octets_;  // of one shown
+  std::size_t row_octets_;  // of one shown entity
   aoim::SourceAddress last_evicted_, last_stranger_;
 };
 

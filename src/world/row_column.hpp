@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What stands beside the rows of a table, in their order: what few loops read, or one loop reads of
-// all.
+// Values beside the rows of a table, in their order: for values that few loops read, or that one
+// loop reads of all rows.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace reckon::peer {
 
-/// One value for each row. It grows at the end; where a row goes, the last takes its place. One
-/// thread. Room is reserved at construction, so values never move by growing and memory is touched
-/// only as rows come, by pages of 2 MiB once there are many. When less than half of the rows are
-/// left that there were, what the others took is given back.
+/// One value for each row. It grows at the end; when a row is erased, the last takes its place. One
+/// thread. Address space is reserved at construction, so values never move when it grows. Memory is
+/// touched only as rows come, by pages of 2 MiB once there are many. When less than half of the
+/// rows remain, the memory of the others is given back.
 template <typename T>
 class RowColumn {
  public:
@@ -25,12 +25,12 @@ class RowColumn {
     advise_large_pages(values_.data(), capacity * sizeof(T));
   }
 
-  /// For a new row, below the capacity.
+  /// Adds the value of a new row, below the capacity.
   T& push(const T& value = T()) {
     if (values_.size() == touched_) ++touched_;
     return values_.emplace_back(value);
   }
-  /// The value of the last row goes to `place`, which is below size().
+  /// Moves the value of the last row to `place`, which is below size().
   void erase(std::size_t place) noexcept {
     if (place + 1 < values_.size()) values_[place] = values_.back();
     values_.pop_back();
@@ -38,7 +38,7 @@ class RowColumn {
     if (touched_ > kFew + 2 * values_.size()) give_back();
   }
 
-  /// Has the value at `place` brought near, to be written.
+  /// Prefetches the value at `place` for writing.
   void prefetch(std::size_t place) const noexcept {
     const auto* octets = reinterpret_cast<const std::byte*>(&values_[place]);
     for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(octets + at, 1);

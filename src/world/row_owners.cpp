@@ -13,7 +13,7 @@ namespace {
 using aoim::SourceAddress;
 
 constexpr std::size_t kHosts = 1024;
-constexpr std::uint64_t kProbes = 4;  // keys that a sender may stand under, should two fold alike
+constexpr std::uint64_t kProbes = 4;  // possible keys of a sender, in case two fold to the same
 
 std::uint64_t word_at(const SourceAddress& address, std::size_t offset) noexcept {
   std::uint64_t word = 0;
@@ -21,8 +21,8 @@ std::uint64_t word_at(const SourceAddress& address, std::size_t offset) noexcept
   return word;
 }
 
-// Who has proved who he is is known by that; else an IPv4 address and its port are the key, and an
-// IPv6 one is folded.
+// A sender with a proven identity has that as its key. Else the key is an IPv4 address with its
+// port, or a folded IPv6 one.
 std::uint64_t key_of(const SourceAddress& address) noexcept {
   if (address.boot != 0) return address.boot;
   const std::uint64_t high = word_at(address, 0), low = word_at(address, 8);
@@ -67,7 +67,7 @@ std::uint32_t RowOwners::find_host(const SourceAddress& from) const noexcept {
   return found == hosts_.end() ? kNone : static_cast<std::uint32_t>(found - hosts_.begin());
 }
 
-// The host, or a place for it.
+// The host, or a new place for it.
 std::uint32_t RowOwners::host_of(const SourceAddress& from) noexcept {
   const std::uint32_t known = find_host(from);
   if (known != kNone) return known;
@@ -116,7 +116,7 @@ void RowOwners::give(std::uint32_t sender, bool guest) noexcept {
   if (guest) ++host.guests, ++guests_;
 }
 
-// A sender without rows is forgotten.
+// Removes a sender without rows.
 void RowOwners::take(const Row& row) noexcept {
   Sender& sender = senders_[row.sender];
   Host& host = hosts_[sender.host];
@@ -145,13 +145,13 @@ bool RowOwners::hand_over(std::size_t place, const SourceAddress& to,
                           std::chrono::nanoseconds now) noexcept {
   const std::uint32_t sender = find_or_add(to, now);
   if (sender == kNone) return false;
-  give(sender, rows_[place].guest);  // first, lest it be forgotten between
+  give(sender, rows_[place].guest);  // first, so that it is not removed in between
   take(rows_[place]);
   rows_[place].sender = static_cast<std::uint16_t>(sender);
   return true;
 }
 
-// Whose rows make room for others.
+// The host whose rows make room for others.
 std::uint32_t RowOwners::crowded_host(bool guest) const noexcept {
   const auto most = [&](auto count) {
     return std::max_element(hosts_.begin(), hosts_.end(),
@@ -186,7 +186,7 @@ std::optional<std::size_t> RowOwners::guest_to_give_up(const SourceAddress& to) 
   return next_of(static_cast<std::uint32_t>(most - hosts_.begin()), true);
 }
 
-// Going on where the last search ended.
+// Continues where the last search ended.
 std::optional<std::size_t> RowOwners::next_of(std::uint32_t host, bool guests_alone) noexcept {
   for (std::size_t i = std::min(kLooks, rows_.size()); i > 0; --i) {
     cursor_ = cursor_ + 1 < rows_.size() ? cursor_ + 1 : 0;

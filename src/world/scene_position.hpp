@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The area-of-interest manager's points, which know no matrix library, from ours.
+// Converts our points to those of the area-of-interest manager, which uses no matrix library.
 #pragma once
 
 #include <Eigen/Core>

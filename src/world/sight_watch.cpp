@@ -23,13 +23,13 @@ void SightWatch::erase(std::size_t place) noexcept {
 
 void SightWatch::note_update(std::size_t place, double withdrawn, double spare, bool moves,
                              nanoseconds now) noexcept {
-  // By less than a millimetre it is not out of sight.
+  // It is still within sight if less than a millimetre is missing.
   by_way_.set(place, of_way(withdrawn + spare) + nanoseconds(1));
   by_time_.set(place, moves ? now + kLatest : nanoseconds::max());
 }
 
 nanoseconds SightWatch::of_way(double metres) noexcept {
-  constexpr double kMost = 9e15;  // [mm] in 63 bits, a thousand times over
+  constexpr double kMost = 9e15;  // [mm] in 63 bits, with a margin of a thousand
   return nanoseconds(static_cast<std::int64_t>(std::floor(std::min(1000.0 * metres, kMost))));
 }
 

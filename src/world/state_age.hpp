@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How long a heard state is extrapolated: what is frozen stands still, what is doubted comes to
-// rest, and past the time-out nothing is known any more.
+// Limits the extrapolation of a received state: a frozen entity does not move, a doubted one comes
+// to rest, and past the time-out nothing is known any more.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,15 @@ namespace reckon::peer {
 
 /// The age of a state at one instant.
 struct StateAge {
-  /// [s] in which what is doubted comes to rest. It goes on for half as long meanwhile.
+  /// [s] in which a doubted entity comes to rest. Meanwhile it covers the distance of half that
+  /// time.
   static constexpr double kSlowing = 0.5;
 
   double tau = 0;    ///< [s] to extrapolate by
-  double speed = 1;  ///< share of its rates at which it goes on, 1 to 0 without a step
+  double speed = 1;  ///< share of its rates at which it moves, 1 to 0 without a step
 
-  /// @param since the state was true  @param timeout [s]  @param doubted since its owner is
-  /// doubted, 0 or less if it is not
+  /// @param since the state was true  @param timeout [s]
+  /// @param doubted since its owner is doubted, 0 or less if it is not
   StateAge(std::chrono::nanoseconds since, double timeout, bool frozen,
            std::chrono::nanoseconds doubted = {}) noexcept {
     const double age = pdu::to_seconds(since);
@@ -33,7 +34,7 @@ struct StateAge {
     tau = frozen ? 0.0 : std::min(age - slowed + went, timeout);
   }
 
-  /// Leaves `pose` the rates that are left: what holds does not move.
+  /// Scales the rates of `pose` to the share that is left: a resting entity has none.
   void hold(deadreckon::Pose& pose) const noexcept {
     if (speed < 1) {
       pose.velocity *= speed;

@@ -14,8 +14,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// An owner that watches a threshold cannot be silent for so long while its hand speeds up or slows
-// down: what it stated of that is over.
+// An owner with a threshold cannot be silent for this long while its hand changes its speed: the
+// stated change is over then.
 constexpr nanoseconds kLongestStroke = std::chrono::milliseconds(600);
 
 constexpr std::ptrdiff_t kLine = 64;  // of a processor's cache [octets]
@@ -27,7 +27,7 @@ StateAge age_of(const RemoteEntity& row, nanoseconds now) noexcept {
   return {since, row.timeout, row.frozen, doubted};
 }
 
-// Near `predicted` by the history in `order`, where there is one.
+// The pose near `predicted` by the history in `order`, if there is one.
 deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::AdaptiveOrder* order,
                              const deadreckon::Pose& predicted, nanoseconds now) noexcept {
   if (order == nullptr || row.frozen || order->history().size() == 0) return predicted;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What this peer knows of the entities of others: one row each, written by the model loop alone.
-// Other threads see copies (PeerView), the servo sees its contact set.
+// The remote entities that this peer knows: one row each, written only by the model loop. Other
+// threads see copies (PeerView); the servo sees its contact set.
 #pragma once
 
 #include <array>
@@ -22,17 +22,17 @@
 
 namespace reckon::peer {
 
-/// Who has put an entity into the table.
+/// The sender that has put an entity into the table.
 struct Party {
-  std::uint16_t host = 0;    ///< an address; of entities at one time, see RowOwners
-  std::uint16_t sender = 0;  ///< an address and port, the same
+  std::uint16_t host = 0;    ///< number of an address, while it has entities, see RowOwners
+  std::uint16_t sender = 0;  ///< number of an address and port, likewise
   bool guest = true;         ///< a plain DIS program, not a peer
 
   friend bool operator==(const Party&, const Party&) = default;
 };
 
-/// One remote entity: its pose and force predictors, and how it has behaved. RemoteCopy is for what
-/// outlives its row.
+/// One remote entity: its pose and force predictors, and its behaviour so far. RemoteCopy outlives
+/// its row.
 struct RemoteEntity {
   pdu::EntityId id;
   pdu::EntityType type;
@@ -40,16 +40,16 @@ struct RemoteEntity {
   pdu::ForceId force_id = pdu::ForceId::other;
   std::uint32_t appearance = 0;    ///< as on the wire
   std::uint32_t capabilities = 0;  ///< as on the wire
-  std::uint32_t epoch = 0;         ///< life of the owner's process; 0 = a peer without trailers
+  std::uint32_t epoch = 0;         ///< of the owner's process; 0 = a peer without trailers
 
   deadreckon::KinematicState state;        ///< S frame, at state_time
   std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
-  /// Since when its owner is silent for too long: it comes to rest from then on. kTrusted while
-  /// that is heard.
+  /// Since when its owner is silent for too long: it comes to rest from then on. kTrusted while the
+  /// owner is received.
   std::chrono::nanoseconds doubted_at = kTrusted;
-  /// Its force fades out from then on, until a new state comes: a word of its owner does not tell
-  /// where it is now. kTrusted where it was never doubted since its last state.
+  /// Its force fades out from then on until a new state comes, because other datagrams of its owner
+  /// do not show its position. kTrusted if it was not doubted since its last state.
   std::chrono::nanoseconds felt_until = kTrusted;
   static constexpr std::chrono::nanoseconds kTrusted = std::chrono::nanoseconds::max();
   std::uint32_t timestamp = 0;  ///< as sent
@@ -57,52 +57,52 @@ struct RemoteEntity {
 
   static constexpr std::uint16_t kNoParts = 0xFFFF;
   std::uint16_t parts_place = kNoParts;  ///< in RemoteParts
-  std::uint8_t parts = 0;                ///< numbers of its articulated parts, one or more a part
+  std::uint8_t parts = 0;  ///< parameters of its articulated parts, one or more for each part
   bool frozen = false;
   bool haptic = false;          ///< has sent a force model
-  bool model_refused = false;   ///< the one that it sent last
-  bool strokes = false;         ///< a hand of a Reckon peer that says to speed up or slow down
-  std::uint8_t neighbours = 0;  ///< how many it exchanges energy with, as it says
+  bool model_refused = false;   ///< its last model was refused
+  bool strokes = false;         ///< a hand of a Reckon peer that states a change of speed
+  std::uint8_t neighbours = 0;  ///< stated number of entities with which it exchanges energy
 
   deadreckon::ConvergingError convergence;  ///< shown minus predicted, decaying
   double timeout = 12.0;                    ///< [s] of silence after which the row is dropped
-  /// In scenes of adaptive prediction: what is shown follows the history since the last abrupt
-  /// change, not `state`. Beside the table, good as long as the row; else null.
+  /// In scenes with adaptive prediction: the shown pose follows the history since the last abrupt
+  /// change, not `state`. Beside the table, valid as long as the row; else null.
   const deadreckon::AdaptiveOrder* order = nullptr;
 
   double jump_m = 0.0;        ///< innovation of the last update: new against predicted position
   std::uint64_t updates = 0;  ///< accepted since the row was made
   std::chrono::nanoseconds first_heard{0};
 
-  // Last, for only what can be felt has one: updates of others do not touch it.
+  // Last, because only felt entities have one: updates of others do not touch it.
   deadreckon::ForceModel model;             ///< body axes
-  std::chrono::nanoseconds valid_until{0};  ///< then the force fades
-  Party party;                              ///< where there is a model
+  std::chrono::nanoseconds valid_until{0};  ///< the force fades from then on
+  Party party;                              ///< set if there is a model
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
-  /// Pose that what is shown converges to: predicted(), or near it by `order` where adaptive.
+  /// Pose to which the shown one converges: predicted(), or near it by `order` if adaptive.
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
 
-  /// The same two from what predicted() gave for this `now`, so that it is evaluated once.
+  /// The same two from the result of predicted() for this `now`, so that it is evaluated once.
   [[nodiscard]] deadreckon::Pose expected(const deadreckon::Pose& predicted,
                                           std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] deadreckon::Pose shown(const deadreckon::Pose& predicted,
                                        std::chrono::nanoseconds now) const noexcept;
 };
 
-/// A remote entity copied out of its table, with all that its shown pose depends on: a value that
-/// another thread may hold for as long as it likes.
+/// A remote entity copied out of its table, with everything on which its shown pose depends: a
+/// value that another thread may keep.
 class RemoteCopy {
  public:
   RemoteCopy() = default;
   explicit RemoteCopy(const RemoteEntity& row) noexcept;
 
-  /// Its `order` is null whatever the scene: ask this copy for poses, not the entity.
+  /// Its `order` is null in every scene: ask this copy for poses, not the entity.
   [[nodiscard]] const RemoteEntity& entity() const noexcept { return entity_; }
-  /// What RemoteEntity::shown() of the row gave when it was copied, to the bit.
+  /// Bit-identical to RemoteEntity::shown() of the row at the time of the copy.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
 
  private:
@@ -119,19 +119,19 @@ class StateTable {
 
   [[nodiscard]] RemoteEntity* find(const pdu::EntityId& id) noexcept;
   [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) const noexcept;
-  /// Has the memory that find(id) will look at brought near.
+  /// Prefetches the memory that find(id) reads.
   void prefetch(const pdu::EntityId& id) const noexcept { index_.prefetch(id.key()); }
-  /// The same of what an update of this row touches, but for its force model.
+  /// Prefetches the memory that an update of this row touches, except its force model.
   static void prefetch_row(const RemoteEntity& row) noexcept;
-  /// The same of its pose and its force model, to be read.
+  /// Prefetches its pose and force model for reading.
   static void prefetch_felt(const RemoteEntity& row) noexcept;
-  /// The row of `id`, made empty at the end when it is new; nullptr when the table is full.
+  /// The row of `id`; a new one is made empty at the end. Null if the table is full.
   [[nodiscard]] RemoteEntity* find_or_add(const pdu::EntityId& id, bool& added) noexcept;
-  /// Drops the row at a place below rows().size(); the last row goes there. Pointers to both become
-  /// invalid.
+  /// Drops the row at a place below rows().size(); the last row takes its place. Pointers to both
+  /// become invalid.
   void erase(std::size_t place) noexcept;
 
-  /// Where a row of this table stands in rows().
+  /// Place of a row of this table in rows().
   [[nodiscard]] std::size_t place_of(const RemoteEntity& row) const noexcept {
     return static_cast<std::size_t>(&row - rows_.all().data());
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// When what is felt of an entity of ours has to be said.
+// When the felt side of an entity of ours has to be sent.
 #include <algorithm>
 #include <cmath>
 

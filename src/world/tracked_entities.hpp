@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities of ours that the peer itself moves along recorded tracks, or that stand where the scene
-// says.
+// Entities of ours that the peer moves along recorded tracks, or that rest where the scene places
+// them.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace reckon::peer {
 
-/// An entity of the scene as its owner describes it.
+/// The description of an entity of the scene by its owner.
 [[nodiscard]] EntityDescription description_of(const EntityConfig& config);
 
-/// The true motion that a track tells for an instant.
+/// The true motion of a track at an instant.
 [[nodiscard]] EntityTruth truth_of(const deadreckon::KinematicState& motion,
                                    std::chrono::nanoseconds now) noexcept;
 
-/// Says where they are: what is felt every 2 ms, all else at 60 Hz, not all in the same pass. One
-/// thread; allocates in add() alone.
+/// Updates their positions: of felt entities every 2 ms, of all others at 60 Hz, not all in the
+/// same pass. One thread; allocates only in add().
 class TrackedEntities {
  public:
   static constexpr std::chrono::nanoseconds kFelt = std::chrono::milliseconds(2);
@@ -52,7 +52,7 @@ class TrackedEntities {
   /// The first call of advance(), with which the tracks begin; negative before it.
   [[nodiscard]] std::chrono::nanoseconds begun() const noexcept { return begun_; }
 
-  /// When advance() has something to do; max where there is nothing.
+  /// When advance() has something to do; max if it has nothing.
   [[nodiscard]] std::chrono::nanoseconds next_due() const noexcept {
     return tracks_.empty() ? kNever : next_;
   }

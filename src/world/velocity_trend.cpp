@@ -10,10 +10,10 @@
 namespace reckon::peer {
 namespace {
 
-// Over so much [s] the difference is taken: more lags, less is noise.
+// Interval of the difference [s]: a longer one lags more, a shorter one is noisier.
 constexpr double kLongest = 0.0021;
 constexpr double kShortest = 0.0009;
-constexpr double kMemory = 0.1;  // [s], of how uneven velocities are
+constexpr double kMemory = 0.1;  // [s], memory of the unevenness
 
 }  // namespace
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The acceleration of a hand from the last few of its velocities. The servo's own is read off 32
-// samples and lags some 10 ms: where a hand is thrown off an edge or over another hand, that is
-// half a swing. Part of the model loop.
+// The acceleration of a hand from its last few velocities. The servo's own is computed from 32
+// samples and lags some 10 ms: when a hand is thrown off an edge or over another hand, that is half
+// a swing. Part of the model loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,21 @@
 
 namespace reckon::peer {
 
-/// Differences of velocities that come every 1 to 2 ms, and what of them may be noise. One thread;
-/// no allocation.
+/// Differences of velocities that come every 1 to 2 ms, and their noise. One thread; no allocation.
 class VelocityTrend {
  public:
   /// @param velocity [m/s] at `time`; one that is not later than the last is ignored
   void note(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) noexcept;
 
-  /// [m/s^2], of the last 1 to 2 ms; zero where velocities come less often.
+  /// [m/s^2], of the last 1 to 2 ms; zero if velocities come less often.
   [[nodiscard]] const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
-  /// The same, `ahead` [s] from now, if it goes on changing as from the 2 ms before to these.
+  /// The same, extrapolated by `ahead` [s] with its change since the 2 ms before.
   [[nodiscard]] Eigen::Vector3d acceleration_in(double ahead) const noexcept {
     return acceleration_ + ahead * jerk_;
   }
-  /// What of it may be noise [m/s^2], >= 0: how uneven velocities have been for 0.1 s, or are right
-  /// now, by their third differences. The swings of a hand hardly show in these; an encoder's steps
-  /// and a blow do.
+  /// Its possible noise [m/s^2], >= 0, from the third differences of the velocities: of the last
+  /// 0.1 s, or of right now. The swings of a hand hardly show in these; an encoder's steps and a
+  /// blow do.
   [[nodiscard]] double doubt() const noexcept { return doubt_; }
 
  private:
@@ -39,7 +38,7 @@ class VelocityTrend {
   [[nodiscard]] const Velocity& back(std::size_t count) const noexcept {
     return kept_[(newest_ + kKept - count) % kKept];
   }
-  /// From when to `end`, counted back, a difference is taken, and over how long [s]; 0: none.
+  /// Begin of a difference that ends at `end`, counted back, and its length [s]; 0: none.
   struct Span {
     std::size_t begin = 0;
     double length = 0.0;
