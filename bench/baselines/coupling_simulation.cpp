@@ -77,8 +77,9 @@ std::uint32_t every(const CouplingRun& run, CouplingSide side) {
 
 double gain_cut_stiffness(const CouplingRun& run) {
   const double T = run.device.period;
-  const double way = std::max(T, run.network.delay * (1 + run.network.jitter)) +
-                     (run.network.reordering > 0 ? run.network.reorder_delay : 0.0);
+  const peer::ImpairmentLaw& law = run.network;
+  const double way = std::max(T, pdu::to_seconds(law.delay + law.jitter)) +
+                     (law.reorder > 0 ? pdu::to_seconds(law.reorder_delay) : 0.0);
   const double update = between(run.update_hz, T) * T, uplink = between(run.uplink_hz, T) * T;
   const double loop =
       run.counterpart == Counterpart::hand ? T + way + update : T / 2 + 2 * way + uplink + update;

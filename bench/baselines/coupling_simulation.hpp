@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Two ends of a coupling in one simulation: an operator at a simulated device against a server, or
-// two of them against each other, over a line that delays, jitters, loses and reorders. Every mode
+// two of them against each other, over an impaired line. Every mode
 // meets the same world, so that its numbers can stand beside those of the others.
 //
 //     CouplingRun run;
 //     run.mode = peer::CouplingMode::printed_dead_reckoning;
 //     run.environment = {EnvironmentKind::hardening, 500.0};
-//     run.network.delay = 0.05;
+//     run.network = peer::delayed_by(0.05);
 //     const CouplingOutcome outcome = simulate(run);
 //     outcome.least_energy;   // [J], below 0: the hand got energy that nobody put in
 #pragma once
@@ -44,7 +44,7 @@ struct CouplingRun {
   Environment environment{EnvironmentKind::linear, 500.0};
   OperatorModel hand = operator_model(OperatorKind::push);
   OperatorModel other_hand = resting_operator();  ///< where the counterpart is a hand
-  CouplingNetwork network;
+  peer::ImpairmentLaw network;
   double uplink_hz = 200;  ///< samples to a server, 0 < .. <= 1/T; rounded to whole periods
   double update_hz = 50;   ///< samples to a hand, likewise
   double duration = 12;    ///< [s], above 0, at most kMostCouplingSamples of them

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/bench/baselines/force_comparison.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "reckon/bench/baselines/coupling_simulation.hpp"
+#include "reckon/bench/statistics/quantile.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -19,13 +19,6 @@ double sum_of_squares(const std::vector<double>& values) {
 double rms(const std::vector<double>& values) {
   return values.empty() ? 0.0
                         : std::sqrt(sum_of_squares(values) / static_cast<double>(values.size()));
-}
-
-double p95(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 19 / 20);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 }  // namespace
@@ -47,8 +40,8 @@ void ForceComparison::finish(CouplingOutcome& outcome) {
   outcome.stiffness_kept = here_ > 0 ? in_phase_ / here_ : 0.0;
   outcome.error_rms = rms(errors_);
   outcome.truth_rms = rms(truths_);
-  outcome.error_p95 = p95(errors_);
-  outcome.truth_p95 = p95(truths_);
+  outcome.error_p95 = quantile(errors_, 0.95);
+  outcome.truth_p95 = quantile(truths_, 0.95);
 }
 
 }  // namespace reckon::bench

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the samples of a coupling travel. What the network does to each follows from its number and
-// the seed alone, so that two processes over sockets see what one process sees.
+// How the samples of a coupling travel: by the law of impairment. What happens to each follows from
+// its number and the seed alone, so that two processes over sockets see what one process sees.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +10,16 @@
 #include <vector>
 
 #include "reckon/bench/baselines/coupling_end.hpp"
+#include "reckon/peer/network/impairment.hpp"
 
 namespace reckon::bench {
-
-/// What happens to samples on their way.
-struct CouplingNetwork {
-  double delay = 0.0;           ///< [s], one way, >= 0; a sample at least, whatever it is
-  double jitter = 0.3;          ///< share of the delay, +- and uniform, 0 to 1
-  double loss = 0.0;            ///< share lost, 0 to 1
-  double reordering = 0.0;      ///< share held back by reorder_delay, 0 to 1
-  double reorder_delay = 0.05;  ///< [s]
-};
-
-/// @throws std::invalid_argument with what is out of range
-void check(const CouplingNetwork& network);
-
-/// When a sample comes out. @param side to which it goes  @returns its number, after `sent`;
-/// nothing where it is lost
-[[nodiscard]] std::optional<std::uint32_t> release_of(const CouplingNetwork& network, double period,
-                                                      std::uint64_t seed, CouplingSide side,
-                                                      std::uint32_t sent) noexcept;
 
 /// Samples on their way to one side.
 class SampleQueue {
  public:
-  /// @param period [s]
-  SampleQueue(const CouplingNetwork& network, double period, std::uint64_t seed, CouplingSide side);
+  /// A sample is on its way for a period at least, whatever the law says.
+  /// @param period [s]  @param side to which they go  @throws std::invalid_argument by the law
+  SampleQueue(const peer::ImpairmentLaw& law, double period, std::uint64_t seed, CouplingSide side);
 
   void put(const CouplingSample& sample);
   /// Those that come out at sample `number` or before, in order of arrival; valid until the next
@@ -48,9 +32,8 @@ class SampleQueue {
     CouplingSample sample;
   };
 
-  CouplingNetwork network_;
+  peer::Impairment impairment_;
   double period_;
-  std::uint64_t seed_;
   CouplingSide side_;
   std::vector<Waiting> waiting_;
   std::vector<Waiting> out_;

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
+
 namespace reckon::bench {
 
 /// Nanoseconds of one call, from a block of them that is short enough to be rarely interrupted.
@@ -32,17 +34,12 @@ class Blocks {
  public:
   void add(double value) { values_.push_back(value); }
   void report(benchmark::State& state, const std::string& name) {
-    state.counters[name] = quantile(0.5);
-    state.counters[name + "_p10"] = quantile(0.1);
-    state.counters[name + "_p90"] = quantile(0.9);
+    state.counters[name] = quantile(values_, 0.5);
+    state.counters[name + "_p10"] = quantile(values_, 0.1);
+    state.counters[name + "_p90"] = quantile(values_, 0.9);
   }
 
  private:
-  double quantile(double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values_.size() - 1));
-    std::nth_element(values_.begin(), values_.begin() + rank, values_.end());
-    return values_[static_cast<std::size_t>(rank)];
-  }
   std::vector<double> values_;
 };
 

@@ -25,6 +25,7 @@
 #include "reckon/bench/interest/region_matching.hpp"
 #include "reckon/bench/micro/moving_crowd.hpp"
 #include "reckon/bench/micro/region_instances.hpp"
+#include "reckon/bench/statistics/quantile.hpp"
 
 namespace {
 
@@ -86,11 +87,6 @@ double milliseconds_of(const Work& work) {
   return 1e3 / CLOCKS_PER_SEC * static_cast<double>(std::clock() - before);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// Whether both find the same updates of each subscription.
 template <std::size_t D>
 bool finds_the_same(bench::RegionMatcher<D>& matcher, const bench::RegionInstance<D>& made) {
@@ -134,9 +130,9 @@ void regions_beside_boost(benchmark::State& state) {
   }
   benchmark::DoNotOptimize(ring);
   if (ratios.empty()) return;
-  state.counters["ours_ms"] = median(ours_ms);
-  state.counters["boost_ms"] = median(boost_ms);
-  state.counters["ratio"] = median(ratios);
+  state.counters["ours_ms"] = bench::median(ours_ms);
+  state.counters["boost_ms"] = bench::median(boost_ms);
+  state.counters["ratio"] = bench::median(ratios);
 }
 
 void sizes(benchmark::internal::Benchmark* row) {
@@ -230,9 +226,9 @@ void hearings_beside_boost(benchmark::State& state) {
     ratios.push_back(boost_ns.back() / ours_ns.back());
   }
   if (ratios.empty()) return;
-  state.counters["ours_ns"] = median(ours_ns);
-  state.counters["boost_ns"] = median(boost_ns);
-  state.counters["ratio"] = median(ratios);
+  state.counters["ours_ns"] = bench::median(ours_ns);
+  state.counters["boost_ns"] = bench::median(boost_ns);
+  state.counters["ratio"] = bench::median(ratios);
 }
 BENCHMARK(hearings_beside_boost)
     ->ArgName("entities")

@@ -17,6 +17,7 @@
 
 #include "reckon/bench/micro/movers.hpp"
 #include "reckon/bench/micro/octet_difference.hpp"
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/deadreckon/residual/residual_state.hpp"
 #include "reckon/pdu/compression/compact_state.hpp"
 
@@ -246,13 +247,6 @@ struct Shown {
   }
 };
 
-double share_of(std::vector<double>& errors, double share) {
-  if (errors.empty()) return 0.0;
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1));
-  std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(at));
-  return errors[at];
-}
-
 /// Errors just before each update that was sent, of copies that hear all but the lost ones.
 struct Run {
   double p99 = 0.0, plain_p99 = 0.0;  // [m]
@@ -294,8 +288,8 @@ Run run(const Data& data, const Ends& ends, const Wire& wire, double loss) {
         std::max(result.rounding, Eigen::Vector3d(a.x - b.x, a.y - b.y, a.z - b.z).norm());
   }
   result.waited /= std::max(1.0, arrived);
-  result.p99 = share_of(errors, 0.99);
-  result.plain_p99 = share_of(plain_errors, 0.99);
+  result.p99 = bench::quantile(errors, 0.99);
+  result.plain_p99 = bench::quantile(plain_errors, 0.99);
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::bench {
@@ -73,10 +74,8 @@ class TickTimes {
 
   /// Of all ticks: 0.5 is the median.
   [[nodiscard]] double share_below(double share) const {
-    std::vector<double> sorted = least_;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))] -
-           clock_ns_;
+    std::vector<double> ticks = least_;
+    return bench::quantile(ticks, share) - clock_ns_;
   }
   [[nodiscard]] double mean() const {
     double sum = 0.0;

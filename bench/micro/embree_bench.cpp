@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "reckon/bench/micro/embree_mesh.hpp"
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace {
@@ -92,11 +93,6 @@ double round_of(Asked& asked, const std::vector<Point>& points) {
          static_cast<double>(points.size());
 }
 
-double share_below(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
 void closest_beside_embree(benchmark::State& state, const std::vector<Vector3d>& points,
                            bool warm) {
   const EmbreeMesh embree(torus());
@@ -116,11 +112,11 @@ void closest_beside_embree(benchmark::State& state, const std::vector<Vector3d>&
     theirs_ns.push_back(round_of(theirs, rounded));
     ratios.push_back(theirs_ns.back() / ours_ns.back());
   }
-  state.counters["ours_ns"] = share_below(ours_ns, 0.5);
-  state.counters["embree_ns"] = share_below(theirs_ns, 0.5);
-  state.counters["ratio"] = share_below(ratios, 0.5);
-  state.counters["ratio_p10"] = share_below(ratios, 0.1);
-  state.counters["ratio_p90"] = share_below(ratios, 0.9);
+  state.counters["ours_ns"] = reckon::bench::quantile(ours_ns, 0.5);
+  state.counters["embree_ns"] = reckon::bench::quantile(theirs_ns, 0.5);
+  state.counters["ratio"] = reckon::bench::quantile(ratios, 0.5);
+  state.counters["ratio_p10"] = reckon::bench::quantile(ratios, 0.1);
+  state.counters["ratio_p90"] = reckon::bench::quantile(ratios, 0.9);
   state.counters["difference_m"] = difference;
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
@@ -99,9 +100,8 @@ Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
     }
     if (i % check_every == 0 && test::winding_number(*mesh, point.scp()) > 0.5) ++quality.pops;
   }
-  std::sort(times.begin(), times.end());
-  quality.median_ns = times[times.size() / 2];
-  quality.p99_ns = times[times.size() * 99 / 100];
+  quality.median_ns = reckon::bench::median(times);
+  quality.p99_ns = reckon::bench::quantile(times, 0.99);
   return quality;
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/implicit_solids.hpp"
 
@@ -141,9 +142,8 @@ void contact_tick(benchmark::State& state, std::size_t subject, bool rough) {
     lag = std::max(lag, (again.scp() - stroke.point().scp()).norm());
   }
   if (worst > 1e-9) state.SkipWithError("the contact point left the surface");
-  std::sort(times.begin(), times.end());
-  state.counters["median_ns"] = times[times.size() / 2];
-  state.counters["p99_ns"] = times[times.size() * 99 / 100];
+  state.counters["median_ns"] = reckon::bench::median(times);
+  state.counters["p99_ns"] = reckon::bench::quantile(times, 0.99);
   state.counters["f_max_nm"] = 1e9 * worst;
   state.counters["lag_max_um"] = 1e6 * lag;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/haptics/reduction/balanced_reduction.hpp"
 #include "reckon/haptics/reduction/congruence_reduction.hpp"
 #include "reckon/haptics/reduction/eigen_truncation.hpp"
@@ -123,7 +124,6 @@ void random_bodies(benchmark::State& state, int states, int order) {
     errors.push_back(test::largest_difference(full, model, 1e-1, 1e5, 1.15) /
                      largest(full, 1e-1, 1e5));
   }
-  std::sort(errors.begin(), errors.end());
   const StateSpace step = discretise_zero_order_hold(model, 1e-3);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(step.order()), next = x;
   double force = 0.0;
@@ -136,8 +136,8 @@ void random_bodies(benchmark::State& state, int states, int order) {
   }
   state.counters["N"] = states;
   state.counters["r"] = order;
-  state.counters["median_error"] = errors[errors.size() / 2];
-  state.counters["worst_error"] = errors.back();
+  state.counters["median_error"] = reckon::bench::median(errors);
+  state.counters["worst_error"] = reckon::bench::quantile(errors, 1);
 }
 
 void add_general(const std::string& name, const StateSpace& system, int order) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "reckon/tools/plots/markup.hpp"
+
 namespace reckon::bench {
 namespace {
 
@@ -33,18 +35,7 @@ th{background:var(--band);font-weight:600}.w{text-align:left}
 
 std::string html_escaped(std::string_view text) {
   std::string out;
-  for (const char letter : text) {
-    if (letter == '&')
-      out += "&amp;";
-    else if (letter == '<')
-      out += "&lt;";
-    else if (letter == '>')
-      out += "&gt;";
-    else if (letter == '"')
-      out += "&quot;";
-    else
-      out += letter;
-  }
+  tools::append_escaped(out, text);
   return out;
 }
 

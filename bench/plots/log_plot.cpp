@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
+#include <vector>
 
+#include "reckon/bench/plots/log_axis.hpp"
 #include "reckon/tools/plots/svg_elements.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 
@@ -32,11 +33,8 @@ constexpr std::array<std::string_view, LogPlot::kMostCurves> kColours{
     "#cc79a7", "#e69f00", "#999999", "#7e57c2", "#795548"};
 
 constexpr std::string_view kStyle =
-    "<style>text{font:12px system-ui,sans-serif;fill:#24292f}.t{font-size:15px;font-weight:600}"
-    ".m{font-weight:600}.g{stroke:#e6eaee}.a{stroke:#57606a}.b{fill:#ffffff}"
-    ".k{fill:none;stroke:#24292f;stroke-width:2}"
-    "@media(prefers-color-scheme:dark){text{fill:#d0d7de}.g{stroke:#262c33}.a{stroke:#8b949e}"
-    ".b{fill:#0d1117}.k{stroke:#d0d7de}}</style>\n";
+    "<style>.k{fill:none;stroke:#24292f;stroke-width:2}"
+    "@media(prefers-color-scheme:dark){.k{stroke:#d0d7de}}</style>\n";
 
 struct Dash {
   std::string_view name, pattern;
@@ -48,58 +46,6 @@ bool is_drawn(const LogPoint& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && point.x > 0 && point.y > 0;
 }
 
-/// A logarithmic axis on the picture, with some room at both ends.
-class Axis {
- public:
-  Axis(double begin, double end) : begin_(begin), end_(end) {}
-
-  void hold(double value) {
-    least_ = std::min(least_, value);
-    most_ = std::max(most_, value);
-  }
-  void settle() {
-    if (least_ > most_) least_ = most_ = 1;
-    least_ = std::log10(least_) - 0.1;
-    most_ = std::log10(most_) + 0.1;
-  }
-  [[nodiscard]] double at(double value) const {
-    return begin_ + (end_ - begin_) * (std::log10(value) - least_) / (most_ - least_);
-  }
-  /// 1, 2, 5 times powers of ten; the powers alone where these would be too many, more of them
-  /// where they would be fewer than three.
-  [[nodiscard]] std::vector<double> ticks() const {
-    if (most_ - least_ > 4) return ticks_at(kDecades);
-    std::vector<double> ticks;
-    for (const std::span<const double> steps : {kCoarse, kFine, kFinest}) {
-      ticks = ticks_at(steps);
-      if (ticks.size() >= 3) break;
-    }
-    return ticks;
-  }
-
- private:
-  static constexpr std::array kFineSteps{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
-  static constexpr std::array kFinestSteps{1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8,
-                                           2.0, 2.2, 2.5, 2.8, 3.0, 3.5, 4.0, 4.5,
-                                           5.0, 5.5, 6.0, 6.5, 7.0, 8.0, 9.0};
-  static constexpr std::array kCoarseSteps{1.0, 2.0, 5.0};
-  static constexpr std::span<const double> kCoarse{kCoarseSteps}, kFine{kFineSteps},
-      kFinest{kFinestSteps}, kDecades{kCoarse.first(1)};
-
-  [[nodiscard]] std::vector<double> ticks_at(std::span<const double> steps) const {
-    std::vector<double> ticks;
-    for (int decade = static_cast<int>(std::floor(least_)); decade <= most_; ++decade)
-      for (const double step : steps) {
-        const double value = step * std::pow(10.0, decade);
-        if (std::log10(value) >= least_ && std::log10(value) <= most_) ticks.push_back(value);
-      }
-    return ticks;
-  }
-
-  double begin_, end_;                    // [px]
-  double least_ = 1e300, most_ = -1e300;  // value, after settle() its log10
-};
-
 /// A million and more by letter.
 std::string tick_text(double tick) {
   if (tick >= 1e9) return fmt::format("{:g} G", 1e-9 * tick);
@@ -107,43 +53,20 @@ std::string tick_text(double tick) {
 }
 
 struct Axes {
-  Axis x{kLeft, kRight}, y{kBottom, kTop};
+  LogAxis x, y;
 };
 
 Axes axes_of(const LogPlot& plot, std::size_t drawn) {
-  Axes axes;
+  std::vector<double> across, up;
   const auto hold = [&](const LogPoint& point) {
     if (!is_drawn(point)) return;
-    axes.x.hold(point.x);
-    axes.y.hold(point.y);
+    across.push_back(point.x);
+    up.push_back(point.y);
   };
   for (std::size_t i = 0; i < drawn; ++i)
     for (const LogPoint& point : plot.curves[i].points) hold(point);
   for (const LogMark& mark : plot.marks) hold(mark.at);
-  axes.x.settle();
-  axes.y.settle();
-  return axes;
-}
-
-void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
-  for (const double tick : axes.y.ticks()) {
-    tools::append_svg_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
-    tools::append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"",
-                           tick_text(tick));
-  }
-  for (const double tick : axes.x.ticks()) {
-    tools::append_svg_line(out, "g", axes.x.at(tick), kTop, axes.x.at(tick), kBottom);
-    tools::append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"",
-                           tick_text(tick));
-  }
-  tools::append_svg_line(out, "a", kLeft, kBottom, kRight, kBottom);
-  tools::append_svg_line(out, "a", kLeft, kTop, kLeft, kBottom);
-  tools::append_svg_text(out, (kLeft + kRight) / 2, kBottom + 40, " text-anchor=\"middle\"",
-                         plot.x);
-  const double middle = (kTop + kBottom) / 2;
-  tools::append_svg_text(
-      out, 18, middle,
-      fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle), plot.y);
+  return {log_axis_over(across, 0, kLeft, kRight, 0), log_axis_over(up, 0, kBottom, kTop, 0)};
 }
 
 void append_curve(std::string& out, const LogCurve& curve, const Axes& axes,
@@ -208,22 +131,14 @@ std::string log_plot_svg(const LogPlot& plot) {
   const Axes axes = axes_of(plot, drawn);
   const std::size_t rows = (drawn + kLegendColumns - 1) / kLegendColumns;
   const double height = kBottom + 62 + kLegendRow * static_cast<double>(rows);
-  std::string out;
-  fmt::format_to(tools::end_of(out),
-                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" "
-                 "width=\"{0:g}\" height=\"{1:g}\">\n",
-                 kWidth, height);
-  out += kStyle;
-  fmt::format_to(tools::end_of(out), "<rect class=\"b\" width=\"{:g}\" height=\"{:g}\"/>\n", kWidth,
-                 height);
-  tools::append_svg_text(out, kLeft, 26, " class=\"t\"", plot.title);
-  tools::append_svg_text(out, kLeft, 48, "", plot.note);
-  append_axes(out, plot, axes);
-  for (std::size_t i = drawn; i-- > 0;) append_curve(out, plot.curves[i], axes, kColours[i]);
-  for (const LogMark& mark : plot.marks) append_mark(out, mark, axes);
-  append_legend(out, plot, drawn);
-  out += "</svg>\n";
-  return out;
+  std::string inside(kStyle);
+  tools::append_svg_text(inside, kLeft, 26, " class=\"t\"", plot.title);
+  tools::append_svg_text(inside, kLeft, 48, "", plot.note);
+  append_log_grid(inside, {axes.x, plot.x, tick_text}, {axes.y, plot.y, tick_text});
+  for (std::size_t i = drawn; i-- > 0;) append_curve(inside, plot.curves[i], axes, kColours[i]);
+  for (const LogMark& mark : plot.marks) append_mark(inside, mark, axes);
+  append_legend(inside, plot, drawn);
+  return tools::svg_picture(inside, kWidth, height);
 }
 
 }  // namespace reckon::bench

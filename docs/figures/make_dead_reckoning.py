@@ -332,10 +332,10 @@ def near(a, b):
 
 # --- a poor link ---
 
-# Name, class, what it is, and the height of its label [m].
-LINKED = (("rvw", "rvw", "rvw as sent: world acceleration, held constant", 0.03),
-          ("rvw+adaptive", "adaptive", "rvw+adaptive: from the same updates the viewer chooses an order", 4e-6),
-          ("auto", "auto", "auto: the owner chooses rpb, which turns; what is left is rounding on the wire", 1e-6))
+# Name, class, what it is, and where its label begins [s, m].
+LINKED = (("rvw", "rvw", "rvw as sent: world acceleration, held constant", (4.4, 0.03)),
+          ("rvw+adaptive", "adaptive", "rvw+adaptive: from the same updates the viewer chooses an order", (1.25, 4e-6)),
+          ("auto", "auto", "auto: the owner chooses rpb, which turns; what is left is rounding on the wire", (1.25, 1e-6)))
 
 
 def draw_circle(program, target):
@@ -345,11 +345,11 @@ def draw_circle(program, target):
     names = {10.0 ** e: small(e) for e in range(-9, 0)}
     plot.grid(range(0, 11, 2), names, lambda t: f"{t} s", names.get)
     rows = []
-    for model, kind, meaning, height in LINKED:
+    for model, kind, meaning, label in LINKED:
         rows = program.trace(f"--motion circle --for 10s --models {model} --curves cubic --period 200ms "
                              "--delay 80ms --jitter 40% --loss 10%")
         plot.path([(row["t_s"], max(row["error_m"], 1e-9)) for row in rows], kind, 1.6)
-        x, y = plot.at(1.25, height)
+        x, y = plot.at(*label)
         picture.text(x, y, meaning, f"of {kind}")
     for before, now in zip(rows, rows[1:]):
         if now["lost"] > before["lost"]:

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "reckon/pdu/random/split_mix.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -66,6 +67,19 @@ std::string ImpairmentLaw::problem() const {
     }
   }
   return {};
+}
+
+ImpairmentLaw delayed_by(double delay, double jitter_share, double loss) {
+  ImpairmentLaw law;
+  law.delay = pdu::from_seconds(delay);
+  law.jitter = pdu::from_seconds(jitter_share * delay);
+  law.loss = loss;
+  return law;
+}
+
+double jitter_share(const ImpairmentLaw& law) noexcept {
+  if (law.delay.count() == 0) return 0;
+  return static_cast<double>(law.jitter.count()) / static_cast<double>(law.delay.count());
 }
 
 std::uint64_t direction_seed(std::uint64_t seed, std::uint64_t receiver) noexcept {

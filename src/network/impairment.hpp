@@ -39,6 +39,12 @@ struct ImpairmentLaw {
   [[nodiscard]] std::string problem() const;
 };
 
+/// `delay` [s] +- `jitter_share` of it, 0 to 1, and this share lost; what is out of range is left
+/// to problem().
+[[nodiscard]] ImpairmentLaw delayed_by(double delay, double jitter_share = 0, double loss = 0);
+/// Jitter as a share of the delay; 0 where there is no delay.
+[[nodiscard]] double jitter_share(const ImpairmentLaw& law) noexcept;
+
 /// A law and the seed of what it draws.
 struct ImpairmentConfig {
   ImpairmentLaw law;       ///< all defaults together are a perfect network

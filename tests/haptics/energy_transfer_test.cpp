@@ -9,12 +9,13 @@
 #include <cstdlib>
 #include <deque>
 #include <numbers>
-#include <random>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/network/impairment.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -41,11 +42,7 @@ struct Outcome {
   std::array<double, 2> steady{};
   double end_speed = 0;
   std::vector<double> error;  // [N], rendered against the owner's true model, in contact
-  [[nodiscard]] double quantile(double q) {
-    if (error.empty()) return 0;
-    std::sort(error.begin(), error.end());
-    return error[static_cast<std::size_t>(q * static_cast<double>(error.size() - 1))];
-  }
+  [[nodiscard]] double quantile(double share) { return bench::quantile(error, share); }
 };
 
 // A presses 15 mm into B's place and then moves +-10 mm at 1.5 Hz; B holds still, softly.
@@ -78,7 +75,7 @@ class Duet {
  public:
   Duet(const Line& line, unsigned seed)
       : line_(line),
-        rng_(seed),
+        network_(peer::delayed_by(line.delay, 0.3, line.loss), seed),
         devices_{SimulatedDevice(hand_of(300, 3, -kReach - 0.03), operator_a()),
                  SimulatedDevice(hand_of(150, 2, 0))},
         servos_{ServoLoop(devices_[0], EffectPlan(), servo_config(line.transfer)),
@@ -99,8 +96,6 @@ class Duet {
   struct Last {
     double time = -1, x = 0, v = 0, need = 0, given = 0;
   };
-
-  double unit() { return std::uniform_real_distribution<double>(0, 1)(rng_); }
 
   void step(int k, int steps) {
     const double t = k * 1e-3;
@@ -163,8 +158,9 @@ class Duet {
       hand.spring_need = s.contacts[0].spring_need;
     }
     last_[side] = {t, s.device.x(), s.device_velocity.x(), hand.need, hand.given_to_us};
-    if (unit() < line_.loss) return;
-    queues_[1 - side].push_back({t + line_.delay * (0.7 + 0.6 * unit()), hand});
+    const peer::Fate fate = network_.decide(side, version_, pdu::from_seconds(t));
+    if (fate.copies == 0) return;
+    queues_[1 - side].push_back({t + pdu::to_seconds(fate.delay[0]), hand});
   }
 
   void measure(double t, int k, int steps) {
@@ -191,7 +187,7 @@ class Duet {
   }
 
   Line line_;
-  std::mt19937 rng_;
+  peer::Impairment network_;
   std::array<SimulatedDevice, 2> devices_;
   std::array<ServoLoop, 2> servos_;
   std::array<std::deque<Sent>, 2> queues_;

@@ -13,11 +13,12 @@
 #include <deque>
 #include <numbers>
 #include <ostream>
-#include <random>
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/network/impairment.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -116,10 +117,11 @@ struct Outcome {
 template <typename T>
 class Line {
  public:
-  Line(const Cell& cell, std::mt19937& random) : cell_(cell), random_(random) {}
+  Line(const Cell& cell, std::uint64_t seed)
+      : network_(peer::delayed_by(cell.delay, 0.3, cell.loss), seed) {}
   void send(double now, const T& what) {
-    const double jitter = 0.3 * (2 * drawn() - 1);
-    if (drawn() >= cell_.loss) queue_.push_back({now + cell_.delay * (1 + jitter), what});
+    const peer::Fate fate = network_.decide(0, sent_++, pdu::from_seconds(now));
+    if (fate.copies > 0) queue_.push_back({now + pdu::to_seconds(fate.delay[0]), what});
   }
   // In the order of arrival, which need not be that of sending.
   template <typename Take>
@@ -135,9 +137,8 @@ class Line {
   }
 
  private:
-  double drawn() { return std::uniform_real_distribution<double>(0, 1)(random_); }
-  const Cell& cell_;
-  std::mt19937& random_;
+  peer::Impairment network_;
+  std::uint64_t sent_ = 0;
   std::deque<std::pair<double, T>> queue_;
 };
 
@@ -151,13 +152,12 @@ RemoteHand plane_wall() {
 }
 
 Outcome run(const Cell& cell, unsigned seed) {
-  std::mt19937 random(seed);
   SimulatedDevice device(device_of(cell.hand), [&](double t) { return script(cell.hand, t); });
   ServoConfig config;
   config.probe_radius = 0;
   ServoLoop servo(device, EffectPlan(), config);
-  Line<double> up(cell, random);
-  Line<RemoteHand> down(cell, random);
+  Line<double> up(cell, peer::direction_seed(seed, 0));
+  Line<RemoteHand> down(cell, peer::direction_seed(seed, 1));
   double seen = kStart, speeds = 0;
   RemoteHand wall = plane_wall();
   ContactSet set;

@@ -32,6 +32,7 @@
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
 namespace {
@@ -45,8 +46,7 @@ using Octets = std::vector<std::byte>;
 
 std::uint64_t next_number() {
   static std::uint64_t state = 1;
-  state = state * 6364136223846793005u + 1442695040888963407u;
-  return state >> 20;
+  return pdu::mixed_bits(state += pdu::kGoldenStep);
 }
 
 Octets junk() {

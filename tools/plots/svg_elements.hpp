@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/tools/plots/markup.hpp"
+
 namespace reckon::tools {
 
 constexpr double kSvgNoteRow = 17;  ///< of lines of notes below a title [px]
@@ -17,12 +19,8 @@ constexpr double kSvgNoteRow = 17;  ///< of lines of notes below a title [px]
 inline void append_svg_escaped(std::string& out, std::string_view text) {
   for (const char letter : text) {
     const auto octet = static_cast<unsigned char>(letter);
-    if (letter == '&')
-      out += "&amp;";
-    else if (letter == '<')
-      out += "&lt;";
-    else
-      out += octet < 0x20 || octet > 0x7E ? '?' : letter;
+    const char shown = octet < 0x20 || octet > 0x7E ? '?' : letter;
+    append_escaped(out, {&shown, 1});
   }
 }
 

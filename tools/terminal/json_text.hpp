@@ -7,7 +7,9 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,6 +37,11 @@ class JsonObject {
   JsonObject& value(std::string_view key, const T& value) {
     fmt::format_to(std::back_inserter(member(key)), FMT_COMPILE("{}"), value);
     return *this;
+  }
+  /// A number; null where there is none or it is not finite.
+  JsonObject& number(std::string_view key, std::optional<double> number) {
+    if (number && std::isfinite(*number)) return value(key, *number);
+    return value(key, "null");
   }
   /// A finite number with `count` decimals.
   JsonObject& decimals(std::string_view key, double value, int count) {

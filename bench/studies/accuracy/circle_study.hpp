@@ -15,9 +15,9 @@ namespace reckon::bench {
 /// +-40 %, 10 % lost.
 struct CircleCase {
   double seconds = 60;
-  double period = 0.2;                     ///< [s]
-  PoseNetwork network{0.08, 0.4, 0.1, 1};  ///< its seed is the first
-  std::uint64_t seeds = 20;                ///< medians over these
+  double period = 0.2;                                               ///< [s]
+  peer::ImpairmentConfig network{peer::delayed_by(0.08, 0.4, 0.1)};  ///< its seed is the first
+  std::uint64_t seeds = 100;                                         ///< medians over these
 };
 
 /// What has to be reached, by the medians.

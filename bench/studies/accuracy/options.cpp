@@ -154,14 +154,14 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
   if (options.converge) grid.convergence.duration = pdu::to_seconds(*options.converge);
   if (options.converge_longest)
     grid.convergence.longest = pdu::to_seconds(*options.converge_longest);
-  grid.network.delay = options.delay ? pdu::to_seconds(*options.delay) : 0;
-  grid.network.jitter = share_of(options.jitter, 1, "--jitter");
-  grid.network.loss = share_of(options.loss, 0.99, "--loss");
+  const double jitter = share_of(options.jitter, 1, "--jitter");
+  grid.network.law = peer::delayed_by(options.delay ? pdu::to_seconds(*options.delay) : 0, jitter,
+                                      share_of(options.loss, 0.99, "--loss"));
   grid.network.seed = options.seed;
   grid.seeds = options.seeds.value_or(1);
   if (grid.seeds < 1 || grid.seeds > kMostSeeds)
     throw tools::UsageError(fmt::format("--seeds: {} is not from 1 to {}", grid.seeds, kMostSeeds));
-  if (grid.network.jitter > 0 && grid.network.delay == 0)
+  if (jitter > 0 && grid.network.law.delay.count() == 0)
     throw tools::UsageError(
         "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
   return grid;

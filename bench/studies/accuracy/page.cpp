@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "reckon/bench/studies/accuracy/page_frame.hpp"
+#include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/plots/sortable_page.hpp"
 #include "reckon/bench/studies/accuracy/scatter.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -12,20 +13,33 @@
 namespace reckon::bench {
 namespace {
 
+/// Colours that most people tell apart on white and on black; shapes tell them apart too.
+constexpr std::string_view kStyle = R"(
+:root{--front:#1f2328}@media(prefers-color-scheme:dark){:root{--front:#e6edf3}}
+.defs{position:absolute;width:0;height:0}.plot text{font:13px system-ui,sans-serif;fill:var(--soft)}
+.g{stroke:var(--line);fill:none}.a{stroke:var(--soft);fill:none}
+.f{stroke:var(--front);fill:none;stroke-width:1.5;stroke-linejoin:round}
+use{stroke:var(--page);stroke-width:.8}.plot .d{opacity:.28}
+.legend span{display:inline-block;margin-right:1rem;white-space:nowrap}
+.legend svg{vertical-align:-2px}
+.m0{fill:#d55e00}.m1{fill:#8c8c8c}.m2{fill:#56b4e9}.m3{fill:#0072b2}.m4{fill:#009e73}
+.m5{fill:#7fb800}.m6{fill:#e69f00}.m7{fill:#b8860b}.m8{fill:#cc79a7}.m9{fill:#8a5cd1}
+.m10{fill:#17a2a2}
+)";
+
 void append_summary(std::string& out, const AccuracyReport& report) {
   out +=
-      "<h1>Poses: accuracy against cost</h1>\n"
       "<p>An owner sends the motion of an entity when the prediction that its peers make is off by "
       "more than a threshold; a viewer predicts and smooths. Each setting is a model, a threshold "
       "and a convergence curve.</p>\n<dl>\n";
   const auto row = [&](std::string_view name, const std::string& value) {
     out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   };
-  row("command", fmt::format("<code>{}</code>", html_text(report.command)));
-  row("conditions", html_text(conditions_text(report.grid)));
+  row("command", fmt::format("<code>{}</code>", html_escaped(report.command)));
+  row("conditions", html_escaped(conditions_text(report.grid)));
   row("octets", "172 an update: Entity State of 144, UDP and IPv4 headers of 28");
   if (!report.processor.empty())
-    row("ns", html_text(report.processor) +
+    row("ns", html_escaped(report.processor) +
                   "; one predicted and converged pose, median of blocks that took turns");
   out +=
       "</dl>\n<p class=\"note\">In full colour: the Pareto front of octets, error (99 % below) and "
@@ -34,7 +48,7 @@ void append_summary(std::string& out, const AccuracyReport& report) {
       "smaller velocity steps. Pale: dominated, by what the table says. Settings are compared at "
       "three digits. Errors below the axis are drawn on it.</p>\n<nav>";
   for (std::size_t i = 0; i < report.results.size(); ++i)
-    out += fmt::format("<a href=\"#r{}\">{}</a>\n", i, html_text(report.results[i].subject));
+    out += fmt::format("<a href=\"#r{}\">{}</a>\n", i, html_escaped(report.results[i].subject));
   if (!report.contacts.empty()) out += "<a href=\"#contacts\">hands in contact</a>\n";
   out += "</nav>\n";
 }
@@ -81,8 +95,8 @@ void append_contacts(std::string& out, const AccuracyReport& report) {
       "<th>99 % [N]</th><th>max [N]</th><th>linger [s]</th><th>servo step [ns]</th></tr></thead>\n"
       "<tbody>\n";
   for (const ContactRow& row : report.contacts) {
-    out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>", html_text(row.scene),
-                       html_text(sending_text(row.sending)));
+    out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>",
+                       html_escaped(row.scene), html_escaped(sending_text(row.sending)));
     const ForceError& error = row.from_shown;
     if (!row.touched()) {
       out += page_cell(row.packets_per_s, number_text(row.packets_per_s)) +
@@ -100,7 +114,7 @@ void append_contacts(std::string& out, const AccuracyReport& report) {
 
 void append_result(std::string& out, const AccuracyResult& result, std::size_t number) {
   out += fmt::format("<section id=\"r{}\">\n<h2>{}</h2>\n<p>{}</p>\n", number,
-                     html_text(result.subject), html_text(result.meaning));
+                     html_escaped(result.subject), html_escaped(result.meaning));
   out += fmt::format(
       "<p class=\"note\">{}, {} samples; the true velocity steps by up to {} m/s from sample to "
       "sample. {} of {} settings are on the front.</p>\n",
@@ -114,12 +128,11 @@ void append_result(std::string& out, const AccuracyResult& result, std::size_t n
 }  // namespace
 
 std::string accuracy_page(const AccuracyReport& report) {
-  std::string out = page_begin("Reckon: poses, accuracy against cost");
-  out += scatter_marks();
+  std::string out = scatter_marks();
   append_summary(out, report);
   for (std::size_t i = 0; i < report.results.size(); ++i) append_result(out, report.results[i], i);
   append_contacts(out, report);
-  return out + page_end();
+  return sortable_page("Poses: accuracy against cost", kStyle, out);
 }
 
 }  // namespace reckon::bench

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/bench/studies/accuracy/query_cost.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 
@@ -54,12 +54,6 @@ double block(const deadreckon::PoseConvergence& convergence, Predict&& predict, 
   }
   const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
   return took.count() / kQueries;
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -111,13 +111,9 @@ int status_of(const std::vector<Subject>& subjects) {
 
 // --- the grid ---
 
-ContactLine line_of(const AccuracyGrid& grid) {
-  return {grid.network.delay, grid.network.jitter, grid.network.loss, grid.network.seed};
-}
-
 void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out) {
   if (!report.contacts.empty())
-    fmt::print(out, "{}", contact_text(report.contacts, line_of(report.grid)));
+    fmt::print(out, "{}", contact_text(report.contacts, report.grid.network));
   if (report.results.empty()) return;
   if (!report.contacts.empty()) fmt::print(out, "\n");
   for (const AccuracyResult& result : report.results)
@@ -144,7 +140,7 @@ std::vector<ContactRow> study_contacts(const BenchOptions& options, const Accura
       options.sendings.empty()
           ? std::vector<ContactSending>(kContactSendings.begin(), kContactSendings.end())
           : read_sendings(options.sendings);
-  return run_contact_study(scenes, sendings, line_of(grid), seconds, watch.of("contacts"));
+  return run_contact_study(scenes, sendings, grid.network, seconds, watch.of("contacts"));
 }
 
 int study_grid(const BenchOptions& options, AccuracyGrid grid, const tools::Console& console,
@@ -170,12 +166,12 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const tools::Cons
   }
   if (options.json)
     fmt::print(console.out, "{}{}", accuracy_json(report, options.front),
-               contact_json(report.contacts, line_of(report.grid)));
+               contact_json(report.contacts, report.grid.network));
   else
     print_tables(report, !options.all, console.out);
   tools::write_output(options.csv,
                       poses ? accuracy_csv(report, options.front)
-                            : contact_csv(report.contacts, line_of(report.grid)),
+                            : contact_csv(report.contacts, report.grid.network),
                       console);
   tools::write_output(options.report, accuracy_page(report), console);
   return status_of(subjects);

@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
-#include "reckon/bench/studies/accuracy/log_axis.hpp"
-#include "reckon/bench/studies/accuracy/page_frame.hpp"
+#include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/plots/log_axis.hpp"
 #include "reckon/bench/studies/accuracy/text.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 
@@ -48,7 +48,7 @@ template <typename Of>
 LogAxis axis_of(const AccuracyResult& result, double floor, double begin, double finish, Of&& of) {
   std::vector<double> values;
   for (const AccuracyRow& row : result.rows) values.push_back(of(row));
-  return log_axis_over(values, floor, begin, finish);
+  return log_axis_over(values, floor, begin, finish, 1);
 }
 
 struct Axes {
@@ -73,32 +73,6 @@ struct Axes {
     return least / 50;
   }
 };
-
-void append_grid(std::string& out, const Axes& axes) {
-  for (const double tick : axes.octets.ticks()) {
-    const double x = axes.octets.at(tick);
-    out += fmt::format(
-        "<path class=\"g\" d=\"M{0:.1f} {1:g}V{2:g}\"/>"
-        "<text x=\"{0:.1f}\" y=\"{3:g}\" text-anchor=\"middle\">{4}</text>\n",
-        x, kTop, kBottom, kBottom + 18, number_text(tick));
-  }
-  for (const double tick : axes.error.ticks()) {
-    const double y = axes.error.at(tick);
-    out += fmt::format(
-        "<path class=\"g\" d=\"M{1:g} {0:.1f}H{2:g}\"/>"
-        "<text x=\"{3:g}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
-        y, kLeft, kRight, kLeft - 8, y + 4, length_text(tick));
-  }
-  out += fmt::format("<path class=\"a\" d=\"M{0:g} {1:g}V{2:g}H{3:g}\"/>\n", kLeft, kTop, kBottom,
-                     kRight);
-  out += fmt::format(
-      "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"middle\">octets a second of one entity</text>\n",
-      (kLeft + kRight) / 2, kHeight - 12);
-  out += fmt::format(
-      "<text transform=\"translate(14 {:g}) rotate(-90)\" text-anchor=\"middle\">position error, "
-      "99 % below</text>\n",
-      (kTop + kBottom) / 2);
-}
 
 /// The least error for the octets spent, as steps.
 void append_front(std::string& out, const AccuracyResult& result, const Axes& axes) {
@@ -146,8 +120,9 @@ std::string scatter_svg(const AccuracyResult& result) {
   std::string out = fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"Octets a second "
       "against position error of {}\">\n",
-      kWidth, kHeight, html_text(result.subject));
-  append_grid(out, axes);
+      kWidth, kHeight, html_escaped(result.subject));
+  append_log_grid(out, {axes.octets, "octets a second of one entity", number_text},
+                  {axes.error, "position error, 99 % below", length_text});
   append_marks(out, result, axes, false);
   append_front(out, result, axes);
   append_marks(out, result, axes, true);
@@ -163,7 +138,7 @@ std::string scatter_legend(const AccuracyResult& result) {
     out += fmt::format(
         "<span title=\"{2}\"><svg viewBox=\"-8 -8 16 16\" width=\"14\" height=\"14\" "
         "aria-hidden=\"true\"><use href=\"#s{0}\" class=\"m{0}\"/></svg> {1}</span>\n",
-        place_of(row.model), html_text(last), html_text(row.model.meaning));
+        place_of(row.model), html_escaped(last), html_escaped(row.model.meaning));
   }
   return out + "</p>\n";
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 
 namespace reckon::bench {
@@ -14,14 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The middle one; of an even number the mean of both.
 template <typename Of>
 double median_of(const std::vector<PoseResult>& runs, Of&& of) {
   std::vector<double> values;
   for (const PoseResult& run : runs) values.push_back(of(run));
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+  return median(values);
 }
 
 ErrorSize median_size(const std::vector<PoseResult>& runs, ErrorSize PoseResult::*size) {
@@ -93,8 +91,8 @@ std::size_t AccuracyResult::on_front() const noexcept {
       std::count_if(rows.begin(), rows.end(), [](const AccuracyRow& row) { return !row.beaten; }));
 }
 
-PoseResult run_seeds(std::span<const Track> tracks, const PoseSetting& setting, PoseNetwork network,
-                     std::uint64_t seeds) {
+PoseResult run_seeds(std::span<const Track> tracks, const PoseSetting& setting,
+                     peer::ImpairmentConfig network, std::uint64_t seeds) {
   std::vector<PoseResult> runs;
   for (std::uint64_t i = 0; i < seeds; ++i, ++network.seed)
     runs.push_back(run_pose_study(tracks, setting, network));

@@ -39,7 +39,7 @@ struct AccuracyGrid {
   double heartbeat = 5.0;                         ///< [s] > 0
   double first_heartbeat = 0;                     ///< [s], as PoseSetting's
   deadreckon::ConvergenceSettings convergence;    ///< but its curve
-  PoseNetwork network;                            ///< its seed is the first
+  peer::ImpairmentConfig network;                 ///< its seed is the first
   std::uint64_t seeds = 1;                        ///< runs from that seed on, > 0; medians are told
 };
 
@@ -79,7 +79,7 @@ using StudyProgress = std::function<bool(std::size_t done, std::size_t all)>;
 
 /// One run for each seed; of every number of the result the median, but by_model, which is summed.
 [[nodiscard]] PoseResult run_seeds(std::span<const Track> tracks, const PoseSetting& setting,
-                                   PoseNetwork network, std::uint64_t seeds);
+                                   peer::ImpairmentConfig network, std::uint64_t seeds);
 
 /// Errors [m] and velocity steps [m/s] below this are none when settings are compared: the floats
 /// on the wire make as much.

@@ -11,11 +11,14 @@
 #include <tuple>
 
 #include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
+
+using tools::JsonObject;
 
 using Align = tools::TextTable::Align;
 
@@ -42,21 +45,18 @@ std::string heading_of(const AccuracyResult& result) {
 }
 
 std::string size_json(const ErrorSize& size) {
-  return fmt::format(R"({{"rms":{},"p99":{},"max":{}}})", size.rms, size.p99, size.max);
-}
-
-std::string result_json(const PoseResult& result) {
-  return fmt::format(R"("updates":{},"updates_per_s":{},"octets_per_s":{},"position_m":{},)"
-                     R"("angle_rad":{},"velocity_step_mps":{})",
-                     result.updates, result.updates_per_second(),
-                     kUpdateOctets * result.updates_per_second(), size_json(result.position),
-                     size_json(result.angle), size_json(result.velocity_step));
-}
-
-std::string json_quoted(std::string_view text) {
   std::string out;
-  tools::append_json_string(out, text);
+  JsonObject(out).value("rms", size.rms).value("p99", size.p99).value("max", size.max).end();
   return out;
+}
+
+JsonObject& add_result(JsonObject& object, const PoseResult& result) {
+  return object.value("updates", result.updates)
+      .value("updates_per_s", result.updates_per_second())
+      .value("octets_per_s", kUpdateOctets * result.updates_per_second())
+      .value("position_m", size_json(result.position))
+      .value("angle_rad", size_json(result.angle))
+      .value("velocity_step_mps", size_json(result.velocity_step));
 }
 
 /// Within quotes, quotes doubled (RFC 4180).
@@ -66,49 +66,67 @@ std::string csv_quoted(std::string_view text) {
   return out + '"';
 }
 
-/// Nothing where no angle is too large.
-std::string angle_json(double angle) {
-  return angle < kAnyAngle ? fmt::format("{}", angle) : "null";
+/// Nothing where the value is that of no limit.
+std::optional<double> below(double value, double none) {
+  return value < none ? std::optional(value) : std::nullopt;
 }
 
-std::string study_json(const AccuracyReport& report) {
+void append_study(std::string& out, const AccuracyReport& report) {
   const AccuracyGrid& grid = report.grid;
-  const bool beats = grid.heartbeat < kNoHeartbeat;
-  return fmt::format(
-      R"({{"kind":"study","command":{},"processor":{},"angle_rad":{},"heartbeat_s":{},)"
-      R"("first_heartbeat_s":{},"converge_s":{},"converge_longest_s":{},)"
-      R"("delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
-      R"("update_octets":{}}})"
-      "\n",
-      json_quoted(report.command),
-      report.processor.empty() ? "null" : json_quoted(report.processor), angle_json(grid.angle),
-      beats ? fmt::format("{}", grid.heartbeat) : "null",
-      grid.first_heartbeat > 0 ? fmt::format("{}", grid.first_heartbeat) : "null",
-      grid.convergence.duration, grid.convergence.longest, grid.network.delay, grid.network.jitter,
-      grid.network.loss, grid.network.seed, grid.seeds, kUpdateOctets);
+  const peer::ImpairmentLaw& law = grid.network.law;
+  JsonObject object(out);
+  object.text("kind", "study").text("command", report.command);
+  if (report.processor.empty())
+    object.value("processor", "null");
+  else
+    object.text("processor", report.processor);
+  object.number("angle_rad", below(grid.angle, kAnyAngle))
+      .number("heartbeat_s", below(grid.heartbeat, kNoHeartbeat))
+      .number("first_heartbeat_s",
+              grid.first_heartbeat > 0 ? std::optional(grid.first_heartbeat) : std::nullopt)
+      .value("converge_s", grid.convergence.duration)
+      .value("converge_longest_s", grid.convergence.longest)
+      .value("delay_s", pdu::to_seconds(law.delay))
+      .value("jitter", peer::jitter_share(law))
+      .value("loss", law.loss)
+      .value("seed", grid.network.seed)
+      .value("seeds", grid.seeds)
+      .value("update_octets", kUpdateOctets)
+      .end("\n");
 }
 
-std::string subject_json(const AccuracyResult& result) {
-  return fmt::format(
-      R"({{"kind":"subject","subject":{},"meaning":{},"tracks":{},"samples":{},"seconds":{},)"
-      R"("angle_rad":{},"own_velocity_step_mps":{},"settings":{},"on_front":{}}})"
-      "\n",
-      json_quoted(result.subject), json_quoted(result.meaning), result.entities, result.samples,
-      result.seconds, angle_json(result.angle), result.own_velocity_step, result.rows.size(),
-      result.on_front());
+void append_subject(std::string& out, const AccuracyResult& result) {
+  JsonObject(out)
+      .text("kind", "subject")
+      .text("subject", result.subject)
+      .text("meaning", result.meaning)
+      .value("tracks", result.entities)
+      .value("samples", result.samples)
+      .value("seconds", result.seconds)
+      .number("angle_rad", below(result.angle, kAnyAngle))
+      .value("own_velocity_step_mps", result.own_velocity_step)
+      .value("settings", result.rows.size())
+      .value("on_front", result.on_front())
+      .end("\n");
 }
 
-std::string setting_json(const AccuracyResult& result, const AccuracyRow& row) {
-  std::string line = fmt::format(
-      R"({{"kind":"setting","subject":{},"model":{},"curve":{},"threshold_m":{},{},"query_ns":{},)",
-      json_quoted(result.subject), json_quoted(row.model.name), json_quoted(curve_name(row.curve)),
-      row.threshold, result_json(row.result),
-      row.query_ns > 0 ? fmt::format("{:.1f}", row.query_ns) : "null");
-  line += fmt::format(R"("front":{})", !row.beaten);
+void append_setting(std::string& out, const AccuracyResult& result, const AccuracyRow& row) {
+  JsonObject object(out);
+  object.text("kind", "setting")
+      .text("subject", result.subject)
+      .text("model", row.model.name)
+      .text("curve", curve_name(row.curve))
+      .value("threshold_m", row.threshold);
+  add_result(object, row.result);
+  if (row.query_ns > 0)
+    object.decimals("query_ns", row.query_ns, 1);
+  else
+    object.value("query_ns", "null");
+  object.value("front", !row.beaten);
   if (row.beaten)
-    line += fmt::format(R"(,"beaten_by":{},"equal":{})",
-                        json_quoted(setting_text(result.rows[row.beaten->by])), row.beaten->equal);
-  return line + "}\n";
+    object.text("beaten_by", setting_text(result.rows[row.beaten->by]))
+        .value("equal", row.beaten->equal);
+  object.end("\n");
 }
 
 }  // namespace
@@ -159,13 +177,10 @@ std::string conditions_text(const AccuracyGrid& grid) {
     text += fmt::format(
         "; converges in {} ms, at most {} ms", number_text(grid.convergence.duration * 1e3),
         number_text(std::max(grid.convergence.duration, grid.convergence.longest) * 1e3));
-  const PoseNetwork& network = grid.network;
-  text += fmt::format("; delay {} ms", number_text(network.delay * 1e3));
-  if (network.delay > 0 && network.jitter > 0)
-    text += fmt::format(" +-{} %", number_text(network.jitter * 100));
-  if (network.loss > 0) text += fmt::format(", {} % lost", number_text(network.loss * 100));
-  text += grid.seeds > 1 ? fmt::format("; medians of {} seeds from {}", grid.seeds, network.seed)
-                         : fmt::format("; seed {}", network.seed);
+  const std::uint64_t seed = grid.network.seed;
+  text += fmt::format("; {}", network_text(grid.network.law));
+  text += grid.seeds > 1 ? fmt::format("; medians of {} seeds from {}", grid.seeds, seed)
+                         : fmt::format("; seed {}", seed);
   return text;
 }
 
@@ -220,11 +235,12 @@ std::string accuracy_csv(const AccuracyReport& report, bool front_only) {
 }
 
 std::string accuracy_json(const AccuracyReport& report, bool front_only) {
-  std::string text = study_json(report);
+  std::string text;
+  append_study(text, report);
   for (const AccuracyResult& result : report.results) {
-    text += subject_json(result);
+    append_subject(text, result);
     for (const std::size_t i : rows_in_order(result, front_only))
-      text += setting_json(result, result.rows[i]);
+      append_setting(text, result, result.rows[i]);
   }
   return text;
 }
@@ -250,13 +266,15 @@ std::string circle_table(std::span<const CircleRow> rows) {
 }
 
 std::string circle_json(std::span<const CircleRow> rows) {
-  std::string text;
-  for (const CircleRow& row : rows)
-    text += fmt::format(R"({{"kind":"circle","model":{},"curve":{},{},"clears":{}}})"
-                        "\n",
-                        json_quoted(row.model.name), json_quoted(curve_name(row.curve)),
-                        result_json(row.result), row.clears());
-  return text;
+  std::string out;
+  for (const CircleRow& row : rows) {
+    JsonObject object(out);
+    object.text("kind", "circle")
+        .text("model", row.model.name)
+        .text("curve", curve_name(row.curve));
+    add_result(object, row.result).value("clears", row.clears()).end("\n");
+  }
+  return out;
 }
 
 std::string equal_error_table(std::span<const NamedEqualError> rows) {
@@ -289,20 +307,26 @@ std::string equal_error_table(std::span<const NamedEqualError> rows) {
 }
 
 std::string equal_error_json(std::span<const NamedEqualError> rows) {
-  std::string text;
+  std::string out;
+  const auto add = [](JsonObject& object, std::string_view key, const PoseModel& model,
+                      double threshold, const PoseResult& result) {
+    JsonObject inner(object.member(key));
+    inner.text("model", model.name).value("threshold_m", threshold);
+    add_result(inner, result).end();
+  };
   for (const auto& [subject, found] : rows) {
-    text += fmt::format(
-        R"({{"kind":"equal_error","subject":{},"baseline":{{"model":{},"threshold_m":{},{}}},)",
-        json_quoted(subject), json_quoted(found.baseline.name), found.baseline_threshold,
-        result_json(found.baseline_result));
-    text += found.threshold > 0
-                ? fmt::format(R"("rival":{{"model":{},"threshold_m":{},{}}},"saving":{}}})",
-                              json_quoted(found.rival.name), found.threshold,
-                              result_json(found.result), found.saving())
-                : std::string(R"("rival":null,"saving":null})");
-    text += '\n';
+    JsonObject object(out);
+    object.text("kind", "equal_error").text("subject", subject);
+    add(object, "baseline", found.baseline, found.baseline_threshold, found.baseline_result);
+    if (found.threshold > 0) {
+      add(object, "rival", found.rival, found.threshold, found.result);
+      object.value("saving", found.saving());
+    } else {
+      object.value("rival", "null").value("saving", "null");
+    }
+    object.end("\n");
   }
-  return text;
+  return out;
 }
 
 }  // namespace reckon::bench

@@ -9,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
+
 namespace reckon::bench {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPeriod = 1e-3;           // [s]
+constexpr double kServoPeriod = 1e-3;      // [s]
 constexpr std::size_t kFirstTouch = 1000;  // steps
 
 /// Of one hand from another in a step [N], along the line between them.
@@ -38,13 +40,6 @@ void each_pair(const ContactRecord& record, Visit&& visit) {
     for (std::size_t hand = 0; hand < record.hands; ++hand)
       for (std::size_t other = 0; other < record.hands; ++other)
         if (other != hand) visit(step, hand, other);
-}
-
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 double largest(const ContactRecord& record, std::size_t from, std::size_t to) {
@@ -117,7 +112,8 @@ std::optional<std::array<Response, 2>> stroke_response(const ContactRecord& reco
     std::complex<double> felt, wanted;
     for (std::size_t step = from; step < to; ++step) {
       const Pair pair = pair_at(record, truth, step, hand, 1 - hand);
-      const double angle = 2 * std::numbers::pi * frequency * kPeriod * static_cast<double>(step);
+      const double angle =
+          2 * std::numbers::pi * frequency * kServoPeriod * static_cast<double>(step);
       felt += pair.felt * std::polar(1.0, -angle);
       wanted += pair.wanted * std::polar(1.0, -angle);
     }
@@ -140,7 +136,7 @@ double linger(const ContactRecord& record, const ContactTruth& truth) {
     else if (last != kOver)
       longest = std::max(longest, step + 1 - last);
   });
-  return static_cast<double>(longest) * kPeriod;
+  return static_cast<double>(longest) * kServoPeriod;
 }
 
 }  // namespace reckon::bench

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -132,26 +133,25 @@ std::string scene_text(std::span<const ContactRow> rows) {
 
 std::string error_json(const ForceError& error) {
   if (error.samples == 0) return "null";
-  return fmt::format(R"({{"p50":{},"p99":{},"max":{},"rms":{},"noticed":{},"samples":{}}})",
-                     error.p50, error.p99, error.max, error.rms, error.noticed, error.samples);
+  std::string out;
+  tools::JsonObject(out)
+      .value("p50", error.p50)
+      .value("p99", error.p99)
+      .value("max", error.max)
+      .value("rms", error.rms)
+      .value("noticed", error.noticed)
+      .value("samples", error.samples)
+      .end();
+  return out;
 }
 
-std::string maybe(const std::optional<double>& value, std::string_view none) {
-  return value ? fmt::format("{}", *value) : std::string(none);
-}
-
-std::string stroke_json(const ContactRow& row) {
-  if (!row.stroke) return "null";
-  std::string text;
-  for (const Response& response : *row.stroke)
-    text += fmt::format(R"({}{{"gain":{},"phase_rad":{}}})", text.empty() ? "" : ",", response.gain,
-                        response.phase);
-  return "[" + text + "]";
+std::string maybe(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : std::string();
 }
 
 }  // namespace
 
-std::string contact_text(std::span<const ContactRow> rows, const ContactLine& line) {
+std::string contact_text(std::span<const ContactRow> rows, const peer::ImpairmentConfig& network) {
   std::string text;
   while (!rows.empty()) {
     const auto next = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) {
@@ -161,23 +161,22 @@ std::string contact_text(std::span<const ContactRow> rows, const ContactLine& li
     text += scene_text(rows.first(count));
     rows = rows.subspan(count);
   }
-  text += fmt::format("Whole peers in simulated time; delay {} ms", number_text(1e3 * line.delay));
-  if (line.jitter > 0) text += fmt::format(" +-{} %", number_text(100 * line.jitter));
-  if (line.loss > 0) text += fmt::format(", {} % lost", number_text(100 * line.loss));
-  return text + fmt::format("; seed {}.\n", line.seed) + std::string(kLegend);
+  text += fmt::format("Whole peers in simulated time; {}; seed {}.\n", network_text(network.law),
+                      network.seed);
+  return text + std::string(kLegend);
 }
 
-std::string contact_json(std::span<const ContactRow> rows, const ContactLine& line) {
+std::string contact_json(std::span<const ContactRow> rows, const peer::ImpairmentConfig& network) {
   std::string text;
   for (const ContactRow& row : rows) {
-    tools::JsonObject(text)
-        .text("kind", "contact")
+    tools::JsonObject object(text);
+    object.text("kind", "contact")
         .text("scene", row.scene)
         .text("send_at", sending_text(row.sending))
-        .value("delay_s", line.delay)
-        .value("jitter", line.jitter)
-        .value("loss", line.loss)
-        .value("seed", line.seed)
+        .value("delay_s", pdu::to_seconds(network.law.delay))
+        .value("jitter", peer::jitter_share(network.law))
+        .value("loss", network.law.loss)
+        .value("seed", network.seed)
         .value("hands", row.hands)
         .value("asked_n_per_m", row.asked)
         .value("shown_n_per_m", row.shown)
@@ -187,10 +186,18 @@ std::string contact_json(std::span<const ContactRow> rows, const ContactLine& li
         .value("times_fewer", row.times_fewer())
         .value("error_shown_n", error_json(row.from_shown))
         .value("error_asked_n", error_json(row.from_asked))
-        .value("twin_rms_n", maybe(row.touched() ? row.from_twin : std::nullopt, "null"))
-        .value("first_peak", maybe(row.first_peak, "null"))
-        .value("stroke", stroke_json(row))
-        .decimals("linger_s", row.linger, 3)
+        .number("twin_rms_n", row.touched() ? row.from_twin : std::nullopt)
+        .number("first_peak", row.first_peak);
+    if (row.stroke)
+      object.array("stroke", *row.stroke, [](std::string& out, const Response& response) {
+        tools::JsonObject(out)
+            .value("gain", response.gain)
+            .value("phase_rad", response.phase)
+            .end();
+      });
+    else
+      object.value("stroke", "null");
+    object.decimals("linger_s", row.linger, 3)
         .value("servo_step_ns", row.servo_step_ns)
         .value("front", !row.beaten)
         .end("\n");
@@ -198,7 +205,7 @@ std::string contact_json(std::span<const ContactRow> rows, const ContactLine& li
   return text;
 }
 
-std::string contact_csv(std::span<const ContactRow> rows, const ContactLine& line) {
+std::string contact_csv(std::span<const ContactRow> rows, const peer::ImpairmentConfig& network) {
   std::string text =
       "scene,send_at,delay_s,jitter,loss,hands,asked_n_per_m,shown_n_per_m,packets_per_s,"
       "octets_per_s,for_force_per_s,times_fewer,shown_p50_n,shown_p99_n,shown_max_n,shown_rms_n,"
@@ -206,15 +213,16 @@ std::string contact_csv(std::span<const ContactRow> rows, const ContactLine& lin
       "first_peak,gain,phase_rad,other_gain,other_phase_rad,linger_s,servo_step_ns,front\n";
   for (const ContactRow& row : rows) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}", row.scene,
-                   sending_text(row.sending), line.delay, line.jitter, line.loss, row.hands,
-                   row.asked, row.shown, row.packets_per_s, row.octets_per_s, row.for_force_per_s,
+                   sending_text(row.sending), pdu::to_seconds(network.law.delay),
+                   peer::jitter_share(network.law), network.law.loss, row.hands, row.asked,
+                   row.shown, row.packets_per_s, row.octets_per_s, row.for_force_per_s,
                    row.times_fewer());
     for (const ForceError& error : {row.from_shown, row.from_asked})
       text += error.samples > 0 ? fmt::format(",{},{},{},{},{}", error.p50, error.p99, error.max,
                                               error.rms, error.noticed)
                                 : ",,,,,";
-    text += fmt::format(",{},{}", maybe(row.touched() ? row.from_twin : std::nullopt, ""),
-                        maybe(row.first_peak, ""));
+    text += fmt::format(",{},{}", maybe(row.touched() ? row.from_twin : std::nullopt),
+                        maybe(row.first_peak));
     for (std::size_t hand = 0; hand < 2; ++hand)
       text += row.stroke
                   ? fmt::format(",{},{}", (*row.stroke)[hand].gain, (*row.stroke)[hand].phase)

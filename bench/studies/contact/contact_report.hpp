@@ -11,10 +11,13 @@
 namespace reckon::bench {
 
 /// For people: a table for each scene, what is worse at wide thresholds, and what the columns are.
-[[nodiscard]] std::string contact_text(std::span<const ContactRow> rows, const ContactLine& line);
+[[nodiscard]] std::string contact_text(std::span<const ContactRow> rows,
+                                       const peer::ImpairmentConfig& network);
 /// One object a line.
-[[nodiscard]] std::string contact_json(std::span<const ContactRow> rows, const ContactLine& line);
+[[nodiscard]] std::string contact_json(std::span<const ContactRow> rows,
+                                       const peer::ImpairmentConfig& network);
 /// With a line of names. What a row does not have is empty.
-[[nodiscard]] std::string contact_csv(std::span<const ContactRow> rows, const ContactLine& line);
+[[nodiscard]] std::string contact_csv(std::span<const ContactRow> rows,
+                                      const peer::ImpairmentConfig& network);
 
 }  // namespace reckon::bench

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kNoThreshold = 1e3;  // [m], [rad] and [N]: never passed
 
-peer::SceneFile scene_on_line(const ContactScene& contact, const ContactSending& sending,
-                              const ContactLine& line) {
+peer::SceneFile scene_on(const ContactScene& contact, const ContactSending& sending,
+                         const peer::ImpairmentConfig& network) {
   peer::SceneFile scene = scene_of(contact);
   deadreckon::Thresholds& thresholds = scene.dead_reckoning.thresholds;
   if (sending.rate_hz > 0) {
@@ -27,10 +27,7 @@ peer::SceneFile scene_on_line(const ContactScene& contact, const ContactSending&
   } else {
     thresholds.force = sending.threshold;
   }
-  scene.impairment.seed = line.seed;
-  scene.impairment.law.delay = pdu::from_seconds(line.delay);
-  scene.impairment.law.jitter = pdu::from_seconds(line.jitter * line.delay);
-  scene.impairment.law.loss = line.loss;
+  scene.impairment = network;
   return scene;
 }
 
@@ -39,8 +36,8 @@ std::size_t step_at(double seconds) {
 }
 
 ContactRow run_row(const ContactScene& contact, const ContactSending& sending,
-                   const ContactLine& line, double seconds) {
-  const peer::SceneFile scene = scene_on_line(contact, sending, line);
+                   const peer::ImpairmentConfig& network, double seconds) {
+  const peer::SceneFile scene = scene_on(contact, sending, network);
   const auto scripts = scripts_of(contact);
   const ContactRun run = run_contact(scene, contact.hands, scripts, seconds);
   ContactRow row;
@@ -91,7 +88,7 @@ std::string sending_text(const ContactSending& sending) {
 
 std::vector<ContactRow> run_contact_study(std::span<const ContactScene> scenes,
                                           std::span<const ContactSending> sendings,
-                                          const ContactLine& line, double longest,
+                                          const peer::ImpairmentConfig& network, double longest,
                                           const ContactProgress& go_on) {
   const std::size_t all = scenes.size() * sendings.size();
   const std::size_t abreast = std::max(1U, std::thread::hardware_concurrency());
@@ -101,7 +98,7 @@ std::vector<ContactRow> run_contact_study(std::span<const ContactScene> scenes,
     for (std::size_t i = rows.size(); i < std::min(all, rows.size() + abreast); ++i)
       runs.push_back(std::async(std::launch::async, [&, i] {
         const ContactScene& contact = scenes[i / sendings.size()];
-        return run_row(contact, sendings[i % sendings.size()], line,
+        return run_row(contact, sendings[i % sendings.size()], network,
                        std::min(longest, contact.seconds));
       }));
     for (auto& run : runs) rows.push_back(run.get());

@@ -13,6 +13,7 @@
 
 #include "reckon/bench/studies/contact/contact_measures.hpp"
 #include "reckon/bench/studies/contact/contact_scenes.hpp"
+#include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
 
 namespace reckon::bench {
@@ -33,14 +34,6 @@ inline constexpr std::array kContactSendings{ContactSending{0.01, 0}, ContactSen
                                              ContactSending{0.02, 0}, ContactSending{0.03, 0},
                                              ContactSending{0.05, 0}, ContactSending{0.1, 0},
                                              ContactSending{0.2, 0},  ContactSending{0, 50}};
-
-/// The network between the peers, the same for all rows.
-struct ContactLine {
-  double delay = 0;   ///< [s] >= 0
-  double jitter = 0;  ///< share of the delay, 0 to 1
-  double loss = 0;    ///< share of the datagrams, 0 to 1
-  std::uint64_t seed = 1;
-};
 
 struct ContactRow {
   std::string scene;
@@ -71,7 +64,8 @@ using ContactProgress = std::function<bool(std::size_t done, std::size_t all)>;
 /// [s], of a run. Deterministic but for servo_step_ns; on all cores.
 [[nodiscard]] std::vector<ContactRow> run_contact_study(std::span<const ContactScene> scenes,
                                                         std::span<const ContactSending> sendings,
-                                                        const ContactLine& line, double longest,
+                                                        const peer::ImpairmentConfig& network,
+                                                        double longest,
                                                         const ContactProgress& go_on = {});
 
 }  // namespace reckon::bench

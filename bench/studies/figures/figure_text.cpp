@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/bench/plots/html_page.hpp"
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/plots/svg_elements.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -21,30 +22,12 @@ namespace {
 constexpr std::size_t kNoteColumns = 100;
 
 constexpr std::string_view kStyle = R"(
-:root{color-scheme:light dark;--ink:#1f2328;--soft:#59636e;--line:#d8dee4;--page:#fff;
---band:#f6f8fa}
-@media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--soft:#9198a1;--line:#30363d;--page:#0d1117;
---band:#161b22}}
-body{margin:0 auto;padding:1.5rem 1rem 4rem;max-width:60rem;font:15px/1.5 system-ui,sans-serif;
-color:var(--ink);background:var(--page)}
-h1{font-size:1.6rem;margin:0 0 .5rem}h2{font-size:1.25rem;margin:2.5rem 0 .2rem;
-border-top:1px solid var(--line);padding-top:1.5rem}
-p{margin:.3rem 0}dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;margin:.6rem 0}
-dt{color:var(--soft)}dd{margin:0}
-a{color:inherit}section>svg{display:block;width:100%;height:auto;margin:.8rem 0}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:13px}
-th,td{padding:.2rem .6rem;text-align:right;border-bottom:1px solid var(--line)}
+body{max-width:60rem}section>svg{display:block;width:100%;height:auto;margin:.8rem 0}
+table{white-space:normal}
 .o th:nth-child(2),.o td:nth-child(2),.o th:nth-child(5),.o td:nth-child(5){text-align:left}
 .o td:nth-child(3),.o td:nth-child(4){white-space:nowrap}
-th{background:var(--band);font-weight:600}th:first-child,td:first-child{text-align:left}
-@media print{section{break-inside:avoid}}
+th:first-child,td:first-child{text-align:left}
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  tools::append_svg_escaped(out, text);
-  return out;
-}
 
 /// In lines that the picture holds.
 void append_note(std::vector<std::string>& notes, std::string_view text) {
@@ -63,10 +46,6 @@ std::string csv_cell(std::string_view text) {
   std::string out = "\"";
   for (const char letter : text) out.append(letter == '"' ? 2 : 1, letter);
   return out + "\"";
-}
-
-std::string number_json(const std::optional<double>& number) {
-  return number ? fmt::format("{}", *number) : "null";
 }
 
 /// The values of a panel as the plotter takes them.
@@ -91,20 +70,22 @@ void append_numbers(std::string& out, const Figure& figure) {
       "<table>\n<thead><tr><th>number</th><th>ours</th><th>thesis</th><th>unit</th></tr></thead>\n"
       "<tbody>\n";
   for (const FigureNumber& number : figure.numbers)
-    fmt::format_to(
-        tools::end_of(out), "<tr><td>{}</td><td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n",
-        escaped(number.what), number.ours,
-        number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed", escaped(number.unit));
+    fmt::format_to(tools::end_of(out),
+                   "<tr><td>{}</td><td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n",
+                   html_escaped(number.what), number.ours,
+                   number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed",
+                   html_escaped(number.unit));
   out += "</tbody></table>\n";
 }
 
 void append_figure(std::string& out, const MadeFigure& made) {
   const auto& [kind, figure] = made;
   fmt::format_to(tools::end_of(out), "<section id=\"f{0}\">\n<h2>{0} {1}{2}</h2>\n", kind->name,
-                 escaped(kind->title), kind->is_drawing ? " (drawing)" : "");
+                 html_escaped(kind->title), kind->is_drawing ? " (drawing)" : "");
   out += figure_svg(made);
   fmt::format_to(tools::end_of(out), "<dl><dt>thesis</dt><dd>{}</dd><dt>{}</dt><dd>{}</dd></dl>\n",
-                 escaped(figure.thesis), kind->is_drawing ? "Reckon" : "ours", escaped(figure.why));
+                 html_escaped(figure.thesis), kind->is_drawing ? "Reckon" : "ours",
+                 html_escaped(figure.why));
   if (!kind->is_drawing) {
     append_numbers(out, figure);
     fmt::format_to(tools::end_of(out), "<p><a href=\"{}\">CSV</a> ",
@@ -131,16 +112,16 @@ void append_overview(std::string& out, std::span<const MadeFigure> figures) {
   for (const MadeFigure& made : figures) {
     const auto& [kind, figure] = made;
     fmt::format_to(tools::end_of(out), "<tr><td><a href=\"#f{0}\">{0}</a></td><td>{1}</td>",
-                   kind->name, escaped(kind->title));
+                   kind->name, html_escaped(kind->title));
     if (kind->is_drawing) {
       out += "<td></td><td></td><td>drawing</td></tr>\n";
       continue;
     }
     const FigureNumber& number = figure.numbers.front();
     fmt::format_to(tools::end_of(out), "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                   escaped(number_with_unit(number.ours, number.unit)),
+                   html_escaped(number_with_unit(number.ours, number.unit)),
                    number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed",
-                   escaped(first_words(figure.why)));
+                   html_escaped(first_words(figure.why)));
   }
   out += "</tbody></table>\n";
 }
@@ -204,7 +185,7 @@ std::string figure_json(const MadeFigure& made) {
     for (const char* key : {"ours", "thesis", "unit", "what"}) object.value(key, "null");
   } else {
     object.value("ours", numbers.front().ours)
-        .value("thesis", number_json(numbers.front().thesis))
+        .number("thesis", numbers.front().thesis)
         .text("unit", numbers.front().unit)
         .text("what", numbers.front().what);
   }
@@ -214,7 +195,7 @@ std::string figure_json(const MadeFigure& made) {
                tools::JsonObject(inner)
                    .text("what", number.what)
                    .value("ours", number.ours)
-                   .value("thesis", number_json(number.thesis))
+                   .number("thesis", number.thesis)
                    .text("unit", number.unit)
                    .end();
              })
@@ -225,20 +206,13 @@ std::string figure_json(const MadeFigure& made) {
 }
 
 std::string figures_page(std::span<const MadeFigure> figures) {
-  std::string out =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-      "<title>Reckon: the figures of the thesis</title>\n";
-  fmt::format_to(tools::end_of(out), "<style>{}</style>\n</head>\n<body>\n", kStyle);
-  out +=
-      "<h1>The figures of the thesis</h1>\n<p>Its experiments computed anew, its drawings drawn "
-      "anew and named as such. Its pictures are not at hand: what it shows is taken from its text, "
-      "and no plotted curve is claimed to be met. K with T and K, no T: its two ways to write the "
-      "spring.</p>\n";
-  append_overview(out, figures);
-  for (const MadeFigure& made : figures) append_figure(out, made);
-  out += "</body>\n</html>\n";
-  return out;
+  std::string body =
+      "<p>Its experiments computed anew, its drawings drawn anew and named as such. Its pictures "
+      "are not at hand: what it shows is taken from its text, and no plotted curve is claimed to "
+      "be met. K with T and K, no T: its two ways to write the spring.</p>\n";
+  append_overview(body, figures);
+  for (const MadeFigure& made : figures) append_figure(body, made);
+  return html_page("The figures of the thesis", kStyle, body);
 }
 
 }  // namespace reckon::bench

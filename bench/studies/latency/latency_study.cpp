@@ -13,6 +13,7 @@
 #include <random>
 #include <thread>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/bench/studies/latency/stepped_hand.hpp"
 #include "reckon/bench/studies/latency/touch_matching.hpp"
 #include "reckon/bench/studies/latency/udp_ping.hpp"
@@ -20,6 +21,7 @@
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -247,28 +249,34 @@ void print_text(std::FILE* out, const LatencyOptions& options, const Latencies& 
 }
 
 void print_json(std::FILE* out, const LatencyOptions& options, const Latencies& found) {
-  fmt::print(
-      out,
-      R"({{"kind":"latency","iface":"{}","seconds":{:.6g},"there_us":{},"there_and_back_us":{},)"
-      R"("touch_us":{},"servo_step_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g},"felt":{}}})"
-      "\n",
-      options.iface, pdu::to_seconds(options.length), tools::spread_json(spread_us(found.there)),
-      tools::spread_json(spread_us(found.there_and_back)),
-      tools::spread_json(spread_us(found.touch)), tools::spread_json(spread_us(found.servo_steps)),
-      found.there.size(), found.touch.size(), found.missed, found.real_time,
-      found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0, found.felt);
+  const auto spread = [](const std::vector<nanoseconds>& times) {
+    return tools::spread_json(spread_us(times));
+  };
+  std::string line;
+  tools::JsonObject(line)
+      .text("kind", "latency")
+      .text("iface", options.iface)
+      .value("seconds", pdu::to_seconds(options.length))
+      .value("there_us", spread(found.there))
+      .value("there_and_back_us", spread(found.there_and_back))
+      .value("touch_us", spread(found.touch))
+      .value("servo_step_us", spread(found.servo_steps))
+      .value("pings", found.there.size())
+      .value("touches", found.touch.size())
+      .value("missed", found.missed)
+      .value("real_time", found.real_time)
+      .value("cpu_of_peer",
+             found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0)
+      .value("felt", found.felt)
+      .end("\n");
+  fmt::print(out, "{}", line);
 }
 
 }  // namespace
 
 peer::Spread spread_us(std::vector<nanoseconds> times) {
-  peer::Spread spread;
-  if (times.empty()) return spread;
-  std::sort(times.begin(), times.end());
   const auto at = [&](double share) {
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(share * static_cast<double>(times.size())));
-    return static_cast<double>(times[std::max<std::size_t>(rank, 1) - 1].count()) * 1e-3;
+    return static_cast<double>(quantile(times, share).count()) * 1e-3;
   };
   return {at(0.5), at(0.99), at(0.999), at(1.0), times.size()};
 }

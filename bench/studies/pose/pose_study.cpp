@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/deadreckon/sending/model_choice.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -26,27 +27,6 @@ using Eigen::Vector3d;
 struct Update {
   double sent = 0, arrival = 0;  // [s]
   KinematicState state;
-};
-
-/// Draws the fate of each update; the same on every machine.
-class Network {
- public:
-  Network(const PoseNetwork& settings, std::size_t stream)
-      : settings_(settings), engine_(settings.seed * 0x9E3779B97F4A7C15ULL + stream) {}
-
-  /// Seconds under way, or nothing where it is lost.
-  std::optional<double> transit() {
-    const bool lost = share() < settings_.loss;
-    const double delay = settings_.delay * (1 + settings_.jitter * (2 * share() - 1));
-    if (lost) return std::nullopt;
-    return delay;
-  }
-
- private:
-  double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-
-  PoseNetwork settings_;
-  std::mt19937_64 engine_;
 };
 
 /// Decides and sends for one entity.
@@ -186,12 +166,12 @@ class Drawing {
 /// One entity from its owner to a viewer.
 class Run {
  public:
-  Run(std::size_t index, const PoseSetting& setting, const PoseNetwork& network, PoseResult& result,
-      Errors& errors, const PoseObserver& observer)
+  Run(std::size_t index, const PoseSetting& setting, const peer::Impairment& network,
+      PoseResult& result, Errors& errors, const PoseObserver& observer)
       : index_(index),
         owner_(setting, index),
         viewer_(setting),
-        network_(network, index),
+        network_(network),
         errors_(errors),
         drawing_(errors),
         result_(result),
@@ -221,19 +201,18 @@ class Run {
   void send(const MotionSample& truth) {
     const std::optional<KinematicState> state = owner_.step(truth);
     if (!state) return;
-    ++sent_;
+    const peer::Fate fate = network_.decide(index_, sent_++, pdu::from_seconds(truth.time));
     ++result_.updates;
     ++result_.by_model[static_cast<std::size_t>(state->algorithm)];
-    if (const auto transit = network_.transit())
-      under_way_.push_back({truth.time, truth.time + *transit, *state});
-    else
-      ++lost_;
+    if (fate.copies == 0) ++lost_;
+    for (std::size_t copy = 0; copy < fate.copies; ++copy)
+      under_way_.push_back({truth.time, truth.time + pdu::to_seconds(fate.delay[copy]), *state});
   }
 
   std::size_t index_;
   Owner owner_;
   Viewer viewer_;
-  Network network_;
+  const peer::Impairment& network_;
   Errors& errors_;
   Drawing drawing_;
   PoseResult& result_;
@@ -250,21 +229,19 @@ ErrorSize size_of(std::vector<double>& errors) {
   double squares = 0;
   for (const double error : errors) squares += error * error;
   size.rms = std::sqrt(squares / static_cast<double>(errors.size()));
-  const auto rank = (errors.size() * 99 + 99) / 100 - 1;
-  const auto place = errors.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(errors.begin(), place, errors.end());
-  size.p99 = *place;
-  size.max = *std::max_element(place, errors.end());
+  size.p99 = quantile(errors, 0.99);
+  size.max = *std::max_element(errors.begin(), errors.end());
   return size;
 }
 
 PoseResult run_pose_study(std::span<const Track> tracks, const PoseSetting& setting,
-                          const PoseNetwork& network, const PoseObserver& observer) {
+                          const peer::ImpairmentConfig& network, const PoseObserver& observer) {
+  const peer::Impairment impairment(network.law, network.seed);
   PoseResult result;
   Errors errors;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const auto& samples = tracks[i].samples;
-    Run run(i, setting, network, result, errors, observer);
+    Run run(i, setting, impairment, result, errors, observer);
     for (const MotionSample& truth : samples) run.step(truth);
     if (!samples.empty()) result.entity_seconds += samples.back().time - samples.front().time;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // What one setting of dead reckoning costs and how far off it shows things: owners replay tracks,
-// send by the setting over a seeded network, and a viewer looks at each sample's time.
+// send by the setting over an impaired network, and a viewer looks at each sample's time.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/peer/network/impairment.hpp"
 
 namespace reckon::bench {
 
@@ -46,15 +47,6 @@ struct PoseSetting {
   double period = 0;  ///< [s] send at this period and not by thresholds; 0: by thresholds
   deadreckon::ConvergenceSettings convergence;
   Prediction prediction = Prediction::as_sent;
-};
-
-/// The way of an update. Each lost for itself; delay uniform between (1 - jitter) and (1 + jitter)
-/// times `delay`; an update that another overtook is dropped: the newest wins.
-struct PoseNetwork {
-  double delay = 0;   ///< [s] >= 0
-  double jitter = 0;  ///< share of delay, 0 to 1
-  double loss = 0;    ///< share of updates, 0 to < 1
-  std::uint64_t seed = 1;
 };
 
 /// Size of a list of errors.
@@ -98,11 +90,12 @@ struct PoseSample {
 /// Told of each sample that counts as an error, track by track; the references hold for the call.
 using PoseObserver = std::function<void(const PoseSample&)>;
 
-/// Runs one setting over all tracks. Deterministic: equal arguments give equal results on every
+/// Runs one setting over all tracks. An update that another overtook is dropped: the newest wins.
+/// Deterministic: equal arguments give equal results on every
 /// machine with IEEE doubles. Cost: some 300 ns a sample; `observer` costs nothing where it is
 /// none.
 [[nodiscard]] PoseResult run_pose_study(std::span<const Track> tracks, const PoseSetting& setting,
-                                        const PoseNetwork& network,
+                                        const peer::ImpairmentConfig& network,
                                         const PoseObserver& observer = {});
 
 }  // namespace reckon::bench

@@ -11,6 +11,9 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/network/impairment.hpp"
+
 namespace reckon::bench {
 
 /// Three digits without an exponent where that is short: "0", "0.0312", "12.3", "41200".
@@ -51,5 +54,14 @@ namespace reckon::bench {
 }
 
 [[nodiscard]] inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+/// "delay 80 ms +-40 %, 10 % lost"
+[[nodiscard]] inline std::string network_text(const peer::ImpairmentLaw& law) {
+  std::string text = fmt::format("delay {} ms", number_text(1e3 * pdu::to_seconds(law.delay)));
+  if (law.jitter.count() > 0)
+    text += fmt::format(" +-{} %", number_text(100 * peer::jitter_share(law)));
+  if (law.loss > 0) text += fmt::format(", {} % lost", number_text(100 * law.loss));
+  return text;
+}
 
 }  // namespace reckon::bench

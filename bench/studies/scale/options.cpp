@@ -144,10 +144,9 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
   if (!words.density.empty())
     base.crowd.density = single(words.density, {"", 1e-3, 1e7, false}, "--density");
   if (!words.movement.empty()) base.crowd.movement = words.movement;
-  if (words.delay) base.network.delay = *words.delay;
-  base.network.jitter = std::chrono::duration_cast<std::chrono::nanoseconds>(
-      base.network.delay * share_of(words.jitter, "--jitter"));
-  base.network.loss = share_of(words.loss, "--loss");
+  base.network =
+      peer::delayed_by(pdu::to_seconds(words.delay.value_or(std::chrono::nanoseconds{})),
+                       share_of(words.jitter, "--jitter"), share_of(words.loss, "--loss"));
   if (!words.jitter.empty() && base.network.delay.count() == 0)
     throw tools::UsageError(
         "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");

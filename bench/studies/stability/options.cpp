@@ -83,7 +83,6 @@ std::vector<std::string> left_out(const peer::SceneFile& scene, const peer::Devi
   note(device.resolution > 0, "[[device]] resolution");
   note(device.max_stiffness > 0, "[[device]] max_stiffness");
   note(scene.hand.k3 > 0, "[hand] k3 (environment=hardening has its own)");
-  note(law.jitter > law.delay, "[impairment] jitter beyond the delay");
   note(law.burst_loss > 0, "[impairment] burst_loss");
   note(law.duplicate > 0, "[impairment] duplicate");
   note(!law.outages.empty(), "[[impairment.outage]]");
@@ -98,11 +97,11 @@ void apply_scene(const std::string& path, StabilityOptions& options) {
   base.run.device.period = pdu::to_seconds(device.period);
   base.stiffness = scene.hand.k1;
   const peer::ImpairmentLaw& law = scene.impairment.law;
-  base.run.network.delay = pdu::to_seconds(law.delay);
-  base.jitter_time = pdu::to_seconds(law.jitter);
+  base.run.network.delay = law.delay;
+  base.run.network.jitter = law.jitter;
   base.run.network.loss = law.loss;
-  base.run.network.reordering = law.reorder;
-  base.run.network.reorder_delay = pdu::to_seconds(law.reorder_delay);
+  base.run.network.reorder = law.reorder;
+  base.run.network.reorder_delay = law.reorder_delay;
   options.plan.seed = scene.impairment.seed;
   // A baseline that the scene asks for is run alone.
   if (scene.coupling.mode != peer::CouplingMode::reckon) options.plan.modes = {scene.coupling.mode};
@@ -138,9 +137,8 @@ struct RecordedAxis {
 /// Whether chance takes part in any cell.
 bool draws(const StabilityPlan& plan) {
   for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
-    const CouplingNetwork network = plan.setting(cell).run.network;
-    if (network.loss > 0 || network.reordering > 0 || network.delay * network.jitter > 0)
-      return true;
+    const peer::ImpairmentLaw law = plan.setting(cell).run.network;
+    if (law.loss > 0 || law.reorder > 0 || law.jitter.count() > 0) return true;
   }
   return false;
 }
@@ -194,7 +192,6 @@ OperatorModel recorded_operator(const std::string& file) {
 StabilityOptions read_stability_options(const StabilityWords& words) {
   StabilityOptions options;
   StabilityPlan& plan = options.plan;
-  plan.base.run.network.jitter = 0;
   if (!words.scene.empty()) apply_scene(words.scene, options);
   if (!words.modes.empty() || plan.modes.empty()) plan.modes = read_modes(words.modes);
   for (const std::string& sweep : words.sweeps) plan.axes.push_back(read_stability_axis(sweep));

@@ -19,8 +19,8 @@ namespace reckon::bench {
 struct StabilitySetting {
   CouplingRun run;
   EnvironmentKind environment = EnvironmentKind::linear;
-  double stiffness = 1000;            ///< [N/m]
-  std::optional<double> jitter_time;  ///< [s]: cut to the delay; goes before run.network.jitter
+  double stiffness = 1000;             ///< [N/m]
+  std::optional<double> jitter_share;  ///< of the delay; goes before run.network.jitter
   /// Of OperatorKind; the one beyond them: `recorded`.
   std::size_t operator_number = 0;
   std::optional<OperatorModel> recorded;

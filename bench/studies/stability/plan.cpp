@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "reckon/pdu/random/split_mix.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
@@ -57,7 +58,6 @@ void check_axes(const StabilityPlan& plan) {
                       name, other, example));
   };
   needs("jitter_share", "impairment.delay", "delay=50ms");
-  needs("impairment.jitter", "impairment.delay", "delay=50ms");
   needs("impairment.reorder_delay", "impairment.reorder", "reorder=10%");
   if (has_axis(plan, "jitter_share") && has_axis(plan, "impairment.jitter"))
     throw tools::UsageError(
@@ -97,13 +97,13 @@ std::size_t StabilityPlan::place(std::size_t cell, std::size_t axis) const {
 StabilitySetting StabilityPlan::setting(std::size_t cell) const {
   StabilitySetting setting = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (axes[i].parameter->name == "jitter_share") setting.jitter_time.reset();
+    if (axes[i].parameter->name == "impairment.jitter") setting.jitter_share.reset();
     axes[i].parameter->set(setting, axes[i].values[place(cell, i)]);
   }
   CouplingRun& run = setting.run;
-  if (setting.jitter_time)
+  if (setting.jitter_share)
     run.network.jitter =
-        run.network.delay > 0 ? std::min(1.0, *setting.jitter_time / run.network.delay) : 0.0;
+        pdu::from_seconds(*setting.jitter_share * pdu::to_seconds(run.network.delay));
   run.environment = {setting.environment, setting.stiffness};
   run.hand = setting.operator_number == kRecordedOperator
                  ? setting.recorded.value()
@@ -137,7 +137,7 @@ std::string StabilityPlan::text() const {
     const bool other_jitter =
         has_axis(*this, "jitter_share") || has_axis(*this, "impairment.jitter");
     const bool is_jitter =
-        parameter.name == (base.jitter_time ? "jitter_share" : "impairment.jitter");
+        parameter.name == (base.jitter_share ? "impairment.jitter" : "jitter_share");
     if (has_axis(*this, parameter.name) || is_jitter ||
         (other_jitter && parameter.name.find("jitter") != parameter.name.npos))
       continue;

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
@@ -37,14 +38,6 @@ std::string plain_value(const StabilityParameter& parameter, double value) {
   return parameter.words.empty() ? fmt::format("{}", value) : value_text(parameter, value);
 }
 
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
-std::string json_number(const std::optional<double>& value) {
-  return value ? json_number(*value) : "null";
-}
-
 double share(std::size_t part, std::size_t all) {
   return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
 }
@@ -52,13 +45,6 @@ double share(std::size_t part, std::size_t all) {
 std::string percent(const std::optional<double>& value) {
   if (!value) return "-";
   return *value > 0 && *value < 0.001 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * *value);
-}
-
-std::optional<double> median(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 StabilitySummary summary_of(const StabilityReport& report, std::size_t mode) {
@@ -95,7 +81,7 @@ StabilitySummary summary_of(const StabilityReport& report, std::size_t mode) {
   if (should_rest > 0) summary.cycles = share(cycles, should_rest);
   if (felt > 0) summary.wrong = share(wrong, felt);
   summary.right = share(right, summary.cells);
-  summary.kept = median(std::move(kept));
+  if (!kept.empty()) summary.kept = median(kept);
   return summary;
 }
 
@@ -122,22 +108,20 @@ void append_run(std::string& out, const StabilityReport& report, std::size_t run
   tools::JsonObject object(out);
   object.text("kind", "cell").text("mode", plan.mode_name(plan.mode_of(run)));
   object.value("cell", plan.cell_of(run));
-  std::string axes;
-  tools::JsonObject inner(axes);
+  tools::JsonObject inner(object.member("axes"));
   for (std::size_t axis = 0; axis < plan.axes.size(); ++axis) {
     const StabilityAxis& row = plan.axes[axis];
     const double value = row.values[plan.place(plan.cell_of(run), axis)];
     if (row.parameter->words.empty())
-      inner.member(row.parameter->name) += fmt::format("{}", value);
+      inner.value(row.parameter->name, value);
     else
       inner.text(row.parameter->name, value_text(*row.parameter, value));
   }
   inner.end();
-  object.value("axes", axes);
   for (const Measure& measure : kResultMeasures)
-    object.value(measure.name, json_number(result.*measure.member));
+    object.number(measure.name, result.*measure.member);
   object.value("diverged", result.diverged)
-      .value("force_off", json_number(force_off(result)))
+      .number("force_off", force_off(result))
       .text("verdict", name_of(verdict_of(plan.setting(plan.cell_of(run)), result)))
       .end("\n");
 }
@@ -241,10 +225,10 @@ std::string stability_json(const StabilityReport& report) {
         .value("diverged", row.diverged)
         .value("peak_above", report.plan.peak)
         .value("peak", row.peak)
-        .value("no_rest", json_number(row.cycles))
-        .value("force_off", json_number(row.wrong))
-        .value("stiffness_kept", json_number(row.kept))
-        .value("worst_energy_J", json_number(row.least_energy))
+        .number("no_rest", row.cycles)
+        .number("force_off", row.wrong)
+        .number("stiffness_kept", row.kept)
+        .number("worst_energy_J", row.least_energy)
         .value("gate", report.plan.gate)
         .end("\n");
   }

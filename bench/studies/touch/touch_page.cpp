@@ -6,10 +6,12 @@
 #include <array>
 #include <vector>
 
-#include "reckon/bench/studies/accuracy/log_axis.hpp"
-#include "reckon/bench/studies/accuracy/page_frame.hpp"
+#include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/plots/log_axis.hpp"
+#include "reckon/bench/plots/sortable_page.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/bench/studies/touch/touch_report.hpp"
+#include "reckon/tools/plots/svg_elements.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -38,12 +40,9 @@ const Mark& mark_of(std::string_view axis) {
   return kMarks[static_cast<std::size_t>(place) % kMarks.size()];
 }
 
-// Of this picture alone, also within a page.
 constexpr std::string_view kStyle =
-    ".touch text{font:13px system-ui,sans-serif;fill:#59636e}.touch .t{font-size:15px;fill:#1f2328}"
-    ".touch .g{stroke:#d8dee4;fill:none}.touch .a{stroke:#59636e;fill:none}"
-    ".touch .l{stroke:#59636e;stroke-dasharray:5 4;fill:none}"
-    ".touch .m{stroke:#fff;stroke-width:.8}.touch .d{opacity:.28}";
+    "<style>.l{stroke:#59636e;stroke-dasharray:5 4}.dot{stroke:#fff;stroke-width:.8}"
+    ".dot.d{opacity:.28}@media(prefers-color-scheme:dark){.dot{stroke:#0d1117}}</style>\n";
 
 struct Axes {
   LogAxis time, error;
@@ -59,42 +58,28 @@ Axes axes_of(std::span<const TouchResult> results) {
       errors.push_back(row.error.p99);
     }
   }
-  return {log_axis_over(times, 0.1, kLeft, kRight),
-          log_axis_over(errors, kLeastShown, kBottom, kTop)};
+  return {log_axis_over(times, 0.1, kLeft, kRight, 1),
+          log_axis_over(errors, kLeastShown, kBottom, kTop, 1)};
 }
 
-void append_grid(std::string& out, const Axes& axes) {
-  for (const double tick : axes.time.ticks()) {
-    const double x = axes.time.at(tick);
-    out += fmt::format(
-        "<path class=\"g\" d=\"M{0:.1f} {1:g}V{2:g}\"/><text x=\"{0:.1f}\" y=\"{3:g}\" "
-        "text-anchor=\"middle\">{4}</text>\n",
-        x, kTop, kBottom, kBottom + 18,
-        tick < 1e3   ? number_text(tick) + " ns"
-        : tick < 1e6 ? number_text(1e-3 * tick) + " us"
-                     : number_text(1e-6 * tick) + " ms");
-  }
-  for (const double tick : axes.error.ticks()) {
-    const double y = axes.error.at(tick);
-    out += fmt::format(
-        "<path class=\"g\" d=\"M{1:g} {0:.1f}H{2:g}\"/><text x=\"{3:g}\" y=\"{4:.1f}\" "
-        "text-anchor=\"end\">{5}</text>\n",
-        y, kLeft, kRight, kLeft - 8, y + 4,
-        tick < 1e-3 ? number_text(1e6 * tick) + " uN"
-        : tick < 1  ? number_text(1e3 * tick) + " mN"
-                    : number_text(tick) + " N");
-  }
-  out +=
-      fmt::format("<path class=\"a\" d=\"M{:g} {:g}V{:g}H{:g}\"/>\n", kLeft, kTop, kBottom, kRight);
+std::string time_tick(double ns) {
+  if (ns < 1e3) return number_text(ns) + " ns";
+  return ns < 1e6 ? number_text(1e-3 * ns) + " us" : number_text(1e-6 * ns) + " ms";
+}
+
+std::string force_tick(double newtons) {
+  if (newtons < 1e-3) return number_text(1e6 * newtons) + " uN";
+  return newtons < 1 ? number_text(1e3 * newtons) + " mN" : number_text(newtons) + " N";
+}
+
+/// What a servo step may take, and what is felt.
+void append_limits(std::string& out, const Axes& axes) {
   const double limit = axes.time.at(kServoBudget), felt = axes.error.at(kLeastFelt);
-  out += fmt::format(
-      "<path class=\"l\" d=\"M{0:.1f} {1:g}V{2:g}\"/><text x=\"{3:.1f}\" y=\"{4:g}\" "
-      "text-anchor=\"end\">1 ms, a servo step</text>\n",
-      limit, kTop, kBottom, limit - 5, kTop + 14);
-  out += fmt::format(
-      "<path class=\"l\" d=\"M{0:g} {1:.1f}H{2:g}\"/><text x=\"{3:g}\" y=\"{4:.1f}\" "
-      "text-anchor=\"end\">50 mN, the least force that is felt</text>\n",
-      kLeft, felt, kRight, std::min(limit, kRight) - 12, felt - 5);
+  tools::append_svg_line(out, "l", limit, kTop, limit, kBottom);
+  tools::append_svg_text(out, limit - 5, kTop + 14, " text-anchor=\"end\"", "1 ms, a servo step");
+  tools::append_svg_line(out, "l", kLeft, felt, kRight, felt);
+  tools::append_svg_text(out, std::min(limit, kRight) - 12, felt - 5, " text-anchor=\"end\"",
+                         "50 mN, the least force that is felt");
 }
 
 void append_marks(std::string& out, const TouchResult& result, const Axes& axes) {
@@ -102,12 +87,13 @@ void append_marks(std::string& out, const TouchResult& result, const Axes& axes)
   for (const TouchRow& row : result.rows) {
     if (!(row.cost.median > 0)) continue;
     out += fmt::format(
-        "<path class=\"m{}\" transform=\"translate({:.1f} {:.1f})\" fill=\"{}\" "
+        "<path class=\"dot{}\" transform=\"translate({:.1f} {:.1f})\" fill=\"{}\" "
         "d=\"{}\"><title>{}: "
         "{}, {} ns, p99 {} mN{}</title></path>\n",
         row.beaten ? " d" : "", axes.time.at(row.cost.median), axes.error.at(row.error.p99),
-        mark.colour, mark.shape, result.axis, html_text(row.setting), number_text(row.cost.median),
-        number_text(1e3 * row.error.p99), row.beaten ? ", dominated" : "");
+        mark.colour, mark.shape, result.axis, html_escaped(row.setting),
+        number_text(row.cost.median), number_text(1e3 * row.error.p99),
+        row.beaten ? ", dominated" : "");
   }
 }
 
@@ -125,14 +111,14 @@ void append_legend(std::string& out, std::span<const TouchResult> results) {
 
 void append_row(std::string& out, const TouchResult& result, const TouchRow& row) {
   out += fmt::format("<tr{}><td class=\"w\">{}</td>", row.beaten ? " class=\"d\"" : "",
-                     html_text(row.setting));
+                     html_escaped(row.setting));
   for (const double error : {row.error.rms, row.error.p99, row.error.max})
     out += page_cell(error, number_text(1e3 * error));
   out += page_cell(row.error.noticed, fmt::format("{:.1f} %", 100 * row.error.noticed));
   for (const double ns : {row.cost.median, row.cost.low, row.cost.high})
     out += page_cell(ns, ns > 0 ? number_text(ns) : "-");
   out += fmt::format("<td class=\"w\">{}</td></tr>\n",
-                     row.beaten ? html_text(result.rows[row.beaten->by].setting) : "");
+                     row.beaten ? html_escaped(result.rows[row.beaten->by].setting) : "");
 }
 
 void append_result(std::string& out, const TouchResult& result) {
@@ -141,8 +127,8 @@ void append_result(std::string& out, const TouchResult& result) {
       "<div class=\"wide\"><table>\n<thead><tr><th class=\"w\">setting</th><th>RMS "
       "[mN]</th><th>99 % [mN]</th><th>max [mN]</th><th>felt</th><th>ns</th><th>10 "
       "%</th><th>90 %</th><th class=\"w\">dominated by</th></tr></thead>\n<tbody>\n",
-      result.axis, html_text(result.meaning), html_text(result.truth), html_text(result.remark),
-      touch_svg({&result, 1}));
+      result.axis, html_escaped(result.meaning), html_escaped(result.truth),
+      html_escaped(result.remark), touch_svg({&result, 1}));
   for (const TouchRow& row : result.rows) append_row(out, result, row);
   out += "</tbody></table></div>\n</section>\n";
 }
@@ -151,41 +137,32 @@ void append_result(std::string& out, const TouchResult& result) {
 
 std::string touch_svg(std::span<const TouchResult> results) {
   const Axes axes = axes_of(results);
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot touch\" viewBox=\"0 0 {0:g} {1:g}\" "
-      "role=\"img\" aria-label=\"Error of a force against time in the "
-      "servo\">\n<style>{2}</style>\n"
-      "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#fff\"/>\n<text class=\"t\" x=\"{3:g}\" "
-      "y=\"24\">{4}</text>\n",
-      kWidth, kHeight, kStyle, kLeft,
-      results.size() == 1 ? html_text(results.front().meaning)
-                          : "What accuracy of a force costs in the servo");
-  append_grid(out, axes);
-  for (const TouchResult& result : results) append_marks(out, result, axes);
-  out += fmt::format(
-      "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"middle\">time for one millisecond of "
-      "touch</text>\n<text transform=\"translate(16 {:g}) rotate(-90)\" "
-      "text-anchor=\"middle\">error of the force, 99 % below</text>\n",
-      (kLeft + kRight) / 2, kBottom + 36, (kTop + kBottom) / 2);
-  append_legend(out, results);
-  return out + "</svg>\n";
+  std::string inside(kStyle);
+  tools::append_svg_text(inside, kLeft, 24, " class=\"t\"",
+                         results.size() == 1 ? results.front().meaning
+                                             : "What accuracy of a force costs in the servo");
+  append_log_grid(inside, {axes.time, "time for one millisecond of touch", time_tick},
+                  {axes.error, "error of the force, 99 % below", force_tick});
+  append_limits(inside, axes);
+  for (const TouchResult& result : results) append_marks(inside, result, axes);
+  append_legend(inside, results);
+  return tools::svg_picture(inside, kWidth, kHeight);
 }
 
 std::string touch_page(const TouchReport& report) {
-  std::string out = page_begin("Reckon: touch, accuracy against time");
-  out += fmt::format(
-      "<h1>Touch: accuracy against time</h1>\n<p>What a servo step computes, how far the force is "
+  std::string out = fmt::format(
+      "<p>What a servo step computes, how far the force is "
       "from the truth of each axis, and what it takes.</p>\n<dl>\n<dt>command</dt><dd><code>{}"
       "</code></dd>\n<dt>ns</dt><dd>{}; one millisecond of touch, a servo step at 1 kHz; median of "
       "blocks that took turns</dd>\n<dt>felt</dt><dd>share of the time with an error above 10 % of "
       "the force and 50 mN</dd>\n</dl>\n<p class=\"note\">In full colour: no other setting of the "
       "axis takes no more time and errs no more. Errors below 1 uN lie on the axis.</p>\n{}",
-      html_text(report.command), html_text(report.processor), touch_svg(report.results));
+      html_escaped(report.command), html_escaped(report.processor), touch_svg(report.results));
   for (const TouchResult& result : report.results) append_result(out, result);
   out += "<h2>left out</h2>\n<dl>\n";
   for (const LeftOutAxis& axis : left_out_axes())
-    out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_text(axis.name), html_text(axis.why));
-  return out + "</dl>\n" + page_end();
+    out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(axis.name), html_escaped(axis.why));
+  return sortable_page("Touch: accuracy against time", "", out + "</dl>\n");
 }
 
 }  // namespace reckon::bench

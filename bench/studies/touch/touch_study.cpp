@@ -10,6 +10,9 @@
 #include <random>
 #include <utility>
 
+#include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
+
 namespace reckon::bench {
 namespace {
 
@@ -40,13 +43,6 @@ constexpr std::array kLeftOut{
                 "--force, and how stiff a device may show things"},
     LeftOutAxis{"threshold and delay", "newtons against packets, not against time: --force"},
 };
-
-double share_below(std::vector<double> values, double share) {
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Nanoseconds a step of one block.
 double block(const TouchSetting& setting, std::size_t steps, double& sum) {
@@ -124,8 +120,8 @@ void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>
   if (!(sum < std::numeric_limits<double>::infinity())) return;
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (blocks[i].empty()) continue;
-    settings[i].cost = {share_below(blocks[i], 0.5), share_below(blocks[i], 0.1),
-                        share_below(blocks[i], 0.9)};
+    settings[i].cost = {quantile(blocks[i], 0.5), quantile(blocks[i], 0.1),
+                        quantile(blocks[i], 0.9)};
   }
 }
 
@@ -147,7 +143,7 @@ TouchResult run_touch_axis(const TouchAxis& axis, std::uint64_t seed, bool timed
 
 double phase_of(std::uint64_t seed, unsigned number) {
   std::mt19937_64 engine(seed * 1000 + number);
-  return 2 * std::numbers::pi * static_cast<double>(engine() >> 11) * 0x1p-53;
+  return 2 * std::numbers::pi * pdu::unit_of(engine());
 }
 
 }  // namespace reckon::bench

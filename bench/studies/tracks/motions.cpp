@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -36,7 +37,7 @@ class Draw {
   }
 
  private:
-  double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double share() { return pdu::unit_of(engine_()); }
   std::mt19937_64 engine_;
 };
 

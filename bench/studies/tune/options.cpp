@@ -153,9 +153,9 @@ TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step
   options.heartbeat = pdu::to_seconds(words.heartbeat);
   if (!(options.heartbeat >= 0.1))
     throw tools::UsageError("--heartbeat is too short; give 100ms or more");
-  options.network.delay = words.delay ? pdu::to_seconds(*words.delay) : 0;
-  options.network.jitter = quantity_of("--jitter", words.jitter, "", 0, 1, 0);
-  options.network.loss = quantity_of("--loss", words.loss, "", 0, 0.99, 0);
+  options.network.law = peer::delayed_by(words.delay ? pdu::to_seconds(*words.delay) : 0,
+                                         quantity_of("--jitter", words.jitter, "", 0, 1, 0),
+                                         quantity_of("--loss", words.loss, "", 0, 0.99, 0));
   options.network.seed = words.seed.value_or(1);
   return options;
 }

@@ -18,6 +18,8 @@
 namespace reckon::bench {
 namespace {
 
+using tools::JsonObject;
+
 constexpr double kDegrees = 180 / std::numbers::pi;
 /// A match beyond this threshold [m] says that nothing but heartbeats is left to compare.
 constexpr double kWidestMatch = 90;
@@ -185,31 +187,37 @@ std::string toml_of(const TuneReport& report) {
 // JSON and CSV
 // ------------------------------------------------------------------------------------------------
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
+/// Of a run in which hands never touched there is none.
+std::optional<double> error_of(const ForceRow& row, double error) {
+  return row.samples > 0 ? std::optional(error) : std::nullopt;
 }
 
-/// Of a run in which hands never touched there is none.
-std::string error_of(const ForceRow& row, double error, std::string_view none) {
-  return row.samples > 0 ? number(error) : std::string(none);
+std::string csv_number(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : std::string();
 }
 
 void append_row_json(std::string& out, const TuneRow& row, std::string_view kind, bool is_knee) {
   const PoseResult& result = row.result;
-  fmt::format_to(tools::end_of(out),
-                 R"({{"kind":"{}","model":"{}","threshold_m":{},"packets_per_s":{},)"
-                 R"("octets_per_s":{},"packets_per_entity_s":{},"rms_m":{},"p99_m":{},"max_m":{},)"
-                 R"("angle_p99_rad":{},"velocity_step_p99_mps":{},"front":{},"knee":{}}})"
-                 "\n",
-                 kind, row.model, row.threshold > 0 ? number(row.threshold) : "null",
-                 number(row.packets_per_s), number(row.octets_per_s),
-                 number(result.updates_per_second()), number(result.position.rms),
-                 number(result.position.p99), number(result.position.max), number(result.angle.p99),
-                 number(result.velocity_step.p99), row.on_front, is_knee);
+  JsonObject(out)
+      .text("kind", kind)
+      .text("model", row.model)
+      .number("threshold_m", row.threshold > 0 ? std::optional(row.threshold) : std::nullopt)
+      .number("packets_per_s", row.packets_per_s)
+      .number("octets_per_s", row.octets_per_s)
+      .number("packets_per_entity_s", result.updates_per_second())
+      .number("rms_m", result.position.rms)
+      .number("p99_m", result.position.p99)
+      .number("max_m", result.position.max)
+      .number("angle_p99_rad", result.angle.p99)
+      .number("velocity_step_p99_mps", result.velocity_step.p99)
+      .value("front", row.on_front)
+      .value("knee", is_knee)
+      .end("\n");
 }
 
-std::string ratio(const TuneRow& row, const TuneRow& other) {
-  return other.packets_per_s > 0 ? number(row.packets_per_s / other.packets_per_s) : "null";
+std::optional<double> ratio(const TuneRow& row, const TuneRow& other) {
+  if (!(other.packets_per_s > 0)) return std::nullopt;
+  return row.packets_per_s / other.packets_per_s;
 }
 
 void append_row_csv(std::string& out, const TuneRow& row, std::string_view kind, bool is_knee) {
@@ -246,23 +254,24 @@ std::string tune_json(const TuneReport& report) {
     append_row_json(out, row, kind, is_knee);
   });
   const TuneRow* row = report.advice.row;
-  out += R"({"kind":"recommendation","file":)";
-  tools::append_json_string(out, report.file.name);
-  fmt::format_to(tools::end_of(out), R"(,"entities":{},"samples":{},"span_s":{},"why":)",
-                 report.summary.entities, report.summary.samples, number(report.summary.span));
-  tools::append_json_string(out, report.advice.why);
-  out += R"(,"note":)";
-  tools::append_json_string(out, report.file.note);
-  if (row != nullptr) {
-    fmt::format_to(tools::end_of(out),
-                   R"(,"model":"{}","threshold_m":{},"packets_per_s":{},"p99_m":{},)"
-                   R"("of_every_sample":{},"of_drm4_1m":{},"toml":)",
-                   row->model, number(row->threshold), number(row->packets_per_s),
-                   number(row->error()), ratio(*row, report.table.every_sample),
-                   ratio(*row, report.table.common));
-    tools::append_json_string(out, toml_of(report));
-  }
-  return out + "}\n";
+  JsonObject object(out);
+  object.text("kind", "recommendation")
+      .text("file", report.file.name)
+      .value("entities", report.summary.entities)
+      .value("samples", report.summary.samples)
+      .number("span_s", report.summary.span)
+      .text("why", report.advice.why)
+      .text("note", report.file.note);
+  if (row != nullptr)
+    object.text("model", row->model)
+        .number("threshold_m", row->threshold)
+        .number("packets_per_s", row->packets_per_s)
+        .number("p99_m", row->error())
+        .number("of_every_sample", ratio(*row, report.table.every_sample))
+        .number("of_drm4_1m", ratio(*row, report.table.common))
+        .text("toml", toml_of(report));
+  object.end("\n");
+  return out;
 }
 
 std::string tune_csv(const TuneReport& report) {
@@ -359,20 +368,22 @@ std::string force_text(std::span<const ForceRow> rows, bool contact) {
 std::string force_json(std::span<const ForceRow> rows) {
   std::string out;
   for (const ForceRow& row : rows) {
-    out += R"({"kind":"force","name":)";
-    tools::append_json_string(out, row.name);
-    out += R"(,"setting":)";
-    tools::append_json_string(out, row.setting);
-    fmt::format_to(tools::end_of(out),
-                   R"(,"unit":"{}","packets_per_s":{},"octets_per_s":{},"raw_packets_per_s":{},)"
-                   R"("share":{},"rms":{},"p99":{},"max":{},"for_force_per_s":{},"samples":{},)"
-                   R"("outside":{}}})"
-                   "\n",
-                   row.unit, number(row.packets_per_s), number(row.octets_per_s),
-                   number(row.raw_packets_per_s), number(row.share()),
-                   error_of(row, row.error.rms, "null"), error_of(row, row.error.p99, "null"),
-                   error_of(row, row.error.max, "null"), number(row.for_force_per_s), row.samples,
-                   row.outside);
+    JsonObject(out)
+        .text("kind", "force")
+        .text("name", row.name)
+        .text("setting", row.setting)
+        .text("unit", row.unit)
+        .number("packets_per_s", row.packets_per_s)
+        .number("octets_per_s", row.octets_per_s)
+        .number("raw_packets_per_s", row.raw_packets_per_s)
+        .number("share", row.share())
+        .number("rms", error_of(row, row.error.rms))
+        .number("p99", error_of(row, row.error.p99))
+        .number("max", error_of(row, row.error.max))
+        .number("for_force_per_s", row.for_force_per_s)
+        .value("samples", row.samples)
+        .value("outside", row.outside)
+        .end("\n");
   }
   return out;
 }
@@ -384,9 +395,10 @@ std::string force_csv(std::span<const ForceRow> rows) {
   for (const ForceRow& row : rows)
     fmt::format_to(tools::end_of(out), "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},{},{}\n", row.name,
                    row.setting, row.unit, row.packets_per_s, row.octets_per_s,
-                   row.raw_packets_per_s, row.share(), error_of(row, row.error.rms, ""),
-                   error_of(row, row.error.p99, ""), error_of(row, row.error.max, ""),
-                   row.for_force_per_s, row.samples, row.outside);
+                   row.raw_packets_per_s, row.share(), csv_number(error_of(row, row.error.rms)),
+                   csv_number(error_of(row, row.error.p99)),
+                   csv_number(error_of(row, row.error.max)), row.for_force_per_s, row.samples,
+                   row.outside);
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/peer/thread_name.hpp"
 
 namespace reckon::bench {
@@ -22,13 +23,6 @@ using Algorithm = pdu::DeadReckoningAlgorithm;
 
 // FPB and FVB show what FPW and FVW show, and static is no dead reckoning.
 constexpr std::array<std::string_view, 3> kOnlyAsked{"static", "fpb", "fvb"};
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Ways that are not zero, from each sample to the first one that is kLeastStepTime later.
 void append_steps(const Track& track, std::vector<double>& steps) {

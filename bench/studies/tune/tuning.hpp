@@ -44,7 +44,7 @@ struct TuneOptions {
   double angle = 0;                ///< threshold of orientation [rad] > 0; pi: it does not count
   double heartbeat = 5;            ///< [s]
   bool drop_twins = false;         ///< leave models out that send what another sends
-  PoseNetwork network;
+  peer::ImpairmentConfig network;
 };
 
 /// One setting and what it gave.

@@ -70,7 +70,7 @@ Cells run(const Study& study) {
             cell.counterpart = study.counterpart;
             cell.environment = Environment(study.environment, share * whole);
             cell.hand = operator_model(hand);
-            cell.network = {delay, 0.3, loss};
+            cell.network = peer::delayed_by(delay, 0.3, loss);
             cell.seed = seed;
             cell.duration = study.duration;
             note(cells, simulate(cell), share, hand == OperatorKind::push);
@@ -163,20 +163,25 @@ TEST(CouplingGrid, OursMakesNoEnergyInARapidlyChangingWorld) {
       CouplingRun cell;
       cell.environment = Environment(EnvironmentKind::switching, 1500, 1 / switch_hz);
       cell.hand = tapping;
-      cell.network = {delay, 0.3, 0.1};
+      cell.network = peer::delayed_by(delay, 0.3, 0.1);
       cell.duration = 4;
-      const CouplingOutcome ours = simulate(cell);
-      cell.mode = peer::CouplingMode::printed_dead_reckoning;
-      const CouplingOutcome printed = simulate(cell);
-      if (printed.made_energy()) ++defeated;
-      EXPECT_FALSE(ours.made_energy()) << switch_hz << " Hz, " << delay << " s";
-      EXPECT_GT(ours.truth_p95, 1.0) << "N: it is tapped";
+      CouplingOutcome ours;
+      double printed_least = 0;  // [J]
+      for (cell.seed = 5; cell.seed > 0; --cell.seed) {
+        cell.mode = peer::CouplingMode::printed_dead_reckoning;
+        const CouplingOutcome printed = simulate(cell);
+        if (printed.made_energy()) ++defeated;
+        printed_least = std::min(printed_least, printed.least_energy);
+        cell.mode = peer::CouplingMode::reckon;
+        ours = simulate(cell);
+        EXPECT_FALSE(ours.made_energy()) << switch_hz << " Hz, " << delay << " s, " << cell.seed;
+        EXPECT_GT(ours.truth_p95, 1.0) << "N: it is tapped";
+      }
       std::printf(
           "%2.0f Hz, %3.0f ms: force off by %.2f N rms, %.2f N p95, of %.2f and %.2f N; least %.1e "
-          "J "
-          "(printed %.1e J)\n",
+          "J (printed %.1e J of 5 seeds)\n",
           switch_hz, 1e3 * delay, ours.error_rms, ours.error_p95, ours.truth_rms, ours.truth_p95,
-          ours.least_energy, printed.least_energy);
+          ours.least_energy, printed_least);
     }
   EXPECT_GE(defeated, 1);
 }
@@ -195,7 +200,7 @@ TEST(CouplingGrid, StiffnessKeptAgainstDelay) {
       cell.counterpart = Counterpart::hand;
       cell.environment = Environment(EnvironmentKind::linear, 500);
       cell.hand = operator_model(OperatorKind::soft);
-      cell.network = {delay, 0.0};
+      cell.network = peer::delayed_by(delay);
       const CouplingOutcome outcome = simulate(cell);
       const bool stable = !outcome.made_energy();
       std::printf("  %s %3.0f %%%s", std::string(name_of(mode)).c_str(),

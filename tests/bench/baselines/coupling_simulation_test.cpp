@@ -60,7 +60,8 @@ TEST(Environment, HardeningSpringDoublesTheForceAtOneNewton) {
 TEST(CouplingSimulation, GivesTheSameToTheLastBitForTheSameSeed) {
   for (const peer::CouplingMode mode : peer::kCouplingModes) {
     CouplingRun run = run_of(mode, Counterpart::hand, 400);
-    run.network = {0.02, 0.3, 0.2, 0.1};
+    run.network = peer::delayed_by(0.02, 0.3, 0.2);
+    run.network.reorder = 0.1;
     run.duration = 2;
     run.keep_trace = true;
     const CouplingOutcome one = simulate(run);
@@ -79,7 +80,7 @@ TEST(CouplingSimulation, ShowsALinearWallAsItIsWhereTheModelIsLocal) {
        {peer::CouplingMode::velocity_exchange, peer::CouplingMode::printed_dead_reckoning,
         peer::CouplingMode::passivity_controller, peer::CouplingMode::reckon}) {
     CouplingRun run = run_of(mode, Counterpart::server, 500);
-    run.network.delay = 0.1;
+    run.network = peer::delayed_by(0.1, 0.3);
     const CouplingOutcome outcome = simulate(run);
     EXPECT_FALSE(outcome.made_energy()) << name_of(mode);
     EXPECT_NEAR(outcome.stiffness_kept, 1.0, 1e-3) << name_of(mode);
@@ -103,7 +104,7 @@ TEST(CouplingSimulation, MakesEnergyWithTheGateOff) {
   CouplingRun run = run_of(peer::CouplingMode::reckon, Counterpart::server, 500);
   run.environment = Environment(EnvironmentKind::switching, 1500);
   run.hand = operator_model(OperatorKind::soft);
-  run.network = {0.05, 0.3, 0.3};
+  run.network = peer::delayed_by(0.05, 0.3, 0.3);
   EXPECT_FALSE(simulate(run).made_energy());
   run.gate = false;
   EXPECT_TRUE(simulate(run).made_energy());
@@ -120,7 +121,7 @@ TEST(CouplingSimulation, RefusesWhatIsOutOfRangeAndSaysWhat) {
   };
   CouplingRun run;
   run.network.loss = 1.5;
-  EXPECT_NE(complaint(run).find("loss must be 0 to 1, got 1.5"), std::string::npos);
+  EXPECT_NE(complaint(run).find("loss = 1.5 is no share"), std::string::npos);
   run = {};
   run.update_hz = 2000;
   EXPECT_NE(complaint(run).find("update rate"), std::string::npos);
@@ -192,7 +193,7 @@ TEST(TransmissionLine, MakesNoEnergyAtConstantDelay) {
                 run_of(peer::CouplingMode::transmission_line, counterpart, 900 * damping);
             run.hand = operator_model(hand);
             run.device.damping = damping;
-            run.network = {delay, 0.0};
+            run.network = peer::delayed_by(delay);
             run.uplink_hz = run.update_hz = hz;
             run.duration = 5;
             const CouplingOutcome outcome = simulate(run);
@@ -213,9 +214,9 @@ TEST(TransmissionLine, MakesEnergyWhereTheDelayVaries) {
       run.device.damping = 0.05;
       run.impedance = 2.0;
       run.uplink_hz = run.update_hz = 1000;
-      run.network = {delay, 0.0};
+      run.network = peer::delayed_by(delay);
       EXPECT_GE(simulate(run).least_sum, kPassive);
-      run.network.jitter = 0.3;
+      run.network = peer::delayed_by(delay, 0.3);
       least = std::min(least, simulate(run).least_sum);
     }
   EXPECT_LT(least, -1e-4) << "J";
@@ -230,7 +231,7 @@ TEST(TransmissionLine, CarriesTheWorkOfAWorldThatMoves) {
       CouplingRun run = run_of(peer::CouplingMode::transmission_line, Counterpart::server, 900);
       run.environment = Environment(kind, 900);
       run.hand = operator_model(hand);
-      run.network = {0.02, 0.0};
+      run.network = peer::delayed_by(0.02);
       EXPECT_GE(simulate(run).least_sum, kPassive) << name_of(kind) << ", " << name_of(hand);
     }
 }

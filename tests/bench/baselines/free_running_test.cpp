@@ -50,7 +50,7 @@ CouplingRun run_of(peer::CouplingMode mode, double delay) {
   run.counterpart = Counterpart::hand;
   run.environment = Environment(EnvironmentKind::linear, 400);
   run.hand = operator_model(OperatorKind::soft);
-  run.network = {delay, 0.0};
+  run.network = peer::delayed_by(delay);
   run.duration = kSamples * run.device.period;
   run.keep_trace = true;
   return run;

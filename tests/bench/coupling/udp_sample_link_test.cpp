@@ -56,7 +56,8 @@ TEST(UdpSampleLink, GivesEveryModeTheTraceOfOneProcess) {
       run.mode = mode;
       run.counterpart = counterpart;
       run.environment = Environment(EnvironmentKind::linear, 400);
-      run.network = {0.02, 0.5, 0.2, 0.1};
+      run.network = peer::delayed_by(0.02, 0.5, 0.2);
+      run.network.reorder = 0.1;
       run.update_hz = 100;
       run.duration = 1.5;
       run.keep_trace = true;

@@ -118,17 +118,11 @@ void draw_probe(Plan& plan, Dice& dice) {
 }  // namespace
 
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) noexcept {
-  Dice dice(a * 0x9e3779b97f4a7c15ULL + b * 0xd1b54a32d192ed03ULL + c);
+  Dice dice(a * pdu::kGoldenStep + b * 0xd1b54a32d192ed03ULL + c);
   return dice.next();
 }
 
-// SplitMix64.
-std::uint64_t Dice::next() noexcept {
-  std::uint64_t z = state_ += 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
+std::uint64_t Dice::next() noexcept { return pdu::mixed_bits(state_ += pdu::kGoldenStep); }
 
 nanoseconds Dice::between(nanoseconds low, nanoseconds high) noexcept {
   return low +

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
 
 namespace reckon::fuzz {
 
@@ -104,7 +105,7 @@ class Dice {
   [[nodiscard]] std::uint64_t next() noexcept;
   /// 0 .. below - 1
   [[nodiscard]] std::size_t below(std::size_t below) noexcept { return next() % below; }
-  [[nodiscard]] double unit() noexcept { return static_cast<double>(next() >> 11) * 0x1p-53; }
+  [[nodiscard]] double unit() noexcept { return pdu::unit_of(next()); }
   [[nodiscard]] bool chance(double probability) noexcept { return unit() < probability; }
   [[nodiscard]] nanoseconds between(nanoseconds low, nanoseconds high) noexcept;
 

@@ -4,20 +4,28 @@
 
 #include <algorithm>
 
+#include "reckon/pdu/seconds.hpp"
+
 namespace reckon::fuzz {
 
-Line::Line(const Scenario& scenario, std::mt19937& random)
+namespace {
+
+peer::ImpairmentLaw law_of(const Scenario& s) {
+  peer::ImpairmentLaw law = peer::delayed_by(s[Shared::delay], s[Shared::jitter], s[Shared::loss]);
+  law.duplicate = s[Shared::duplicates];
+  if (s[Shared::outage_for] > 0)
+    law.outages = {
+        {pdu::from_seconds(s[Shared::outage_at]), pdu::from_seconds(s[Shared::outage_for])}};
+  return law;
+}
+
+}  // namespace
+
+Line::Line(const Scenario& scenario)
     : scenario_(scenario),
-      random_(random),
+      impairment_(law_of(scenario), scenario.seed),
       queues_(scenario.hands()),
       known_(scenario.hands(), std::vector<Known>(scenario.hands())) {}
-
-double Line::drawn() { return std::uniform_real_distribution<double>(0, 1)(random_); }
-
-double Line::arrival(double now) {
-  const double jitter = scenario_[Shared::jitter] * (2 * drawn() - 1);
-  return now + scenario_[Shared::delay] * (1 + jitter);
-}
 
 bool Line::carries(double now, std::size_t from) const {
   const Scenario& s = scenario_;
@@ -25,20 +33,17 @@ bool Line::carries(double now, std::size_t from) const {
   const auto within = [now](double begin, double length) {
     return now >= begin && now <= begin + length;
   };
-  if (s[Shared::outage_for] > 0 && within(s[Shared::outage_at], s[Shared::outage_for])) {
-    return false;
-  }
   if (s[Shared::unknown_hand] == name && now < s[Shared::unknown_until]) return false;
   return s[Shared::silent_hand] != name || !within(s[Shared::silent_at], s[Shared::silent_for]);
 }
 
 void Line::send(double now, std::size_t from, std::size_t to, const haptics::RemoteHand& hand) {
-  ++number_;
-  const double first = arrival(now);
-  if (drawn() < scenario_[Shared::loss] || !carries(now, from)) return;
-  queues_[to].push_back({first, number_, from, false, hand});
-  if (drawn() >= scenario_[Shared::duplicates]) return;
-  queues_[to].push_back({arrival(now), number_, from, true, hand});
+  const peer::Fate fate = impairment_.decide(from, ++number_, pdu::from_seconds(now));
+  if (!carries(now, from)) return;
+  for (std::size_t copy = 0; copy < fate.copies; ++copy) {
+    const double arrival = now + pdu::to_seconds(fate.delay[copy]);
+    queues_[to].push_back({arrival, number_, from, copy > 0, hand});
+  }
 }
 
 bool Line::deliver(double now, std::size_t to, haptics::ContactSet& set) {

@@ -6,18 +6,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <random>
 #include <vector>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/peer/network/impairment.hpp"
 #include "reckon/tests/fuzz/touch/scenario.hpp"
 
 namespace reckon::fuzz {
 
 class Line {
  public:
-  /// Both outlive the line.
-  Line(const Scenario& scenario, std::mt19937& random);
+  /// @param scenario outlives the line
+  explicit Line(const Scenario& scenario);
 
   /// At `now` [s].
   void send(double now, std::size_t from, std::size_t to, const haptics::RemoteHand& hand);
@@ -38,12 +38,11 @@ class Line {
     haptics::RemoteHand hand;
   };
 
-  [[nodiscard]] double drawn();
-  [[nodiscard]] double arrival(double now);
+  // What the scenario keeps to itself, beside the law.
   [[nodiscard]] bool carries(double now, std::size_t from) const;
 
   const Scenario& scenario_;
-  std::mt19937& random_;
+  peer::Impairment impairment_;
   std::vector<std::deque<Sent>> queues_;
   std::vector<std::vector<Known>> known_;
   std::uint64_t number_ = 0;

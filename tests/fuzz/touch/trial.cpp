@@ -35,7 +35,7 @@ class Trial {
   explicit Trial(const Scenario& scenario, const Track* twin = nullptr)
       : scenario_(scenario),
         random_(scenario.seed),
-        line_(scenario_, random_),
+        line_(scenario_),
         honest_(twin != nullptr || scenario[Shared::liar] == 0),
         told_(scenario.hands()) {
     for (std::size_t i = 0; i < scenario.hands(); ++i) {

@@ -11,12 +11,12 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/network/impairment.hpp"
 
 namespace reckon::haptics {
 
@@ -78,7 +78,7 @@ inline std::vector<double> row_truth(std::size_t count, double grip, double stif
 class HandsInARow {
  public:
   HandsInARow(const RowHands& hands, const RowLine& line, unsigned seed)
-      : hands_(hands), line_(line), random_(seed) {
+      : hands_(hands), line_(line), network_(peer::delayed_by(line.delay, 0.3, line.loss), seed) {
     for (std::size_t i = 0; i < hands.count; ++i) {
       const double place = static_cast<double>(i) * (2 * hands_.radius + 1e-6);  // from outside
       SimulatedDeviceConfig device;
@@ -162,8 +162,6 @@ class HandsInARow {
     std::vector<double> given, need;
   };
 
-  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
-
   void deliver(std::size_t side, double t) {
     bool news = false;
     auto& queue = queues_[side];
@@ -226,9 +224,9 @@ class HandsInARow {
         hand.spring_need = s.contacts[i].spring_need;
       }
       if (hands_.lie) hands_.lie(side, hand);
-      const double late = line_.delay * (0.7 + 0.6 * unit());
-      if (!connected || unit() < line_.loss) continue;
-      queues_[to].push_back({t + late, side, hand});
+      const peer::Fate fate = network_.decide(side, version_, pdu::from_seconds(t));
+      if (!connected || fate.copies == 0) continue;
+      queues_[to].push_back({t + pdu::to_seconds(fate.delay[0]), side, hand});
     }
   }
 
@@ -248,7 +246,7 @@ class HandsInARow {
 
   RowHands hands_;
   RowLine line_;
-  std::mt19937 random_;
+  peer::Impairment network_;
   std::vector<std::unique_ptr<SimulatedDevice>> devices_;
   std::vector<std::unique_ptr<ServoLoop>> servos_;
   std::vector<std::deque<Sent>> queues_;

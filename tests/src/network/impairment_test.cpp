@@ -148,6 +148,15 @@ TEST(Impairment, DelaysUniformlyAroundTheBase) {
   EXPECT_LT(worst, 1.95 / std::sqrt(1e5));
 }
 
+TEST(ImpairmentLaw, IsMadeOfSecondsAndShares) {
+  const ImpairmentLaw law = delayed_by(0.08, 0.4, 0.1);
+  EXPECT_EQ(law.delay, 80ms);
+  EXPECT_EQ(law.jitter, 32ms);
+  EXPECT_EQ(law.loss, 0.1);
+  EXPECT_EQ(jitter_share(law), 0.4);
+  EXPECT_EQ(jitter_share(delayed_by(0)), 0);
+}
+
 TEST(Impairment, NeverDeliversBeforeItWasSent) {
   ImpairmentLaw law;
   law.delay = 1ms;

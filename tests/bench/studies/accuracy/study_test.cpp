@@ -143,7 +143,7 @@ TEST(PoseStudy, KeepsTheErrorWithinTheThresholdAndOneSampleWithoutLossAndDelay) 
 TEST(AccuracyStudy, GivesTheSameTwice) {
   AccuracyGrid grid;
   grid.thresholds = {0.2, 1};
-  grid.network = {0.08, 0.4, 0.1, 5};
+  grid.network = {peer::delayed_by(0.08, 0.4, 0.1), 5};
   const auto a = run_accuracy_study(subject("weave", 10), grid);
   const auto b = run_accuracy_study(subject("weave", 10), grid);
   ASSERT_EQ(a.rows.size(), 2 * kPoseModels.size());
@@ -159,7 +159,7 @@ TEST(AccuracyStudy, TellsTheMedianOfItsSeeds) {
   const StudySubject moving = subject("weave", 10);
   PoseSetting setting;
   setting.model = pdu::DeadReckoningAlgorithm::rvw;
-  PoseNetwork network{0.1, 0.5, 0.3, 1};
+  peer::ImpairmentConfig network{peer::delayed_by(0.1, 0.5, 0.3)};
   std::vector<double> each;
   for (network.seed = 1; network.seed <= 3; ++network.seed)
     each.push_back(run_pose_study(moving.tracks, setting, network).position.rms);

@@ -27,9 +27,9 @@ ContactScene scene_named(std::string_view name) {
 }
 
 std::vector<ContactRow> rows_of(std::string_view name, std::vector<ContactSending> sendings,
-                                double longest, const ContactLine& line = {}) {
+                                double longest, const peer::ImpairmentConfig& network = {}) {
   const ContactScene scene = scene_named(name);
-  return run_contact_study(std::span(&scene, 1), sendings, line, longest);
+  return run_contact_study(std::span(&scene, 1), sendings, network, longest);
 }
 
 // Grip, contact and grip in series: F = d / (1/k + 1/K + 1/k).
@@ -70,7 +70,7 @@ TEST(ContactStudy, NamesWhatWasAskedApartFromWhatDevicesShow) {
 
 TEST(ContactStudy, DelayAndARateMakeForcesWorse) {
   const auto near = rows_of("stroke-1.5", {{0.015, 0}, {0, 50}}, 11.5);
-  const auto far = rows_of("stroke-1.5", {{0.015, 0}}, 11.5, {0.05, 0, 0, 1});
+  const auto far = rows_of("stroke-1.5", {{0.015, 0}}, 11.5, {peer::delayed_by(0.05)});
   EXPECT_LT(near[0].from_shown.rms, near[1].from_shown.rms);
   EXPECT_LT(2 * near[0].from_shown.rms, far[0].from_shown.rms);
   ASSERT_TRUE(far[0].stroke);
@@ -81,8 +81,8 @@ TEST(ContactStudy, DelayAndARateMakeForcesWorse) {
 }
 
 TEST(ContactStudy, IsTheSameEachTimeButForTheTime) {
-  auto once = rows_of("tap", {{0.05, 0}, {0.1, 0}}, 4, {0.005, 0.3, 0.1, 7});
-  auto again = rows_of("tap", {{0.05, 0}, {0.1, 0}}, 4, {0.005, 0.3, 0.1, 7});
+  auto once = rows_of("tap", {{0.05, 0}, {0.1, 0}}, 4, {peer::delayed_by(0.005, 0.3, 0.1), 7});
+  auto again = rows_of("tap", {{0.05, 0}, {0.1, 0}}, 4, {peer::delayed_by(0.005, 0.3, 0.1), 7});
   for (auto* rows : {&once, &again})
     for (ContactRow& row : *rows) row.servo_step_ns = 0;
   EXPECT_EQ(contact_json(once, {}), contact_json(again, {}));
@@ -124,7 +124,7 @@ TEST(ContactReport, SaysWhereAWideThresholdIsWorse) {
 TEST(ContactReport, MarksWhatAPersonMayNoticeAndSaysWhereHandsDidNotTouch) {
   std::vector<ContactRow> rows{row_of(0.01, 20, 0.1), row_of(0.2, 25, 0.3)};
   rows[1].from_shown = {};
-  const std::string text = contact_text(rows, {0.005, 0.3, 0.1, 7});
+  const std::string text = contact_text(rows, {peer::delayed_by(0.005, 0.3, 0.1), 7});
   EXPECT_THAT(text, HasSubstr("2.0 % !"));
   EXPECT_THAT(text, HasSubstr("did not touch"));
   EXPECT_THAT(text, HasSubstr("delay 5 ms +-30 %, 10 % lost; seed 7"));

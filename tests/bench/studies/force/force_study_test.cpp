@@ -12,6 +12,7 @@
 #include <numbers>
 #include <random>
 
+#include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
@@ -67,9 +68,7 @@ TEST(ForceSignalRows, ARampCostsALineFewAndAHeldValueMany) {
 TEST(ForceSignalRows, ALineWinsOnASmoothForceAndLosesOnANoisyOneAndTheChoiceFollows) {
   const auto sine = [](double t) { return 5 + 3 * std::sin(std::numbers::pi * t); };
   std::mt19937_64 engine(1);
-  const auto noisy = [&](double t) {
-    return sine(t) + 2.0 * (static_cast<double>(engine() >> 11) * 0x1p-53 - 0.5);
-  };
+  const auto noisy = [&](double t) { return sine(t) + 2.0 * (pdu::unit_of(engine()) - 0.5); };
   constexpr std::array kFivePercent{0.05};
   const auto smooth = force_signal_rows(signal_of(sine), kFivePercent, 0.05);
   EXPECT_GT(smooth[0].packets_per_s, 3 * smooth[1].packets_per_s);

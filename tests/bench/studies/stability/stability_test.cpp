@@ -18,6 +18,7 @@ namespace {
 
 using nlohmann::json;
 using peer::CouplingMode;
+using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -53,10 +54,10 @@ TEST(StabilityPlan, CellsAreTheProductOfTheAxesTheLastFastest) {
   EXPECT_EQ(plan.runs(), 24U);
   EXPECT_EQ(plan.setting(0).stiffness, 300.0);
   EXPECT_EQ(plan.setting(1).environment, EnvironmentKind::moving);
-  EXPECT_EQ(plan.setting(1).run.network.delay, 0.0);
-  EXPECT_EQ(plan.setting(2).run.network.delay, 0.05);
+  EXPECT_EQ(plan.setting(1).run.network.delay, 0ms);
+  EXPECT_EQ(plan.setting(2).run.network.delay, 50ms);
   EXPECT_EQ(plan.setting(11).stiffness, 600.0);
-  EXPECT_EQ(plan.setting(11).run.network.delay, 0.1);
+  EXPECT_EQ(plan.setting(11).run.network.delay, 100ms);
   EXPECT_EQ(plan.mode_of(0), peer::CouplingMode::printed_dead_reckoning)
       << "in the order of the list";
   EXPECT_EQ(plan.run(13).mode, peer::CouplingMode::reckon);
@@ -85,11 +86,12 @@ TEST(StabilityPlan, EveryParameterChangesWhatIsSimulated) {
   }
 }
 
-TEST(StabilityPlan, JitterAsATimeIsCutToTheDelay) {
-  const StabilityPlan plan = plan_of({"delay=0,10,40ms", "impairment.jitter=20ms"});
-  EXPECT_EQ(plan.run(0).network.jitter, 0.0);
-  EXPECT_EQ(plan.run(1).network.jitter, 1.0);
-  EXPECT_DOUBLE_EQ(plan.run(2).network.jitter, 0.5);
+TEST(StabilityPlan, JitterIsATimeOrAShareOfTheDelay) {
+  EXPECT_EQ(plan_of({"delay=10,40ms", "impairment.jitter=20ms"}).run(0).network.jitter, 20ms);
+  const StabilityPlan shares = plan_of({"jitter_share=50%", "delay=0,10,40ms"});
+  EXPECT_EQ(shares.run(0).network.jitter, 0ms);
+  EXPECT_EQ(shares.run(1).network.jitter, 5ms);
+  EXPECT_EQ(shares.run(2).network.jitter, 20ms);
 }
 
 TEST(StabilityPlan, TextHoldsAllThatAnOutcomeDependsOn) {
@@ -97,7 +99,7 @@ TEST(StabilityPlan, TextHoldsAllThatAnOutcomeDependsOn) {
   EXPECT_THAT(one, HasSubstr("impairment.delay=0 s,10 ms"));
   EXPECT_THAT(one, HasSubstr("seed=1; for=3 s"));
   for (const StabilityParameter& parameter : stability_parameters()) {
-    if (parameter.name == "impairment.jitter") continue;
+    if (parameter.name == "jitter_share") continue;
     EXPECT_THAT(one, HasSubstr(std::string(parameter.name) + "=")) << "said where it is not swept";
   }
   StabilityWords words;

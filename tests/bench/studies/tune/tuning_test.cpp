@@ -92,7 +92,7 @@ TEST(Tuning, GivesTheSameOnAnyNumberOfCores) {
   const auto tracks =
       track_along_x([](double t) { return std::sin(t); }, [](double t) { return std::cos(t); });
   TuneOptions options = options_for(default_tune_models(), {0.01, 0.1});
-  options.network = {0.05, 0.4, 0.1, 3};
+  options.network = {peer::delayed_by(0.05, 0.4, 0.1), 3};
   const TuneTable first = tune(tracks, options);
   const TuneTable again = tune(tracks, options);
   for (std::size_t i = 0; i < first.rows.size(); ++i) {
