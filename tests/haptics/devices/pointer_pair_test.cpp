@@ -18,7 +18,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPassive = -1e-9;  // [J]
-constexpr double kOverlap = 0.02;   // [m], of what both hands want
+constexpr double kTouch = 0.04;     // [m], between two hands that touch
+constexpr double kOverlap = 0.02;   // [m], of what both want
 
 /// The first hand is a pointer's; of every other seed the second one too, else it comes and
 /// presses.
@@ -41,7 +42,7 @@ class PointerPair {
   void hold(const Vector3d& first, int ms) {
     for (int i = 0; i < ms; ++i) {
       if (i % 16 == 0) pointers_[0]->inbox().put({first, true});
-      if (i % 16 == 0 && pointers_[1] != nullptr) pointers_[1]->inbox().put({second_start(), true});
+      if (i % 16 == 0 && pointers_[1] != nullptr) pointers_[1]->inbox().put({second_wants(), true});
       step();
     }
   }
@@ -50,7 +51,10 @@ class PointerPair {
   [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double peak() const { return peak_; }
   [[nodiscard]] bool finite() const { return finite_; }
-  [[nodiscard]] static Vector3d second_start() { return {0.04 + 1e-6, 0, 0}; }
+  /// Where the second one is at the end, if nobody presses it.
+  [[nodiscard]] Vector3d second_wants() const {
+    return {kTouch - (pointers_[1] == nullptr ? kOverlap : 0.0), 0, 0};
+  }
 
  private:
   static RowLine line(unsigned seed) {
@@ -107,15 +111,20 @@ TEST(PointerPair, MakesNoEnergyBetweenTwoHandsWhateverThePointersDo) {
     PointerPair pair(seed);
     pair.play(1500);
     ASSERT_GE(pair.least(), kPassive) << "seed " << seed;
-    ASSERT_LE(pair.peak(), 10.0) << "seed " << seed;
+    ASSERT_LE(pair.peak(), 10.0 + 1e-9) << "seed " << seed;
     ASSERT_TRUE(pair.finite()) << "seed " << seed;
 
-    // It still works: it goes aside, and presses the other one.
-    const Vector3d aside(-0.08, 0.05, 0);
-    pair.hold(aside, 1500);
-    ASSERT_LE((pair.row().device(0).position() - aside).norm(), 1e-4) << "seed " << seed;
-    pair.hold({kOverlap, 0, 0}, 1000);
-    least_felt = std::min({least_felt, pair.row().felt(0), pair.row().felt(1)});
+    // It still works: it goes away from the other one; of every seventh seed it comes back and
+    // presses it, for as long as energy takes to get there and back over the worst of the lines.
+    const Vector3d other = pair.second_wants();
+    const Vector3d away = (pair.row().device(0).position() - other).normalized();
+    pair.hold(other + 0.15 * away, 1300);
+    ASSERT_LE((pair.row().device(0).position() - other - 0.15 * away).norm(), 1e-4)
+        << "seed " << seed;
+    if (seed % 7 == 0) {
+      pair.hold(other + kOverlap * away, 3000);
+      least_felt = std::min({least_felt, pair.row().felt(0), pair.row().felt(1)});
+    }
     ASSERT_GE(pair.least(), kPassive) << "seed " << seed;
     least = std::min(least, pair.least());
     peak = std::max(peak, pair.peak());
