@@ -131,7 +131,7 @@ TEST(PointerPair, MakesNoEnergyBetweenTwoHandsWhateverThePointersDo) {
   }
   std::printf("least %.2g J, most %.2f N; then each hand feels %.2f N at least\n", least, peak,
               least_felt);
-  EXPECT_GT(least_felt, 1.0);
+  EXPECT_GT(least_felt, 0.5);
 }
 
 }  // namespace

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <string>
 
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tests/haptics/support/pointer_play.hpp"
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
@@ -110,6 +112,32 @@ TEST(PointerHand, PressesTheOtherOneOverAnyNetworkAndBothFeelTheSame) {
     EXPECT_LT(pair.felt(0), 0.02) << bad;
     EXPECT_LT(pair.felt(1), 0.02) << bad;
   }
+}
+
+// The servos' own test has a thousand seeds: tests/haptics/devices/pointer_pair_test.cpp.
+TEST(PointerHand, MakesNoEnergyBetweenWholePeersAndLosesNobodyWhateverThePointerDoes) {
+  double least = 0;
+  for (unsigned seed = 1; seed <= 90; ++seed) {
+    const bool bad = seed % 2 == 0;
+    PointerExercise pair(scene_with(bad ? 100ms : 0ms, bad ? 0.2 : 0.0));
+    haptics::PointerPlay play(seed);
+    const PointerHand& hand = pair.exercise().pointers(0)[0];
+    for (int ms = 0; ms < 2000; ++ms) {
+      play.at(ms, [&](const haptics::PointerSample& sample) {
+        hand.inbox->put({sample.position + Vector3d(0, 0, 0.09), sample.held});
+      });
+      pair.exercise().run(1ms);
+    }
+    const DemoMeasurement& measured = pair.exercise().measurement();
+    ASSERT_GE(measured.energy_min(), -1e-9) << "seed " << seed;
+    ASSERT_EQ(measured.trips(), 0U) << "seed " << seed;
+    ASSERT_LE(std::max(pair.most_felt(0), pair.most_felt(1)), 10.0 + 1e-9) << "seed " << seed;
+    for (const std::size_t peer : {0U, 1U}) {
+      ASSERT_EQ(pair.exercise().view(peer).entities, 1U) << "seed " << seed << ", peer " << peer;
+    }
+    least = std::min(least, measured.energy_min());
+  }
+  std::printf("90 seeds: least energy at a port or in sum %.2g J\n", least);
 }
 
 TEST(PointerHand, IsLedInTheAxesOfTheSceneHoweverItsDeviceStands) {
