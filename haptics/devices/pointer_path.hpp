@@ -17,8 +17,8 @@ namespace reckon::haptics {
 /// The steps are exact: the same motion however finely it is advanced. Allocates nothing.
 class PointerPath {
  public:
-  /// w [1/s]. Higher lags less and lets more of a sampling at 60 Hz through: of the speed's
-  /// ripple 1 % at 75.
+  /// w [1/s]. Higher lags less and lets more of the samples' steps through: the speed of a steady
+  /// way that is sampled at 60 Hz ripples by 1.6 % at most.
   static constexpr double kBandwidth = 75.0;
   /// Of the path behind a pointer that moves steadily [s].
   static constexpr double kLag = 3.0 / kBandwidth;
