@@ -125,8 +125,11 @@ void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;
   if (script_) target = script_(time_);
-  const Eigen::Vector3d hand = config_.hand_stiffness * (target.position - position_) +
-                               config_.hand_damping * (target.velocity - velocity_) + target.push;
+  Eigen::Vector3d pull = config_.hand_stiffness * (target.position - position_);
+  const double pulls = pull.norm();
+  if (pulls > target.most_pull) pull *= target.most_pull / pulls;
+  const Eigen::Vector3d hand =
+      target.grip * (pull + config_.hand_damping * (target.velocity - velocity_)) + target.push;
   velocity_ += h / config_.mass * (hand + force_ - config_.damping * velocity_);
   const Eigen::Vector3d dx = h * velocity_;
   position_ += dx;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
@@ -19,6 +20,8 @@ struct HandTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
+  double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: it has let go
+  double most_pull = std::numeric_limits<double>::infinity();  ///< [N] >= 0, that the spring gives
 };
 
 /// Target at a time [s] since the device's first read. Must not allocate; called about ten times a

@@ -36,6 +36,29 @@ void check_operator_number(TomlReader& table, std::size_t operators, const Devic
                                         device.operator_number, operators));
 }
 
+// What a pointer takes of its operator is where the hand starts and how it is held.
+void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operators,
+                   const DeviceConfig& device) {
+  if (device.source != DeviceSource::pointer) {
+    if (table.has("reach"))
+      table.problem("reach", "'reach' is of a pointer: add kind = \"pointer\", or take it out");
+    return;
+  }
+  if (device.operator_number > operators.size()) return;
+  const OperatorConfig& config = operators[device.operator_number - 1];
+  if (config.kind != OperatorKind::passive) {
+    table.problem("kind",
+                  fmt::format("a pointer moves the hand, and so would [[operator]] {}: give "
+                              "that passive = true and the position where the hand starts",
+                              device.operator_number));
+  }
+  if (!(config.damping > 0)) {
+    table.problem("kind", fmt::format("a pointer needs a grip with damping, or the hand swings: "
+                                      "[[operator]] {} says 0 N s/m, 3 is usual",
+                                      device.operator_number));
+  }
+}
+
 }  // namespace
 
 void check_marking(TomlReader& table, const std::string& marking) {
@@ -86,6 +109,12 @@ Section<DeviceConfig> device_section() {
           {"peer", &Device::peer, within("", 1, kMostPeers), "number of the peer it stands at"},
           {"operator", &Device::operator_number, within("", 1, 65535),
            "which [[operator]] of the file holds it"},
+          {"kind", &Device::source,
+           "who moves it: its operator; or a pointer, from where its operator, a passive one, "
+           "holds "
+           "it at first"},
+          {"reach", &Device::reach, within("m", 0.001, 10),
+           "of a pointer: so far from there it takes the hand, along each axis of the device"},
           {"marking", &Device::marking,
            "of its hand, at most 11 printable ASCII characters; absent: the peer's name and a "
            "number"},
@@ -127,6 +156,7 @@ void read_devices(TomlReader& file, SceneFile& out) {
     DeviceConfig& device = out.devices.emplace_back();
     section.read(table, device);
     check_operator_number(table, out.operators.size(), device);
+    check_pointer(table, out.operators, device);
   }
 }
 

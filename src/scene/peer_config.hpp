@@ -114,11 +114,19 @@ struct EntityConfig {
   std::string beacon;   ///< name by which others find its cell; empty: none
 };
 
+/// Who moves a simulated device.
+enum class DeviceSource : std::uint8_t {
+  simulated,  ///< its operator
+  pointer,    ///< a pointer that a person moves, from where its operator holds it at first
+};
+
 /// A simulated haptic device of one peer, and the hand that it moves.
 struct DeviceConfig {
   std::uint32_t peer = 1;             ///< number of its peer, from 1
   std::uint32_t operator_number = 1;  ///< number of the [[operator]] that holds it, from 1
-  std::string marking;                ///< of its hand; empty: the peer's name and a number
+  DeviceSource source = DeviceSource::simulated;
+  double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
+  std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
   double max_force = 10.0;                                          ///< [N] > 0

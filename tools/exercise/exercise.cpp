@@ -12,7 +12,6 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/scene/belongings.hpp"
-#include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -137,6 +136,10 @@ double Exercise::raw_rate() const noexcept {
 }
 
 peer::Peer& Exercise::peer(std::size_t index) noexcept { return members_[index]->joined->peer(); }
+
+std::span<const PointerHand> Exercise::pointers(std::size_t index) const noexcept {
+  return members_[index]->hands.pointers;
+}
 
 const peer::PeerView& Exercise::view(std::size_t index) const noexcept {
   return members_[index]->joined->peer().views().read();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "reckon/peer/servo_thread.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
 #include "reckon/tools/exercise/notice_digest.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
 
@@ -71,6 +73,8 @@ class Exercise {
   /// Devices of all peers.
   [[nodiscard]] std::size_t hands() const noexcept;
   [[nodiscard]] peer::Peer& peer(std::size_t index) noexcept;
+  /// The hands of a peer that follow pointers; they go with the exercise.
+  [[nodiscard]] std::span<const PointerHand> pointers(std::size_t index) const noexcept;
   /// Newest picture of a peer, as of the last run().
   [[nodiscard]] const peer::PeerView& view(std::size_t index) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept;

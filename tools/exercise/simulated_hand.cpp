@@ -118,6 +118,30 @@ nanoseconds hold_of(nanoseconds period) {
   return std::min<nanoseconds>(3 * period / 2, haptics::HapticDevice::kWatchdog);
 }
 
+/// A device and who holds it.
+struct Held {
+  haptics::SimulatedDeviceConfig config;
+  haptics::HandScript script;
+};
+
+Held hold(const peer::SceneFile& scene, const peer::DeviceConfig& device,
+          const haptics::HandScript& path) {
+  const peer::OperatorConfig config = operator_of(scene, device.operator_number);
+  Held held{{}, in_axes_of(device, path ? path : script_of(config))};
+  haptics::SimulatedDeviceConfig& made = held.config;
+  made.hand_stiffness = config.stiffness;
+  made.hand_damping = config.damping;
+  made.start = held.script(0.0).position;
+  made.max_force = device.max_force;
+  made.damping = device.damping;
+  made.max_stiffness = device.max_stiffness;
+  made.max_speed = device.max_speed;
+  made.delay_samples = device.delay_samples;
+  made.resolution = device.resolution;
+  made.hold = hold_of(device.period);
+  return held;
+}
+
 haptics::SceneObject& first_object(peer::SceneFile& scene) {
   if (scene.scene.objects.empty()) {
     throw std::runtime_error("the scene has no object whose place another shape could take");
@@ -127,23 +151,20 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 
 }  // namespace
 
+std::unique_ptr<haptics::PointerDevice> make_pointer_device(const peer::SceneFile& scene,
+                                                            const peer::DeviceConfig& device) {
+  const Held held = hold(scene, device, nullptr);
+  return std::make_unique<haptics::PointerDevice>(held.config, device.reach);
+}
+
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::SceneFile& scene,
                                                                 const peer::DeviceConfig& device,
                                                                 const haptics::HandScript& path) {
-  const peer::OperatorConfig config = operator_of(scene, device.operator_number);
-  haptics::HandScript script = in_axes_of(device, path ? path : script_of(config));
-  haptics::SimulatedDeviceConfig made;
-  made.hand_stiffness = config.stiffness;
-  made.hand_damping = config.damping;
-  made.start = script(0.0).position;
-  made.max_force = device.max_force;
-  made.damping = device.damping;
-  made.max_stiffness = device.max_stiffness;
-  made.max_speed = device.max_speed;
-  made.delay_samples = device.delay_samples;
-  made.resolution = device.resolution;
-  made.hold = hold_of(device.period);
-  return std::make_unique<haptics::SimulatedDevice>(made, std::move(script));
+  if (device.source == peer::DeviceSource::pointer && !path) {
+    return make_pointer_device(scene, device);
+  }
+  Held held = hold(scene, device, path);
+  return std::make_unique<haptics::SimulatedDevice>(held.config, std::move(held.script));
 }
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneFile& scene,
@@ -158,7 +179,14 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
                                     const haptics::HandScript& script) {
   SimulatedHands hands;
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
-    hands.devices.push_back(make_simulated_device(scene, config, script));
+    if (config.source == peer::DeviceSource::pointer && !script) {
+      auto device = make_pointer_device(scene, config);
+      hands.pointers.push_back(
+          {hands.devices.size(), &device->inbox(), config.position, config.orientation});
+      hands.devices.push_back(std::move(device));
+    } else {
+      hands.devices.push_back(make_simulated_device(scene, config, script));
+    }
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period, config.max_force_rate,
                            config.received_power});

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "reckon/haptics/devices/pointer_device.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -25,16 +26,36 @@ namespace reckon::tools {
 
 /// One device of a scene, with its limits and its delay, held by its operator as above (numbered
 /// from 1), who moves in S: the servo needs `device.position` and `device.orientation` too. A force
-/// is held for 1.5 servo periods, and 10 ms at most: a step that comes later finds it let go.
-/// @throws as above.
+/// is held for 1.5 servo periods, and 10 ms at most: a step that comes later finds it let go. A
+/// pointer's device follows its pointer, but for a script. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
     const haptics::HandScript& script = nullptr);
+
+/// One device of a scene that follows a pointer, whatever its table says of that. @throws as above.
+[[nodiscard]] std::unique_ptr<haptics::PointerDevice> make_pointer_device(
+    const peer::SceneFile& scene, const peer::DeviceConfig& device);
+
+/// A hand that follows a pointer, for whoever has the pointer: a page, a program. It refers to the
+/// device, which outlives it.
+struct PointerHand {
+  std::size_t device = 0;  ///< of the peer, from 0
+  haptics::PointerInbox* inbox = nullptr;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
+
+  /// Leads the hand to a point of S [m]; see haptics::PointerInbox::put, whose thread it is.
+  bool lead(const Eigen::Vector3d& p_S) const noexcept {
+    return inbox->put({orientation.conjugate() * (p_S - origin), true});
+  }
+  void let_go() const noexcept { static_cast<void>(inbox->put({{}, false})); }
+};
 
 /// The devices of one peer, and how they stand in the scene.
 struct SimulatedHands {
   std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
   std::vector<peer::PeerDevice> wired;  ///< to `devices`
+  std::vector<PointerHand> pointers;    ///< those of `devices` that follow one
 };
 
 /// All devices that peer `peer` (from 1) has by devices_of(), maybe none, all moved by the script

@@ -40,6 +40,11 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
   const std::size_t count = scene.operators.size();
   const std::size_t index = (device.operator_number - 1) % count;
   const peer::OperatorConfig& config = scene.operators[index];
+  if (device.source == peer::DeviceSource::pointer) {
+    return fmt::format("a pointer, within {} of where operator {} is; {} behind it",
+                       peer::format_quantity(device.reach, "m"), index + 1,
+                       peer::format_quantity(haptics::PointerPath::kLag, "s"));
+  }
   return fmt::format("operator {}, {}{}", index + 1, peer::word_of(config.kind),
                      device.operator_number > count ? ", aside" : "");
 }

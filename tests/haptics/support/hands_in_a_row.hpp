@@ -40,6 +40,9 @@ struct RowHands {
   /// Where the grip of hand i wants to be from its place [m], at t [s].
   std::function<double(std::size_t, double)> target;
   double start = 0;  ///< [m], of the first hand's device from its place
+  /// The device of hand i, in the place of one that goes by `target`; none: that one.
+  std::function<std::unique_ptr<SimulatedDevice>(std::size_t, const SimulatedDeviceConfig&)> make =
+      {};
   /// What hand i makes of the truth before it tells it.
   std::function<void(std::size_t, RemoteHand&)> lie = {};
 };
@@ -94,7 +97,8 @@ class HandsInARow {
         target.position.x() = place + hands_.target(i, t);
         return target;
       };
-      devices_.push_back(std::make_unique<SimulatedDevice>(device, script));
+      devices_.push_back(hands_.make ? hands_.make(i, device) : nullptr);
+      if (!devices_.back()) devices_.back() = std::make_unique<SimulatedDevice>(device, script);
       ServoConfig servo;
       servo.probe_radius = hands_.radius;
       servos_.push_back(

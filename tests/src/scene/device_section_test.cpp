@@ -59,6 +59,23 @@ delay = "1 ms"
   EXPECT_EQ(device.delay_samples, 4);
 }
 
+TEST(DeviceSection, NamesAPointerAndHowFarItReaches) {
+  EXPECT_EQ(device_of("kind = \"simulated\"\n").source, DeviceSource::simulated);
+  const DeviceConfig device = device_of("kind = \"pointer\"\nreach = \"30 cm\"\n");
+  EXPECT_EQ(device.source, DeviceSource::pointer);
+  EXPECT_EQ(device.reach, 0.3);
+}
+
+TEST(DeviceSection, RefusesAPointerWhoseOperatorMovesTooOrHasNoDamping) {
+  const std::string pointer = "[[device]]\nkind = \"pointer\"\n";
+  EXPECT_THAT(
+      refusal(pointer + "[[operator]]\nsweep = { from = [0, 0, 0], to = [1, 0, 0] }\n"),
+      HasSubstr("x.toml:2:8: a pointer moves the hand, and so would [[operator]] 1: give that "
+                "passive = true and the position where the hand starts"));
+  EXPECT_THAT(refusal(pointer + kOperator + "damping = 0\n"),
+              HasSubstr("x.toml:2:8: a pointer needs a grip with damping"));
+}
+
 // Whatever rate is accepted: one period missed and the next one late by half of one.
 TEST(DeviceSection, TheSlowestServoMayMissAPeriodAndTheDeviceHoldsItsForce) {
   for (int rate = 50; rate <= 1000; rate += 50) {
@@ -85,6 +102,8 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.resolution, standard.resolution);
   EXPECT_EQ(silent.period, standard.period);
   EXPECT_EQ(silent.delay_samples, standard.delay_samples);
+  EXPECT_EQ(silent.source, standard.source);
+  EXPECT_EQ(silent.reach, standard.reach);
   EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());
 }
 
@@ -132,6 +151,9 @@ TEST(DeviceSection, RefusesWhatCannotBeMeant) {
       {"marking = \"TWELVE CHARS\"\n", "at most 11 fit"},
       {"heading = 0\norientation = [0, 0, 0]\n", "x.toml:3:15: it is turned twice"},
       {"peer = 65\n", "it must be 1 to 64"},
+      {"kind = \"mouse\"\n", "it wants one of simulated pointer"},
+      {"kind = \"pointer\"\nreach = 0\n", "x.toml:3:9: 'reach' is 0 m; it must be 1 mm to 10 m"},
+      {"reach = 0.1\n", "x.toml:2:9: 'reach' is of a pointer: add kind = \"pointer\""},
   };
   for (const auto& [lines, words] : cases) {
     EXPECT_THAT(refusal("[[device]]\n" + lines + kOperator), HasSubstr(words)) << lines;

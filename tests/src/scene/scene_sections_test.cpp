@@ -136,7 +136,7 @@ TEST(SceneSections, SayNoKeyTwice) {
 template <class T>
 class SceneWords : public testing::Test {};
 using TypesWithWords =
-    testing::Types<OperatorKind, pdu::ForceId, pdu::ForceModelKind, aoim::CellScheme,
+    testing::Types<OperatorKind, DeviceSource, pdu::ForceId, pdu::ForceModelKind, aoim::CellScheme,
                    pdu::CompressedForm, Prediction, deadreckon::AccelerationReading,
                    std::optional<pdu::DeadReckoningAlgorithm>, const deadreckon::SendRule*,
                    deadreckon::ConvergenceCurve>;
