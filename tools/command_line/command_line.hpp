@@ -35,6 +35,8 @@ class CommandLine {
 
   /// A switch: "--json" or "-j,--json".
   void flag(const std::string& name, bool& target, const std::string& help);
+  /// A switch that may have a value behind "=": --view or --view=9000; "true" where it has none.
+  void flag(const std::string& name, std::string& target, const std::string& help);
 
   /// Options with a value. Durations take a unit ("10s", "5 ms"; bare: seconds); numbers are
   /// checked whole.

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <system_error>
+
 #include "reckon/tools/viewer/viewing.hpp"
 
 namespace reckon::tools {
@@ -15,6 +18,24 @@ void add_view_flags(CommandLine& line, ViewFlags& flags) {
               "address of this host that the page is served at (default: 127.0.0.1, this host "
               "alone; 0.0.0.0: all)");
   line.flag("--open", flags.open, "open the page in the browser of this host");
+}
+
+void add_view_switch(CommandLine& line, std::string& view) {
+  line.flag("--view", view,
+            "serve a page for the browser, at this port of this host (--view=9000; default: 8642 "
+            "or the next free)");
+}
+
+std::optional<ViewFlags> flags_of_switch(const std::string& view) {
+  if (view.empty() || view == "false") return std::nullopt;
+  ViewFlags flags;
+  if (view == "true") return flags;
+  std::uint64_t port = 0;
+  const auto [end, error] = std::from_chars(view.data(), view.data() + view.size(), port);
+  if (error != std::errc() || end != view.data() + view.size())
+    throw UsageError(fmt::format("--view={}: write a port, as in --view=9000, or none", view));
+  flags.port = port;
+  return flags;
 }
 
 ViewServerOptions server_options(const ViewFlags& flags) {

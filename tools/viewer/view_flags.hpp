@@ -22,6 +22,11 @@ struct ViewFlags {
 /// Declares --port, --listen and --open.
 void add_view_flags(CommandLine& line, ViewFlags& flags);
 
+/// The flag of a verb that serves itself: --view[=PORT].
+void add_view_switch(CommandLine& line, std::string& view);
+/// What it says; nothing where it was not given. @throws UsageError for what is no port
+[[nodiscard]] std::optional<ViewFlags> flags_of_switch(const std::string& view);
+
 /// What they mean, with a new word. @throws UsageError for a port that there is not
 [[nodiscard]] ViewServerOptions server_options(const ViewFlags& flags);
 

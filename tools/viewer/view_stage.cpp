@@ -98,7 +98,7 @@ void ViewStage::pass(Time now) {
     ++cells_tick_;
   }
   if (now_ >= next_numbers_) {
-    next_numbers_ = now_ + kNumbersEvery;
+    next_numbers_ = std::max(next_numbers_ + kNumbersEvery, now_);
     ++numbers_tick_;
   }
 }

@@ -43,6 +43,7 @@ Viewing::Viewing(const ViewingOptions& options, std::unique_ptr<peer::DatagramSo
       stage_(options.stage),
       is_capture_(options.stage.is_capture),
       server_(open_server(stage_, options.server)) {
+  if (!options.hands.empty()) stage_.set_touch(options.hands);
   if (is_capture_) read_capture();
 }
 

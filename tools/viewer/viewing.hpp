@@ -26,7 +26,8 @@ namespace reckon::tools {
 struct ViewingOptions {
   StageOptions stage;
   ViewServerOptions server;
-  std::string key;  ///< key file of a sealed exercise; empty: plain
+  std::string key;               ///< key file of a sealed exercise; empty: plain
+  std::vector<TouchHand> hands;  ///< of the program itself
 };
 
 /// One thread drives it.
