@@ -300,7 +300,8 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
 void check_flags(const DemoOptions& options) {
   if (!options.simulated_time) return;
   if (flags_of_switch(options.view))
-    throw UsageError("--view: --simulated-time sends nothing that a page could show; leave one out");
+    throw UsageError(
+        "--view: --simulated-time sends nothing that a page could show; leave one out");
   if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");
   if (!options.scene.iface.empty())
     throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");

@@ -74,8 +74,9 @@ int run(ViewOptions& options, const Console& console) {
   stage.source = options.source.source.empty() ? "the default groups" : options.source.source;
   stage.is_capture = !is_live(options.source);
   stage.kind = stage.is_capture ? "capture" : "live";
-  stage.help = stage.is_capture ? "This capture holds no entities; reckon inspect shows its PDUs."
-                                : "Nobody is heard yet: start reckon demo, or a peer of this scene.";
+  stage.help = stage.is_capture
+                   ? "This capture holds no entities; reckon inspect shows its PDUs."
+                   : "Nobody is heard yet: start reckon demo, or a peer of this scene.";
   stage.scene = scene ? &*scene : nullptr;
   if (stage.is_capture) {
     stage.history.span.reset();
@@ -104,7 +105,9 @@ int run_view(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb view() { return {"view", "show the world in a browser page, live or from a capture", run_view}; }
+Verb view() {
+  return {"view", "show the world in a browser page, live or from a capture", run_view};
+}
 
 }  // namespace verb
 

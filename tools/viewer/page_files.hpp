@@ -9,7 +9,7 @@ namespace reckon::tools {
 
 /// A file as it is sent.
 struct PageFile {
-  std::string_view path;          ///< "/page.css"; the page itself is "/"
+  std::string_view path;  ///< "/page.css"; the page itself is "/"
   std::string_view content_type;
   std::string_view gzip;  ///< its octets, compressed by gzip
 };

@@ -15,8 +15,8 @@ std::unique_ptr<peer::DatagramSource> heard_source(const peer::SceneFile& scene,
                                                    const std::string& iface) {
   if (!scene.network.peers.empty()) return nullptr;
   try {
-    return peer::open_groups({.interface = iface.empty() ? scene.network.iface : iface,
-                              .groups = groups_of(scene)});
+    return peer::open_groups(
+        {.interface = iface.empty() ? scene.network.iface : iface, .groups = groups_of(scene)});
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }

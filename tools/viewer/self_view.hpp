@@ -22,11 +22,11 @@ namespace reckon::tools {
 
 /// What a program is.
 struct SelfViewOptions {
-  std::string_view kind;    ///< "demo" or "peer"
-  std::string source;       ///< its scene, as named
-  std::string iface;        ///< on which its peers speak; empty: the scene's, else chosen by rule
+  std::string_view kind;     ///< "demo" or "peer"
+  std::string source;        ///< its scene, as named
+  std::string iface;         ///< on which its peers speak; empty: the scene's, else chosen by rule
   double raw_bit_per_s = 0;  ///< that it would send without dead reckoning; 0: not known
-  bool knows_all = false;   ///< all hands of the exercise are its own
+  bool knows_all = false;    ///< all hands of the exercise are its own
   ViewerControls* controls = nullptr;  ///< outlives it; null: pages only look
 };
 

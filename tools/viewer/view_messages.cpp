@@ -50,8 +50,8 @@ void append_solid(std::string& out, const DrawnSolid& solid) {
   object.text("name", solid.name).text("shape", solid.shape);
   append_point(object.member("position"), solid.pose.position);
   const Eigen::Quaterniond& q = solid.pose.orientation;
-  object.member("quaternion") += fmt::format("[{:.7f},{:.7f},{:.7f},{:.7f}]", q.w(), q.x(), q.y(),
-                                             q.z());
+  object.member("quaternion") +=
+      fmt::format("[{:.7f},{:.7f},{:.7f},{:.7f}]", q.w(), q.x(), q.y(), q.z());
   if (solid.shape == "sphere") object.decimals("radius", solid.radius, kMetreDecimals);
   if (solid.shape == "box") append_point(object.member("size"), solid.size);
   if (solid.shape == "mesh") append_mesh(object, solid);
@@ -102,8 +102,8 @@ std::string ViewStage::hello(const Watcher& watcher) const {
       .text("source", options_.source)
       .text("kind", options_.kind)
       .value("may_push", watcher.may_push);
-  object.member("span") += fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()),
-                                       seconds(live_end()));
+  object.member("span") +=
+      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
   if (frame_)
     append_origin(object.member("origin"));
   else
@@ -195,16 +195,14 @@ ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
     return std::make_shared<const std::string>(history_.roster().message());
   }
   watcher.notes = std::max(watcher.notes, first_note_);
-  if (watcher.notes < first_note_ + notes_.size())
-    return notes_[watcher.notes++ - first_note_];
+  if (watcher.notes < first_note_ + notes_.size()) return notes_[watcher.notes++ - first_note_];
   if (std::exchange(watcher.numbers_tick, numbers_tick_) != numbers_tick_)
     return text(numbers_message(watcher));
   if (!cells_ || std::exchange(watcher.cells_tick, cells_tick_) == cells_tick_) return nullptr;
   PictureRows rows;
-  if (is_past(watcher))
-    fill(world_for(watcher, shown_time(watcher)), shown_time(watcher), rows);
-  std::string cells = cells_->message(is_past(watcher) ? rows.entities : live_rows().entities,
-                                      watcher.follow);
+  if (is_past(watcher)) fill(world_for(watcher, shown_time(watcher)), shown_time(watcher), rows);
+  std::string cells =
+      cells_->message(is_past(watcher) ? rows.entities : live_rows().entities, watcher.follow);
   if (cells == watcher.cells) return nullptr;
   watcher.cells = std::move(cells);
   return text(std::string(watcher.cells));

@@ -216,8 +216,8 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     while (true) {
       const FrameVerdict verdict = read_client_frame(octets.subspan(at), frame);
       if (verdict == FrameVerdict::incomplete) break;
-      const bool is_good = verdict == FrameVerdict::good &&
-                           all_.stage_.answer(*watcher_, frame.payload());
+      const bool is_good =
+          verdict == FrameVerdict::good && all_.stage_.answer(*watcher_, frame.payload());
       if (!is_good) {
         close();
         return false;

@@ -34,8 +34,7 @@ peer::OriginConfig origin_of(const deadreckon::LocalFrame& frame) {
   peer::OriginConfig origin;
   origin.latitude = std::asin(std::clamp(up.z(), -1.0, 1.0));
   origin.longitude = std::atan2(up.y(), up.x());
-  origin.height =
-      at.dot(up) - kEquator * std::sqrt(1 - kSquared * up.z() * up.z());
+  origin.height = at.dot(up) - kEquator * std::sqrt(1 - kSquared * up.z() * up.z());
   return origin;
 }
 
@@ -256,8 +255,7 @@ void ViewStage::add_contacts(const HeardWorld& world, Time time, PictureRows& ro
     if (rows.contacts.size() >= kMostPictureRows) return;
     const std::uint16_t felt = history_.roster().slot_of(force.by);
     const std::uint16_t feeling = history_.roster().slot_of(force.on);
-    const auto place =
-        std::ranges::find(rows.entities, feeling, &EntityMark::slot);
+    const auto place = std::ranges::find(rows.entities, feeling, &EntityMark::slot);
     if (felt == kNoNumber || place == rows.entities.end() || !force.force.allFinite()) continue;
     ContactMark& mark = rows.contacts.emplace_back();
     mark.felt = felt;
@@ -290,16 +288,14 @@ std::uint16_t ViewStage::flags_for(const Watcher& watcher, Time time) const {
   if (watcher.state == PlayState::end) flags |= kPictureEnd;
   const bool is_fast = watcher.state == PlayState::playing && watcher.speed > 1;
   const Time apart = is_fast ? pdu::from_seconds(watcher.speed * pdu::to_seconds(kGap)) : kGap;
-  const bool leaps =
-      watcher.shown && (time < *watcher.shown || time - *watcher.shown > apart);
+  const bool leaps = watcher.shown && (time < *watcher.shown || time - *watcher.shown > apart);
   if (leaps || watcher.gaps != gaps_) flags |= kPictureGap;
   return static_cast<std::uint16_t>(flags);
 }
 
 bool ViewStage::wants_picture(const Watcher& watcher) const {
   if (watcher.under_way.size() >= Watcher::kCredit || watcher.tick == tick_) return false;
-  const bool moves =
-      watcher.state == PlayState::live || watcher.state == PlayState::playing;
+  const bool moves = watcher.state == PlayState::live || watcher.state == PlayState::playing;
   return moves || watcher.needs_picture;
 }
 

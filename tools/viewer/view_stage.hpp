@@ -30,11 +30,11 @@ namespace reckon::tools {
 
 /// What is shown.
 struct StageOptions {
-  std::string source;               ///< as the user named it
-  std::string_view kind = "live";   ///< "demo", "peer", "live" or "capture"
-  std::string help;                 ///< a sentence for an empty page
+  std::string source;                      ///< as the user named it
+  std::string_view kind = "live";          ///< "demo", "peer", "live" or "capture"
+  std::string help;                        ///< a sentence for an empty page
   const peer::SceneFile* scene = nullptr;  ///< null: none is known; read at construction only
-  bool is_capture = false;          ///< all of it is taken before anybody looks
+  bool is_capture = false;                 ///< all of it is taken before anybody looks
   HistoryOptions history;
   double raw_bit_per_s = 0;            ///< of a stream without dead reckoning; 0: not known
   ViewerControls* controls = nullptr;  ///< null: pages only look; outlives the stage
@@ -129,7 +129,7 @@ class ViewStage {
   History history_;
   std::optional<deadreckon::LocalFrame> frame_;
   peer::OriginConfig origin_;
-  std::optional<double> threshold_;  // [m]
+  std::optional<double> threshold_;    // [m]
   std::unique_ptr<HeardCells> cells_;  // null where none are known
   Text touch_;
   std::vector<DrawnSolid> solids_;

@@ -19,8 +19,9 @@ class ViewerControls {
  public:
   using Watcher = std::uint64_t;  ///< number of a tab; never the same twice
   struct HandAnswer {
-    std::optional<std::uint16_t> hand;  ///< index among the program's hands; none: there is none free
-    std::string text;                   ///< a sentence for the user
+    std::optional<std::uint16_t>
+        hand;          ///< index among the program's hands; none: there is none free
+    std::string text;  ///< a sentence for the user
   };
 
   /// A tab asks for a hand; asked again, it gets the same.

@@ -99,8 +99,7 @@ void Viewing::step() {
   server_->poll(std::clamp(next_tick_ - clock_.now(), nanoseconds::zero(), kLongestWait));
 }
 
-ViewThread::ViewThread(const ViewingOptions& options,
-                       std::unique_ptr<peer::DatagramSource> source)
+ViewThread::ViewThread(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source)
     : viewing_(options, std::move(source)),
       address_(viewing_.server().address()),
       thread_([this] { run(); }) {}

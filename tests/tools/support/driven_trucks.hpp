@@ -34,8 +34,7 @@ struct Sent {
 inline pdu::EntityState truck(std::uint16_t number, double t, std::string_view marking = "TRUCK") {
   const double angle = 0.2 * t + number;
   pdu::EntityState pdu;
-  pdu.header.timestamp =
-      pdu::to_dis_timestamp(kStart + nanoseconds(std::llround(1e9 * t)), true);
+  pdu.header.timestamp = pdu::to_dis_timestamp(kStart + nanoseconds(std::llround(1e9 * t)), true);
   pdu.entity_id = {1, 2, number};
   pdu.force_id = pdu::ForceId::friendly;
   pdu.entity_type.kind = pdu::EntityKind::platform;

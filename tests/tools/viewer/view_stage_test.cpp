@@ -35,8 +35,8 @@ Head head_of(const std::string& octets) {
     std::memcpy(&value, octets.data() + place, sizeof value);
     return value;
   };
-  return {at(4, std::uint32_t{}), at(8, double{}), at(16, std::uint16_t{}), at(18, std::uint16_t{}),
-          at(22, std::uint16_t{}), at(24, std::uint32_t{})};
+  return {at(4, std::uint32_t{}),  at(8, double{}),         at(16, std::uint16_t{}),
+          at(18, std::uint16_t{}), at(22, std::uint16_t{}), at(24, std::uint32_t{})};
 }
 
 /// A tab that draws what it gets, unless it is told not to.
@@ -59,7 +59,7 @@ class Tab {
   template <typename... Values>
   void ask(std::uint8_t kind, const Values&... values) {
     std::vector<std::byte> message{std::byte{kind}};
-    const auto add = [&message](const auto& value) {
+    [[maybe_unused]] const auto add = [&message](const auto& value) {
       const std::size_t size = message.size();
       message.resize(size + sizeof value);
       std::memcpy(message.data() + size, &value, sizeof value);
@@ -320,9 +320,7 @@ TEST(ViewStage, LetsOnlyWhoKnowsTheWordPush) {
   options.controls = &controls;
   LiveTrucks live(options);
   Tab guest(live.stage, false), owner(live.stage, true);
-  const auto point = [](Tab& tab) {
-    tab.ask(6, std::uint16_t{0}, 1.F, 2.F, 3.F, std::uint8_t{1});
-  };
+  const auto point = [](Tab& tab) { tab.ask(6, std::uint16_t{0}, 1.F, 2.F, 3.F, std::uint8_t{1}); };
   guest.ask(8);
   point(guest);
   guest.ask(7, 100.F, 0.F, 0.F, std::uint8_t{0});

@@ -56,8 +56,8 @@ void HeardWorld::note_update(const StateUpdate& update, Roster& roster, nanoseco
     return;
   }
   const deadreckon::Pose old = table_.entities()[update.place].pose_at(update.arrival);
-  const deadreckon::Pose now = deadreckon::extrapolate(
-      update.state, pdu::to_seconds(update.arrival - update.state_time));
+  const deadreckon::Pose now =
+      deadreckon::extrapolate(update.state, pdu::to_seconds(update.arrival - update.state_time));
   const double time = pdu::to_seconds(update.arrival - start);
   errors_[slot].restart(settings_, errors_[slot].shown(old, time), now, time);
   const double jump = (now.position - old.position).norm();
@@ -101,8 +101,7 @@ void HeardWorld::add_marks(nanoseconds time, nanoseconds start, const Roster& ro
     mark.orientation = frame.scene_from_world(pose.orientation);
     if (slot < errors_.size() && errors_[slot].converging(seconds)) {
       const deadreckon::Pose shown = errors_[slot].shown(pose, seconds);
-      mark.error =
-          frame.scene_from_world_vector(shown.position - pose.position).cast<float>();
+      mark.error = frame.scene_from_world_vector(shown.position - pose.position).cast<float>();
     }
     mark.rate = row.rate(entity, time);
     mark.jump = row.jump;

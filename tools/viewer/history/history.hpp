@@ -25,7 +25,7 @@ struct HistoryOptions {
   std::optional<std::chrono::nanoseconds> span = std::chrono::seconds(60);
   /// Of datagrams and worlds. A live history that would take more is shorter.
   std::size_t octets = std::size_t{64} << 20;
-  std::size_t entities = 16384;         ///< shown at most; below kNoNumber
+  std::size_t entities = 16384;          ///< shown at most; below kNoNumber
   std::optional<std::uint8_t> exercise;  ///< alone; none: all
   deadreckon::ConvergenceSettings convergence;
 };

@@ -52,8 +52,7 @@ std::string force_text(std::byte force) {
 
 /// Its letters up to the first NUL, behind the octet of the character set.
 std::string_view letters(std::span<const std::byte> marking) {
-  const std::string_view all(reinterpret_cast<const char*>(marking.data()) + 1,
-                             marking.size() - 1);
+  const std::string_view all(reinterpret_cast<const char*>(marking.data()) + 1, marking.size() - 1);
   return all.substr(0, all.find('\0'));
 }
 

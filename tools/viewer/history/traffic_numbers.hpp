@@ -19,8 +19,8 @@ namespace reckon::tools {
 /// Over the second before `time`. What is absent is not known.
 struct NumbersSample {
   std::chrono::nanoseconds time{};
-  double pdu_per_s = 0, bit_per_s = 0;  ///< payloads of UDP
-  std::optional<double> lost_share;     ///< by the numbers of trailers
+  double pdu_per_s = 0, bit_per_s = 0;            ///< payloads of UDP
+  std::optional<double> lost_share;               ///< by the numbers of trailers
   std::optional<double> delay_median, delay_p95;  ///< [s], one way, with the clocks' difference
   std::optional<double> error_mean, error_worst;  ///< [m], of predictions when updates came
 };

@@ -38,7 +38,7 @@ enum HandFlag : std::uint16_t {
   kHandLetGo = 8,        ///< safety cut the force, or the device let go of it
   kHandPointer = 16,     ///< moved by a page
   kHandPointerFree = 32,
-  kHandYours = 64,     ///< by this page
+  kHandYours = 64,       ///< by this page
   kHandTrueForce = 128,  ///< true_force is known
   kHandTwin = 256
 };
@@ -50,11 +50,11 @@ struct EntityMark {
   UpdateCause cause = UpdateCause::none;
   std::uint16_t cell = kNoNumber;
   std::uint16_t group = 0;  ///< low 16 bits of the address of the last update; 0: none
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< predicted
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();               ///< predicted
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to east, north, up
-  Eigen::Vector3f error = Eigen::Vector3f::Zero();  ///< shown minus predicted
-  double rate = 0;  ///< updates a second
-  double jump = 0;  ///< of the last update [m]
+  Eigen::Vector3f error = Eigen::Vector3f::Zero();                  ///< shown minus predicted
+  double rate = 0;                                                  ///< updates a second
+  double jump = 0;                                                  ///< of the last update [m]
 };
 
 /// A hand of this program's own.

@@ -51,9 +51,9 @@ std::vector<std::uint16_t> HeardCells::cells_heard(const EntityMark& mark) {
   cells_.visit([&](const auto& scheme) {
     // Of a scene with cells far smaller than the radius the count would say nothing.
     if (scheme.cells_bound(radius_) > kMostTold) return;
-    scheme.for_each_cell_within(
-        place_of(mark), radius_,
-        [&](aoim::CellId cell, double) { heard.push_back(number_of(cell)); });
+    scheme.for_each_cell_within(place_of(mark), radius_, [&](aoim::CellId cell, double) {
+      heard.push_back(number_of(cell));
+    });
   });
   return heard;
 }

@@ -19,10 +19,10 @@ namespace reckon::tools {
 struct DrawnSolid {
   std::string name;
   std::string_view shape;
-  haptics::ObjectPose pose;                         ///< a plane's free side is its +z
-  double radius = 0;                                ///< [m] of a sphere
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();   ///< [m] of a box
-  std::vector<Eigen::Vector3d> vertices;            ///< [m] of a mesh, object axes
+  haptics::ObjectPose pose;                        ///< a plane's free side is its +z
+  double radius = 0;                               ///< [m] of a sphere
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m] of a box
+  std::vector<Eigen::Vector3d> vertices;           ///< [m] of a mesh, object axes
   std::vector<std::array<std::uint32_t, 3>> triangles;
   double stiffness = 0;  ///< [N/m]
   double friction = 0;   ///< static coefficient; 0: smooth

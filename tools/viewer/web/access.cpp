@@ -29,8 +29,7 @@ bool Access::is_own_host(std::string_view host) const noexcept {
 }
 
 bool Access::is_own_origin(std::string_view origin, std::string_view host) const noexcept {
-  return is_own_host(host) && origin.starts_with(kScheme) &&
-         origin.substr(kScheme.size()) == host;
+  return is_own_host(host) && origin.starts_with(kScheme) && origin.substr(kScheme.size()) == host;
 }
 
 bool Access::is_word(std::string_view word) const noexcept {

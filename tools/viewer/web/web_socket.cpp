@@ -93,8 +93,7 @@ FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload) noexcept {
   int length_octets = 0;
   if (payload >= 126) length_octets = payload < 65536 ? 2 : 8;
   put(length_octets == 0 ? payload : length_octets == 2 ? 126U : 127U);
-  for (int i = length_octets - 1; i >= 0; --i)
-    put(static_cast<std::uint64_t>(payload) >> (8 * i));
+  for (int i = length_octets - 1; i >= 0; --i) put(static_cast<std::uint64_t>(payload) >> (8 * i));
   return head;
 }
 

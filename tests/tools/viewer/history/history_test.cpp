@@ -75,9 +75,9 @@ TEST(History, ShowsAnyInstantOfACaptureAsTheInspectorDoes) {
   history.roster().publish();
   std::unique_ptr<History::Cursor> cursor;
   // On, back, far on, to an update itself, to the end.
-  for (const nanoseconds since :
-       {seconds(3), milliseconds(12'345), seconds(7), milliseconds(39'004), milliseconds(20'502),
-        nanoseconds(0), seconds(39)}) {
+  for (const nanoseconds since : std::initializer_list<nanoseconds>{
+           seconds(3), milliseconds(12'345), seconds(7), milliseconds(39'004), milliseconds(20'502),
+           nanoseconds(0), seconds(39)}) {
     history.seek(cursor, kStart + since);
     expect_same(marks_of(cursor->world(), history, cursor->time()),
                 shown_by_table(all, std::max(kStart + since, history.begin())));
@@ -165,7 +165,8 @@ TEST(History, StaysWithinItsOctets) {
   options.span.reset();
   History capture(options);
   bool is_full = false;
-  for (const Sent& sent : trucks::drive(4, 300)) is_full = is_full || !capture.take(datagram_of(sent));
+  for (const Sent& sent : trucks::drive(4, 300))
+    is_full = is_full || !capture.take(datagram_of(sent));
   EXPECT_TRUE(is_full);
   EXPECT_LE(capture.weight(), options.octets + 1000);
 }

@@ -14,7 +14,7 @@ namespace {
 template <typename... Values>
 std::vector<std::byte> message(std::uint8_t kind, const Values&... values) {
   std::vector<std::byte> out{std::byte{kind}};
-  const auto add = [&out](const auto& value) {
+  [[maybe_unused]] const auto add = [&out](const auto& value) {
     const std::size_t size = out.size();
     out.resize(size + sizeof value);
     std::memcpy(out.data() + size, &value, sizeof value);
@@ -33,8 +33,8 @@ TEST(PageRequest, IsReadOfEachKind) {
   EXPECT_TRUE(std::holds_alternative<LiveRequest>(*read_page_request(message(4))));
   EXPECT_EQ(std::get<StepRequest>(*read_page_request(message(5, std::int8_t{-1}))).seconds, -1);
   EXPECT_EQ(std::get<StepRequest>(*read_page_request(message(5, std::int8_t{2}))).updates, 1);
-  const auto pointer =
-      std::get<PointerRequest>(*read_page_request(message(6, std::uint16_t{1}, 1.F, 2.F, 3.F, kOn)));
+  const auto pointer = std::get<PointerRequest>(
+      *read_page_request(message(6, std::uint16_t{1}, 1.F, 2.F, 3.F, kOn)));
   EXPECT_EQ(pointer.hand, 1);
   EXPECT_EQ(pointer.position.z(), 3.F);
   EXPECT_TRUE(pointer.held);

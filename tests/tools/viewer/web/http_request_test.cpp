@@ -37,12 +37,12 @@ TEST(HttpRequest, WaitsForMoreWhereverItIsCut) {
 
 TEST(HttpRequest, RefusesFieldsThatComeTwiceAndLinesThatAreNone) {
   HttpRequest request;
-  for (const std::string line :
-       {"Host: a\r\nHost: b", "Origin: a\r\norigin: a", "no colon", ": no name", "a b: c", "Ho st: a"})
+  for (const std::string line : {"Host: a\r\nHost: b", "Origin: a\r\norigin: a", "no colon",
+                                 ": no name", "a b: c", "Ho st: a"})
     EXPECT_EQ(read_request("GET / HTTP/1.1\r\n" + line + "\r\n\r\n", request), RequestVerdict::bad)
         << line;
-  for (const std::string line : {"GET / HTTP/1.0", "GET  HTTP/1.1", "GET http://evil/ HTTP/1.1", "/",
-                                 "GET / HTTP/1.1 ", "GET /\x01 HTTP/1.1", ""})
+  for (const std::string line : {"GET / HTTP/1.0", "GET  HTTP/1.1", "GET http://evil/ HTTP/1.1",
+                                 "/", "GET / HTTP/1.1 ", "GET /\x01 HTTP/1.1", ""})
     EXPECT_EQ(read_request(line + "\r\n\r\n", request), RequestVerdict::bad) << line;
 }
 
