@@ -83,7 +83,7 @@ int run(ViewOptions& options, const Console& console) {
     stage.history.octets = kCaptureRoom;
   }
   Viewing viewing(viewing_options, open_chosen_source(options.source));
-  tell_address(viewing.server().address(), options.view, console);
+  tell_addresses(viewing.server(), options.view, console);
   const peer::SteadyClock clock;
   const nanoseconds begin = clock.now();
   const nanoseconds end = options.duration.value_or(nanoseconds::max());

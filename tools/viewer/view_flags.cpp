@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdio>
 #include <system_error>
+#include <vector>
 
 #include "reckon/tools/viewer/viewing.hpp"
 
@@ -49,14 +51,16 @@ ViewServerOptions server_options(const ViewFlags& flags) {
   return options;
 }
 
-void tell_address(const std::string& address, const ViewFlags& flags, const Console& console) {
-  fmt::print(console.out, "{}\n", address);
+void tell_addresses(const ViewServer& server, const ViewFlags& flags, const Console& console) {
+  fmt::print(console.out, "{}\n", server.address());
   std::fflush(console.out);
-  ViewServerOptions options;
-  options.address = flags.listen;
-  const std::string opened = opened_text(options);
-  if (!opened.empty()) fmt::print(console.err, "{}\n", opened);
-  if (flags.open) open_browser(address);
+  const std::vector<std::string> others = server.addresses_for_others();
+  if (!others.empty())
+    fmt::print(console.err,
+               "other hosts reach it too: whoever does can look, and whoever has the word can "
+               "push\n  {}\n",
+               fmt::join(others, "\n  "));
+  if (flags.open) open_browser(server.address());
 }
 
 }  // namespace reckon::tools

@@ -30,8 +30,8 @@ void add_view_switch(CommandLine& line, std::string& view);
 /// What they mean, with a new word. @throws UsageError for a port that there is not
 [[nodiscard]] ViewServerOptions server_options(const ViewFlags& flags);
 
-/// Prints the address on out, and on err whom it lets in beyond this host; opens the browser where
-/// that is asked for.
-void tell_address(const std::string& address, const ViewFlags& flags, const Console& console);
+/// Prints the address on out, and on err whom else it lets in, and by which addresses; opens the
+/// browser where that is asked for.
+void tell_addresses(const ViewServer& server, const ViewFlags& flags, const Console& console);
 
 }  // namespace reckon::tools

@@ -122,7 +122,8 @@ class ViewServer::Connections {
       : stage_(stage),
         acceptor_(open_acceptor(io_, options)),
         endpoint_(acceptor_.local_endpoint()),
-        access_(own_addresses(endpoint_.address()), endpoint_.port(), options.word) {
+        own_(own_addresses(endpoint_.address())),
+        access_(own_, endpoint_.port(), options.word) {
     accept();
   }
   ~Connections();
@@ -135,7 +136,11 @@ class ViewServer::Connections {
   }
   void tick(nanoseconds now);
   [[nodiscard]] const tcp::endpoint& endpoint() const { return endpoint_; }
-  [[nodiscard]] const Access& access() const { return access_; }
+  /// By which it is reached, as browsers write them.
+  [[nodiscard]] const std::vector<std::string>& own() const { return own_; }
+  [[nodiscard]] std::string url(const std::string& host) const {
+    return fmt::format("http://{}:{}/#word={}", host, endpoint_.port(), access_.word());
+  }
   [[nodiscard]] std::size_t tabs() const;
   [[nodiscard]] const ViewServerCounts& counts() const { return counts_; }
 
@@ -149,6 +154,7 @@ class ViewServer::Connections {
   asio::io_context io_;
   tcp::acceptor acceptor_;
   tcp::endpoint endpoint_;
+  std::vector<std::string> own_;
   Access access_;
   std::set<Pointer> all_;
   nanoseconds now_{};
@@ -389,8 +395,15 @@ std::uint16_t ViewServer::port() const noexcept { return connections_->endpoint(
 
 std::string ViewServer::address() const {
   const asio::ip::address bound = connections_->endpoint().address();
-  const std::string host = bound.is_unspecified() ? "127.0.0.1" : address_text(bound);
-  return fmt::format("http://{}:{}/#word={}", host, port(), connections_->access().word());
+  return connections_->url(bound.is_unspecified() ? "127.0.0.1" : address_text(bound));
+}
+
+std::vector<std::string> ViewServer::addresses_for_others() const {
+  std::vector<std::string> out;
+  for (const std::string& host : connections_->own())
+    if (host != "localhost" && host != "[::1]" && !host.starts_with("127."))
+      out.push_back(connections_->url(host));
+  return out;
 }
 
 std::size_t ViewServer::tabs() const noexcept { return connections_->tabs(); }

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reckon/tools/viewer/view_stage.hpp"
 #include "reckon/tools/viewer/web/access.hpp"
@@ -59,6 +60,8 @@ class ViewServer {
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// What a user opens: "http://127.0.0.1:8642/#word=1f2e..".
   [[nodiscard]] std::string address() const;
+  /// The same as other hosts reach it; none where only this one does.
+  [[nodiscard]] std::vector<std::string> addresses_for_others() const;
   [[nodiscard]] std::size_t tabs() const noexcept;
   [[nodiscard]] const ViewServerCounts& counts() const noexcept;
 

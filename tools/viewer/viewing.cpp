@@ -148,13 +148,4 @@ void open_browser(const std::string& address) {
   (void)posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
 }
 
-std::string opened_text(const ViewServerOptions& options) {
-  if (options.address.starts_with("127.") || options.address == "::1") return {};
-  return fmt::format(
-      "everybody who reaches {} can look at this page, and who has the word in its address can "
-      "push",
-      options.address == "0.0.0.0" || options.address == "::" ? "any address of this host"
-                                                              : options.address);
-}
-
 }  // namespace reckon::tools

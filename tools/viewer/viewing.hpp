@@ -92,7 +92,4 @@ class ViewThread {
 /// Starts the browser of this host with the page; nothing where there is none.
 void open_browser(const std::string& address);
 
-/// What is said where a server listens at more than this host; empty for a loopback address.
-[[nodiscard]] std::string opened_text(const ViewServerOptions& options);
-
 }  // namespace reckon::tools

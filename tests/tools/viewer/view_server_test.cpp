@@ -392,6 +392,7 @@ TEST(ViewServer, SaysGoodByeWhenItEnds) {
 TEST(ViewServer, NamesTheAddressThatATabOpens) {
   Served served;
   EXPECT_EQ(served.server.address(), "http://" + served.host() + "/#word=1f2e");
+  EXPECT_TRUE(served.server.addresses_for_others().empty()) << "this host alone reaches it";
 }
 
 TEST(ViewServer, TakesTheNextPortWhereTheFirstIsTakenAndRefusesOneThatWasNamed) {

@@ -16,7 +16,8 @@ const std::string kRequest =
 
 TEST(HttpRequest, SaysWhatTheHeadOfABrowserSays) {
   HttpRequest request;
-  ASSERT_EQ(read_request(kRequest + "behind", request), RequestVerdict::good);
+  const std::string octets = kRequest + "behind";
+  ASSERT_EQ(read_request(octets, request), RequestVerdict::good);
   EXPECT_EQ(request.method, "GET");
   EXPECT_EQ(request.path, "/stream");
   EXPECT_EQ(request.query, "word=1f2e");
