@@ -16,6 +16,7 @@ namespace verb {
 Verb demo();
 Verb peer();
 Verb inspect();
+Verb view();
 Verb record();
 Verb replay();
 Verb info();
@@ -42,6 +43,7 @@ std::span<const Verb> list() {
       verb::demo(),
       verb::peer(),
       verb::inspect(),
+      verb::view(),
       verb::record(),
       verb::replay(),
       verb::info(),

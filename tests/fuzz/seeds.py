@@ -128,6 +128,19 @@ def leading_seeds(own):
             for first, group in ((0, 1), (1, 3), (1, 0))]
 
 
+def viewer_seeds():
+    """A request for a stream with frames of each kind of request behind it, one for a file, and the messages alone."""
+    host = b"127.0.0.1:8642"
+    stream = (b"GET /stream?word=0123456789abcdef HTTP/1.1\r\nHost: " + host + b"\r\nOrigin: http://" + host +
+              b"\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+              b"Sec-WebSocket-Version: 13\r\n\r\n")
+    messages = [b"\x01" + bytes(4), b"\x02" + struct.pack("<d", 1.5), b"\x03" + struct.pack("<f", 2), b"\x04", b"\x05\xff",
+                b"\x06" + struct.pack("<HfffB", 0, .1, .2, .3, 1), b"\x07" + struct.pack("<fffB", 100, 10, .1, 0), b"\x08", b"\x09",
+                b"\x0a\x01\x00"]
+    frames = [bytes([0x82, 0x80 | len(m), 0, 0, 0, 0]) + m for m in messages]
+    return [stream, stream + b"".join(frames), b"GET / HTTP/1.1\r\nHost: " + host + b"\r\n\r\n", b"".join(frames), *messages]
+
+
 def words(paths):
     """Lower-case names in quotes: the words of lists in the sources."""
     text = "".join((ROOT / path).read_text() for path in paths)
@@ -167,6 +180,7 @@ def main(folder):
     write(seeds / "tracker", [bytes([64]) + bytes([0, i % 128, 0, 1 + i % 3]) * 40 for i in range(12)])
     write(seeds / "membership", membership_seeds(own))
     write(seeds / "leading", leading_seeds(own))
+    write(seeds / "viewer", viewer_seeds())
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/aoim_section.cpp",
                                      "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/object_section.cpp",

@@ -235,6 +235,10 @@ void CommandLine::flag(const std::string& name, bool& target, const std::string&
   parser_->app.add_flag(name, target, help);
 }
 
+void CommandLine::flag(const std::string& name, std::string& target, const std::string& help) {
+  parser_->app.add_flag(name, target, help);
+}
+
 void CommandLine::option(const std::string& name, std::string& target, const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name("TEXT");
 }

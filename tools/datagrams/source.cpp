@@ -47,6 +47,18 @@ Groups groups_of_scene(const peer::SceneFile& scene, bool sealed) {
           scene.network.interop ? 0 : scene.aoim.all_groups()};
 }
 
+std::vector<peer::GroupAddress> addresses_of(const Groups& named) {
+  std::vector<peer::GroupAddress> groups{named.base};
+  if (named.size == 0) return groups;
+  try {
+    const peer::GroupPool pool(named.base, named.size);
+    for (std::size_t i = 0; i < pool.size(); ++i) groups.push_back(pool.address(i));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return groups;
+}
+
 peer::GroupAddress base_group(const SourceChoice& choice) {
   const std::string& source = choice.source;
   if (source.empty()) {
@@ -91,21 +103,18 @@ bool is_live(const SourceChoice& choice) {
 }
 
 std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
-  const Groups named =
+  Groups named =
       names_scene(choice.source)
           ? groups_of_scene(scene_of_source(choice.source), choice.sealed)
           : Groups{base_group(choice), choice.source.empty() ? peer::GroupPool::kDefaultSize : 0};
-  const peer::GroupAddress base = named.base;
-  const std::uint64_t size = choice.pool.value_or(named.size);
-  std::vector<peer::GroupAddress> groups{base};
-  if (size == 0) return groups;
-  try {
-    const peer::GroupPool pool(base, size);
-    for (std::size_t i = 0; i < pool.size(); ++i) groups.push_back(pool.address(i));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
-  return groups;
+  named.size = choice.pool.value_or(named.size);
+  return addresses_of(named);
+}
+
+std::vector<peer::GroupAddress> groups_of(const peer::SceneFile& scene) {
+  if (!scene.network.peers.empty())
+    throw UsageError("the scene's 'peers' speak by unicast, which no group carries");
+  return addresses_of(groups_of_scene(scene, false));
 }
 
 std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/peer/capture/datagram_source.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::tools {
 
@@ -27,6 +28,9 @@ struct SourceChoice {
 /// with 256 groups. A named `udp://GROUP[:PORT]` has no pool unless one is requested.
 /// @throws UsageError.
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice);
+
+/// The groups that peers of a scene speak in. @throws UsageError where they speak by unicast
+[[nodiscard]] std::vector<peer::GroupAddress> groups_of(const peer::SceneFile& scene);
 
 /// Whether the choice means live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
@@ -39,6 +40,8 @@ class LiveDisplay {
   /// Whether the table is shown.
   [[nodiscard]] bool is_drawn() const noexcept { return screen_ != nullptr; }
   void add(const HeardNotice& heard);
+  /// A sentence of the program's own, among the notices.
+  void say(std::string sentence) { tell({std::move(sentence)}); }
   /// Takes the keys pressed, and draws when it is time to or the terminal's size is another.
   void show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
             std::chrono::nanoseconds elapsed);

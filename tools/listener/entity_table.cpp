@@ -55,8 +55,9 @@ std::vector<double> EntityRow::recent_jumps() const {
 
 /// The listener notifies it of each PDU, and it counts.
 struct EntityTable::Counting : ListenerObserver {
-  Counting(EntityTable& the_table, const PduRow& the_pdu, const peer::SourceDatagram& the_datagram)
-      : table(the_table), pdu(the_pdu), datagram(the_datagram) {}
+  Counting(EntityTable& the_table, const PduRow& the_pdu, const peer::SourceDatagram& the_datagram,
+           Watch* the_watch)
+      : table(the_table), pdu(the_pdu), datagram(the_datagram), watch(the_watch) {}
 
   void hear_state(const StateUpdate& update) {
     EntityRow& row = table.row_at(update.place);
@@ -66,6 +67,7 @@ struct EntityTable::Counting : ListenerObserver {
     if (update.verdict == HeardVerdict::stale) ++row.late;
     if (update.verdict == HeardVerdict::duplicate) ++row.duplicated;
     if (update.verdict != HeardVerdict::taken) return;
+    if (watch != nullptr) watch->before_state(update);
     const HeardEntity& last = table.entities()[update.place];
     set_cause(row, update.is_first ? begin_anew(row, last, update) : compare(row, last, update));
     adopt(row, last, update);
@@ -77,6 +79,7 @@ struct EntityTable::Counting : ListenerObserver {
   }
 
   void hear_model(const ModelUpdate& update) {
+    if (watch != nullptr) watch->before_model(table.entities()[update.place], update);
     const bool is_new = table.forces_.note_model(table.heard_, update);
     if (!is_new || table.entities()[update.place].arrival != update.arrival) return;
     // Weaker causes of the Entity State in front give way.
@@ -131,6 +134,7 @@ struct EntityTable::Counting : ListenerObserver {
   EntityTable& table;
   const PduRow& pdu;
   const peer::SourceDatagram& datagram;
+  Watch* watch;  // null: nobody
 };
 
 EntityTable::EntityTable(std::size_t most_rows) : heard_(rules_for(most_rows)) {}
@@ -140,8 +144,8 @@ EntityRow& EntityTable::row_at(std::size_t place) {
   return rows_[place];
 }
 
-void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagram) {
-  Counting counting(*this, row, datagram);
+void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Watch* watch) {
+  Counting counting(*this, row, datagram, watch);
   if (row.decoded)
     return heard_.take_pdu(row.bytes, row.header, datagram.time, counting, row.entity_state);
   // Entity States alone make an entity known, so broken ones do too.
@@ -154,11 +158,12 @@ void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagr
   counting.note_bad(place, row.rule);
 }
 
-void EntityTable::drop_gone(nanoseconds now) {
+template <typename IsOver>
+void EntityTable::drop_where(IsOver&& is_over) {
   // The last one moves into the hole, so the same place is looked at again.
   for (std::size_t i = 0; i < rows_.size();) {
     const HeardEntity& entity = entities()[i];
-    if (!entity.gone || now - entity.gone_at <= kGoneShown) {
+    if (!is_over(entity)) {
       ++i;
       continue;
     }
@@ -167,6 +172,19 @@ void EntityTable::drop_gone(nanoseconds now) {
     if (i + 1 != rows_.size()) rows_[i] = std::move(rows_.back());
     rows_.pop_back();
   }
+}
+
+void EntityTable::drop_gone(nanoseconds now) {
+  drop_where([now](const HeardEntity& entity) {
+    return entity.gone && now - entity.gone_at > kGoneShown;
+  });
+}
+
+void EntityTable::drop_silent(nanoseconds now, nanoseconds silence) {
+  drop_where([now, silence](const HeardEntity& entity) {
+    const bool is_dumb = !entity.has_state || entity.is_silent(now);
+    return is_dumb && now - entity.arrival > silence;
+  });
 }
 
 const JumpHistogram* EntityTable::force_jumps(const HeardEntity& entity) const noexcept {

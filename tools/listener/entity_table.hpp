@@ -64,10 +64,23 @@ class EntityTable {
 
   explicit EntityTable(std::size_t most_rows = kMostRows);
 
+  /// Is told of each update that will be taken, while the table still is as it was before.
+  class Watch {
+   public:
+    virtual void before_state(const StateUpdate& update) = 0;
+    virtual void before_model(const HeardEntity& entity, const ModelUpdate& update) = 0;
+
+   protected:
+    ~Watch() = default;
+  };
+
   /// Takes one PDU as the inspector found it, good or bad. Some 0.3 us for an Entity State.
-  void take_pdu(const PduRow& row, const peer::SourceDatagram& datagram);
+  void take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Watch* watch = nullptr);
   /// Drops what has been gone for kGoneShown. Row numbers change.
   void drop_gone(std::chrono::nanoseconds now);
+  /// Drops who is silent past its time-out, or never was understood, and has been for `silence`.
+  /// Row numbers change.
+  void drop_silent(std::chrono::nanoseconds now, std::chrono::nanoseconds silence);
 
   [[nodiscard]] const Listener& heard() const noexcept { return heard_; }
   /// The picture's entities, and the row of each at the same place.
@@ -87,6 +100,8 @@ class EntityTable {
   struct Counting;  // one PDU on its way in
 
   [[nodiscard]] EntityRow& row_at(std::size_t place);
+  template <typename IsOver>
+  void drop_where(IsOver&& is_over);
 
   Listener heard_;
   std::vector<EntityRow> rows_;

@@ -26,6 +26,7 @@
 #include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/viewer/self_view.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -47,6 +48,7 @@ struct DemoOptions {
   bool json = false;
   bool simulated_time = false;
   bool no_transfer = false;
+  std::string view;
 };
 
 std::optional<int> parse(Arguments arguments, const Console& console, DemoOptions& options) {
@@ -56,7 +58,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo --for 60s --json\n"
                    "reckon demo --impair 'delay=200ms jitter=100ms loss=20%' --for 30s\n"
                    "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
-                   "reckon demo --simulated-time --for 10min");
+                   "reckon demo --simulated-time --for 10min\n"
+                   "reckon demo --view");
   line.word("SCENE", options.scene.scene, false,
             "scene file; default: meeting.toml as installed");
   line.option("--peers", options.peers, "how many peers, 1 to 64");
@@ -68,6 +71,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   line.flag("--no-transfer", options.no_transfer,
             "give no energy on demand: shows that one hand then cannot push another");
   line.flag("--json", options.json, "one JSON object on the last line");
+  add_view_switch(line, options.view);
   return line.parse(arguments, console);
 }
 
@@ -227,14 +231,66 @@ std::uint8_t exercise_of(const peer::SceneFile& scene, bool simulated) {
   return static_cast<std::uint8_t>(std::uniform_int_distribution<int>(1, 254)(random));
 }
 
+/// The page of a demo: its hands, by peer and device.
+class DemoPage {
+ public:
+  DemoPage(const ViewFlags& flags, const peer::SceneFile& scene, const DemoOptions& options,
+           Exercise& exercise)
+      : view_(flags, scene, page_options(options, exercise), hands_of(exercise, scene)) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < exercise.size(); ++i) {
+      first_.push_back(first);
+      first += exercise.view(i).hand_count;
+    }
+  }
+
+  void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
+    view_.hands().take(first_[peer] + device, step);
+  }
+  void show(const Exercise& exercise) {
+    for (std::size_t i = 0; i < exercise.size(); ++i)
+      for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
+        view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);
+    view_.show_hands();
+  }
+  void note(const HeardNotice& heard) { view_.note(heard.notice.text.data()); }
+  [[nodiscard]] const std::string& address() const { return view_.address(); }
+
+ private:
+  static SelfViewOptions page_options(const DemoOptions& options, const Exercise& exercise) {
+    SelfViewOptions page;
+    page.kind = "demo";
+    page.source = options.scene.scene.empty() ? "two_hands.toml" : options.scene.scene;
+    page.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
+    page.raw_bit_per_s = 8 * kRawOctets * exercise.raw_rate();
+    page.knows_all = true;
+    return page;
+  }
+  static OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) {
+    OwnHands hands(scene.hand);
+    for (std::size_t i = 0; i < exercise.size(); ++i)
+      for (const peer::HandView& hand : exercise.view(i).own_hands()) hands.add(i, hand);
+    return hands;
+  }
+
+  SelfView view_;
+  std::vector<std::size_t> first_;  // of a peer's hands
+};
+
 void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
-                        const DemoOptions& options, const Console& console, LiveDisplay& display) {
+                        const DemoOptions& options, const Console& console, LiveDisplay& display,
+                        DemoPage* page) {
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
-  const nanoseconds slice = options.simulated_time ? kSimulatedSlice : kLookEvery;
+  nanoseconds slice = options.simulated_time ? kSimulatedSlice : kLookEvery;
+  if (page != nullptr) slice = SelfView::kLookEvery;
   std::vector<TablePeer> peers(exercise.size());
   while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
     exercise.run(std::min(slice, end - exercise.elapsed()));
-    for (const HeardNotice& heard : exercise.take_notices()) display.add(heard);
+    for (const HeardNotice& heard : exercise.take_notices()) {
+      display.add(heard);
+      if (page != nullptr) page->note(heard);
+    }
+    if (page != nullptr) page->show(exercise);
     for (std::size_t i = 0; i < peers.size(); ++i)
       peers[i] = {&exercise.view(i), &exercise.peer(i).counters()};
     display.show(peers, scene, exercise.elapsed());
@@ -243,6 +299,9 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
 
 void check_flags(const DemoOptions& options) {
   if (!options.simulated_time) return;
+  if (flags_of_switch(options.view))
+    throw UsageError(
+        "--view: --simulated-time sends nothing that a page could show; leave one out");
   if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");
   if (!options.scene.iface.empty())
     throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
@@ -270,11 +329,14 @@ int run(const DemoOptions& options, const Console& console) {
     throw EnvironmentError(error.what());
   }
   std::unique_ptr<ServoTrace> trace;
-  if (!options.trace.empty()) {
-    trace = std::make_unique<ServoTrace>(options.trace);
+  if (!options.trace.empty()) trace = std::make_unique<ServoTrace>(options.trace);
+  const auto flags = flags_of_switch(options.view);
+  std::optional<DemoPage> page;
+  if (trace || flags) {
     exercise->on_step(
         [&](std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
-          trace->write(peer, device, step);
+          if (trace) trace->write(peer, device, step);
+          if (page) page->take(peer, device, step);
         });
   }
 
@@ -286,8 +348,14 @@ int run(const DemoOptions& options, const Console& console) {
   if (!display.is_drawn() && !options.json && !options.duration) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
   }
-  show_until_the_end(*exercise, scene, options, console, display);
+  if (flags) {
+    exercise->run(SelfView::kLookEvery);  // till its hands have numbers
+    page.emplace(*flags, scene, options, *exercise);
+    display.say("page: " + page->address());
+  }
+  show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr);
   display.close();
+  page.reset();
   const Cost cost = cost_of(*exercise);
   exercise->stop();
   if (trace) trace->close();

@@ -25,6 +25,7 @@
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/viewer/self_view.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -44,6 +45,7 @@ struct PeerVerbOptions {
   std::optional<nanoseconds> balance;
   std::string to;
   std::string follow;
+  std::string view;
 };
 
 /// Letters of an entity marking on the wire.
@@ -54,7 +56,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
                    "One peer on a LAN: its entities, and simulated hands as the scene says.",
                    "reckon peer scenes/two_hands.toml --iface eth0\n"
                    "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
-                   "reckon peer scenes/two_hands.toml --for 60s --json");
+                   "reckon peer scenes/two_hands.toml --for 60s --json\n"
+                   "reckon peer scenes/two_hands.toml --iface eth0 --view");
   line.word("SCENE", options.scene.scene, true, "scene file; all peers need the same");
   add_scene_options(line, options.scene);
   line.option("--name", options.name, "marking of the hand, at most 11 characters");
@@ -76,6 +79,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   line.option("--balance", options.balance,
               "a JSON line so often, e.g. 10s, and at the end: what became of each datagram, by "
               "sender and group; with --operator, unless the scene has one peer");
+  add_view_switch(line, options.view);
   return line.parse(arguments, console);
 }
 
@@ -182,6 +186,34 @@ class BalanceLines {
   peer::DatagramBalance balance_{tap_};
 };
 
+/// The page of a peer, with its own hands.
+class PeerPage {
+ public:
+  PeerPage(const ViewFlags& flags, const peer::SceneFile& scene, const PeerVerbOptions& options,
+           const peer::PeerView& view)
+      : view_(flags, scene,
+              {.kind = "peer", .source = options.scene.scene, .iface = options.scene.iface},
+              hands_of(scene, view)) {}
+
+  void show(const peer::PeerView& view) {
+    for (std::size_t i = 0; i < view.hand_count && i < view_.hands().size(); ++i) {
+      view_.hands().set_id(i, view.hands[i].id);
+      view_.hands().take(i, view.hands[i].servo);
+    }
+    view_.show_hands();
+  }
+  void note(const peer::Notice& notice) { view_.note(notice.text.data()); }
+  [[nodiscard]] const std::string& address() const { return view_.address(); }
+
+ private:
+  static OwnHands hands_of(const peer::SceneFile& scene, const peer::PeerView& view) {
+    OwnHands hands(scene.hand);
+    for (const peer::HandView& hand : view.own_hands()) hands.add(0, hand);
+    return hands;
+  }
+  SelfView view_;
+};
+
 std::vector<peer::NamedPeer> read_list(const std::string& list) {
   if (list.empty()) return {};
   try {
@@ -233,17 +265,30 @@ int run(const PeerVerbOptions& options, const Console& console) {
 
   const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1);
+  const auto flags = flags_of_switch(options.view);
+  std::optional<PeerPage> page;
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
+  nanoseconds next_felt{0};
+  const nanoseconds look_every = flags ? SelfView::kLookEvery : kLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
-    std::this_thread::sleep_for(std::min(kLookEvery, end - running->elapsed()));
+    std::this_thread::sleep_for(std::min(look_every, end - running->elapsed()));
     running->peer().views().update();
     const peer::PeerView& view = running->peer().views().read();
     const double elapsed = pdu::to_seconds(running->elapsed());
+    if (flags && !page) {
+      page.emplace(*flags, scene, options, view);
+      display.say("page: " + page->address());
+    }
+    if (page) page->show(view);
     if (options.events) events.report(elapsed, console.out);
     if (balance) balance->look(*running);
-    if (options.felt) print_line(console.out, felt_lines(view, elapsed));
+    if (options.felt && running->elapsed() >= next_felt) {
+      print_line(console.out, felt_lines(view, elapsed));
+      next_felt += kLookEvery;
+    }
     while (const peer::Notice* notice = running->peer().notices().front()) {
       display.add({view.own.simulation(), *notice});
+      if (page) page->note(*notice);
       if (options.events) print_notice(console.out, *notice, elapsed);
       running->peer().notices().pop();
     }
@@ -256,6 +301,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   }
   const FinishedRun finished{running->peer(), running->threads(),
                              pdu::to_seconds(running->elapsed())};
+  page.reset();
   running->stop();
   if (balance) balance->end(*running);
   if (options.events) events.report_rest(finished.peer.model(), finished.seconds, console.out);

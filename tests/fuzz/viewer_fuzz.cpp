@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a connection of the viewer's server may be sent: a request, then frames of a page. Any
+// octets are read within bounds and without the heap; what is cut is waited for; what a page asks
+// is finite and in range; nobody who does not say an own address and the word is let in.
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+#include "reckon/tools/viewer/protocol/page_request.hpp"
+#include "reckon/tools/viewer/web/access.hpp"
+#include "reckon/tools/viewer/web/http_request.hpp"
+#include "reckon/tools/viewer/web/web_socket.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using tools::FrameVerdict;
+using tools::HttpRequest;
+using tools::RequestVerdict;
+
+constexpr std::string_view kHost = "127.0.0.1:8642";
+
+bool is_within(std::string_view part, std::string_view all) {
+  return part.empty() ||
+         (part.data() >= all.data() && part.data() + part.size() <= all.data() + all.size());
+}
+
+const tools::Access& access() {
+  static const tools::Access kAccess({"127.0.0.1"}, 8642, "0123456789abcdef");
+  return kAccess;
+}
+
+void check_access(const HttpRequest& request) {
+  require(access().is_own_host(request.host) == (request.host == kHost), "another name is taken");
+  if (access().is_own_origin(request.origin, request.host))
+    require(request.origin.substr(7) == kHost, "another origin is taken");
+  const std::string_view word = tools::value_in_query(request.query, "word");
+  require(is_within(word, request.query), "a word from elsewhere");
+  require(access().is_word(word) == (word == access().word()), "another word is taken");
+}
+
+/// The octets of the head; 0 where there is none.
+std::size_t check_request(std::string_view text) {
+  HttpRequest request, cut;
+  const RequestVerdict verdict = read_request(text, request);
+  require(verdict != RequestVerdict::incomplete || text.size() < tools::kLongestHead,
+          "waits for ever");
+  require((verdict == RequestVerdict::too_long) <= (text.size() >= tools::kLongestHead),
+          "a short head is too long");
+  if (verdict != RequestVerdict::good) return 0;
+  require(request.length <= text.size() && request.length <= tools::kLongestHead + 4, "its length");
+  require(request.path.starts_with('/'), "no path");
+  const std::string_view head = text.substr(0, request.length);
+  for (const std::string_view part :
+       {request.method, request.path, request.query, request.host, request.origin, request.upgrade,
+        request.connection, request.key, request.version})
+    require(is_within(part, head), "a part from elsewhere");
+  require(read_request(head.substr(0, head.size() - 1), cut) == RequestVerdict::incomplete,
+          "a head without its end is taken");
+  (void)tools::lists_word(request.connection, "upgrade");
+  (void)tools::is_web_socket_key(request.key);
+  check_access(request);
+  return request.length;
+}
+
+struct CheckRequest {
+  void operator()(const tools::SeekRequest& seek) const {
+    require(std::isfinite(seek.time), "a time that is none");
+  }
+  void operator()(const tools::SpeedRequest& speed) const {
+    require(speed.speed == 0 || (speed.speed >= 0.1F && speed.speed <= 16), "a speed");
+  }
+  void operator()(const tools::StepRequest& step) const {
+    require(std::abs(step.seconds) + std::abs(step.updates) == 1, "a step");
+  }
+  void operator()(const tools::PointerRequest& pointer) const {
+    require(pointer.position.allFinite() &&
+                pointer.position.cwiseAbs().maxCoeff() <= tools::PointerRequest::kFarthest,
+            "a place");
+  }
+  void operator()(const tools::NetworkRequest& network) const {
+    require(network.delay_ms >= 0 && network.delay_ms <= 300 && network.jitter_ms >= 0 &&
+                network.jitter_ms <= 300 && network.loss >= 0 && network.loss <= 1,
+            "a network");
+  }
+  template <typename Request>
+  void operator()(const Request&) const {}
+};
+
+void check_frames(std::span<const std::byte> octets) {
+  tools::ClientFrame frame;
+  for (;;) {
+    const FrameVerdict verdict = read_client_frame(octets, frame);
+    require(verdict != FrameVerdict::incomplete || octets.size() < 131, "waits for too much");
+    if (verdict != FrameVerdict::good) return;
+    require(frame.size <= tools::kLongestClientFrame && frame.length == frame.size + 6 &&
+                frame.length <= octets.size(),
+            "a frame longer than it is");
+    if (const auto request = tools::read_page_request(frame.payload()))
+      std::visit(CheckRequest{}, *request);
+    octets = octets.subspan(frame.length);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace reckon::fuzz;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  (void)access();
+  const HeapMeter heap;
+  const std::size_t head = check_request(text);
+  check_frames(octets_of(data, size).subspan(head));
+  (void)reckon::tools::read_page_request(octets_of(data, size));
+  require(heap.allocations() == 0, "the heap is used");
+  return 0;
+}

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/history/history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/tools/support/driven_trucks.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using trucks::datagram_of;
+using trucks::kStart;
+using trucks::milliseconds;
+using trucks::nanoseconds;
+using trucks::seconds;
+using trucks::Sent;
+
+constexpr double kMillimetre = 1e-3;
+
+const deadreckon::LocalFrame& frame() {
+  static const deadreckon::LocalFrame kFrame(0, 0, 0);
+  return kFrame;
+}
+
+HistoryOptions whole() {
+  HistoryOptions options;
+  options.span.reset();
+  return options;
+}
+
+void take(History& history, const std::vector<Sent>& all) {
+  for (const Sent& sent : all) ASSERT_TRUE(history.take(datagram_of(sent)));
+}
+
+/// What the inspector's table shows at an instant, of what had come by then; by marking's slot.
+std::vector<Eigen::Vector3d> shown_by_table(const std::vector<Sent>& all, nanoseconds time) {
+  EntityTable table(64);
+  DatagramInspector inspector;
+  for (const Sent& sent : all) {
+    if (sent.time > time) break;
+    const auto datagram = datagram_of(sent);
+    (void)inspector.inspect(datagram, [&](const PduRow& row) {
+      table.take_pdu(row, datagram);
+      return true;
+    });
+  }
+  std::vector<Eigen::Vector3d> places;
+  for (const HeardEntity& entity : table.entities())
+    places.push_back(frame().scene_from_world(entity.pose_at(time).position));
+  return places;
+}
+
+std::vector<EntityMark> marks_of(const HeardWorld& world, const History& history,
+                                 nanoseconds time) {
+  std::vector<EntityMark> marks;
+  world.add_marks(time, history.start(), history.roster(), frame(), marks);
+  return marks;
+}
+
+void expect_same(const std::vector<EntityMark>& marks, const std::vector<Eigen::Vector3d>& places) {
+  ASSERT_EQ(marks.size(), places.size());
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    EXPECT_LT((marks[i].position.cast<double>() - places[marks[i].slot]).norm(), kMillimetre);
+}
+
+TEST(History, ShowsAnyInstantOfACaptureAsTheInspectorDoes) {
+  const auto all = trucks::drive(5, 40);
+  History history(whole());
+  take(history, all);
+  history.roster().publish();
+  std::unique_ptr<History::Cursor> cursor;
+  // On, back, far on, to an update itself, to the end.
+  for (const nanoseconds since : std::initializer_list<nanoseconds>{
+           seconds(3), milliseconds(12'345), seconds(7), milliseconds(39'004), milliseconds(20'502),
+           nanoseconds(0), seconds(39)}) {
+    history.seek(cursor, kStart + since);
+    expect_same(marks_of(cursor->world(), history, cursor->time()),
+                shown_by_table(all, std::max(kStart + since, history.begin())));
+  }
+}
+
+TEST(History, ComesToTheSameWorldFromEitherSide) {
+  const auto all = trucks::drive(3, 30);
+  History history(whole());
+  take(history, all);
+  history.roster().publish();
+  std::unique_ptr<History::Cursor> forward, backward;
+  for (int second = 0; second <= 20; ++second) history.seek(forward, kStart + seconds(second));
+  history.seek(backward, kStart + seconds(29));
+  history.seek(backward, kStart + seconds(20));
+  const auto a = marks_of(forward->world(), history, forward->time());
+  const auto b = marks_of(backward->world(), history, backward->time());
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].position, b[i].position);
+    EXPECT_EQ(a[i].error, b[i].error);
+  }
+}
+
+TEST(History, ShowsTheErrorOfAnUpdateAndLetsItGo) {
+  History history(whole());
+  Sent first{{}, kStart}, second{{}, kStart + seconds(1)};
+  pdu::EntityState state = trucks::truck(1, 0);
+  state.linear_velocity = {0, 0, 0};
+  test::append_pdu(first.octets, state);
+  state.header.timestamp = pdu::to_dis_timestamp(second.time, true);
+  state.location.y += 1;
+  test::append_pdu(second.octets, state);
+  take(history, {first, second});
+  history.roster().publish();
+  const auto error_at = [&](nanoseconds time) {
+    return marks_of(history.live(), history, time).at(0).error.norm();
+  };
+  EXPECT_NEAR(error_at(second.time), 1.0, 1e-6);
+  EXPECT_LT(error_at(second.time + milliseconds(400)), 0.9);
+  EXPECT_EQ(error_at(second.time + seconds(2)), 0.0);
+  EXPECT_NEAR(marks_of(history.live(), history, second.time).at(0).jump, 1.0, 1e-6);
+}
+
+TEST(History, FindsTheUpdatesBesideAnInstant) {
+  const auto all = trucks::drive(2, 4);
+  History history(whole());
+  take(history, all);
+  EXPECT_EQ(history.update_after(kStart + milliseconds(1)), kStart + milliseconds(2));
+  EXPECT_EQ(history.update_before(kStart + milliseconds(501)), kStart + milliseconds(2));
+  EXPECT_EQ(history.update_after(all.back().time), std::nullopt);
+  EXPECT_EQ(history.update_before(all.front().time), std::nullopt);
+}
+
+TEST(History, KeepsTheLastMinuteOfALiveSourceAndForgetsTheRest) {
+  HistoryOptions options;
+  options.span = seconds(60);
+  History history(options);
+  const auto all = trucks::drive(4, 200);
+  for (const Sent& sent : all) {
+    ASSERT_TRUE(history.take(datagram_of(sent)));
+    history.pass(sent.time);
+  }
+  EXPECT_LE(history.begin(), history.end() - seconds(60));
+  EXPECT_GE(history.begin(), history.end() - seconds(95));
+  history.roster().publish();
+  const nanoseconds wanted = history.end() - milliseconds(59'300);
+  std::unique_ptr<History::Cursor> cursor;
+  history.seek(cursor, wanted);
+  expect_same(marks_of(cursor->world(), history, wanted), shown_by_table(all, wanted));
+  // What is forgotten is shown as its begin.
+  history.seek(cursor, kStart);
+  EXPECT_EQ(cursor->time(), history.begin());
+}
+
+TEST(History, StaysWithinItsOctets) {
+  HistoryOptions options;
+  options.octets = 200'000;
+  History live(options);
+  for (const Sent& sent : trucks::drive(4, 300)) {
+    ASSERT_TRUE(live.take(datagram_of(sent)));
+    live.pass(sent.time);
+    ASSERT_LE(live.weight(), 2 * options.octets);
+  }
+  options.span.reset();
+  History capture(options);
+  bool is_full = false;
+  for (const Sent& sent : trucks::drive(4, 300))
+    is_full = is_full || !capture.take(datagram_of(sent));
+  EXPECT_TRUE(is_full);
+  EXPECT_LE(capture.weight(), options.octets + 1000);
+}
+
+TEST(History, HearsOneExerciseAloneWhereItIsAskedTo) {
+  HistoryOptions options = whole();
+  options.exercise = 9;
+  History history(options);
+  take(history, trucks::drive(2, 1));
+  EXPECT_TRUE(history.live().table().entities().empty());
+}
+
+TEST(History, TellsRatesAndErrorsOfTheSecondBefore) {
+  History history(whole());
+  take(history, trucks::drive(4, 10));
+  const NumbersSample* sample = history.numbers().at(kStart + seconds(5));
+  ASSERT_NE(sample, nullptr);
+  EXPECT_NEAR(sample->pdu_per_s, 8, 4);
+  EXPECT_NEAR(sample->bit_per_s, 8 * 144 * sample->pdu_per_s, 1);
+  // Half a second at 2 m/s^2 towards the middle: 0.25 m.
+  EXPECT_NEAR(sample->error_mean.value(), 0.25, 0.01);
+  EXPECT_FALSE(sample->lost_share.has_value());
+  EXPECT_EQ(history.numbers().at(kStart), nullptr);
+}
+
+TEST(Roster, NamesWhomItShowsAndGivesSlotsAwayAgain) {
+  HistoryOptions options;
+  options.span = seconds(5);
+  History history(options);
+  Sent one{{}, kStart};
+  test::append_pdu(one.octets, trucks::truck(7, 0, "<b>&\"'"));
+  take(history, {one});
+  EXPECT_TRUE(marks_of(history.live(), history, kStart).empty()) << "not named yet";
+  EXPECT_TRUE(history.roster().publish());
+  EXPECT_FALSE(history.roster().publish()) << "nothing changed";
+  const auto message = nlohmann::json::parse(history.roster().message());
+  EXPECT_EQ(message["type"], "roster");
+  EXPECT_EQ(message["epoch"], 1);
+  const auto& entity = message["entities"].at(0);
+  EXPECT_EQ(entity["slot"], 0);
+  EXPECT_EQ(entity["id"], "1:2:7");
+  EXPECT_EQ(entity["marking"], "<b>&\"'");
+  EXPECT_EQ(entity["kind"], "platform land");
+  EXPECT_EQ(entity["force"], "friendly");
+  EXPECT_EQ(entity["haptic"], false);
+  EXPECT_EQ(entity["peer"], "1:2");
+  EXPECT_EQ(marks_of(history.live(), history, kStart).size(), 1U);
+
+  Sent other{{}, kStart + seconds(600)};
+  test::append_pdu(other.octets, trucks::truck(8, 600));
+  take(history, {other});
+  history.pass(other.time + seconds(40));
+  other.time += seconds(41);
+  take(history, {other});
+  history.pass(other.time);
+  history.roster().publish();
+  EXPECT_EQ(nlohmann::json::parse(history.roster().message())["entities"].size(), 1U);
+}
+
+TEST(Roster, HasNoSlotForMoreThanItsBound) {
+  HistoryOptions options = whole();
+  options.entities = 3;
+  History history(options);
+  take(history, trucks::drive(9, 1));
+  EXPECT_EQ(history.roster().size(), 3U);
+  history.roster().publish();
+  EXPECT_EQ(marks_of(history.live(), history, kStart + milliseconds(900)).size(), 3U);
+}
+
+}  // namespace
+}  // namespace reckon::tools

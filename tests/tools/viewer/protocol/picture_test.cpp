@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/protocol/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace reckon::tools {
+namespace {
+
+/// The oracle: the host's own little endian.
+template <typename Value>
+Value at(const std::string& octets, std::size_t place) {
+  Value value;
+  std::memcpy(&value, octets.data() + place, sizeof value);
+  return value;
+}
+
+PictureRows rows() {
+  PictureRows picture;
+  picture.time = 12.5;
+  picture.flags = kPictureLive | kPictureGap;
+  picture.epoch = 7;
+  picture.entities.resize(2);
+  EntityMark& entity = picture.entities[1];
+  entity.slot = 300;
+  entity.force = 2;
+  entity.cause = UpdateCause::event;
+  entity.cell = 11;
+  entity.group = 0x0105;
+  entity.position = {1.5F, -2.5F, 3.5F};
+  entity.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
+  entity.error = {0.25F, 0, -0.25F};
+  entity.rate = 12.34;
+  entity.jump = 0.0123;
+  picture.hands.resize(1);
+  picture.hands[0].index = 3;
+  picture.hands[0].flags = kHandInContact;
+  picture.hands[0].twin_force = 4.5F;
+  picture.contacts.resize(1);
+  picture.contacts[0].feeling = 9;
+  picture.contacts[0].force = {0, 0, 2};
+  return picture;
+}
+
+TEST(Picture, IsAsLongAsItsCountsSay) {
+  std::string octets;
+  encode_picture(rows(), octets);
+  EXPECT_EQ(octets.size(), 32U + 2 * 44 + 72 + 28);
+  encode_picture({}, octets);
+  EXPECT_EQ(octets.size(), 32U);
+}
+
+TEST(Picture, HasEachThingAtItsPlace) {
+  std::string octets;
+  encode_picture(rows(), octets);
+  number_picture(octets, 99);
+  EXPECT_EQ(octets.substr(0, 4), "RKV1");
+  EXPECT_EQ(at<std::uint32_t>(octets, 4), 99U);
+  EXPECT_EQ(at<double>(octets, 8), 12.5);
+  EXPECT_EQ(at<std::uint16_t>(octets, 16), 2);
+  EXPECT_EQ(at<std::uint16_t>(octets, 18), 1);
+  EXPECT_EQ(at<std::uint16_t>(octets, 20), 1);
+  EXPECT_EQ(at<std::uint16_t>(octets, 22), 9);
+  EXPECT_EQ(at<std::uint32_t>(octets, 24), 7U);
+  const std::size_t entity = 32 + 44;
+  EXPECT_EQ(at<std::uint16_t>(octets, entity), 300);
+  EXPECT_EQ(octets[entity + 2], 2);
+  EXPECT_EQ(octets[entity + 3], 4);
+  EXPECT_EQ(at<std::uint16_t>(octets, entity + 4), 11);
+  EXPECT_EQ(at<std::uint16_t>(octets, entity + 6), 0x0105);
+  EXPECT_EQ(at<float>(octets, entity + 12), -2.5F);
+  EXPECT_EQ(at<std::int16_t>(octets, entity + 20), 16384);
+  EXPECT_EQ(at<std::int16_t>(octets, entity + 22), -16384);
+  EXPECT_EQ(at<float>(octets, entity + 36), -0.25F);
+  EXPECT_EQ(at<std::uint16_t>(octets, entity + 40), 1234);
+  EXPECT_EQ(at<std::uint16_t>(octets, entity + 42), 12);
+  const std::size_t hand = 32 + 2 * 44;
+  EXPECT_EQ(at<std::uint16_t>(octets, hand), 3);
+  EXPECT_EQ(at<float>(octets, hand + 68), 4.5F);
+  EXPECT_EQ(at<std::uint16_t>(octets, hand + 72 + 2), 9);
+  EXPECT_EQ(at<float>(octets, hand + 72 + 24), 2.0F);
+}
+
+TEST(Picture, MarksAHandAsItsReadersOwn) {
+  std::string octets;
+  const PictureRows picture = rows();
+  encode_picture(picture, octets);
+  mark_own_hand(picture, 2, octets);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 88 + 2), kHandInContact);
+  mark_own_hand(picture, 3, octets);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 88 + 2), kHandInContact | kHandYours);
+}
+
+TEST(Picture, CutsWhatDoesNotFit) {
+  PictureRows picture = rows();
+  picture.entities.resize(1);
+  picture.entities[0].jump = 1e9;
+  picture.entities[0].rate = std::numeric_limits<double>::quiet_NaN();
+  picture.entities[0].orientation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
+  std::string octets;
+  encode_picture(picture, octets);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 40), 0);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 42), 65535);
+  EXPECT_EQ(at<std::int16_t>(octets, 32 + 20), 0);
+}
+
+}  // namespace
+}  // namespace reckon::tools

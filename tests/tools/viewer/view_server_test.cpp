@@ -1,0 +1,408 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/view_server.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "reckon/tests/tools/support/driven_trucks.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using trucks::kStart;
+using trucks::milliseconds;
+using trucks::nanoseconds;
+using trucks::seconds;
+
+constexpr std::string_view kKey = "dGhlIHNhbXBsZSBub25jZQ==";
+/// What is not here after so many rounds does not come.
+constexpr int kMostRounds = 2000;
+
+/// A server of trucks whose time is stepped by hand.
+class Served {
+ public:
+  explicit Served(std::size_t trucks = 3, const std::string& marking = "TRUCK")
+      : server(stage, {"127.0.0.1", std::uint16_t{0}, "1f2e"}) {
+    for (std::size_t i = 1; i <= trucks; ++i) {
+      trucks::Sent sent{{}, kStart};
+      test::append_pdu(sent.octets, trucks::truck(static_cast<std::uint16_t>(i), 0, marking));
+      (void)stage.take(trucks::datagram_of(sent));
+    }
+    tick();
+  }
+  /// A thirtieth of a second passes.
+  void tick() {
+    now += ViewServer::kTick;
+    stage.pass(kStart + now);
+    server.tick(now);
+    poll();
+  }
+  void poll() {
+    for (int i = 0; i < 4; ++i) server.poll(milliseconds(1));
+  }
+  [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(server.port()); }
+
+  nanoseconds now{0};
+  ViewStage stage{StageOptions{}};
+  ViewServer server;
+};
+
+/// A connection of whoever.
+class Client {
+ public:
+  explicit Client(Served& served, int receive_buffer = 0) : served_(served) {
+    socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
+    if (receive_buffer > 0)
+      setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(served.server.port());
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    (void)connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    served.poll();
+  }
+  ~Client() { ::close(socket_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  void send(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
+      if (sent < 0 && errno != EAGAIN) return;  // it has hung up already
+      if (sent > 0) text.remove_prefix(static_cast<std::size_t>(sent));
+      served_.poll();
+    }
+  }
+  /// Takes what has come. @return false where the server has hung up
+  bool receive() {
+    served_.poll();
+    std::array<char, 65536> room;
+    for (;;) {
+      const ssize_t size = ::recv(socket_, room.data(), room.size(), 0);
+      if (size > 0) in.append(room.data(), static_cast<std::size_t>(size));
+      if (size == 0 || (size < 0 && errno != EAGAIN)) return false;
+      if (size < 0) return true;
+    }
+  }
+  /// All till it hangs up.
+  const std::string& receive_all() {
+    for (int i = 0; i < kMostRounds && receive(); ++i) continue;
+    return in;
+  }
+  [[nodiscard]] bool hangs_up() {
+    for (int i = 0; i < kMostRounds; ++i)
+      if (!receive()) return true;
+    return false;
+  }
+
+  std::string in;
+
+ private:
+  Served& served_;
+  int socket_;
+};
+
+/// The head of a request, with what is named changed, or left out where it is empty.
+std::string request(const Served& served, const std::string& line,
+                    std::map<std::string, std::string> fields = {}) {
+  fields.try_emplace("Host", served.host());
+  std::string text = line + " HTTP/1.1\r\n";
+  for (const auto& [name, value] : fields)
+    if (!value.empty()) text += name + ": " + value + "\r\n";
+  return text + "\r\n";
+}
+
+std::string upgrade(const Served& served, std::map<std::string, std::string> fields = {},
+                    const std::string& query = "") {
+  fields.try_emplace("Origin", "http://" + served.host());
+  fields.try_emplace("Upgrade", "websocket");
+  fields.try_emplace("Connection", "Upgrade");
+  fields.try_emplace("Sec-WebSocket-Key", std::string(kKey));
+  fields.try_emplace("Sec-WebSocket-Version", "13");
+  return request(served, "GET /stream" + query, fields);
+}
+
+std::string answer_to(Served& served, const std::string& text) {
+  Client client(served);
+  client.send(text);
+  return client.receive_all();
+}
+
+std::string status_of(const std::string& answer) { return answer.substr(0, 12); }
+
+/// A tab: a client after its handshake.
+class Tab : public Client {
+ public:
+  explicit Tab(Served& served, const std::string& query = "", int receive_buffer = 0)
+      : Client(served, receive_buffer) {
+    send(upgrade(served, {}, query));
+    for (int i = 0; i < kMostRounds && in.find("\r\n\r\n") == std::string::npos; ++i)
+      if (!receive()) break;
+    head = in.substr(0, in.find("\r\n\r\n"));
+    in.erase(0, std::min(in.size(), head.size() + 4));
+  }
+
+  /// A masked frame.
+  void frame(const std::string& payload, unsigned first = 0x82) {
+    std::string text{static_cast<char>(first), static_cast<char>(0x80U | payload.size())};
+    text += std::string("\x01\x02\x03\x04");
+    for (std::size_t i = 0; i < payload.size(); ++i)
+      text += static_cast<char>(payload[i] ^ static_cast<char>(1 + i % 4));
+    send(text);
+  }
+  /// Sorts what has come into texts and pictures; @return false where the server has hung up
+  bool take() {
+    const bool goes_on = receive();
+    while (in.size() >= 2) {
+      const auto octet = [this](std::size_t i) { return static_cast<unsigned char>(in[i]); };
+      std::size_t size = octet(1), at = 2;
+      if (size == 126) at = 4;
+      if (size == 127) at = 10;
+      if (in.size() < at) break;
+      if (at > 2) {
+        size = 0;
+        for (std::size_t i = 2; i < at; ++i) size = size << 8 | octet(i);
+      }
+      if (in.size() < at + size) break;
+      const std::string payload = in.substr(at, size);
+      if (octet(0) == 0x81) texts.push_back(nlohmann::json::parse(payload));
+      if (octet(0) == 0x82) pictures.push_back(payload);
+      if (octet(0) == 0x88) closed = true;
+      in.erase(0, at + size);
+    }
+    return goes_on;
+  }
+  void draw() { frame(std::string("\x01") + pictures.back().substr(4, 4)); }
+  [[nodiscard]] double time() const {
+    double time = 0;
+    std::memcpy(&time, pictures.back().data() + 8, sizeof time);
+    return time;
+  }
+
+  std::string head;
+  std::vector<nlohmann::json> texts;
+  std::vector<std::string> pictures;
+  bool closed = false;
+};
+
+TEST(ViewServer, GivesThePageAndItsFilesWithTheirPolicy) {
+  Served served;
+  const std::string page = answer_to(served, request(served, "GET /"));
+  EXPECT_EQ(status_of(page), "HTTP/1.1 200");
+  EXPECT_NE(page.find("Content-Type: text/html; charset=utf-8\r\n"), std::string::npos);
+  EXPECT_NE(page.find("Content-Encoding: gzip\r\n"), std::string::npos);
+  EXPECT_NE(page.find("Content-Security-Policy: default-src 'none'; script-src 'self'; "
+                      "style-src 'self'; connect-src 'self'; img-src data:; "
+                      "frame-ancestors 'none'; base-uri 'none'"),
+            std::string::npos);
+  EXPECT_NE(page.find("X-Content-Type-Options: nosniff\r\n"), std::string::npos);
+  EXPECT_NE(page.find("Cross-Origin-Resource-Policy: same-origin\r\n"), std::string::npos);
+  EXPECT_EQ(page.substr(page.find("\r\n\r\n") + 4, 2), "\x1F\x8B");
+  EXPECT_EQ(status_of(answer_to(served, request(served, "GET /main.js"))), "HTTP/1.1 200");
+  EXPECT_EQ(status_of(answer_to(served, request(served, "GET /?x=1"))), "HTTP/1.1 200");
+}
+
+TEST(ViewServer, HasNothingForWhatIsNoFileOfThePage) {
+  Served served;
+  for (const std::string line :
+       {"GET /../etc/passwd", "GET /..%2f..%2fetc/passwd", "GET /index.html/..", "GET //", "POST /",
+        "PUT /main.js", "OPTIONS /", "GET /main.js.gz"})
+    EXPECT_EQ(status_of(answer_to(served, request(served, line))), "HTTP/1.1 404") << line;
+}
+
+TEST(ViewServer, IsNotReachedByAnotherName) {
+  Served served;
+  const std::string port = ":" + std::to_string(served.server.port());
+  for (const std::string& host :
+       {"evil.example" + port, "127.0.0.1.evil.example" + port, "127.0.0.2" + port,
+        std::string("127.0.0.1"), std::string("127.0.0.1:1"), std::string()}) {
+    EXPECT_EQ(status_of(answer_to(served, request(served, "GET /", {{"Host", host}}))),
+              "HTTP/1.1 403")
+        << host;
+    EXPECT_EQ(status_of(answer_to(served,
+                                  upgrade(served, {{"Host", host}, {"Origin", "http://" + host}}))),
+              "HTTP/1.1 403")
+        << host;
+  }
+  EXPECT_EQ(status_of(answer_to(served, request(served, "GET /", {{"Host", "localhost" + port}}))),
+            "HTTP/1.1 200");
+}
+
+TEST(ViewServer, OpensNoStreamForPagesOfOthers) {
+  Served served;
+  const std::string other = "http://127.0.0.1:" + std::to_string(served.server.port() + 1);
+  for (const std::string& origin : {std::string("http://evil.example"), std::string("null"), other})
+    EXPECT_EQ(status_of(answer_to(served, upgrade(served, {{"Origin", origin}}))), "HTTP/1.1 403")
+        << origin;
+  EXPECT_EQ(status_of(answer_to(served, upgrade(served, {{"Origin", ""}}))), "HTTP/1.1 400");
+  EXPECT_EQ(served.server.tabs(), 0U);
+  EXPECT_EQ(served.server.counts().refused, 4U);
+}
+
+TEST(ViewServer, OpensNoStreamWithoutTheHandshakeOfRfc6455) {
+  Served served;
+  for (const auto& [name, value] :
+       std::map<std::string, std::string>{{"Upgrade", "h2c"},
+                                          {"Connection", "close"},
+                                          {"Sec-WebSocket-Key", "short"},
+                                          {"Sec-WebSocket-Version", "8"}})
+    EXPECT_EQ(status_of(answer_to(served, upgrade(served, {{name, value}}))), "HTTP/1.1 400")
+        << name;
+}
+
+TEST(ViewServer, HangsUpOnAHeadOf20KilobytesAndOnWhoSaysNothing) {
+  Served served;
+  Client long_winded(served);
+  long_winded.send(request(served, "GET /", {{"Cookie", std::string(20'000, 'x')}}));
+  EXPECT_TRUE(long_winded.hangs_up());
+  EXPECT_EQ(long_winded.in, "");
+
+  Client silent(served);
+  silent.send("GET / HT");
+  for (int i = 0; i < 140; ++i) served.tick();
+  EXPECT_TRUE(silent.receive()) << "4.7 s";
+  for (int i = 0; i < 20; ++i) served.tick();
+  EXPECT_TRUE(silent.hangs_up()) << "5.3 s";
+}
+
+TEST(ViewServer, GivesMarkupInMarkingsAsText) {
+  Served served(1, "</script><b");
+  Tab tab(served);
+  EXPECT_NE(tab.head.find("Sec-WebSocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo="), std::string::npos);
+  tab.take();
+  bool is_named = false;
+  for (const auto& text : tab.texts)
+    if (text["type"] == "roster") is_named = text["entities"][0]["marking"] == "</script><b";
+  EXPECT_TRUE(is_named);
+}
+
+TEST(ViewServer, SendsAPictureEachTickToWhoDraws) {
+  Served served;
+  Tab tab(served);
+  for (int i = 0; i < 30; ++i) {
+    served.tick();
+    ASSERT_TRUE(tab.take());
+    ASSERT_FALSE(tab.pictures.empty());
+    EXPECT_EQ(tab.pictures.back().size(), 32U + 3 * 44);
+    tab.draw();
+  }
+  EXPECT_NEAR(static_cast<double>(tab.pictures.size()), 31, 1);
+}
+
+TEST(ViewServer, SendsTwoPicturesToWhoNeverReads) {
+  Served served(200);
+  Tab stalled(served, "", 4096), busy(served);
+  for (int i = 0; i < 3; ++i) served.tick();
+  const auto octets = served.server.counts().octets;
+  for (int i = 0; i < 100; ++i) {
+    served.tick();
+    busy.take();
+    busy.draw();
+  }
+  EXPECT_GT(busy.pictures.size(), 95U);
+  const auto sent_to_busy = static_cast<std::uint64_t>(32 + 200 * 44) * busy.pictures.size();
+  EXPECT_LT(served.server.counts().octets - octets, sent_to_busy + 3 * 100'000);
+  stalled.take();
+  EXPECT_EQ(stalled.pictures.size(), 2U);
+}
+
+TEST(ViewServer, GivesTheNewestToWhoIsSlow) {
+  Served served;
+  Tab slow(served);
+  slow.take();
+  for (int i = 0; i < 90; ++i) served.tick();
+  slow.take();
+  EXPECT_LT(slow.time(), 0.2);
+  slow.draw();
+  served.tick();
+  slow.take();
+  EXPECT_GT(slow.time(), 3.0);
+}
+
+TEST(ViewServer, TurnsTheNextTabAwayWithASentenceAndTakesItWhenOneHasGone) {
+  Served served;
+  std::vector<std::unique_ptr<Tab>> tabs;
+  for (std::size_t i = 0; i < ViewServer::kMostTabs; ++i)
+    tabs.push_back(std::make_unique<Tab>(served));
+  EXPECT_EQ(served.server.tabs(), ViewServer::kMostTabs);
+  Tab one_more(served);
+  for (int i = 0; i < kMostRounds && one_more.take(); ++i) continue;
+  ASSERT_EQ(one_more.texts.size(), 1U);
+  EXPECT_EQ(one_more.texts[0]["type"], "bye");
+  EXPECT_NE(one_more.texts[0]["text"].get<std::string>().find("64 tabs"), std::string::npos);
+  EXPECT_TRUE(one_more.closed);
+  tabs.pop_back();
+  served.tick();
+  Tab next(served);
+  next.take();
+  EXPECT_EQ(next.texts.at(0)["type"], "hello");
+}
+
+TEST(ViewServer, HangsUpOnFramesThatNoPageOfOursSends) {
+  Served served;
+  const std::map<std::string, std::function<void(Tab&)>> frames{
+      {"unmasked", [](Tab& tab) { tab.send(std::string("\x82\x01\x04", 3)); }},
+      {"126 octets",
+       [](Tab& tab) { tab.send(std::string("\x82\xFE\x00\x7E\x01\x02\x03\x04", 8)); }},
+      {"in parts", [](Tab& tab) { tab.frame("\x04", 0x02); }},
+      {"text", [](Tab& tab) { tab.frame("hello", 0x81); }},
+      {"ping", [](Tab& tab) { tab.frame("", 0x89); }},
+      {"no request", [](Tab& tab) { tab.frame("\x63"); }},
+      {"cut request", [](Tab& tab) { tab.frame("\x01\x01"); }},
+      {"close", [](Tab& tab) { tab.frame("", 0x88); }}};
+  for (const auto& [name, send] : frames) {
+    Tab tab(served);
+    EXPECT_EQ(served.server.tabs(), 1U) << name;
+    send(tab);
+    EXPECT_TRUE(tab.hangs_up()) << name;
+    EXPECT_EQ(served.server.tabs(), 0U) << name;
+  }
+}
+
+TEST(ViewServer, TakesFramesThatComeInPieces) {
+  Served served;
+  Tab tab(served);
+  const std::string frame("\x82\x81\x01\x02\x03\x04\x05", 7);  // kind 4
+  for (const char octet : frame) tab.send(std::string(1, octet));
+  EXPECT_TRUE(tab.take());
+  EXPECT_EQ(served.server.tabs(), 1U);
+}
+
+TEST(ViewServer, SaysGoodByeWhenItEnds) {
+  auto served = std::make_unique<Served>();
+  auto tab = std::make_unique<Tab>(*served);
+  tab->take();
+  const auto sent = served->server.counts().tabs;
+  EXPECT_EQ(sent, 1U);
+  tab.reset();
+  served.reset();  // with nobody there any more
+}
+
+TEST(ViewServer, NamesTheAddressThatATabOpens) {
+  Served served;
+  EXPECT_EQ(served.server.address(), "http://" + served.host() + "/#word=1f2e");
+  EXPECT_TRUE(served.server.addresses_for_others().empty()) << "this host alone reaches it";
+}
+
+TEST(ViewServer, TakesTheNextPortWhereTheFirstIsTakenAndRefusesOneThatWasNamed) {
+  ViewStage stage{StageOptions{}};
+  const ViewServer first(stage, {"127.0.0.1", std::nullopt, "w"});
+  const ViewServer second(stage, {"127.0.0.1", std::nullopt, "w"});
+  EXPECT_GT(second.port(), first.port());
+  EXPECT_THROW(ViewServer(stage, {"127.0.0.1", first.port(), "w"}), std::runtime_error);
+  EXPECT_THROW(ViewServer(stage, {"no address", std::nullopt, "w"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace reckon::tools

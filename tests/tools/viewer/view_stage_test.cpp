@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/view_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/tools/support/driven_trucks.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using nlohmann::json;
+using trucks::kStart;
+using trucks::milliseconds;
+using trucks::nanoseconds;
+using trucks::seconds;
+using trucks::Sent;
+
+constexpr nanoseconds kTick = milliseconds(33);
+
+/// The head of a picture.
+struct Head {
+  std::uint32_t number;
+  double time;
+  std::uint16_t entities, hands, flags;
+  std::uint32_t epoch;
+};
+
+Head head_of(const std::string& octets) {
+  const auto at = [&octets](std::size_t place, auto value) {
+    std::memcpy(&value, octets.data() + place, sizeof value);
+    return value;
+  };
+  return {at(4, std::uint32_t{}),  at(8, double{}),         at(16, std::uint16_t{}),
+          at(18, std::uint16_t{}), at(22, std::uint16_t{}), at(24, std::uint32_t{})};
+}
+
+/// A tab that draws what it gets, unless it is told not to.
+class Tab {
+ public:
+  Tab(ViewStage& stage, bool knows_word) : stage_(stage), watcher_(stage.admit(knows_word)) {}
+
+  /// Takes all that there is for it now.
+  void take() {
+    while (auto message = stage_.next_message(*watcher_)) {
+      if (message->opcode == WebSocketOpcode::text) {
+        texts.push_back(json::parse(*message->payload));
+        continue;
+      }
+      pictures.push_back(*message->payload);
+      if (draws) draw(head().number);
+    }
+  }
+  void draw(std::uint32_t number) { ask(1, number); }
+  template <typename... Values>
+  void ask(std::uint8_t kind, const Values&... values) {
+    std::vector<std::byte> message{std::byte{kind}};
+    [[maybe_unused]] const auto add = [&message](const auto& value) {
+      const std::size_t size = message.size();
+      message.resize(size + sizeof value);
+      std::memcpy(message.data() + size, &value, sizeof value);
+    };
+    (add(values), ...);
+    EXPECT_TRUE(stage_.answer(*watcher_, message));
+  }
+  [[nodiscard]] Head head() const { return head_of(pictures.back()); }
+  [[nodiscard]] json last(std::string_view type) const {
+    for (auto text = texts.rbegin(); text != texts.rend(); ++text)
+      if ((*text)["type"] == type) return *text;
+    return {};
+  }
+  [[nodiscard]] Watcher& watcher() { return *watcher_; }
+
+  bool draws = true;
+  std::vector<json> texts;
+  std::vector<std::string> pictures;
+
+ private:
+  ViewStage& stage_;
+  std::unique_ptr<Watcher> watcher_;
+};
+
+/// A live exercise of trucks that goes on as long as it is let run.
+class LiveTrucks {
+ public:
+  explicit LiveTrucks(StageOptions options = {}) : stage(options), all_(trucks::drive(3, 200)) {
+    stage.pass(now);
+  }
+  void run(nanoseconds span, std::vector<Tab*> tabs) {
+    for (const nanoseconds end = now + span; now < end;) {
+      now += kTick;
+      for (; next_ < all_.size() && all_[next_].time <= now; ++next_)
+        (void)stage.take(trucks::datagram_of(all_[next_]));
+      stage.pass(now);
+      for (Tab* tab : tabs) tab->take();
+    }
+  }
+
+  nanoseconds now = kStart;
+  ViewStage stage;
+
+ private:
+  std::vector<Sent> all_;
+  std::size_t next_ = 0;
+};
+
+StageOptions capture_options() {
+  StageOptions options;
+  options.kind = "capture";
+  options.is_capture = true;
+  options.history.span.reset();
+  return options;
+}
+
+TEST(ViewStage, GreetsATabThenShowsWhatIsThereThirtyTimesASecond) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  tab.take();  // before anybody is heard
+  live.run(seconds(2), {&tab});
+  ASSERT_FALSE(tab.texts.empty());
+  EXPECT_EQ(tab.texts[0]["type"], "hello");
+  EXPECT_EQ(tab.texts[0]["version"], 1);
+  EXPECT_EQ(tab.texts[0]["may_push"], false);
+  EXPECT_TRUE(tab.texts[0]["origin"].is_null());
+  EXPECT_EQ(tab.texts[1]["type"], "play");
+  EXPECT_NEAR(tab.last("origin")["origin"]["lat"].get<double>(), 0, 0.01);
+  EXPECT_EQ(tab.last("roster")["entities"].size(), 3U);
+  EXPECT_NEAR(static_cast<double>(tab.pictures.size()), 61, 2);
+  EXPECT_EQ(tab.head().entities, 3);
+  EXPECT_EQ(tab.head().flags, kPictureLive);
+  EXPECT_EQ(tab.head().epoch, tab.last("roster")["epoch"]);
+  EXPECT_NEAR(tab.head().time, 2.0, 0.04);
+  std::size_t numbers = 0;
+  for (const json& text : tab.texts) numbers += text["type"] == "numbers" ? 1 : 0;
+  EXPECT_NEAR(static_cast<double>(numbers), 8, 1);
+}
+
+TEST(ViewStage, SendsTwoPicturesToATabThatDrawsNoneAndThenNothing) {
+  LiveTrucks live;
+  Tab idle(live.stage, false), busy(live.stage, false);
+  idle.draws = false;
+  live.run(seconds(3), {&idle, &busy});
+  const std::size_t texts = idle.texts.size();
+  live.run(seconds(30), {&idle, &busy});
+  EXPECT_EQ(idle.pictures.size(), 2U);
+  EXPECT_EQ(idle.texts.size(), texts) << "nor regular text";
+  EXPECT_GT(busy.pictures.size(), 900U);
+}
+
+TEST(ViewStage, GivesTheNewestPictureToATabThatIsSlow) {
+  LiveTrucks live;
+  Tab slow(live.stage, false);
+  slow.draws = false;
+  live.run(seconds(20), {&slow});
+  slow.draw(slow.head().number);
+  EXPECT_TRUE(slow.watcher().under_way.empty()) << "the one before is drawn too";
+  live.run(kTick, {&slow});
+  EXPECT_NEAR(slow.head().time, 20.03, 0.04);
+  EXPECT_NE(slow.head().flags & kPictureGap, 0) << "what was not shown is a gap";
+  slow.draw(123456);
+  EXPECT_EQ(slow.watcher().under_way.size(), 1U) << "a number that was never sent";
+}
+
+TEST(ViewStage, PausesOneTabWhileOthersStayLive) {
+  LiveTrucks live;
+  Tab one(live.stage, false), other(live.stage, false);
+  live.run(seconds(5), {&one, &other});
+  one.ask(3, 0.0F);
+  live.run(kTick, {&one, &other});
+  const Head paused = one.head();
+  EXPECT_EQ(paused.flags, kPicturePaused);
+  EXPECT_EQ(one.last("play")["state"], "paused");
+  const std::size_t pictures = one.pictures.size();
+  live.run(seconds(10), {&one, &other});
+  EXPECT_LE(one.pictures.size(), pictures + 1) << "time stands still";
+  EXPECT_NEAR(one.head().time, paused.time, 1e-9);
+  EXPECT_NEAR(other.head().time, 15, 0.1);
+
+  one.ask(3, 1.0F);
+  live.run(seconds(2), {&one, &other});
+  EXPECT_EQ(one.last("play")["state"], "playing");
+  EXPECT_NEAR(one.head().time, paused.time + 2, 0.1);
+  one.ask(3, 16.0F);
+  live.run(seconds(2), {&one, &other});
+  EXPECT_EQ(one.last("play")["state"], "live") << "it has caught up";
+  one.ask(2, 3.25);
+  live.run(kTick, {&one, &other});
+  EXPECT_NEAR(one.head().time, 3.25, 1e-9);
+  EXPECT_NE(one.head().flags & kPictureGap, 0);
+  one.ask(4);
+  live.run(kTick, {&one, &other});
+  EXPECT_EQ(one.head().flags & kPictureLive, kPictureLive);
+}
+
+TEST(ViewStage, StepsByASecondOrByOneUpdate) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.run(seconds(8), {&tab});
+  const auto step = [&](std::int8_t which) {
+    tab.ask(5, which);
+    live.run(kTick, {&tab});
+    return tab.head().time;
+  };
+  tab.ask(2, 4.0);
+  live.run(kTick, {&tab});
+  EXPECT_NEAR(step(1), 5.0, 1e-9);
+  EXPECT_NEAR(step(-1), 4.0, 1e-9);
+  EXPECT_NEAR(step(2), 4.001, 1e-9);
+  EXPECT_NEAR(step(2), 4.002, 1e-9);
+  EXPECT_NEAR(step(-2), 4.001, 1e-9);
+  EXPECT_NEAR(step(-2), 3.503, 1e-9);
+}
+
+TEST(ViewStage, ShowsNoMoreThanTheMinuteThatIsKept) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.run(seconds(150), {&tab});
+  tab.ask(2, -1e300);
+  live.run(milliseconds(600), {&tab});
+  const auto span = tab.last("numbers")["span"];
+  EXPECT_NEAR(span[1].get<double>(), 150.6, 0.1);
+  EXPECT_LE(span[0].get<double>(), 90.6);
+  EXPECT_NEAR(tab.head().time, span[0].get<double>(), 5.1);
+  EXPECT_EQ(tab.head().entities, 3);
+}
+
+TEST(ViewStage, MarksAGapThatTheSourceTells) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.run(seconds(2), {&tab});
+  EXPECT_EQ(tab.head().flags & kPictureGap, 0);
+  live.stage.note_gap();
+  live.run(kTick, {&tab});
+  EXPECT_NE(tab.head().flags & kPictureGap, 0);
+  live.run(kTick, {&tab});
+  EXPECT_EQ(tab.head().flags & kPictureGap, 0);
+}
+
+TEST(ViewStage, PlaysACaptureFromItsBeginToItsEnd) {
+  ViewStage stage(capture_options());
+  for (const Sent& sent : trucks::drive(2, 20)) ASSERT_TRUE(stage.take(trucks::datagram_of(sent)));
+  nanoseconds now = seconds(5'000);  // of a clock of its own
+  const auto run = [&](nanoseconds span, Tab& tab) {
+    for (const nanoseconds end = now + span; now < end;) {
+      stage.pass(now += kTick);
+      tab.take();
+    }
+  };
+  stage.pass(now);
+  Tab tab(stage, false);
+  run(seconds(3), tab);
+  EXPECT_EQ(tab.texts[0]["kind"], "capture");
+  EXPECT_NEAR(tab.texts[0]["span"][1].get<double>(), 19.5, 0.01);
+  EXPECT_NEAR(tab.head().time, 3, 0.1);
+  EXPECT_EQ(tab.head().entities, 2);
+  tab.ask(3, 10.0F);
+  run(seconds(3), tab);
+  EXPECT_EQ(tab.last("play")["state"], "end");
+  EXPECT_EQ(tab.head().flags & kPictureEnd, kPictureEnd);
+  EXPECT_NEAR(tab.head().time, 19.5, 0.01);
+  tab.ask(3, 0.1F);
+  run(seconds(1), tab);
+  EXPECT_NEAR(tab.head().time, 0.1, 0.02) << "from the begin again, slowly";
+}
+
+TEST(ViewStage, ShowsHandsAsTheyWereAtTheInstant) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.stage.set_touch({{"left", 0.01, "simulated", 10.0}});
+  for (int i = 0; i < 100; ++i) {
+    HandFrame frame;
+    frame.time = live.now;
+    frame.hands.resize(1);
+    frame.hands[0].position.x() = static_cast<float>(i);
+    frame.ids = {{1, 2, 3}};
+    live.stage.take_hands(frame);
+    live.run(kTick, {&tab});
+  }
+  const auto x_of = [](const std::string& picture) {
+    float x = 0;
+    std::memcpy(&x, picture.data() + picture.size() - 72 + 8, sizeof x);
+    return x;
+  };
+  EXPECT_EQ(tab.last("touch")["hands"][0]["name"], "left");
+  EXPECT_EQ(tab.head().hands, 1);
+  EXPECT_EQ(x_of(tab.pictures.back()), 99.F);
+  tab.ask(2, 0.33);
+  live.run(kTick, {&tab});
+  EXPECT_EQ(x_of(tab.pictures.back()), 10.F);
+}
+
+/// Notes what pages ask of it.
+class NotedControls final : public ViewerControls {
+ public:
+  HandAnswer take_hand(Watcher watcher) override {
+    owner = watcher;
+    return {0, "yours"};
+  }
+  void give_hand(Watcher watcher) override {
+    if (owner == watcher) owner.reset();
+  }
+  void point(Watcher, const PointerRequest& request, nanoseconds) override {
+    pointed.push_back(request);
+  }
+  std::string set_network(const NetworkRequest&) override {
+    ++networks;
+    return "the network is as it was";
+  }
+  std::optional<Watcher> owner;
+  std::vector<PointerRequest> pointed;
+  int networks = 0;
+};
+
+TEST(ViewStage, LetsOnlyWhoKnowsTheWordPush) {
+  NotedControls controls;
+  StageOptions options;
+  options.controls = &controls;
+  LiveTrucks live(options);
+  Tab guest(live.stage, false), owner(live.stage, true);
+  const auto point = [](Tab& tab) { tab.ask(6, std::uint16_t{0}, 1.F, 2.F, 3.F, std::uint8_t{1}); };
+  guest.ask(8);
+  point(guest);
+  guest.ask(7, 100.F, 0.F, 0.F, std::uint8_t{0});
+  live.run(kTick, {&guest, &owner});
+  EXPECT_FALSE(controls.owner.has_value());
+  EXPECT_TRUE(controls.pointed.empty());
+  EXPECT_EQ(controls.networks, 0);
+  EXPECT_TRUE(guest.last("hand")["index"].is_null());
+
+  point(owner);
+  EXPECT_TRUE(controls.pointed.empty()) << "it has no hand yet";
+  owner.ask(8);
+  point(owner);
+  owner.ask(7, 100.F, 0.F, 0.F, std::uint8_t{0});
+  live.run(kTick, {&guest, &owner});
+  EXPECT_EQ(owner.texts[0]["may_push"], true);
+  EXPECT_EQ(owner.last("hand")["index"], 0);
+  EXPECT_EQ(controls.pointed.size(), 1U);
+  EXPECT_EQ(guest.last("note")["text"], "the network is as it was");
+  live.stage.leave(owner.watcher());
+  EXPECT_FALSE(controls.owner.has_value()) << "who goes gives its hand back";
+}
+
+TEST(ViewStage, RefusesMessagesThatAreNone) {
+  LiveTrucks live;
+  const auto watcher = live.stage.admit(true);
+  EXPECT_FALSE(live.stage.answer(*watcher, {}));
+  EXPECT_FALSE(live.stage.answer(*watcher, std::array{std::byte{99}}));
+}
+
+}  // namespace
+}  // namespace reckon::tools

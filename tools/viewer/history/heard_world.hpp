@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The world as it is heard at one instant: the listener's table of entities, and beside it how far
+// what is shown still is from what is predicted. A copy is the world at that instant.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/tools/listener/entity_table.hpp"
+#include "reckon/tools/viewer/history/roster.hpp"
+#include "reckon/tools/viewer/protocol/picture.hpp"
+
+namespace reckon::tools {
+
+/// How far updates were off the prediction, since it was asked last.
+struct HeardJumps {
+  std::size_t count = 0;
+  double sum = 0, worst = 0;  ///< [m]
+};
+
+/// One thread. Allocates as entities come. Some 0.5 us a state.
+class HeardWorld {
+ public:
+  /// @param most entities
+  HeardWorld(std::size_t most, const deadreckon::ConvergenceSettings& settings)
+      : table_(most), settings_(settings) {}
+
+  /// Takes one PDU as the inspector found it.
+  /// @param start of the source
+  void take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Roster& roster,
+                std::chrono::nanoseconds start);
+  /// Drops who has left, and who was silent for longer than it may and than `silence`.
+  void drop_silent(std::chrono::nanoseconds now, std::chrono::nanoseconds silence) {
+    table_.drop_gone(now);
+    table_.drop_silent(now, silence);
+  }
+
+  [[nodiscard]] const EntityTable& table() const noexcept { return table_; }
+  /// Where the first entity is that was heard; geocentric [m].
+  [[nodiscard]] std::optional<Eigen::Vector3d> first_place() const;
+  [[nodiscard]] HeardJumps take_jumps() noexcept { return std::exchange(jumps_, {}); }
+  /// Octets that a copy takes, about.
+  [[nodiscard]] std::size_t weight() const noexcept;
+
+  /// Adds a mark for each entity that is named and neither gone nor silent at `time`, without its
+  /// cell. @param frame that marks are in  @param start of the source
+  void add_marks(std::chrono::nanoseconds time, std::chrono::nanoseconds start,
+                 const Roster& roster, const deadreckon::LocalFrame& frame,
+                 std::vector<EntityMark>& out) const;
+
+ private:
+  struct Watching;  // of one PDU on its way in
+  void note_update(const StateUpdate& update, Roster& roster, std::chrono::nanoseconds start);
+
+  EntityTable table_;
+  deadreckon::ConvergenceSettings settings_;
+  std::vector<deadreckon::ConvergingError> errors_;  // by slot
+  HeardJumps jumps_;
+};
+
+}  // namespace reckon::tools

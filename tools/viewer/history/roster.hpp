@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who is in the pictures: a small number for each entity, and what is told of it once.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/tools/listener/listener.hpp"
+#include "reckon/tools/viewer/protocol/picture.hpp"
+
+namespace reckon::tools {
+
+/// Slots of entities. A new entity is shown once the roster that names it is published; a slot that
+/// became free is given away again. One thread; allocates as entities come, within its bound.
+class Roster {
+ public:
+  /// @param most entities at a time, below kNoNumber
+  explicit Roster(std::size_t most) : most_(most) {}
+
+  /// The slot of an entity that the listener knows; a new one where it has none, kNoNumber where
+  /// there is no room. Keeps what the newest state says of it.
+  std::uint16_t admit(const Listener& heard, const StateUpdate& update);
+  /// Notes the force model of an entity that has a slot, unless a newer state is known.
+  void note_model(std::uint64_t key, double radius, std::chrono::nanoseconds arrival);
+  /// By HeardEntity::key; kNoNumber where it has none.
+  [[nodiscard]] std::uint16_t slot_of(std::uint64_t key) const noexcept;
+  /// The same by ID alone, of whatever exercise.
+  [[nodiscard]] std::uint16_t slot_of(const pdu::EntityId& id) const noexcept;
+  /// The key of the entity at a slot; 0 where there is none.
+  [[nodiscard]] std::uint64_t key_at(std::uint16_t slot) const noexcept {
+    return slot < entries_.size() ? entries_[slot].key : 0;
+  }
+  /// Frees the slots of those that were last heard before `time`.
+  void forget_before(std::chrono::nanoseconds time);
+
+  /// Begins another epoch where something has changed. @return whether it did
+  bool publish();
+  [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
+  /// Whether the slot is named in what was published.
+  [[nodiscard]] bool is_published(std::uint16_t slot) const noexcept {
+    return slot < entries_.size() && entries_[slot].published;
+  }
+  /// The message that names all, as of the epoch.
+  [[nodiscard]] const std::string& message() const noexcept { return message_; }
+  [[nodiscard]] std::size_t size() const noexcept { return slots_.size(); }
+  /// Slots given away so far are below this.
+  [[nodiscard]] std::size_t bound() const noexcept { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::uint64_t key = 0;  // 0: free
+    pdu::EntityId id;
+    std::array<std::byte, 1> force{};
+    std::array<std::byte, 8> type{};
+    std::array<std::byte, 12> marking{};  // with its character set
+    bool haptic = false;
+    bool published = false;
+    double radius = 0;  // [m] of its force model
+    std::chrono::nanoseconds heard{};
+  };
+  [[nodiscard]] std::uint16_t place(std::uint64_t key);
+  void append_entry(std::string& out, std::size_t slot) const;
+
+  std::size_t most_;
+  std::vector<Entry> entries_;
+  std::vector<std::uint16_t> free_;
+  std::unordered_map<std::uint64_t, std::uint16_t> slots_;
+  std::unordered_map<std::uint64_t, std::uint16_t> by_id_;
+  bool changed_ = false;
+  std::uint32_t epoch_ = 0;
+  std::string message_;
+};
+
+}  // namespace reckon::tools

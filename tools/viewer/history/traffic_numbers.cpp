@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/history/traffic_numbers.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+}  // namespace
+
+void TrafficNumbers::pdu(const PduRow& row, const peer::SourceDatagram& datagram) {
+  Part& part = parts_[part_];
+  ++part.pdus;
+  loss_.pdu(row);
+  if (!row.decoded || row.header.pdu_type != pdu::PduType::datagram_trailer) return;
+  pdu::DatagramTrailer trailer;
+  if (decode(row.bytes, trailer) != pdu::DecodeError::none) return;
+  ++part.received;
+  if (part.delays.size() < kMostDelays)
+    part.delays.push_back(pdu::to_seconds(pdu::trailer_age(trailer.send_time, datagram.time)));
+}
+
+void TrafficNumbers::datagram(const peer::SourceDatagram& datagram, const HeardJumps& jumps) {
+  Part& part = parts_[part_];
+  part.octets += datagram.bytes.size();
+  part.lost += loss_.datagram(datagram);
+  part.jumps.count += jumps.count;
+  part.jumps.sum += jumps.sum;
+  part.jumps.worst = std::max(part.jumps.worst, jumps.worst);
+}
+
+void TrafficNumbers::pass(nanoseconds now) {
+  if (!next_) next_ = now + kEvery;
+  if (now < *next_) return;
+  samples_.push_back(sample(now));
+  if (samples_.size() > kMostSamples) samples_.pop_front();
+  // After a silence the parts before it are over too.
+  for (std::size_t i = 0; i < kParts && now >= *next_; ++i) {
+    part_ = (part_ + 1) % kParts;
+    parts_[part_] = {};
+    *next_ += kEvery;
+  }
+  if (now >= *next_) next_ = now + kEvery;
+}
+
+NumbersSample TrafficNumbers::sample(nanoseconds now) const {
+  Part all;
+  for (const Part& part : parts_) {
+    all.pdus += part.pdus;
+    all.octets += part.octets;
+    all.received += part.received;
+    all.lost += part.lost;
+    all.jumps.count += part.jumps.count;
+    all.jumps.sum += part.jumps.sum;
+    all.jumps.worst = std::max(all.jumps.worst, part.jumps.worst);
+    all.delays.insert(all.delays.end(), part.delays.begin(), part.delays.end());
+  }
+  constexpr double kSpan = pdu::to_seconds(kEvery) * kParts;
+  NumbersSample out;
+  out.time = now;
+  out.pdu_per_s = static_cast<double>(all.pdus) / kSpan;
+  out.bit_per_s = 8.0 * static_cast<double>(all.octets) / kSpan;
+  if (all.received > 0) {
+    // A late one makes them fewer.
+    const double lost = std::max(0.0, static_cast<double>(all.lost));
+    out.lost_share = lost / (lost + static_cast<double>(all.received));
+    std::sort(all.delays.begin(), all.delays.end());
+    out.delay_median = all.delays[all.delays.size() / 2];
+    out.delay_p95 = all.delays[all.delays.size() * 19 / 20];
+  }
+  if (all.jumps.count > 0) {
+    out.error_mean = all.jumps.sum / static_cast<double>(all.jumps.count);
+    out.error_worst = all.jumps.worst;
+  }
+  return out;
+}
+
+void TrafficNumbers::forget_before(nanoseconds time) {
+  while (samples_.size() > 1 && samples_.front().time < time) samples_.pop_front();
+}
+
+const NumbersSample* TrafficNumbers::at(nanoseconds time) const {
+  const auto after = std::upper_bound(
+      samples_.begin(), samples_.end(), time,
+      [](nanoseconds at, const NumbersSample& sample) { return at < sample.time; });
+  return after == samples_.begin() ? nullptr : &*std::prev(after);
+}
+
+}  // namespace reckon::tools

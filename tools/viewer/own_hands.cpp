@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/own_hands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reckon/deadreckon/force/force_model.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using haptics::ContactAccount;
+using haptics::ServoSnapshot;
+
+/// Less of a spring than this share is told as softened.
+constexpr double kWhole = 0.999;
+
+bool touches(const ContactAccount& contact) { return contact.depth > 0; }
+
+Eigen::Vector3d hand_force(const ServoSnapshot& step) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < step.count; ++i)
+    sum += step.contacts[i].force + step.contacts[i].damper_force;
+  return sum;
+}
+
+bool is_in_contact(const ServoSnapshot& step) {
+  return step.in_mesh_contact ||
+         std::any_of(step.contacts.begin(),
+                     step.contacts.begin() + static_cast<std::ptrdiff_t>(step.count), touches);
+}
+
+}  // namespace
+
+void OwnHands::add(std::size_t peer, const peer::HandView& view) {
+  Hand& hand = hands_.emplace_back();
+  hand.peer = peer;
+  hand.id = view.id;
+  hand.limit = std::isfinite(view.stiffness.force) ? view.stiffness.force : 0.0;
+  hand.step = view.servo;
+}
+
+void OwnHands::take(std::size_t hand, const ServoSnapshot& step) {
+  if (hand < hands_.size() && step.time >= hands_[hand].step.time) hands_[hand].step = step;
+}
+
+std::vector<TouchHand> OwnHands::names() const {
+  std::vector<TouchHand> names;
+  for (std::size_t i = 0; i < hands_.size(); ++i)
+    names.push_back({fmt::format("hand {}", i + 1), hand_.radius, "simulated", hands_[i].limit});
+  return names;
+}
+
+// [N], as DemoMeasurement compares: the others' full models where their devices really are.
+std::optional<double> OwnHands::true_force(std::size_t index) const {
+  const ServoSnapshot& own = hands_[index].step;
+  Eigen::Vector3d sum = own.mesh_force;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    if (hands_[i].peer == hands_[index].peer) continue;
+    deadreckon::Pose pose;
+    pose.position = hands_[i].step.device;
+    pose.velocity = hands_[i].step.device_velocity;
+    sum += deadreckon::evaluate(to_force_model(hand_), pose, own.device, own.device_velocity,
+                                hand_.radius);
+  }
+  // Of bodies that no hand moves the truth is not known here.
+  for (std::size_t k = 0; k < own.count; ++k)
+    if (touches(own.contacts[k]) && !own.contacts[k].has_device) return std::nullopt;
+  return sum.norm();
+}
+
+HandMark OwnHands::mark(std::size_t index) {
+  Hand& hand = hands_[index];
+  const ServoSnapshot& step = hand.step;
+  HandMark mark;
+  mark.index = static_cast<std::uint16_t>(index);
+  unsigned flags = 0;
+  if (is_in_contact(step)) flags |= kHandInContact;
+  if (std::min({step.spring_share, step.crowd_share, step.softening}) < kWhole)
+    flags |= kHandSoftened;
+  if (std::exchange(hand.rate_limited, step.tally.rate.seconds) < step.tally.rate.seconds)
+    flags |= kHandRateLimited;
+  const std::uint64_t let_go = step.tally.let_go + step.trips;
+  if (std::exchange(hand.let_go, let_go) < let_go || !step.enabled) flags |= kHandLetGo;
+  mark.flags = static_cast<std::uint16_t>(flags);
+  mark.position = step.device.cast<float>();
+  mark.contact_point = step.scp.cast<float>();
+  mark.force = step.force.cast<float>();
+  const Eigen::Vector3d pushed = hand_force(step);
+  Eigen::Vector3d normal = step.mesh_normal;
+  if (!step.in_mesh_contact)
+    normal = pushed.norm() > 0 ? pushed.normalized() : Eigen::Vector3d::Zero();
+  mark.normal = normal.cast<float>();
+  mark.energy = static_cast<float>(step.port_energy);
+  mark.loan = static_cast<float>(step.loan);
+  return mark;
+}
+
+HandFrame OwnHands::frame(std::chrono::nanoseconds steady_to_utc, bool knows_all) {
+  HandFrame frame;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    HandMark& hand = frame.hands.emplace_back(mark(i));
+    frame.ids.push_back(hands_[i].id);
+    frame.time = std::max(frame.time, hands_[i].step.time + steady_to_utc);
+    if (!knows_all) continue;
+    if (const auto force = true_force(i)) {
+      hand.true_force = static_cast<float>(*force);
+      hand.flags |= kHandTrueForce;
+    }
+  }
+  return frame;
+}
+
+}  // namespace reckon::tools

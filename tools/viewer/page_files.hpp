@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The files of the page, which the program carries in itself, compressed.
+#pragma once
+
+#include <string_view>
+
+namespace reckon::tools {
+
+/// A file as it is sent.
+struct PageFile {
+  std::string_view path;  ///< "/page.css"; the page itself is "/"
+  std::string_view content_type;
+  std::string_view gzip;  ///< its octets, compressed by gzip
+};
+
+/// The file that a request names; null where the page has none.
+[[nodiscard]] const PageFile* find_page_file(std::string_view path);
+
+}  // namespace reckon::tools

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a page asks of the server, one short binary message each. Any octets will do.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+
+namespace reckon::tools {
+
+/// Picture `number` is drawn: there is room for another.
+struct DrawnRequest {
+  std::uint32_t number = 0;
+};
+/// To another instant, and hold there.
+struct SeekRequest {
+  double time = 0;  ///< [s], finite
+};
+struct SpeedRequest {
+  static constexpr float kLeast = 0.1F, kMost = 16;
+  float speed = 1;  ///< 0: pause; else kLeast .. kMost
+};
+struct LiveRequest {};
+struct StepRequest {
+  int seconds = 0;  ///< -1 or 1; 0: one update
+  int updates = 0;  ///< -1 or 1
+};
+/// Where a hand is to go.
+struct PointerRequest {
+  static constexpr float kFarthest = 1e4F;  ///< [m] from the origin, each way
+  std::uint16_t hand = 0;
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]
+  bool held = false;
+};
+/// What the network does from now on.
+struct NetworkRequest {
+  static constexpr float kMostDelay = 300, kMostJitter = 300;  ///< [ms]
+  float delay_ms = 0, jitter_ms = 0;
+  float loss = 0;  ///< share, 0 .. 1
+  bool outage = false;
+};
+struct TakeHandRequest {};
+struct GiveHandRequest {};
+/// Whose cells are lit.
+struct FollowRequest {
+  std::uint16_t slot = 0xFFFF;  ///< 0xFFFF: nobody's
+};
+
+using PageRequest =
+    std::variant<DrawnRequest, SeekRequest, SpeedRequest, LiveRequest, StepRequest, PointerRequest,
+                 NetworkRequest, TakeHandRequest, GiveHandRequest, FollowRequest>;
+
+/// The request that a message holds; nothing where it is none, has another length, or a number in
+/// it is not finite or out of its range.
+[[nodiscard]] std::optional<PageRequest> read_page_request(
+    std::span<const std::byte> message) noexcept;
+
+/// Whether it changes the exercise: then only who knows the word may say it.
+[[nodiscard]] bool changes_exercise(const PageRequest& request) noexcept;
+
+}  // namespace reckon::tools

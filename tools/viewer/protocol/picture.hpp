@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A picture of the world at one instant as the page gets it: plain rows, and their octets.
+// docs/viewer.md has the layout byte by byte.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reckon/tools/listener/update_cause.hpp"
+
+namespace reckon::tools {
+
+inline constexpr std::uint32_t kPictureMagic = 0x31564B52;  ///< "RKV1": the version of the layout
+inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 44, kHandOctets = 72,
+                             kContactOctets = 28;
+inline constexpr std::uint16_t kNoNumber = 0xFFFF;  ///< no slot, no cell
+/// Rows of a kind that a picture has at most; more are left out.
+inline constexpr std::size_t kMostPictureRows = 0xFFFE;
+
+/// Bits of PictureRows::flags.
+enum PictureFlag : std::uint16_t {
+  kPictureLive = 1,
+  kPicturePaused = 2,
+  kPictureEnd = 4,  ///< the end of a capture is reached
+  kPictureGap = 8   ///< the time before it was not shown
+};
+
+/// Bits of HandMark::flags.
+enum HandFlag : std::uint16_t {
+  kHandInContact = 1,
+  kHandSoftened = 2,     ///< springs, dampers or the sum are shown softer than asked
+  kHandRateLimited = 4,  ///< the force grows slower than asked
+  kHandLetGo = 8,        ///< safety cut the force, or the device let go of it
+  kHandPointer = 16,     ///< moved by a page
+  kHandPointerFree = 32,
+  kHandYours = 64,       ///< by this page
+  kHandTrueForce = 128,  ///< true_force is known
+  kHandTwin = 256
+};
+
+/// An entity; east, north, up of the origin [m].
+struct EntityMark {
+  std::uint16_t slot = kNoNumber;  ///< in the roster
+  std::uint8_t force = 0;          ///< DIS force ID
+  UpdateCause cause = UpdateCause::none;
+  std::uint16_t cell = kNoNumber;
+  std::uint16_t group = 0;  ///< low 16 bits of the address of the last update; 0: none
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();               ///< predicted
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to east, north, up
+  Eigen::Vector3f error = Eigen::Vector3f::Zero();                  ///< shown minus predicted
+  double rate = 0;                                                  ///< updates a second
+  double jump = 0;                                                  ///< of the last update [m]
+};
+
+/// A hand of this program's own.
+struct HandMark {
+  std::uint16_t index = 0;
+  std::uint16_t flags = 0;
+  std::uint16_t slot = kNoNumber;                      ///< of its entity
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of the handle
+  Eigen::Vector3f contact_point = Eigen::Vector3f::Zero();
+  Eigen::Vector3f force = Eigen::Vector3f::Zero();   ///< [N], on the hand
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit; zero where the scene is not touched
+  float true_force = 0;                              ///< [N]
+  float energy = 0;                                  ///< [J], at the port
+  float loan = 0;                                    ///< [J]
+  float twin_force = 0;                              ///< [N]
+};
+
+/// A contact between two entities, as a listener computes it.
+struct ContactMark {
+  std::uint16_t felt = kNoNumber, feeling = kNoNumber;  ///< slots: whose model, and who is pushed
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();
+  Eigen::Vector3f force = Eigen::Vector3f::Zero();  ///< [N], on who feels
+};
+
+struct PictureRows {
+  double time = 0;  ///< [s] since the start of the source
+  std::uint16_t flags = 0;
+  std::uint32_t epoch = 0;  ///< of the roster that the slots are of
+  std::vector<EntityMark> entities;
+  std::vector<HandMark> hands;
+  std::vector<ContactMark> contacts;
+};
+
+/// The octets, in the place of what `out` held.
+void encode_picture(const PictureRows& rows, std::string& out);
+/// Sets the number in the head of such octets.
+void number_picture(std::string& octets, std::uint32_t number);
+/// Sets kHandYours for the hand of this index, in such octets of `rows`.
+void mark_own_hand(const PictureRows& rows, std::uint16_t index, std::string& octets);
+
+}  // namespace reckon::tools

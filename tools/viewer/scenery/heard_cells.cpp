@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/scenery/heard_cells.hpp"
+
+#include <algorithm>
+
+#include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+aoim::Position place_of(const EntityMark& mark) {
+  return {static_cast<double>(mark.position.x()), static_cast<double>(mark.position.y()),
+          static_cast<double>(mark.position.z())};
+}
+
+std::string_view shape_of(aoim::CellScheme scheme) {
+  switch (scheme) {
+    case aoim::CellScheme::hexagonal:
+      return "hexagon";
+    case aoim::CellScheme::square:
+      return "square";
+    default:
+      return "point";
+  }
+}
+
+}  // namespace
+
+HeardCells::HeardCells(const peer::AoimConfig& config)
+    : cells_(peer::cells_of(config)), radius_(config.radius) {}
+
+std::uint16_t HeardCells::number_of(aoim::CellId cell) {
+  const auto known = numbers_.find(cell);
+  if (known != numbers_.end()) return known->second;
+  if (by_number_.size() >= kMostCells) return kNoNumber;
+  const auto number = static_cast<std::uint16_t>(by_number_.size());
+  by_number_.push_back(cell);
+  numbers_.emplace(cell, number);
+  return number;
+}
+
+void HeardCells::place(std::span<EntityMark> marks) {
+  for (EntityMark& mark : marks)
+    if (mark.position.allFinite()) mark.cell = number_of(cells_.cell(place_of(mark)));
+}
+
+std::vector<std::uint16_t> HeardCells::cells_heard(const EntityMark& mark) {
+  std::vector<std::uint16_t> heard;
+  cells_.visit([&](const auto& scheme) {
+    // Of a scene with cells far smaller than the radius the count would say nothing.
+    if (scheme.cells_bound(radius_) > kMostTold) return;
+    scheme.for_each_cell_within(place_of(mark), radius_, [&](aoim::CellId cell, double) {
+      heard.push_back(number_of(cell));
+    });
+  });
+  return heard;
+}
+
+bool HeardCells::hears(const EntityMark& mark, std::uint16_t cell) const {
+  if (cell >= by_number_.size() || !mark.position.allFinite()) return false;
+  return cells_.visit([&](const auto& scheme) {
+    return scheme.distance(by_number_[cell], place_of(mark)) <= radius_;
+  });
+}
+
+std::string HeardCells::message(std::span<const EntityMark> marks, std::uint16_t follow) {
+  std::map<std::uint16_t, std::vector<std::uint16_t>> told;  // cell -> slots that hear it
+  const auto has_room = [&](std::uint16_t cell) {
+    return cell != kNoNumber && (told.size() < kMostTold || told.contains(cell));
+  };
+  const auto followed = std::ranges::find(marks, follow, &EntityMark::slot);
+  if (followed != marks.end()) {
+    for (const std::uint16_t cell : cells_heard(*followed))
+      if (has_room(cell)) told[cell].push_back(follow);
+    for (const EntityMark& mark : marks)
+      if (mark.slot != follow && has_room(followed->cell) && hears(mark, followed->cell))
+        told[followed->cell].push_back(mark.slot);
+  }
+  for (const EntityMark& mark : marks)
+    if (has_room(mark.cell)) told[mark.cell];
+  std::string out;
+  JsonObject(out)
+      .text("type", "cells")
+      .text("shape", shape_of(cells_.scheme()))
+      .decimals("size", cells_.finest(), 4)
+      .array("cells", told,
+             [this](std::string& text, const auto& row) {
+               const aoim::Position centre = cells_.visit(
+                   [&](const auto& scheme) { return scheme.centre(by_number_[row.first]); });
+               JsonObject(text)
+                   .value("cell", row.first)
+                   .decimals("x", centre.x, 3)
+                   .decimals("y", centre.y, 3)
+                   .array("heard_by", row.second,
+                          [](std::string& slots, std::uint16_t slot) {
+                            slots += std::to_string(slot);
+                          })
+                   .end();
+             })
+      .end();
+  return out;
+}
+
+}  // namespace reckon::tools

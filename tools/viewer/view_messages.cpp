@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The text that a stage has for its tabs.
+#include <fmt/format.h>
+
+#include <numbers>
+#include <utility>
+
+#include "reckon/tools/command_line/version.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/viewer/view_stage.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr int kMetreDecimals = 5;
+
+std::string_view name(PlayState state) {
+  switch (state) {
+    case PlayState::live:
+      return "live";
+    case PlayState::playing:
+      return "playing";
+    case PlayState::paused:
+      return "paused";
+    case PlayState::end:
+      return "end";
+  }
+  return "";
+}
+
+void append_point(std::string& out, const Eigen::Vector3d& point) {
+  fmt::format_to(std::back_inserter(out), "[{:.{}f},{:.{}f},{:.{}f}]", point.x(), kMetreDecimals,
+                 point.y(), kMetreDecimals, point.z(), kMetreDecimals);
+}
+
+void append_mesh(JsonObject& object, const DrawnSolid& solid) {
+  object.array("vertices", solid.vertices, [](std::string& out, const Eigen::Vector3d& vertex) {
+    fmt::format_to(std::back_inserter(out), "{:.{}f},{:.{}f},{:.{}f}", vertex.x(), kMetreDecimals,
+                   vertex.y(), kMetreDecimals, vertex.z(), kMetreDecimals);
+  });
+  object.array("triangles", solid.triangles, [](std::string& out, const auto& triangle) {
+    fmt::format_to(std::back_inserter(out), "{},{},{}", triangle[0], triangle[1], triangle[2]);
+  });
+}
+
+void append_solid(std::string& out, const DrawnSolid& solid) {
+  JsonObject object(out);
+  object.text("name", solid.name).text("shape", solid.shape);
+  append_point(object.member("position"), solid.pose.position);
+  const Eigen::Quaterniond& q = solid.pose.orientation;
+  object.member("quaternion") +=
+      fmt::format("[{:.7f},{:.7f},{:.7f},{:.7f}]", q.w(), q.x(), q.y(), q.z());
+  if (solid.shape == "sphere") object.decimals("radius", solid.radius, kMetreDecimals);
+  if (solid.shape == "box") append_point(object.member("size"), solid.size);
+  if (solid.shape == "mesh") append_mesh(object, solid);
+  object.decimals("stiffness", solid.stiffness, 1).decimals("friction", solid.friction, 3).end();
+}
+
+void append_optional(JsonObject& object, std::string_view key, std::optional<double> value,
+                     int decimals) {
+  if (value) object.decimals(key, *value, decimals);
+}
+
+}  // namespace
+
+void ViewStage::set_touch(const std::vector<TouchHand>& hands) {
+  std::string out;
+  std::size_t index = 0;
+  JsonObject(out)
+      .text("type", "touch")
+      .array("solids", solids_, append_solid)
+      .array("hands", hands,
+             [&index](std::string& text, const TouchHand& hand) {
+               JsonObject(text)
+                   .value("index", index++)
+                   .text("name", hand.name)
+                   .decimals("radius", hand.radius, kMetreDecimals)
+                   .text("device", hand.device)
+                   .decimals("limit", hand.limit, 3)
+                   .end();
+             })
+      .end();
+  touch_ = std::make_shared<const std::string>(std::move(out));
+}
+
+void ViewStage::append_origin(std::string& out) const {
+  JsonObject(out)
+      .decimals("lat", origin_.latitude * kDegrees, 9)
+      .decimals("lon", origin_.longitude * kDegrees, 9)
+      .decimals("height", origin_.height, 3)
+      .end();
+}
+
+std::string ViewStage::hello(const Watcher& watcher) const {
+  std::string out;
+  JsonObject object(out);
+  object.text("type", "hello")
+      .value("version", 1)
+      .text("program", fmt::format("reckon {}", program_version()))
+      .text("source", options_.source)
+      .text("kind", options_.kind)
+      .value("may_push", watcher.may_push);
+  object.member("span") +=
+      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
+  if (frame_)
+    append_origin(object.member("origin"));
+  else
+    object.value("origin", "null");
+  object.text("help", options_.help).end();
+  return out;
+}
+
+std::string ViewStage::origin_message() const {
+  std::string out;
+  JsonObject object(out);
+  object.text("type", "origin");
+  append_origin(object.member("origin"));
+  object.end();
+  return out;
+}
+
+std::string ViewStage::play_message(const Watcher& watcher) const {
+  std::string out;
+  JsonObject(out)
+      .text("type", "play")
+      .text("state", name(watcher.state))
+      .decimals("speed", watcher.state == PlayState::paused ? 0.0 : watcher.speed, 2)
+      .decimals("time", seconds(shown_time(watcher)), 3)
+      .end();
+  return out;
+}
+
+std::string ViewStage::numbers_message(const Watcher& watcher) const {
+  const Time time = shown_time(watcher);
+  std::string out;
+  JsonObject object(out);
+  object.text("type", "numbers").decimals("time", seconds(time), 3);
+  object.member("span") +=
+      fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
+  if (const NumbersSample* sample = history_.numbers().at(time)) {
+    object.decimals("pdu_per_s", sample->pdu_per_s, 1).decimals("bit_per_s", sample->bit_per_s, 0);
+    append_optional(object, "lost_share", sample->lost_share, 5);
+    if (sample->delay_median) {
+      JsonObject(object.member("delay_ms"))
+          .decimals("median", 1e3 * *sample->delay_median, 3)
+          .decimals("p95", 1e3 * sample->delay_p95.value_or(0), 3)
+          .end();
+    }
+    if (sample->error_mean || threshold_) {
+      JsonObject error(object.member("error"));
+      append_optional(error, "mean_m", sample->error_mean, 6);
+      append_optional(error, "worst_m", sample->error_worst, 6);
+      append_optional(error, "threshold_m", threshold_, 6);
+      error.end();
+    }
+  }
+  if (options_.raw_bit_per_s > 0) object.decimals("raw_bit_per_s", options_.raw_bit_per_s, 0);
+  object.value("watchers", watchers_).end();
+  return out;
+}
+
+// What every tab gets, however slow: once, or as the answer to what it asked.
+ViewStage::Text ViewStage::next_text(Watcher& watcher) {
+  const auto text = [](std::string&& message) {
+    return std::make_shared<const std::string>(std::move(message));
+  };
+  if (!std::exchange(watcher.greeted, true)) {
+    watcher.knows_origin = frame_.has_value();
+    return text(hello(watcher));
+  }
+  if (!watcher.knows_touch && touch_) {
+    watcher.knows_touch = true;
+    return touch_;
+  }
+  if (!std::exchange(watcher.knows_state, true)) return text(play_message(watcher));
+  if (!watcher.answer.empty()) return text(std::exchange(watcher.answer, {}));
+  if (watcher.under_way.size() >= Watcher::kCredit) return nullptr;
+  return next_regular_text(watcher);
+}
+
+// What comes again and again: only for who draws what it gets.
+ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
+  const auto text = [](std::string&& message) {
+    return std::make_shared<const std::string>(std::move(message));
+  };
+  if (!watcher.knows_origin && frame_) {
+    watcher.knows_origin = true;
+    return text(origin_message());
+  }
+  if (watcher.epoch != history_.roster().epoch()) {
+    watcher.epoch = history_.roster().epoch();
+    watcher.needs_picture = true;
+    return std::make_shared<const std::string>(history_.roster().message());
+  }
+  watcher.notes = std::max(watcher.notes, first_note_);
+  if (watcher.notes < first_note_ + notes_.size()) return notes_[watcher.notes++ - first_note_];
+  if (std::exchange(watcher.numbers_tick, numbers_tick_) != numbers_tick_)
+    return text(numbers_message(watcher));
+  if (!cells_ || std::exchange(watcher.cells_tick, cells_tick_) == cells_tick_) return nullptr;
+  PictureRows rows;
+  if (is_past(watcher)) fill(world_for(watcher, shown_time(watcher)), shown_time(watcher), rows);
+  std::string cells =
+      cells_->message(is_past(watcher) ? rows.entities : live_rows().entities, watcher.follow);
+  if (cells == watcher.cells) return nullptr;
+  watcher.cells = std::move(cells);
+  return text(std::string(watcher.cells));
+}
+
+}  // namespace reckon::tools

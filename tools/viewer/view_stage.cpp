@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/view_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/viewer/protocol/short_messages.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+/// Pictures farther apart than this, at the speed that time passes, have a gap between them.
+constexpr nanoseconds kGap = std::chrono::milliseconds(500);
+constexpr nanoseconds kSecond = std::chrono::seconds(1);
+
+HistoryOptions history_options(const StageOptions& options) {
+  HistoryOptions history = options.history;
+  if (options.scene != nullptr) history.convergence = options.scene->convergence.settings;
+  return history;
+}
+
+/// Where a frame's origin lies on the ellipsoid.
+peer::OriginConfig origin_of(const deadreckon::LocalFrame& frame) {
+  constexpr double kEquator = 6378137.0;
+  constexpr double kFlattening = 1 / 298.257223563;
+  constexpr double kSquared = kFlattening * (2 - kFlattening);
+  const Eigen::Vector3d up = frame.rotation().col(2);
+  const Eigen::Vector3d& at = frame.origin();
+  peer::OriginConfig origin;
+  origin.latitude = std::asin(std::clamp(up.z(), -1.0, 1.0));
+  origin.longitude = std::atan2(up.y(), up.x());
+  origin.height = at.dot(up) - kEquator * std::sqrt(1 - kSquared * up.z() * up.z());
+  return origin;
+}
+
+}  // namespace
+
+ViewStage::ViewStage(const StageOptions& options)
+    : options_(options), history_(history_options(options)) {
+  if (options.scene != nullptr) {
+    const peer::SceneFile& scene = *options.scene;
+    origin_ = scene.origin;
+    frame_.emplace(origin_.latitude, origin_.longitude, origin_.height);
+    threshold_ = scene.dead_reckoning.thresholds.position;
+    cells_ = std::make_unique<HeardCells>(scene.aoim);
+    solids_ = drawn_solids(scene.scene);
+    set_touch({});
+  }
+  options_.scene = nullptr;
+}
+
+double ViewStage::seconds(Time time) const noexcept {
+  return pdu::to_seconds(time - history_.start());
+}
+
+nanoseconds ViewStage::live_end() const noexcept {
+  return options_.is_capture ? history_.end() : now_;
+}
+
+void ViewStage::find_frame() {
+  if (frame_) return;
+  if (const auto place = history_.live().first_place()) {
+    frame_ = local_frame_at(*place);
+    origin_ = origin_of(*frame_);
+  }
+}
+
+void ViewStage::take_hands(HandFrame frame) {
+  hands_.push_back(std::move(frame));
+  const Time oldest = hands_.back().time - options_.history.span.value_or(Time{});
+  while (hands_.size() > 1 && hands_.front().time < oldest) hands_.pop_front();
+}
+
+void ViewStage::note(std::string_view level, std::string_view text) {
+  notes_.push_back(std::make_shared<const std::string>(note_message(level, text)));
+  if (notes_.size() <= kMostNotes) return;
+  notes_.pop_front();
+  ++first_note_;
+}
+
+void ViewStage::pass(Time now) {
+  now_ = std::max(now_, now);
+  if (!options_.is_capture) {
+    history_.begin_at(now_);
+    history_.pass(now_);
+  }
+  find_frame();
+  ++tick_;
+  if (now_ >= next_roster_) {
+    history_.roster().publish();
+    next_roster_ = now_ + kRosterEvery;
+    ++cells_tick_;
+  }
+  if (now_ >= next_numbers_) {
+    next_numbers_ = std::max(next_numbers_ + kNumbersEvery, now_);
+    ++numbers_tick_;
+  }
+}
+
+std::unique_ptr<Watcher> ViewStage::admit(bool knows_word) {
+  auto watcher = std::make_unique<Watcher>();
+  watcher->number = next_watcher_++;
+  watcher->may_push = knows_word && options_.controls != nullptr;
+  watcher->advanced = now_;
+  watcher->notes = first_note_;
+  watcher->gaps = gaps_;
+  if (options_.is_capture) {
+    watcher->state = PlayState::playing;
+    watcher->time = history_.begin();
+  }
+  ++watchers_;
+  return watcher;
+}
+
+void ViewStage::leave(const Watcher& watcher) {
+  --watchers_;
+  if (options_.controls != nullptr) options_.controls->give_hand(watcher.number);
+}
+
+// Time
+// ------------------------------------------------------------------------------------------------
+
+bool ViewStage::is_past(const Watcher& watcher) const noexcept {
+  return watcher.state != PlayState::live;
+}
+
+nanoseconds ViewStage::shown_time(const Watcher& watcher) const {
+  if (!is_past(watcher)) return live_end();
+  return std::clamp(watcher.time, history_.begin(), std::max(history_.begin(), live_end()));
+}
+
+// Moves a playing tab on; where it catches up with now it is live, at a capture's end it stops.
+void ViewStage::advance(Watcher& watcher) const {
+  const Time passed = now_ - std::exchange(watcher.advanced, now_);
+  if (watcher.state != PlayState::playing) return;
+  const double step = watcher.speed * pdu::to_seconds(passed);
+  watcher.time = std::max(watcher.time + pdu::from_seconds(step), history_.begin());
+  if (watcher.time < live_end()) return;
+  watcher.time = live_end();
+  watcher.state = options_.is_capture ? PlayState::end : PlayState::live;
+  watcher.knows_state = false;
+  watcher.needs_picture = true;
+}
+
+void ViewStage::show_at(Watcher& watcher, Time time, PlayState state) const {
+  watcher.state = state;
+  watcher.time = std::clamp(time, history_.begin(), std::max(history_.begin(), live_end()));
+  watcher.advanced = now_;
+  watcher.knows_state = false;
+  watcher.needs_picture = true;
+}
+
+/// What each kind of request does.
+struct ViewStage::Requests {
+  ViewStage& stage;
+  Watcher& watcher;
+
+  void operator()(const DrawnRequest& request) const {
+    // A picture that is drawn says the same of those before it.
+    auto& under_way = watcher.under_way;
+    const auto drawn = std::find(under_way.begin(), under_way.end(), request.number);
+    if (drawn != under_way.end()) under_way.erase(under_way.begin(), std::next(drawn));
+  }
+  void operator()(const SeekRequest& request) const {
+    constexpr double kFarthest = 1e9;  // [s]
+    const double cut = std::clamp(request.time, -kFarthest, kFarthest);
+    stage.show_at(watcher, stage.history_.start() + pdu::from_seconds(cut), PlayState::paused);
+  }
+  void operator()(const SpeedRequest& request) const {
+    const Time time = stage.shown_time(watcher);
+    if (request.speed == 0) return stage.show_at(watcher, time, PlayState::paused);
+    watcher.speed = static_cast<double>(request.speed);
+    const bool from_begin = watcher.state == PlayState::end;
+    stage.show_at(watcher, from_begin ? stage.history_.begin() : time, PlayState::playing);
+  }
+  void operator()(const LiveRequest&) const {
+    const bool is_over = stage.options_.is_capture;
+    watcher.cursor.reset();
+    stage.show_at(watcher, stage.live_end(), is_over ? PlayState::end : PlayState::live);
+  }
+  void operator()(const StepRequest& request) const {
+    const Time time = stage.shown_time(watcher);
+    if (request.updates == 0)
+      return stage.show_at(watcher, time + request.seconds * kSecond, PlayState::paused);
+    const auto next = request.updates > 0 ? stage.history_.update_after(time)
+                                          : stage.history_.update_before(time);
+    stage.show_at(watcher, next.value_or(time), PlayState::paused);
+  }
+  void operator()(const PointerRequest& request) const {
+    if (watcher.hand == request.hand)
+      stage.options_.controls->point(watcher.number, request, stage.now_);
+  }
+  void operator()(const NetworkRequest& request) const {
+    stage.note("info", stage.options_.controls->set_network(request));
+  }
+  void operator()(const TakeHandRequest&) const {
+    const auto answer = stage.options_.controls->take_hand(watcher.number);
+    watcher.hand = answer.hand;
+    watcher.answer = hand_message(answer.hand, answer.text);
+  }
+  void operator()(const GiveHandRequest&) const {
+    stage.options_.controls->give_hand(watcher.number);
+    watcher.hand.reset();
+    watcher.answer = hand_message(std::nullopt, "the hand is free again");
+  }
+  void operator()(const FollowRequest& request) const { watcher.follow = request.slot; }
+};
+
+bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {
+  const auto request = read_page_request(message);
+  if (!request) return false;
+  if (changes_exercise(*request) && !watcher.may_push) {
+    watcher.answer = hand_message(
+        std::nullopt, options_.controls == nullptr
+                          ? "there is no hand to take here"
+                          : "this tab only looks: open the address that the program printed");
+    return true;
+  }
+  std::visit(Requests{*this, watcher}, *request);
+  return true;
+}
+
+// Pictures
+// ------------------------------------------------------------------------------------------------
+
+const HeardWorld& ViewStage::world_for(Watcher& watcher, Time time) {
+  if (!is_past(watcher)) return history_.live();
+  history_.seek(watcher.cursor, time);
+  return watcher.cursor->world();
+}
+
+void ViewStage::fill(const HeardWorld& world, Time time, PictureRows& rows) {
+  rows.entities.clear();
+  rows.hands.clear();
+  rows.contacts.clear();
+  rows.time = seconds(time);
+  rows.epoch = history_.roster().epoch();
+  if (frame_) {
+    world.add_marks(time, history_.start(), history_.roster(), *frame_, rows.entities);
+    if (cells_) cells_->place(rows.entities);
+    add_contacts(world, time, rows);
+  }
+  add_hands(time, rows);
+}
+
+void ViewStage::add_contacts(const HeardWorld& world, Time time, PictureRows& rows) {
+  const Listener& heard = world.table().heard();
+  if (heard.models().empty() || heard.models().size() > kMostHaptic) return;
+  for (const ContactForce& force : contacts_.forces_at(heard, time)) {
+    if (rows.contacts.size() >= kMostPictureRows) return;
+    const std::uint16_t felt = history_.roster().slot_of(force.by);
+    const std::uint16_t feeling = history_.roster().slot_of(force.on);
+    const auto place = std::ranges::find(rows.entities, feeling, &EntityMark::slot);
+    if (felt == kNoNumber || place == rows.entities.end() || !force.force.allFinite()) continue;
+    ContactMark& mark = rows.contacts.emplace_back();
+    mark.felt = felt;
+    mark.feeling = feeling;
+    mark.force = frame_->scene_from_world_vector(force.force).cast<float>();
+    mark.point = place->position;
+  }
+}
+
+void ViewStage::add_hands(Time time, PictureRows& rows) const {
+  const auto after =
+      std::upper_bound(hands_.begin(), hands_.end(), time,
+                       [](Time at, const HandFrame& frame) { return at < frame.time; });
+  if (after == hands_.begin()) return;
+  const HandFrame& frame = *std::prev(after);
+  rows.hands = frame.hands;
+  for (std::size_t i = 0; i < rows.hands.size() && i < frame.ids.size(); ++i)
+    rows.hands[i].slot = history_.roster().slot_of(frame.ids[i]);
+}
+
+const PictureRows& ViewStage::live_rows() {
+  if (std::exchange(live_tick_, tick_) != tick_) fill(history_.live(), live_end(), live_);
+  return live_;
+}
+
+std::uint16_t ViewStage::flags_for(const Watcher& watcher, Time time) const {
+  unsigned flags = 0;
+  if (watcher.state == PlayState::live) flags |= kPictureLive;
+  if (watcher.state == PlayState::paused) flags |= kPicturePaused;
+  if (watcher.state == PlayState::end) flags |= kPictureEnd;
+  const bool is_fast = watcher.state == PlayState::playing && watcher.speed > 1;
+  const Time apart = is_fast ? pdu::from_seconds(watcher.speed * pdu::to_seconds(kGap)) : kGap;
+  const bool leaps = watcher.shown && (time < *watcher.shown || time - *watcher.shown > apart);
+  if (leaps || watcher.gaps != gaps_) flags |= kPictureGap;
+  return static_cast<std::uint16_t>(flags);
+}
+
+bool ViewStage::wants_picture(const Watcher& watcher) const {
+  if (watcher.under_way.size() >= Watcher::kCredit || watcher.tick == tick_) return false;
+  const bool moves = watcher.state == PlayState::live || watcher.state == PlayState::playing;
+  return moves || watcher.needs_picture;
+}
+
+ViewStage::Text ViewStage::next_picture(Watcher& watcher) {
+  const Time time = shown_time(watcher);
+  PictureRows& rows = is_past(watcher) ? past_ : live_;
+  if (is_past(watcher))
+    fill(world_for(watcher, time), time, past_);
+  else
+    (void)live_rows();
+  rows.flags = flags_for(watcher, time);
+  auto octets = std::make_shared<std::string>();
+  encode_picture(rows, *octets);
+  if (watcher.hand) mark_own_hand(rows, *watcher.hand, *octets);
+  const auto number = static_cast<std::uint32_t>(tick_);
+  number_picture(*octets, number);
+  watcher.under_way.push_back(number);
+  watcher.tick = tick_;
+  watcher.shown = time;
+  watcher.gaps = gaps_;
+  watcher.needs_picture = false;
+  return octets;
+}
+
+std::optional<ViewStage::Message> ViewStage::next_message(Watcher& watcher) {
+  advance(watcher);
+  if (Text text = next_text(watcher)) return Message{WebSocketOpcode::text, std::move(text)};
+  if (!watcher.greeted || !wants_picture(watcher)) return std::nullopt;
+  return Message{WebSocketOpcode::binary, next_picture(watcher)};
+}
+
+}  // namespace reckon::tools

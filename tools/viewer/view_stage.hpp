@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the viewer shows, and to whom: takes datagrams and hands in, keeps the history, and has for
+// each tab the next message when there is room for one. No sockets; time is passed in.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/listener/contact_forces.hpp"
+#include "reckon/tools/viewer/history/history.hpp"
+#include "reckon/tools/viewer/protocol/picture.hpp"
+#include "reckon/tools/viewer/scenery/heard_cells.hpp"
+#include "reckon/tools/viewer/scenery/solid_shapes.hpp"
+#include "reckon/tools/viewer/viewer_controls.hpp"
+#include "reckon/tools/viewer/watcher.hpp"
+#include "reckon/tools/viewer/web/web_socket.hpp"
+
+namespace reckon::tools {
+
+/// What is shown.
+struct StageOptions {
+  std::string source;                      ///< as the user named it
+  std::string_view kind = "live";          ///< "demo", "peer", "live" or "capture"
+  std::string help;                        ///< a sentence for an empty page
+  const peer::SceneFile* scene = nullptr;  ///< null: none is known; read at construction only
+  bool is_capture = false;                 ///< all of it is taken before anybody looks
+  HistoryOptions history;
+  double raw_bit_per_s = 0;            ///< of a stream without dead reckoning; 0: not known
+  ViewerControls* controls = nullptr;  ///< null: pages only look; outlives the stage
+};
+
+/// One of the program's own hands, as it is told once.
+struct TouchHand {
+  std::string name;
+  double radius = 0;  ///< [m]
+  std::string_view device = "simulated";
+  double limit = 0;  ///< [N], its largest force
+};
+
+/// All hands of the program at one instant. Their slots are set by `ids`.
+struct HandFrame {
+  std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
+  std::vector<HandMark> hands;
+  std::vector<pdu::EntityId> ids;
+};
+
+/// One thread. Times are since 1970-01-01 UTC, those of a capture its own.
+class ViewStage {
+ public:
+  /// A message for a tab.
+  struct Message {
+    WebSocketOpcode opcode = WebSocketOpcode::text;
+    std::shared_ptr<const std::string> payload;
+  };
+  static constexpr std::chrono::nanoseconds kNumbersEvery = std::chrono::milliseconds(250);
+  static constexpr std::chrono::nanoseconds kRosterEvery = std::chrono::milliseconds(500);
+  /// Haptic entities beyond which contacts are not computed: their pairs are looked at.
+  static constexpr std::size_t kMostHaptic = 512;
+
+  /// Reads the scene's meshes.
+  explicit ViewStage(const StageOptions& options);
+
+  /// A datagram of the source. @return false where a capture's history is full
+  bool take(const peer::SourceDatagram& datagram) { return history_.take(datagram); }
+  void set_touch(const std::vector<TouchHand>& hands);
+  void take_hands(HandFrame frame);
+  /// A line for the log of all tabs; the last kMostNotes are kept.
+  void note(std::string_view level, std::string_view text);
+  /// The source lost something: what is shown from now on has a gap before it.
+  void note_gap() noexcept { ++gaps_; }
+  /// Time has come to `now`, by a clock of its own for a capture: a new picture may be shown.
+  void pass(std::chrono::nanoseconds now);
+
+  /// A tab has come. @param knows_word it may push
+  [[nodiscard]] std::unique_ptr<Watcher> admit(bool knows_word);
+  /// It goes.
+  void leave(const Watcher& watcher);
+  /// What it asked. @return false where that is no request: it is to be closed
+  [[nodiscard]] bool answer(Watcher& watcher, std::span<const std::byte> message);
+  /// The next thing to send to it, by importance; nothing where it has all there is by now.
+  [[nodiscard]] std::optional<Message> next_message(Watcher& watcher);
+
+  [[nodiscard]] std::size_t watchers() const noexcept { return watchers_; }
+  [[nodiscard]] const History& history() const noexcept { return history_; }
+
+ private:
+  using Time = std::chrono::nanoseconds;
+  using Text = std::shared_ptr<const std::string>;
+  static constexpr std::size_t kMostNotes = 64;
+  struct Requests;  // what each kind of request does
+
+  [[nodiscard]] double seconds(Time time) const noexcept;
+  [[nodiscard]] Time live_end() const noexcept;
+  void find_frame();
+  void advance(Watcher& watcher) const;
+  void show_at(Watcher& watcher, Time time, PlayState state) const;
+  [[nodiscard]] Time shown_time(const Watcher& watcher) const;
+  [[nodiscard]] bool is_past(const Watcher& watcher) const noexcept;
+  [[nodiscard]] const HeardWorld& world_for(Watcher& watcher, Time time);
+
+  [[nodiscard]] Text next_text(Watcher& watcher);
+  [[nodiscard]] Text next_regular_text(Watcher& watcher);
+  [[nodiscard]] std::string hello(const Watcher& watcher) const;
+  [[nodiscard]] std::string origin_message() const;
+  [[nodiscard]] std::string play_message(const Watcher& watcher) const;
+  [[nodiscard]] std::string numbers_message(const Watcher& watcher) const;
+  void append_origin(std::string& out) const;
+
+  [[nodiscard]] bool wants_picture(const Watcher& watcher) const;
+  [[nodiscard]] Text next_picture(Watcher& watcher);
+  [[nodiscard]] std::uint16_t flags_for(const Watcher& watcher, Time time) const;
+  void fill(const HeardWorld& world, Time time, PictureRows& rows);
+  void add_contacts(const HeardWorld& world, Time time, PictureRows& rows);
+  void add_hands(Time time, PictureRows& rows) const;
+  [[nodiscard]] const PictureRows& live_rows();
+
+  StageOptions options_;
+  History history_;
+  std::optional<deadreckon::LocalFrame> frame_;
+  peer::OriginConfig origin_;
+  std::optional<double> threshold_;    // [m]
+  std::unique_ptr<HeardCells> cells_;  // null where none are known
+  Text touch_;
+  std::vector<DrawnSolid> solids_;
+  std::deque<HandFrame> hands_;
+  ContactForces contacts_;
+  Time now_{};
+  Time next_roster_{}, next_numbers_{};
+  std::uint64_t tick_ = 0, numbers_tick_ = 0, cells_tick_ = 0;
+  PictureRows live_;
+  std::uint64_t live_tick_ = 0;
+  PictureRows past_;
+  std::deque<Text> notes_;
+  std::uint64_t first_note_ = 0;
+  std::uint64_t gaps_ = 0;
+  std::uint64_t next_watcher_ = 1;
+  std::size_t watchers_ = 0;
+};
+
+}  // namespace reckon::tools

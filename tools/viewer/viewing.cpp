@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/viewer/viewing.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "reckon/peer/thread_name.hpp"
+#include "reckon/tools/command_line/console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+/// Datagrams that are taken before tabs are looked at again.
+constexpr int kMostAtOnce = 512;
+constexpr nanoseconds kLongestWait = milliseconds(10);
+/// A step that comes so late tells that the process stood still: what is shown has a gap.
+constexpr nanoseconds kStoodStill = std::chrono::seconds(1);
+
+std::unique_ptr<ViewServer> open_server(ViewStage& stage, const ViewServerOptions& options) {
+  try {
+    return std::make_unique<ViewServer>(stage, options);
+  } catch (const std::runtime_error& error) {
+    throw EnvironmentError(error.what());
+  }
+}
+
+}  // namespace
+
+Viewing::Viewing(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source)
+    : sealed_(options.key),
+      source_(std::move(source)),
+      stage_(options.stage),
+      is_capture_(options.stage.is_capture),
+      server_(open_server(stage_, options.server)) {
+  if (!options.hands.empty()) stage_.set_touch(options.hands);
+  if (is_capture_) read_capture();
+}
+
+const peer::SourceReport& Viewing::report() const noexcept {
+  static const peer::SourceReport kNothing;
+  return source_ ? source_->report() : kNothing;
+}
+
+void Viewing::read_capture() {
+  peer::SourceDatagram datagram;
+  for (;;) {
+    const peer::SourceEvent event = source_->next(datagram, nanoseconds::zero());
+    if (event == peer::SourceEvent::end) break;
+    if (event != peer::SourceEvent::datagram || !sealed_.open(datagram)) continue;
+    if (!stage_.take(datagram)) {
+      stage_.note("warning", "the capture is longer than what is kept of one: its end is left out");
+      break;
+    }
+  }
+  const peer::SourceReport& report = source_->report();
+  if (!report.problem.empty()) stage_.note("warning", report.problem);
+  if (sealed_.unread() > 0)
+    stage_.note("warning",
+                fmt::format("{} datagrams are sealed and were left out", sealed_.unread()));
+}
+
+void Viewing::take_arrived() {
+  if (is_capture_ || !source_) return;
+  peer::SourceDatagram datagram;
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    if (source_->next(datagram, nanoseconds::zero()) != peer::SourceEvent::datagram) return;
+    if (sealed_.open(datagram)) (void)stage_.take(datagram);
+  }
+}
+
+void Viewing::look_for_gaps(nanoseconds now) {
+  const bool stood_still = last_step_ > nanoseconds::zero() && now - last_step_ > kStoodStill;
+  last_step_ = now;
+  const std::uint64_t dropped = report().dropped;
+  if (stood_still || dropped > dropped_) stage_.note_gap();
+  dropped_ = dropped;
+}
+
+void Viewing::step() {
+  take_arrived();
+  const nanoseconds now = clock_.now();
+  if (now >= next_tick_) {
+    look_for_gaps(now);
+    stage_.pass(clock_.utc_now());
+    server_->tick(now);
+    next_tick_ = std::max(next_tick_ + ViewServer::kTick, now);
+  }
+  server_->poll(std::clamp(next_tick_ - clock_.now(), nanoseconds::zero(), kLongestWait));
+}
+
+ViewThread::ViewThread(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source)
+    : viewing_(options, std::move(source)),
+      address_(viewing_.server().address()),
+      thread_([this] { run(); }) {}
+
+ViewThread::~ViewThread() {
+  stop_.store(true, std::memory_order_relaxed);
+  thread_.join();
+}
+
+void ViewThread::put_hands(HandFrame frame) {
+  constexpr std::size_t kMostWaiting = 64;
+  const std::scoped_lock lock(mutex_);
+  if (frames_.size() < kMostWaiting) frames_.push_back(std::move(frame));
+}
+
+void ViewThread::put_note(std::string level, std::string text) {
+  constexpr std::size_t kMostWaiting = 64;
+  const std::scoped_lock lock(mutex_);
+  if (notes_.size() < kMostWaiting) notes_.emplace_back(std::move(level), std::move(text));
+}
+
+void ViewThread::run() {
+  constexpr int kNice = 5;
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+  peer::name_thread(pthread_self(), "rk-view");
+  std::vector<HandFrame> frames;
+  std::vector<std::pair<std::string, std::string>> notes;
+  while (!stop_.load(std::memory_order_relaxed)) {
+    frames.clear();
+    notes.clear();
+    {
+      const std::scoped_lock lock(mutex_);
+      frames.swap(frames_);
+      notes.swap(notes_);
+    }
+    for (HandFrame& frame : frames) viewing_.stage().take_hands(std::move(frame));
+    for (const auto& [level, text] : notes) viewing_.stage().note(level, text);
+    viewing_.step();
+  }
+}
+
+void open_browser(const std::string& address) {
+  std::string program = "xdg-open", word = address;
+  char* const arguments[] = {program.data(), word.data(), nullptr};
+  pid_t child = 0;
+  (void)posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
+}
+
+}  // namespace reckon::tools
