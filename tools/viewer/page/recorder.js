@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keeps the last minute that this page has seen, for a saved file. Large pictures are thinned to a budget.
 
-const SECONDS = 60;
+const KEPT_SECONDS = 60;
 const BUDGET = 14e6; // octets of pictures
 const STATE = ['hello', 'roster', 'touch', 'cells'];
 
@@ -30,11 +30,11 @@ export class Recorder {
   }
 
   picture(picture) {
-    this.spacing = (picture.buffer.byteLength * SECONDS) / this.budget;
+    this.spacing = (picture.buffer.byteLength * KEPT_SECONDS) / this.budget;
     if (picture.time <= this.last || picture.time - this.last < this.spacing) return;
     this.last = picture.time;
     this.items.push([picture.time, 'picture', picture.buffer]);
-    while (this.items.length && this.items[0][0] < picture.time - SECONDS) {
+    while (this.items.length && this.items[0][0] < picture.time - KEPT_SECONDS) {
       const [, type, payload] = this.items.shift();
       if (type === 'text') this.before.set(payload.type, payload);
     }
