@@ -3,7 +3,7 @@
 // A grid under what is touched, with the length of its squares: the eye needs a scale.
 import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments } from './libraries.js';
 import { colour } from './colours.js';
-import { metres, roundUp } from './words.js';
+import { roundUp } from './words.js';
 
 const HALF = 6; // squares from the middle to the edge
 
@@ -32,7 +32,7 @@ class Floor {
     if (key !== this.key) this.make(step, extent, key);
     if (this.view.rectangle.width > 400) {
       const [x, y, z] = this.corner;
-      this.labels.put(this.view, x, y, z, `one square ${metres(step)}`, 'scale', 0);
+      this.labels.put(this.view, x, y, z, `one square ${step < 1 ? `${Math.round(step * 1e3)} mm` : `${step} m`}`, 'scale', 0);
     }
   }
 
@@ -60,6 +60,6 @@ class Floor {
     }
     this.lines.geometry.setAttribute('position', new Float32BufferAttribute(at, 3));
     this.lines.geometry.setAttribute('color', new Float32BufferAttribute(tint, 3));
-    this.corner = [cx, cy - 3 * step, z];
+    this.corner = [cx + 2 * step, cy - 2 * step, z];
   }
 }

@@ -36,7 +36,7 @@ class Hands {
       const yours = hand.flags & HAND_FLAGS.yours ? ' (you)' : '';
       this.labels.put(this.view, x, y, z - 1.25 * radius, `${name}${yours}`, `hand hand-${hand.index % 4}`, -10);
       const words = handWords(hand.flags);
-      if (words) this.labels.put(this.view, x, y, z - 1.25 * radius, words, 'state', -26);
+      if (words) this.labels.put(this.view, x, y, z - 1.25 * radius, words, `state hand-${hand.index % 4}`, -26);
     }
     this.balls.end();
   }

@@ -22,12 +22,12 @@ class Trails {
         attribute float born; attribute float team; uniform float now; uniform vec3 teams[4]; varying vec4 tint;
         void main() {
           float age = (now - born) / ${TRAIL_SECONDS.toFixed(1)};
-          tint = vec4(teams[int(team)], age < 0.0 || age > 1.0 ? 0.0 : 0.62 * (1.0 - age));
+          tint = vec4(teams[int(team)], age < 0.0 || age > 1.0 ? 0.0 : 0.5 * (1.0 - age));
           gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
         }`,
       fragmentShader: `
         varying vec4 tint;
-        void main() { gl_FragColor = tint; if (tint.a < 0.01) discard; 
+        void main() { gl_FragColor = tint; if (tint.a < 0.01) discard;
           #include <colorspace_fragment>
         }`,
     });

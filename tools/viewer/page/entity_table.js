@@ -28,12 +28,13 @@ export class EntityTable {
       return head;
     });
     this.body = element('tbody');
-    this.rows = Array.from({ length: ROWS }, () => {
+    this.slots = []; // of the rows
+    this.rows = Array.from({ length: ROWS }, (_, k) => {
       const row = element('tr', '', '', ...COLUMNS.map((column) => element('td', column.words ? 'words' : '')));
       row.tabIndex = 0;
       row.hidden = true;
-      row.addEventListener('click', () => follow(row.slot));
-      row.addEventListener('keydown', (event) => { if (event.key === 'Enter') follow(row.slot); });
+      row.addEventListener('click', () => follow(this.slots[k]));
+      row.addEventListener('keydown', (event) => { if (event.key === 'Enter') follow(this.slots[k]); });
       return row;
     });
     this.body.append(...this.rows);
@@ -71,8 +72,8 @@ export class EntityTable {
       const i = k < this.order.length ? picture.indexOf(this.order[k]) : -1;
       row.hidden = i < 0;
       if (i < 0) return;
-      row.slot = this.order[k];
-      row.className = row.slot === moment.followed ? 'followed' : '';
+      this.slots[k] = this.order[k];
+      row.className = this.slots[k] === moment.followed ? 'followed' : '';
       COLUMNS.forEach((column, c) => {
         const text = column.text(column.key(moment, i));
         if (row.cells[c].textContent !== text) row.cells[c].textContent = text;

@@ -18,7 +18,7 @@ export function worldExtent(moment) {
   const high = columns.map((list) => cut(list, 1 - share));
   const centre = low.map((x, k) => (x + high[k]) / 2);
   const spread = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
-  return { centre, radius: Math.max(spread, 0.55 * moment.cells.size, 0.05) };
+  return { centre, radius: Math.max(0.78 * spread, 0.55 * moment.cells.size, 0.05) };
 }
 
 // Solids that have an end, and hands; 10 times as large as a hand at least.
@@ -43,5 +43,5 @@ export function touchExtent(moment) {
   }
   if (!Number.isFinite(low[0])) return null;
   const centre = low.map((x, k) => (x + high[k]) / 2);
-  return { centre, radius: 0.8 * Math.max(...high.map((x, k) => x - low[k])) / 1.0 };
+  return { centre, radius: 0.72 * Math.max(...high.map((x, k) => x - low[k])) };
 }

@@ -26,7 +26,7 @@ export class Labels {
     if (label.className !== className) label.className = className;
     const left = rectangle.x + ((this.place.x + 1) / 2) * rectangle.width;
     const top = this.host.clientHeight - rectangle.y - ((this.place.y + 1) / 2) * rectangle.height - lift;
-    label.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+    label.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px) translateX(var(--shift))`;
     label.hidden = false;
   }
 

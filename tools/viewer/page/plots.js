@@ -52,8 +52,10 @@ class Pane {
     Object.assign(this, { row, first, plots });
     this.host = element('div', 'plot');
     this.keys = element('span', 'lines');
-    host.append(element('section', 'pane', '', element('h2', '', `${row.title} `, element('small', '', `[${row.unit}]`)),
-      this.host, element('p', 'good', row.good, this.keys)));
+    this.section = element('section', 'pane', '', element('h2', '', `${row.title} `, element('small', '', `[${row.unit}]`)),
+      this.host, element('p', 'good', row.good, this.keys));
+    this.section.hidden = true; // until there is something to show
+    host.append(this.section);
     this.make();
   }
 
@@ -64,6 +66,7 @@ class Pane {
       stroke: cssColour('dim'), grid: { stroke: cssColour('line'), width: 1 }, ticks: { show: false }, font: '11px system-ui, sans-serif',
     };
     const side = { ...axis, size: 38, gap: 4, space: 28, values: (plot, list) => list.map((x) => (x === null ? '' : shortNumber(x))) };
+    if (this.row.log) side.splits = decadeSplits;
     const right = this.row.lines.some((line) => line.right);
     const scales = { x: { time: false, range: () => [(this.end ?? 0) - WINDOW, this.end ?? 0] }, y: this.row.log ? { distr: 3, range: decades } : { range } };
     if (right) scales.right = { range };
@@ -87,6 +90,12 @@ class Pane {
   show(columns, end) {
     this.end = end;
     this.data = [columns[0], ...columns.slice(this.first, this.first + this.row.lines.length)];
+    const known = this.data.slice(1).some((column) => column.some((x) => x !== null));
+    if (known && this.section.hidden) {
+      this.section.hidden = false;
+      this.resize();
+    }
+    if (this.section.hidden) return;
     this.plot.setData(this.data);
     this.tell();
   }
@@ -123,6 +132,14 @@ class Pane {
 }
 
 function shortNumber(x) { return Math.abs(x) >= 1e4 ? `${Math.round(x / 1e3)}k` : String(Number(x.toPrecision(3))); }
+
+// Powers of ten, at most four of them.
+function decadeSplits(plot, axis, low, high) {
+  const from = Math.round(Math.log10(low));
+  const count = Math.round(Math.log10(high)) - from;
+  const step = Math.max(1, Math.ceil(count / 3));
+  return Array.from({ length: Math.floor(count / step) + 1 }, (_, i) => 10 ** (from + i * step));
+}
 
 // Zero is always in the picture.
 function range(plot, low, high) {

@@ -25,9 +25,9 @@ class View {
     this.extent = null;
     this.rectangle = { x: 0, y: 0, width: 1, height: 1 };
     this.peak = 1; // [N], of late
-    const sun = new DirectionalLight(0xffffff, 2.1);
+    const sun = new DirectionalLight(0xffffff, 1.7);
     sun.position.set(-3, -5, 8);
-    this.scene.add(sun, new HemisphereLight(0xffffff, 0x7d8894, 1.5));
+    this.scene.add(sun, new HemisphereLight(0xffffff, 0xa7b0ba, 1.9));
   }
 
   // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
