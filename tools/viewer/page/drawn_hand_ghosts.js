@@ -32,7 +32,7 @@ class HandGhosts {
       const ball = this.balls.next();
       ball.visible = true;
       ball.position.fromArray(moment.predicted, 3 * i);
-      ball.scale.setScalar(moment.handRadius(hand.index) * 1.04);
+      ball.scale.setScalar(0.995 * moment.handRadius(hand.index)); // shows where it stands out
     }
     this.balls.end();
   }

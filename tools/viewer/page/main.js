@@ -348,13 +348,19 @@ class Page {
     byId('inset').addEventListener('click', () => this.swap());
   }
 
+  // Of a hand in the large picture [pixels].
+  placeOf(index) {
+    const hand = this.moment.hands.find((one) => one.index === index);
+    return hand ? this.stage.placeOf('touch', hand.position) : null;
+  }
+
   // What tests read.
   publish() {
     const { seen, moment } = this;
     window.reckon = {
       ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.age ?? null, bad: this.source.bad,
       entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, kind: moment.hello.kind,
-      numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(),
+      numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
     };
   }
 }

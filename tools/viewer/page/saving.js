@@ -29,7 +29,7 @@ export function savedFile({ html, css, script, items }) {
   const policy = `default-src 'none'; script-src 'sha256-${digest(script)}'; style-src 'sha256-${digest(css)}'; `
     + "img-src data:; base-uri 'none'; form-action 'none'";
   const data = JSON.stringify(items).replaceAll('<', '\\u003c');
-  const close = '</script>';
+  const close = '\u003c/script>'; // spelt so that it does not end the script it stands in
   return html
     .replace('<link rel="stylesheet" href="page.css">',
       () => `<meta http-equiv="Content-Security-Policy" content="${policy}"><style>${css}</style>`)

@@ -25,9 +25,9 @@ class View {
     this.extent = null;
     this.rectangle = { x: 0, y: 0, width: 1, height: 1 };
     this.peak = 1; // [N], of late
-    const sun = new DirectionalLight(0xffffff, 1.7);
+    const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-3, -5, 8);
-    this.scene.add(sun, new HemisphereLight(0xffffff, 0xa7b0ba, 1.9));
+    this.scene.add(sun, new HemisphereLight(0xffffff, 0xa7b0ba, 2.3));
   }
 
   // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
@@ -158,6 +158,12 @@ export class Stage {
     this.renderer.setViewport(x, y, width, height);
     this.renderer.clear();
     this.renderer.render(view.scene, view.orbit.camera);
+  }
+
+  placeOf(name, point) {
+    const { orbit, rectangle } = this.views[name];
+    const { x, y } = new Vector3().fromArray(point).project(orbit.camera);
+    return [rectangle.x + ((x + 1) / 2) * rectangle.width, this.canvas.clientHeight - rectangle.y - ((y + 1) / 2) * rectangle.height];
   }
 
   // The slot that is drawn nearest to a point of the large picture, within 14 pixels.
