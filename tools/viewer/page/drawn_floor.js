@@ -60,6 +60,6 @@ class Floor {
     }
     this.lines.geometry.setAttribute('position', new Float32BufferAttribute(at, 3));
     this.lines.geometry.setAttribute('color', new Float32BufferAttribute(tint, 3));
-    this.corner = [cx + 2 * step, cy - 2 * step, z];
+    this.corner = [cx, cy - 2 * step, z];
   }
 }

@@ -20,7 +20,6 @@ class Ghosts {
     this.lineMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.8 });
     this.lines = new LineSegments(new BufferGeometry(), this.lineMaterial);
     this.lines.frustumCulled = false;
-    this.way = new Float32Array(0);
     group.add(this.lines);
     this.known = '';
   }
@@ -37,8 +36,8 @@ class Ghosts {
       this.rows = Array.from({ length: moment.count }, (_, i) => moment.roster.get(moment.picture.slot(i)));
       this.slots = this.rows.map((row) => shapeOf(row?.kind, row?.haptic));
     }
-    if (this.way.length < 6 * moment.count) {
-      this.way = new Float32Array(Math.ceil(7 * moment.count) * 6);
+    if (!this.way || this.way.length < 6 * moment.count) {
+      this.way = new Float32Array(6 * Math.ceil(1.2 * moment.count));
       this.lines.geometry.dispose();
       this.lines.geometry.setAttribute('position', new BufferAttribute(this.way, 3).setUsage(DynamicDrawUsage));
     }

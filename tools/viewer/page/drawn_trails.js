@@ -3,6 +3,7 @@
 // Where each entity has been in the last 10 s. Pieces are written once, round and round; the shader fades them by age.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, ShaderMaterial } from './libraries.js';
 import { colour, FORCE_COLOURS } from './colours.js';
+import { NONE } from './picture.js';
 
 const TRAIL_SECONDS = 10;
 const PIECES = 20;
@@ -17,12 +18,12 @@ class Trails {
   constructor(group) {
     this.material = new ShaderMaterial({
       transparent: true, depthWrite: false,
-      uniforms: { now: { value: 0 }, teams: { value: [] } },
+      uniforms: { now: { value: 0 }, strength: { value: 0.5 }, teams: { value: [] } },
       vertexShader: `
-        attribute float born; attribute float team; uniform float now; uniform vec3 teams[4]; varying vec4 tint;
+        attribute float born; attribute float team; uniform float now; uniform float strength; uniform vec3 teams[4]; varying vec4 tint;
         void main() {
           float age = (now - born) / ${TRAIL_SECONDS.toFixed(1)};
-          tint = vec4(teams[int(team)], age < 0.0 || age > 1.0 ? 0.0 : 0.5 * (1.0 - age));
+          tint = vec4(teams[int(team)], age < 0.0 || age > 1.0 ? 0.0 : strength * (1.0 - age));
           gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
         }`,
       fragmentShader: `
@@ -78,6 +79,7 @@ class Trails {
     this.write(moment, count, now);
     this.last = time;
     this.material.uniforms.now.value = now;
+    this.material.uniforms.strength.value = moment.followed === NONE ? 0.5 : 0.2; // what is lit is to be seen
   }
 
   write({ picture, shown }, count, now) {

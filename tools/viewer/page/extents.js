@@ -43,5 +43,5 @@ export function touchExtent(moment) {
   }
   if (!Number.isFinite(low[0])) return null;
   const centre = low.map((x, k) => (x + high[k]) / 2);
-  return { centre, radius: 0.72 * Math.max(...high.map((x, k) => x - low[k])) };
+  return { centre, radius: 0.66 * Math.max(...high.map((x, k) => x - low[k])) };
 }
