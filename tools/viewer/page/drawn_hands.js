@@ -31,14 +31,21 @@ class Hands {
       const radius = moment.handRadius(hand.index);
       this.balls.next().set(hand, radius);
       if (this.view.rectangle.width < 400) continue;
-      const [x, y, z] = hand.position;
-      const name = foreign(moment.handName(hand.index), 24);
-      const yours = hand.flags & HAND_FLAGS.yours ? ' (you)' : '';
-      this.labels.put(this.view, x, y, z - 1.25 * radius, `${name}${yours}`, `hand hand-${hand.index % 4}`, -10);
-      const words = handWords(hand.flags);
-      if (words) this.labels.put(this.view, x, y, z - 1.25 * radius, words, `state hand-${hand.index % 4}`, -26);
+      this.name(moment, hand, radius);
     }
     this.balls.end();
+  }
+
+  // Beside the ball, on the side where no other hand of a pair is.
+  name(moment, hand, radius) {
+    const [x, y, z] = hand.position;
+    const side = hand.index % 2 ? 1 : -1;
+    const aside = side * (6 + this.view.pixels(radius, hand.position));
+    const kind = `${side < 0 ? 'left' : 'right'} hand-${hand.index % 4}`;
+    const yours = hand.flags & HAND_FLAGS.yours ? ' (you)' : '';
+    this.labels.put(this.view, x, y, z, `${foreign(moment.handName(hand.index), 24)}${yours}`, `hand ${kind}`, 9, aside);
+    const words = handWords(hand.flags);
+    if (words) this.labels.put(this.view, x, y, z, words, `state ${kind}`, -7, aside);
   }
 }
 

@@ -14,8 +14,8 @@ export class Labels {
 
   begin() { this.used = 0; }
 
-  // `lift` [pixels]: how far above the place; labels of one place do not cover each other by it.
-  put(view, x, y, z, text, className, lift = 0) {
+  // `lift` and `aside` [pixels]: how far above the place and beside it.
+  put(view, x, y, z, text, className, lift = 0, aside = 0) {
     const { camera } = view.orbit;
     const { rectangle } = view;
     this.place.set(x, y, z).project(camera);
@@ -24,7 +24,7 @@ export class Labels {
     ++this.used;
     if (label.textContent !== text) label.textContent = text;
     if (label.className !== className) label.className = className;
-    const left = rectangle.x + ((this.place.x + 1) / 2) * rectangle.width;
+    const left = rectangle.x + ((this.place.x + 1) / 2) * rectangle.width + aside;
     const top = this.host.clientHeight - rectangle.y - ((this.place.y + 1) / 2) * rectangle.height - lift;
     label.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px) translateX(var(--shift))`;
     label.hidden = false;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Puts the page together: a source of pictures, the stage, plots, table, time line, and what a reader can press.
-import { DrawnKey } from './drawn_key.js';
 import { EntityTable } from './entity_table.js';
 import { listenForKeys } from './key_list.js';
 import { LogLine } from './log_line.js';
 import { Moment } from './moment.js';
 import { NetworkPanel } from './network_panel.js';
 import { NONE, PICTURE_FLAGS } from './picture.js';
+import { PictureKey } from './picture_key.js';
 import { Plots } from './plots.js';
 import { PointerHand } from './pointer_hand.js';
 import { Recorder } from './recorder.js';
@@ -30,7 +30,7 @@ class Page {
     this.moment = new Moment();
     this.log = new LogLine();
     this.stage = new Stage(byId('stage'), wishes.has('fine'));
-    this.key = new DrawnKey(byId('key'), this.stage, say);
+    this.key = new PictureKey(byId('key'), this.stage, say);
     this.recorder = new Recorder();
     this.plots = new Plots(byId('plots'));
     this.table = new EntityTable(byId('table'), (slot) => this.follow(slot));
@@ -127,7 +127,7 @@ class Page {
     this.moment.hello = message;
     this.chosen = false;
     this.timeLine.hello(message);
-    byId('source').textContent = foreign(message.source, 60);
+    byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.\w+$)/, ''), 60);
     byId('source').title = foreign(`${message.program}: ${message.source}`, 200);
     byId('push').hidden = !message.may_push;
     byId('network').hidden = message.kind !== 'demo';
@@ -139,7 +139,7 @@ class Page {
     if (this.chosen) return;
     this.chosen = true;
     const { solids, hands } = this.moment.touch;
-    this.stage.show(wishes.get('main') ?? (solids.length || hands.length ? 'touch' : 'world'));
+    this.stage.show(wishes.get('main') ?? (solids.length || hands.length > 1 ? 'touch' : 'world'));
   }
 
   picture(picture) {

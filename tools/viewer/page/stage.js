@@ -27,11 +27,18 @@ class View {
     this.peak = 1; // [N], of late
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-3, -5, 8);
-    this.scene.add(sun, new HemisphereLight(0xffffff, 0xa7b0ba, 2.3));
+    this.scene.add(sun, new HemisphereLight(0xffffff, 0xc4cad1, 2.3));
   }
 
   // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
   get metresPerNewton() { return (0.3 * (this.extent?.radius ?? 1)) / this.scale; }
+
+  // How large a length is at a place.
+  pixels(length, place) {
+    const { camera } = this.orbit;
+    const depth = Math.hypot(...place.map((x, k) => x - camera.position.getComponent(k)));
+    return (length * this.rectangle.height) / (2 * depth * Math.tan((camera.fov * Math.PI) / 360));
+  }
 
   weigh(newtons, seconds) {
     this.peak = Math.max(this.peak * Math.exp(-seconds / 20), newtons, 0.1);

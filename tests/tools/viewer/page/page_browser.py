@@ -40,7 +40,7 @@ try:
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
-    skip("python3-selenium is not installed: ./run page installs it")
+    skip("no python3-selenium: apt-get install chromium chromium-driver python3-selenium")
 
 
 class Program:
@@ -263,7 +263,7 @@ def main(arguments):
     name, reckon, *rest = arguments
     for path in (CHROMIUM, DRIVER):
         if not os.access(path, os.X_OK):
-            skip(f"there is no {path}: ./run page installs it")
+            skip(f"no {path}: apt-get install chromium chromium-driver python3-selenium")
     told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
     if "--view" not in told.stdout:
         skip("this program serves no page")

@@ -8,6 +8,7 @@
   libraries  third_party/libraries.js is the file that SOURCES names, and has its licences beside it
   forbidden  nothing that runs text as code, writes markup or carries a style attribute, which the page's policy refuses
   bundle     imports and exports of the form that a saved page joins to one script, no name twice
+  listed     each plot_*.js stands in plot_list.js, each drawn_*.js in drawn_list.js, by import and by row
   replaced   index.html has the places where a saved page puts its parts, each once
   size       at most 700 kB, 180 kB compressed
 """
@@ -97,6 +98,16 @@ def check_bundle(files):
         first.setdefault(name, file)
 
 
+def check_listed(files):
+    for kind in ("plot", "drawn"):
+        rows = files[f"{kind}_list.js"].decode()
+        for name in own(files):
+            if name.startswith(f"{kind}_") and name != f"{kind}_list.js":
+                said = kind + "".join(word.capitalize() for word in name[len(kind) + 1:-3].split("_"))
+                if f"from './{name}'" not in rows or not re.search(rf"\[[^]]*\b{said}\b", rows.split("export const", 1)[1]):
+                    yield "listed", f"{name}: {kind}_list.js has no import or no row of {said}"
+
+
 def check_replaced(files):
     html = files["index.html"].decode()
     for place in PLACES:
@@ -115,7 +126,7 @@ def check_size(files):
         yield "size", f"{compressed} compressed octets are more than {MOST_COMPRESSED}"
 
 
-CHECKS = [check_libraries, check_forbidden, check_bundle, check_replaced, check_size]
+CHECKS = [check_libraries, check_forbidden, check_bundle, check_listed, check_replaced, check_size]
 
 
 def faults(files):
@@ -137,6 +148,8 @@ def planted(files):
     yield "bundle", changed(main, lambda text: text + b"export default 1;\n")
     yield "bundle", changed(main, lambda text: text + b"const Mesh = 1;\n")
     yield "bundle", changed(main, lambda text: text + b"const end = '</script>';\n")
+    yield "listed", {**files, "plot_more.js": b"export const plotMore = {};\n"}
+    yield "listed", changed("drawn_list.js", lambda text: text.replace(b"drawnFloor, ", b""))
     yield "replaced", changed("index.html", lambda text: text.replace(b"main.js", b"./main.js"))
     yield "size", changed(main, lambda text: text + b"//" + b"x" * MOST_OCTETS)
 

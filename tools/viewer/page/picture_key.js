@@ -4,7 +4,7 @@
 import { DRAWN } from './drawn_list.js';
 import { element } from './words.js';
 
-export class DrawnKey {
+export class PictureKey {
   constructor(host, stage, say) {
     this.stage = stage;
     this.rows = DRAWN.map((row) => {
