@@ -6,7 +6,9 @@ import { colour, FORCE_COLOURS } from './colours.js';
 import { NONE } from './picture.js';
 
 const TRAIL_SECONDS = 10;
-const PIECES = 20;
+const FINE = 20; // pieces of a trail
+const COARSE = 10; // of one among many: lines are what software GL is slow at
+const MANY = 400;
 const MOST_TRAILS = 4096; // entities with a trail
 
 export const drawnTrails = {
@@ -42,8 +44,8 @@ class Trails {
 
   // One piece more than is full: the last one follows the entity.
   room(count) {
-    const corners = 2 * count * (PIECES + 1);
-    this.count = count;
+    this.pieces = count > MANY ? COARSE : FINE;
+    const corners = 2 * count * (this.pieces + 1);
     this.at = new Float32Array(3 * corners);
     this.born = new Float32Array(corners).fill(-1e9);
     this.team = new Float32Array(corners);
@@ -71,10 +73,10 @@ class Trails {
     }
     const now = time - this.base; // small numbers: floats of the shader are short
     if (now >= this.next) {
-      this.piece = (this.piece + 1) % (PIECES + 1);
+      this.piece = (this.piece + 1) % (this.pieces + 1);
       if (Number.isFinite(this.next)) this.old.set(shown.subarray(0, 3 * count));
       this.since = now;
-      this.next = now + TRAIL_SECONDS / PIECES;
+      this.next = now + TRAIL_SECONDS / this.pieces;
     }
     this.write(moment, count, now);
     this.last = time;
