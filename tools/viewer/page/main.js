@@ -1,17 +1,369 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Says in one line what arrives.
-const line = document.getElementById("line");
-const word = new URLSearchParams(location.hash.slice(1)).get("word") ?? "";
-const socket = new WebSocket(`ws://${location.host}/stream?word=${encodeURIComponent(word)}`);
-socket.binaryType = "arraybuffer";
-socket.onclose = () => { line.textContent = "no server"; };
-socket.onmessage = (event) => {
-  if (typeof event.data === "string") return;
-  const view = new DataView(event.data);
-  line.textContent = `${view.getFloat64(8, true).toFixed(1)} s, ${view.getUint16(16, true)} entities`;
-  const drawn = new DataView(new ArrayBuffer(5));
-  drawn.setUint8(0, 1);
-  drawn.setUint32(1, view.getUint32(4, true), true);
-  socket.send(drawn);
-};
+// Puts the page together: a source of pictures, the stage, plots, table, time line, and what a reader can press.
+import { EntityTable } from './entity_table.js';
+import { listenForKeys } from './key_list.js';
+import { LogLine } from './log_line.js';
+import { Moment } from './moment.js';
+import { NetworkPanel } from './network_panel.js';
+import { NONE, PICTURE_FLAGS } from './picture.js';
+import { PictureKey } from './picture_key.js';
+import { Plots } from './plots.js';
+import { PointerHand } from './pointer_hand.js';
+import { Recorder } from './recorder.js';
+import { Replay } from './replay.js';
+import { download, savePage } from './saving.js';
+import { Server } from './server.js';
+import { Stage } from './stage.js';
+import { Steering } from './steering.js';
+import { TimeLine } from './time_line.js';
+import { bitRate, byId, digits, foreign } from './words.js';
+
+const VERSION = 1;
+const SLOW = 250; // [ms] between two looks at table and numbers
+const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine
+
+class Page {
+  constructor() {
+    const tell = (name, ...values) => this.source.tell(name, ...values);
+    const say = (text, level) => this.log.say(text, level);
+    this.moment = new Moment();
+    this.log = new LogLine();
+    this.stage = new Stage(byId('stage'), wishes.has('fine'));
+    this.key = new PictureKey(byId('key'), this.stage, say);
+    this.recorder = new Recorder();
+    this.plots = new Plots(byId('plots'));
+    this.table = new EntityTable(byId('table'), (slot) => this.follow(slot));
+    this.timeLine = new TimeLine(tell, say);
+    this.hand = new PointerHand(this.stage, tell, say);
+    this.network = new NetworkPanel(tell, say);
+    this.steering = new Steering(this);
+    this.forget();
+    this.theme = wishes.get('theme');
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.paint());
+    this.paint();
+    this.listen();
+    this.seen = { frames: 0, pictures: 0, work: 0, longest: 0 };
+    this.open();
+  }
+
+  // Whatever of an earlier connection would be wrong now.
+  forget() {
+    this.older = null;
+    this.newer = null;
+    this.slow = 0;
+    this.least = Infinity;
+    this.moment.reset();
+    this.recorder.clear();
+    this.plots.clear();
+  }
+
+  open() {
+    const hear = {
+      text: (message) => this.text(message), picture: (picture) => this.picture(picture),
+      state: (state, text) => this.connection(state, text), bad: (text) => this.log.say(`Refused: ${text}`, 'warning'),
+    };
+    const saved = byId('saved');
+    if (saved) {
+      document.body.classList.add('saved');
+      this.source = new Replay(JSON.parse(saved.textContent), hear);
+      this.source.start();
+      this.timeLine.setSpan(this.source.span);
+    } else {
+      this.source = new Server(wishes.get('word'), hear);
+    }
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  connection(state, text) {
+    this.state = state;
+    document.body.dataset.state = state;
+    if (state === 'lost') {
+      this.hand.answer({ index: null });
+      this.log.say(text, 'warning');
+    }
+    this.stage.restless = true;
+  }
+
+  text(message) {
+    this.recorder.text(message);
+    const { moment } = this;
+    const take = {
+      hello: () => this.hello(message),
+      roster: () => {
+        moment.roster = new Map((message.entities ?? []).map((row) => [row.slot, row]));
+        ++moment.rosterNumber;
+      },
+      cells: () => {
+        moment.cells = { size: message.size || 0, cells: message.cells ?? [] };
+        ++moment.cellsNumber;
+      },
+      touch: () => {
+        moment.touch = { solids: message.solids ?? [], hands: message.hands ?? [] };
+        ++moment.touchNumber;
+        this.choose();
+      },
+      numbers: () => {
+        moment.numbers = message;
+        if (message.span && this.source instanceof Server) this.timeLine.setSpan(message.span);
+      },
+      note: () => this.log.say(message.text, message.level),
+      play: () => this.timeLine.play(message),
+      bye: () => this.log.say(message.text, 'warning'),
+      hand: () => this.hand.answer(message),
+    }[message.type];
+    take?.();
+    this.stage.restless = true;
+  }
+
+  hello(message) {
+    if (message.version !== VERSION) {
+      this.log.say(`The program speaks version ${message.version} of the stream, this page ${VERSION}: load the page anew.`, 'warning');
+    }
+    if (this.source instanceof Server) {
+      this.forget();
+      this.recorder.text(message);
+    }
+    this.moment.hello = message;
+    this.chosen = false;
+    this.timeLine.hello(message);
+    byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.\w+$)/, ''), 60);
+    byId('source').title = foreign(`${message.program}: ${message.source}`, 200);
+    byId('push').hidden = !message.may_push;
+    byId('network').hidden = message.kind !== 'demo';
+    if (this.moment.followed !== NONE) this.source.tell('follow', this.moment.followed);
+  }
+
+  // A demo of hands opens with touch large; whoever has chosen keeps the choice.
+  choose() {
+    if (this.chosen) return;
+    this.chosen = true;
+    const { solids, hands } = this.moment.touch;
+    this.stage.show(wishes.get('main') ?? (solids.length || hands.length > 1 ? 'touch' : 'world'));
+  }
+
+  picture(picture) {
+    ++this.seen.pictures;
+    const now = performance.now();
+    const jumped = !this.newer || picture.time < this.newer.picture.time || picture.epoch !== this.newer.picture.epoch
+      || (picture.flags & (PICTURE_FLAGS.gap | PICTURE_FLAGS.paused)) !== 0;
+    this.older = jumped ? null : this.newer;
+    this.newer = { picture, came: now, credited: false };
+    this.recorder.picture(picture);
+    if (picture.flags & PICTURE_FLAGS.live) this.least = Math.min(this.least, now / 1000 - picture.time);
+    this.moment.set(picture, picture, 1);
+    this.plots.take(this.moment, (picture.flags & PICTURE_FLAGS.gap) !== 0);
+    this.fresh = true;
+  }
+
+  // The moment lies one picture behind, so that there is always one ahead to move to.
+  tick(now) {
+    requestAnimationFrame((next) => this.tick(next));
+    const begin = performance.now();
+    const seconds = Math.min(0.2, (now - (this.last ?? now)) / 1000);
+    this.last = now;
+    this.source.advance(begin);
+    if (this.newer) this.show(begin, seconds);
+    if (begin - this.slow > SLOW) {
+      this.slow = begin;
+      this.look(begin);
+    }
+    const spent = performance.now() - begin;
+    this.seen.work += spent;
+    this.seen.longest = Math.max(this.seen.longest, spent);
+  }
+
+  show(begin, seconds) {
+    const { older, newer, moment } = this;
+    if (!newer.credited) {
+      newer.credited = true;
+      this.source.tell('drawn', newer.picture.number);
+    }
+    const apart = older ? Math.min(250, Math.max(newer.came - older.came, 10)) : 1;
+    const share = older ? Math.min(1, (begin - newer.came) / apart) : 1;
+    const changed = this.fresh || share !== this.share;
+    if (changed) moment.set(older?.picture ?? newer.picture, newer.picture, share);
+    this.fresh = false;
+    this.share = share;
+    this.timeLine.advance(newer.picture.time);
+    this.hand.advance(moment, seconds);
+    if (this.stage.draw(moment, seconds, changed)) ++this.seen.frames;
+    const gap = 1.2 * Math.max(1, this.timeLine.speed);
+    if (begin - (this.plotted ?? 0) > 60) {
+      this.plotted = begin;
+      this.plots.draw(newer.picture.time, gap);
+    }
+  }
+
+  look(now) {
+    const { moment, newer } = this;
+    const { numbers } = moment;
+    if (newer) {
+      this.table.draw(moment, now);
+      byId('n-entities').textContent = moment.count.toLocaleString('en');
+    }
+    byId('n-pdu').textContent = digits(numbers.pdu_per_s);
+    byId('n-bits').textContent = bitRate(numbers.bit_per_s);
+    const ratio = numbers.raw_bit_per_s / numbers.bit_per_s;
+    byId('n-ratio').textContent = Number.isFinite(ratio) ? `${digits(ratio)} ×` : '–';
+    this.timeLine.paintClock();
+    this.lookAtState(now);
+    this.lookAtFollowed();
+    this.tip();
+    this.publish();
+  }
+
+  lookAtState(now) {
+    const { newer } = this;
+    const play = this.timeLine.state;
+    const words = { live: 'live', playing: 'playing', paused: 'paused', end: 'at the end' };
+    byId('state-word').textContent = this.state === 'live' ? (words[play] ?? play) : this.state === 'lost' ? 'no server' : 'connecting';
+    const fresh = newer && this.state === 'live' && play === 'live' && Number.isFinite(this.least);
+    this.age = fresh ? now / 1000 - newer.picture.time - this.least : null;
+    byId('age').textContent = fresh ? `${this.age.toFixed(2)} s old` : '';
+    const lost = this.state === 'lost';
+    const empty = newer ? !this.moment.count && !this.moment.hands.length && !this.moment.touch.solids.length : this.state === 'live';
+    const notice = byId('notice');
+    notice.hidden = !lost && !empty;
+    if (notice.hidden) return;
+    notice.querySelector('h2').textContent = lost ? 'No server' : 'Nothing is heard yet';
+    notice.querySelector('p').textContent = lost
+      ? 'The program has ended, or the way to it is cut. The page tries again by itself; this is the last picture.'
+      : foreign(this.moment.hello.help || 'Start a peer: reckon peer SCENE, or reckon demo.', 300);
+  }
+
+  lookAtFollowed() {
+    const { moment } = this;
+    const { cells } = moment.cells;
+    const heard = moment.heardBy(moment.followed).size;
+    const name = foreign(moment.name(moment.followed), 30);
+    byId('hearing').textContent = moment.followed === NONE
+      ? (cells.length ? `${cells.length} cells · click an entity to see what it hears` : '') : `${name} hears ${heard} of ${cells.length} cells`;
+  }
+
+  tip() {
+    const { mouse } = this.steering;
+    const tip = byId('tip');
+    const slot = mouse && this.newer && this.stage.large === 'world' ? this.stage.pick(this.moment, ...mouse) : -1;
+    tip.hidden = slot < 0;
+    if (slot < 0) return;
+    const row = this.moment.roster.get(slot);
+    tip.textContent = [this.moment.name(slot), row?.id, row?.kind].filter(Boolean).map((text) => foreign(text, 40)).join(' · ');
+    tip.style.transform = `translate(${mouse[0] + 14}px, ${mouse[1] + 14}px)`;
+  }
+
+  follow(slot) {
+    const { moment } = this;
+    moment.followed = moment.followed === slot ? NONE : slot;
+    this.source.tell('follow', moment.followed);
+    this.stage.restless = true;
+    const orbit = this.stage.view('world').orbit;
+    if (moment.followed === NONE) this.stage.fit('world');
+    else if (this.stage.view('world').extent) {
+      orbit.goal.distance = Math.min(orbit.goal.distance, 1.6 * this.stage.view('world').extent.radius);
+      orbit.touched = true;
+    }
+    this.log.say(moment.followed === NONE ? 'Follows nobody.' : `Follows ${moment.name(slot)}; lit are the cells that it hears.`);
+  }
+
+  swap() {
+    if (byId('inset').hidden) return;
+    this.stage.swap();
+    this.log.say(`Large: ${this.stage.large}.`);
+  }
+
+  fit() {
+    this.stage.fit(this.stage.large);
+    this.log.say('The picture is fitted.');
+  }
+
+  turn(dx, dy) {
+    this.stage.view(this.stage.large).orbit.turn(dx, dy);
+    this.stage.restless = true;
+  }
+
+  zoom(factor) {
+    this.stage.view(this.stage.large).orbit.zoom(factor);
+    this.stage.restless = true;
+  }
+
+  toggle(...names) {
+    for (const name of names) {
+      const shown = this.stage.toggle(name);
+      this.log.say(`${shown ? 'Shown' : 'Hidden'}: ${name}.`);
+    }
+    this.key.paint();
+  }
+
+  outage() { if (!byId('network').hidden && !byId('push').hidden) this.network.toggleOutage(); }
+
+  escape() {
+    if (this.hand.index !== null) this.hand.askOrGive();
+    else if (this.moment.followed !== NONE) this.follow(this.moment.followed);
+  }
+
+  showKeys() { byId('keys').showModal(); }
+
+  swapTheme() {
+    this.theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
+    this.paint();
+    this.log.say(`Colours: ${this.theme}.`);
+  }
+
+  paint() {
+    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    document.documentElement.dataset.theme = this.theme ?? (dark ? 'dark' : 'light');
+    this.stage.paint();
+    this.plots.paint();
+  }
+
+  savePicture() {
+    this.stage.restless = true;
+    if (this.newer) this.stage.draw(this.moment, 0, true); // what is read in the same task is what was drawn
+    this.stage.canvas.toBlob((blob) => {
+      download('reckon.png', blob);
+      this.log.say('Saved the picture as reckon.png.');
+    });
+  }
+
+  async saveMinute() {
+    try {
+      const text = await this.minute();
+      download('reckon.html', new Blob([text], { type: 'text/html' }));
+      const thin = this.recorder.spacing > 0.04 ? ` Pictures are ${digits(this.recorder.spacing)} s apart, for so many entities.` : '';
+      this.log.say(`Saved the last minute as reckon.html, ${digits(text.length / 1e6)} MB.${thin}`);
+    } catch (error) {
+      this.log.say(`Not saved: ${error.message}`, 'warning');
+    }
+  }
+
+  minute() { return savePage(this.recorder.saved()); }
+
+  listen() {
+    listenForKeys(this);
+    byId('theme').addEventListener('click', () => this.swapTheme());
+    byId('save-picture').addEventListener('click', () => this.savePicture());
+    byId('save-minute').addEventListener('click', () => this.saveMinute());
+    byId('help').addEventListener('click', () => this.showKeys());
+    byId('inset').addEventListener('click', () => this.swap());
+  }
+
+  // Of a hand in the large picture [pixels].
+  placeOf(index) {
+    const hand = this.moment.hands.find((one) => one.index === index);
+    return hand ? this.stage.placeOf('touch', hand.position) : null;
+  }
+
+  // What tests read.
+  publish() {
+    const { seen, moment } = this;
+    window.reckon = {
+      ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.age ?? null, bad: this.source.bad,
+      entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, kind: moment.hello.kind,
+      numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
+    };
+  }
+}
+
+window.reckon = { frames: 0, state: 'connecting' };
+new Page();

@@ -1,0 +1,275 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The viewer's page in Chromium, against the program.
+
+  page_browser.py CASE RECKON [SCENES]     exit status 77 = skipped, with a message
+
+  demo    a demo of two hands: live within 10 s, two themes and two widths without horizontal scroll, no error
+          in the console, swap, pause, a second back, live again, keys
+  saved   the last minute as one file: plays from disk, asks nobody for anything, runs no other script
+  hand    a hand taken by the pointer presses the other one: more than 1 N within 5 s, energy never below zero
+  empty   a world in which nobody sends says what to do
+  lost    a program that ends is told, and is found again at the same port
+"""
+import contextlib
+import json
+import os
+import re
+import selectors
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SKIPPED = 77
+CHROMIUM = "/usr/bin/chromium"
+DRIVER = "/usr/bin/chromedriver"
+PATIENCE = 30  # [s] for anything that is waited for; the machine may be busy
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(SKIPPED)
+
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    skip("no python3-selenium: apt-get install chromium chromium-driver python3-selenium")
+
+
+class Program:
+    """`reckon` with a page; its address is the first one that it prints."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True)
+        self.address = self.find_address()
+
+    def find_address(self):
+        selector = selectors.DefaultSelector()
+        selector.register(self.process.stdout, selectors.EVENT_READ)
+        said = []
+        while selector.select(PATIENCE):
+            line = self.process.stdout.readline()
+            said.append(line)
+            if found := re.search(r"http://\S+", line):
+                return found[0]
+            if not line:
+                break
+        raise AssertionError(f"no address of a page: {''.join(said)}")
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        try:
+            self.process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+
+
+@contextlib.contextmanager
+def program(*arguments):
+    started = Program(*arguments)
+    try:
+        yield started
+    finally:
+        started.end()
+
+
+@contextlib.contextmanager
+def browser():
+    options = webdriver.ChromeOptions()
+    flags = ["--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars", "--disable-background-networking"]
+    for flag in flags + (["--no-sandbox"] if os.geteuid() == 0 else []):
+        options.add_argument(flag)
+    options.binary_location = CHROMIUM
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    started = webdriver.Chrome(service=Service(DRIVER), options=options)
+    try:
+        yield Page(started)
+    finally:
+        started.quit()
+
+
+class Page:
+    def __init__(self, driver):
+        self.driver = driver
+
+    def size(self, width, height):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+
+    def open(self, address, **wishes):
+        hash_sign = "&" if "#" in address else "#"
+        self.driver.get("about:blank")
+        self.driver.get(address + hash_sign + "&".join(f"{name}={value}" for name, value in wishes.items()))
+
+    def ask(self, expression):
+        return self.driver.execute_script(f"return {expression}")
+
+    def wait(self, expression, what):
+        try:
+            WebDriverWait(self.driver, PATIENCE, 0.05).until(lambda _: self.ask(expression))
+        except Exception as error:
+            raise AssertionError(f"{what}: not within {PATIENCE} s; the page says {self.ask('JSON.stringify(window.reckon)')}, "
+                                 f"the console {self.driver.get_log('browser')}") from error
+
+    def wait_for_pictures(self, count=10):
+        seen = self.ask("window.reckon?.frames ?? 0")
+        self.wait(f"(window.reckon?.frames ?? 0) >= {seen + count}", f"{count} pictures")
+
+    def press(self, *keys):
+        actions = ActionChains(self.driver)
+        for key in keys:
+            actions.send_keys(key)
+        actions.perform()
+
+    def click(self, name):
+        self.driver.execute_script("document.getElementById(arguments[0]).click()", name)
+
+    def text(self, name):
+        return self.ask(f"document.getElementById('{name}').textContent")
+
+    def errors(self):
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+    def requests(self):
+        sent = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
+        return [message["params"]["request"]["url"] for message in sent if message["method"] == "Network.requestWillBeSent"]
+
+
+def expect(holds, what):
+    if not holds:
+        raise AssertionError(what)
+
+
+def shows_no_fault(page):
+    expect(page.ask("document.documentElement.scrollWidth <= innerWidth"), "no horizontal scroll")
+    expect(page.ask("window.reckon.bad") == 0, "no picture is refused")
+    errors = page.errors()
+    expect(not errors, f"no error in the console: {errors}")
+
+
+def pictures_folder():
+    folder = Path.cwd() / "page_pictures"
+    folder.mkdir(exist_ok=True)
+    return folder
+
+
+def demo(reckon, scenes):
+    with program(reckon, "demo", "--view=0", "--for", "10min") as started, browser() as page:
+        for theme in ("dark", "light"):
+            for width, height in ((1280, 800), (400, 860)):
+                page.size(width, height)
+                page.open(started.address, theme=theme)
+                page.wait("window.reckon?.state === 'live' && window.reckon.entities === 2", "two live hands")
+                page.wait_for_pictures()
+                shows_no_fault(page)
+                page.driver.save_screenshot(str(pictures_folder() / f"demo-{theme}-{width}.png"))
+        expect(page.ask("window.reckon.large") == "touch", "a demo of hands opens with touch large")
+        page.press("v")
+        page.wait("window.reckon.large === 'world'", "the world large")
+        page.press(" ")
+        page.wait("window.reckon.play === 'paused'", "paused")
+        paused_at = page.ask("window.reckon.time")
+        page.click("back-second")
+        page.wait(f"Math.abs(window.reckon.time - ({paused_at} - 1)) < 0.1", "a second back")
+        page.click("live")
+        page.wait(f"window.reckon.play === 'live' && window.reckon.time > {paused_at}", "live again")
+        page.press("?")
+        page.wait("document.getElementById('keys').open", "the list of keys")
+        expect(page.ask("document.querySelectorAll('#keys dt').length") > 15, "each key has its line")
+        shows_no_fault(page)
+
+
+def saved(reckon, scenes):
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "run.html"
+        with program(reckon, "demo", "--view=0", "--for", "10min") as started, browser() as page:
+            page.open(started.address)
+            page.wait("window.reckon?.pictures > 90", "pictures of some seconds")
+            page.driver.set_script_timeout(PATIENCE)
+            text = page.driver.execute_async_script("window.reckon.minute().then(arguments[0], (error) => arguments[0](String(error)))")
+            expect(text.startswith("<!doctype html>"), f"a saved page, not {text[:200]}")
+            file.write_text(text, encoding="utf-8")
+        expect(file.stat().st_size <= 4_000_000, f"at most 4 MB, not {file.stat().st_size}")
+        with browser() as page:
+            page.open(f"file://{file}")
+            page.wait("window.reckon?.frames > 5 && window.reckon.entities === 2", "it plays")
+            expect(page.ask("window.reckon.kind") == "saved", "it knows that it is saved")
+            asked = [url for url in page.requests() if not url.startswith(("file://", "about:", "data:"))]
+            expect(not asked, f"nobody is asked for anything: {asked}")
+            expect(page.ask("performance.getEntriesByType('resource').length") == 0, "no resource is loaded")
+            page.driver.execute_script("const s = document.createElement('script'); s.textContent = 'window.foreign = 1'; document.body.append(s)")
+            expect(page.ask("window.foreign ?? 0") == 0, "no other script runs")
+            errors = [text for text in page.errors() if "Content Security Policy" not in text]
+            expect(not errors, f"no error in the console: {errors}")
+
+
+def hand(reckon, scenes):
+    with program(reckon, "demo", "--view=0", "--for", "10min") as started, browser() as page:
+        page.size(1280, 800)
+        page.open(started.address)
+        page.wait("window.reckon?.hands?.length === 2", "two hands")
+        if not page.ask("!document.getElementById('push').hidden"):
+            skip("this page may not push: no hand can be taken")
+        page.click("hand")
+        page.wait("window.reckon.yours !== null", "a hand")
+        # The page says where a hand is drawn; the pointer goes to the other one and stays there.
+        canvas = page.driver.find_element("css selector", "canvas")
+        begin = time.monotonic()
+        while time.monotonic() - begin < 5:
+            x, y = page.ask("window.reckon.placeOf(window.reckon.hands.find((h) => h.index !== window.reckon.yours).index)")
+            box = canvas.size
+            ActionChains(page.driver, duration=0).move_to_element_with_offset(canvas, int(x - box["width"] / 2), int(y - box["height"] / 2)).perform()
+            if page.ask("Math.max(...window.reckon.hands.map((h) => h.newtons)) > 1"):
+                break
+        else:
+            raise AssertionError(f"more than 1 N within 5 s; felt {page.ask('window.reckon.hands.map((h) => h.newtons)')}")
+        expect(page.ask("window.reckon.hands.every((h) => h.energy >= -1e-9)"), "energy never below zero")
+        page.press("h")
+        page.wait("window.reckon.yours === null", "the hand is given back")
+        shows_no_fault(page)
+
+
+def empty(reckon, scenes):
+    with program(reckon, "view", "udp://239.255.77.1:39977", "--iface", "lo", "--port", "0") as started, browser() as page:
+        page.open(started.address)
+        page.wait("!document.getElementById('notice').hidden", "a notice")
+        expect(len(page.ask("document.querySelector('#notice p').textContent")) > 20, "it says what to do")
+        shows_no_fault(page)
+
+
+def lost(reckon, scenes):
+    with browser() as page:
+        with program(reckon, "demo", "--view=0", "--for", "10min") as started:
+            page.open(started.address)
+            page.wait("window.reckon?.state === 'live' && window.reckon.entities === 2", "live")
+            port = re.search(r":(\d+)/", started.address)[1]
+        page.wait("window.reckon.state === 'lost' && !document.getElementById('notice').hidden", "the loss is told")
+        with program(reckon, "demo", f"--view={port}", "--for", "10min"):
+            page.wait("window.reckon.state === 'live' && document.getElementById('notice').hidden", "it comes back by itself")
+            page.wait_for_pictures()
+
+
+CASES = {case.__name__: case for case in (demo, saved, hand, empty, lost)}
+
+
+def main(arguments):
+    name, reckon, *rest = arguments
+    for path in (CHROMIUM, DRIVER):
+        if not os.access(path, os.X_OK):
+            skip(f"no {path}: apt-get install chromium chromium-driver python3-selenium")
+    told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
+    if "--view" not in told.stdout:
+        skip("this program serves no page")
+    CASES[name](reckon, rest[0] if rest else "")
+    print(f"{name}: good")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

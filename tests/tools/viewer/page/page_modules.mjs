@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The modules of the page that need no browser:  node page_modules.mjs tools/viewer/page
+import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
+import { copyFileSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import test, { after } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+// Node takes a .js file as a module where a package says so; the page needs none.
+const page = process.argv[2];
+const copy = mkdtempSync(join(tmpdir(), 'reckon-page-'));
+after(() => rmSync(copy, { recursive: true }));
+for (const name of readdirSync(page)) if (name.endsWith('.js')) copyFileSync(join(page, name), join(copy, name));
+writeFileSync(join(copy, 'package.json'), '{"type": "module"}');
+const take = (name) => import(pathToFileURL(join(copy, name)));
+
+const { decodePicture, HAND_FLAGS } = await take('picture.js');
+const { Samples } = await take('samples.js');
+const { COMMANDS } = await take('commands.js');
+const { Recorder, base64 } = await take('recorder.js');
+const { Replay } = await take('replay.js');
+const { sha256 } = await take('sha256.js');
+const { bundle, savedFile } = await take('saving.js');
+const { Moment } = await take('moment.js');
+const { digits, foreign, roundUp } = await take('words.js');
+
+function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, flags = 1 }) {
+  const view = new DataView(new ArrayBuffer(32 + 44 * entities.length + 72 * hands.length + 28 * contacts));
+  view.setUint32(0, 0x31564b52, true);
+  view.setUint32(4, number, true);
+  view.setFloat64(8, time, true);
+  [entities.length, hands.length, contacts, flags].forEach((x, i) => view.setUint16(16 + 2 * i, x, true));
+  view.setUint32(24, 7, true);
+  entities.forEach(({ slot, x = 0, error = 0, turn = [32767, 0, 0, 0] }, i) => {
+    const at = 32 + 44 * i;
+    view.setUint16(at, slot, true);
+    view.setUint8(at + 2, 1);
+    view.setUint8(at + 3, 2);
+    view.setUint16(at + 4, 27, true);
+    view.setUint16(at + 6, 513, true);
+    view.setFloat32(at + 8, x, true);
+    turn.forEach((q, k) => view.setInt16(at + 20 + 2 * k, q, true));
+    view.setFloat32(at + 28, error, true);
+    view.setUint16(at + 40, 250, true);
+    view.setUint16(at + 42, 12, true);
+  });
+  hands.forEach(({ index = 0, flags: of = 0, force = [0, 0, 0], position = [0, 0, 0] }, i) => {
+    const at = 32 + 44 * entities.length + 72 * i;
+    view.setUint16(at, index, true);
+    view.setUint16(at + 2, of, true);
+    position.forEach((x, k) => view.setFloat32(at + 8 + 4 * k, x, true));
+    force.forEach((x, k) => view.setFloat32(at + 32 + 4 * k, x, true));
+    [5, 6, 7, 8].forEach((x, k) => view.setFloat32(at + 56 + 4 * k, x, true));
+  });
+  return view.buffer;
+}
+
+test('A picture gives each field back', () => {
+  const decoded = decodePicture(picture({
+    time: 12.5, number: 9, entities: [{ slot: 3, x: 2 }, { slot: 8, x: 4, error: 0.5 }], hands: [{ index: 1, flags: 128, force: [3, 0, 4] }], contacts: 2,
+  }));
+  assert.deepEqual([decoded.time, decoded.number, decoded.epoch, decoded.entities], [12.5, 9, 7, 2]);
+  assert.deepEqual([decoded.slot(1), decoded.force(1), decoded.cause(1), decoded.cell(1), decoded.group(1), decoded.rate(1), decoded.jump(1)],
+    [8, 1, 2, 27, 513, 2.5, 12]);
+  assert.deepEqual([decoded.floats[decoded.floatAt(1)], decoded.floats[decoded.floatAt(1) + 5], decoded.shorts[decoded.turnAt(1)]], [4, 0.5, 32767]);
+  assert.deepEqual([decoded.indexOf(8), decoded.indexOf(4)], [1, -1]);
+  const [hand] = decoded.hands;
+  assert.deepEqual([hand.index, hand.newtons, hand.trueForce, hand.energy, hand.loan, hand.twin], [1, 5, 5, 6, 7, null]);
+  assert.equal(decoded.contacts.length, 2);
+});
+
+test('A picture whose length does not follow from its counts is refused', () => {
+  const whole = picture({ entities: [{ slot: 1 }], hands: [{}], contacts: 1 });
+  for (let length = 0; length < whole.byteLength; ++length) assert.throws(() => decodePicture(whole.slice(0, length)));
+  const longer = new Uint8Array(whole.byteLength + 4);
+  longer.set(new Uint8Array(whole));
+  assert.throws(() => decodePicture(longer.buffer), /its counts give/);
+  const counted = whole.slice(0);
+  new DataView(counted).setUint16(16, 65535, true);
+  assert.throws(() => decodePicture(counted), /its counts give/);
+});
+
+test('A picture of another version is refused', () => {
+  const other = picture({});
+  new DataView(other).setUint32(0, 0x32564b52, true);
+  assert.throws(() => decodePicture(other), /version/);
+});
+
+test('A hand with impossible numbers counts as without force', () => {
+  const [hand] = decodePicture(picture({ hands: [{ force: [NaN, Infinity, 1], position: [NaN, 0, 0] }] })).hands;
+  assert.deepEqual([hand.force, hand.newtons, hand.position], [[0, 0, 1], 1, [0, 0, 0]]);
+});
+
+test('Between two pictures an entity is found by its slot, and shown is predicted plus error', () => {
+  const moment = new Moment();
+  const a = decodePicture(picture({ entities: [{ slot: 1, x: 10 }, { slot: 2, x: 20 }] }));
+  const b = decodePicture(picture({ time: 1, entities: [{ slot: 2, x: 30, error: 2 }, { slot: 5, x: 50 }] }));
+  moment.set(a, b, 0.5);
+  assert.deepEqual([moment.predicted[0], moment.shown[0], moment.predicted[3]], [25, 26, 50]);
+  assert.deepEqual([...moment.turns.subarray(0, 4)], [1, 0, 0, 0]);
+});
+
+test('A quaternion turns the short way between two pictures', () => {
+  const moment = new Moment();
+  const a = decodePicture(picture({ entities: [{ slot: 1, turn: [32767, 0, 0, 0] }] }));
+  const b = decodePicture(picture({ entities: [{ slot: 1, turn: [-32767, 0, 0, 0] }] }));
+  moment.set(a, b, 0.5);
+  assert.equal(Math.abs(moment.turns[0]), 1);
+});
+
+test('A gap between samples stays a gap', () => {
+  const samples = new Samples();
+  for (const time of [0, 0.5, 1, 5, 5.5]) samples.take(time, [time], false);
+  assert.deepEqual(samples.columns(0, 10, 1, 1), [[0, 0.5, 1, 3, 5, 5.5], [0, 0.5, 1, null, 5, 5.5]]);
+  samples.take(5.8, [6], true);
+  assert.deepEqual(samples.columns(5.2, 10, 1, 1)[1], [5.5, null, 6]);
+});
+
+test('Samples of somebody who goes back stand in their place', () => {
+  const samples = new Samples();
+  for (const time of [3, 1, 2, 2, 4]) samples.take(time, [10 * time], false);
+  assert.deepEqual(samples.columns(0, 10, 1, 2), [[1, 2, 3, 4], [10, 20, 30, 40]]);
+});
+
+test('Samples are bounded', () => {
+  const samples = new Samples();
+  for (let i = 0; i < 9000; ++i) samples.take(i, [i], false);
+  assert.equal(samples.rows.length, 6000);
+  assert.equal(samples.rows.at(-1).time, 8999);
+});
+
+test('Commands have the octets of the protocol', () => {
+  const hex = (buffer) => Buffer.from(buffer).toString('hex');
+  assert.equal(hex(COMMANDS.drawn(0x01020304)), '0104030201');
+  assert.equal(hex(COMMANDS.seek(1)), '02000000000000f03f');
+  assert.equal(hex(COMMANDS.speed(1)), '030000803f');
+  assert.equal(hex(COMMANDS.live()), '04');
+  assert.equal(hex(COMMANDS.step(-2)), '05fe');
+  assert.equal(hex(COMMANDS.pointer(1, [1, 0, 0], true)), '0601000000803f000000000000000001');
+  assert.equal(hex(COMMANDS.network({ delay: 1, jitter: 0, loss: 1, outage: true })), '070000803f000000000000803f01');
+  assert.deepEqual([hex(COMMANDS.askHand()), hex(COMMANDS.giveHand()), hex(COMMANDS.follow(258))], ['08', '09', '0a0201']);
+});
+
+function saved(times) {
+  const recorder = new Recorder();
+  recorder.text({ type: 'hello', kind: 'demo', may_push: true });
+  recorder.text({ type: 'hand', index: 0 });
+  for (const time of times) recorder.picture(decodePicture(picture({ time, number: Math.round(time), entities: [{ slot: 1, x: time }] })));
+  return recorder.saved();
+}
+
+test('A saved minute begins with what is known and may not push', () => {
+  const items = saved([100, 101, 102]);
+  assert.deepEqual(items.map(([ms, type]) => [ms, type]), [[0, 'text'], [0, 'picture'], [1000, 'picture'], [2000, 'picture']]);
+  assert.deepEqual([items[0][2].kind, items[0][2].may_push], ['saved', false]);
+});
+
+test('A recorder keeps a minute, and what was known before it', () => {
+  const items = saved(Array.from({ length: 200 }, (_, i) => i));
+  assert.equal(items.filter(([, type]) => type === 'picture').length, 61);
+  assert.equal(items[0][2].type, 'hello');
+});
+
+test('A recorder thins pictures that are too large', () => {
+  const recorder = new Recorder(60 * 100 * 10); // 10 of 100 octets a second
+  for (let i = 0; i < 3000; ++i) recorder.picture(decodePicture(picture({ time: i / 50, entities: [{ slot: 1 }, { slot: 2 }] })));
+  const octets = recorder.items.reduce((sum, [, , buffer]) => sum + buffer.byteLength, 0);
+  assert.ok(octets <= 60 * 100 * 10 * 1.05 && octets > 60 * 100 * 10 * 0.8, `${octets}`);
+});
+
+test('A recorder takes nothing twice from somebody who looks back', () => {
+  assert.equal(saved([1, 2, 3, 1.5, 2.5, 3, 4]).filter(([, type]) => type === 'picture').length, 4);
+});
+
+function replay(times) {
+  const heard = [];
+  const one = new Replay(saved(times), {
+    text: (text) => heard.push(text.type === 'play' ? text.state : text.type), picture: ({ time }) => heard.push(time), state() {}, bad: (text) => heard.push(text),
+  });
+  one.start();
+  one.advance(0);
+  const since = () => heard.splice(0);
+  return { one, since };
+}
+
+test('A saved minute plays by the clock, in its speed, to its end, and again', () => {
+  const { one, since } = replay([100, 101, 102]);
+  assert.deepEqual(since(), ['hello', 100, 'playing']);
+  one.advance(500);
+  assert.deepEqual(since(), []);
+  one.advance(1000);
+  assert.deepEqual(since(), [101]);
+  one.tell('speed', 2);
+  one.advance(1500);
+  assert.deepEqual(since(), ['playing', 102, 'end']);
+  one.tell('speed', 1);
+  assert.deepEqual(since(), ['hello', 100, 'playing']);
+});
+
+test('A saved minute goes to any instant and steps by seconds and by pictures', () => {
+  const { one, since } = replay([100, 101, 102, 103]);
+  since();
+  one.tell('speed', 0);
+  one.tell('seek', 102.4);
+  assert.deepEqual(since(), ['paused', 'hello', 102, 'paused']);
+  one.tell('step', -2);
+  assert.deepEqual(since(), ['hello', 101, 'paused']);
+  one.tell('step', 1);
+  assert.deepEqual(since(), ['hello', 102, 'paused']);
+  one.tell('step', 2);
+  one.tell('step', 2);
+  assert.deepEqual(since().filter((x) => typeof x === 'number'), [103, 103]);
+  one.advance(9e5);
+  assert.deepEqual(since(), []);
+  assert.deepEqual(one.span, [100, 103]);
+});
+
+test('A saved minute without pictures, and one with a damaged picture, say so and do not throw', () => {
+  const heard = [];
+  const hear = { text() {}, picture() {}, state() {}, bad: (text) => heard.push(text) };
+  new Replay([], hear).start();
+  const good = saved([1, 2]);
+  const one = new Replay([...good, [1500, 'picture', base64(new Uint8Array(9))]], hear);
+  one.start();
+  one.tell('seek', 2.5);
+  assert.equal(heard.length, 1);
+});
+
+test('SHA-256 is that of everybody', () => {
+  for (let length = 0; length < 200; ++length) {
+    const octets = Uint8Array.from({ length }, (_, i) => (i * 31 + length) & 255);
+    assert.equal(Buffer.from(sha256(octets)).toString('hex'), createHash('sha256').update(octets).digest('hex'));
+  }
+});
+
+test('A bundle has each module once, what is imported first, and neither import nor export', async () => {
+  const modules = {
+    'main.js': "import { b } from './b.js';\nimport { c } from './c.js';\nb(c);", 'b.js': "import { c } from './c.js';\nexport function b() { return c; }",
+    'c.js': 'export const c = 1;',
+  };
+  assert.equal(await bundle('main.js', async (name) => modules[name]), 'const c = 1;\nfunction b() { return c; }\nb(c);');
+});
+
+test('The bundle of this page is a script that a browser can read, and a saved file lets it alone run', async () => {
+  const read = async (name) => readFileSync(join(page, name === 'libraries.js' ? 'third_party/libraries.js' : name), 'utf8');
+  const script = await bundle('main.js', read);
+  const checked = join(copy, 'checked.mjs');
+  writeFileSync(checked, script);
+  const { execFileSync } = await import('node:child_process');
+  execFileSync(process.execPath, ['--check', checked]);
+  const items = [[0, 'text', { type: 'note', text: '</script><script>alert(1)</script>' }]];
+  const html = savedFile({ html: await read('index.html'), css: await read('page.css'), script, items });
+  const digest = createHash('sha256').update(script).digest('base64');
+  assert.ok(html.includes(`script-src 'sha256-${digest}'`));
+  assert.equal(html.split('</script>').length, 3); // its own two
+  assert.deepEqual(JSON.parse(/id="saved">(.*?)<\/script>/s.exec(html)[1]), items);
+  const markup = html.replace(script, '');
+  assert.ok(!markup.includes('src="main.js"') && !markup.includes('href="page.css"'));
+});
+
+test('Words are short, whatever comes', () => {
+  assert.deepEqual([digits(2.3149), digits(0.019), digits(1234.5), digits(NaN), digits(undefined), digits(-31.25)], ['2.31', '0.02', '1,235', '–', '–', '-31.3']);
+  assert.equal(foreign('x'.repeat(500)).length, 80);
+  assert.deepEqual([roundUp(0.03), roundUp(1), roundUp(11), roundUp(50)].map((x) => Number(x.toPrecision(6))), [0.05, 1, 20, 50]);
+  assert.ok(HAND_FLAGS.trueKnown === 128);
+});

@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Colours stand in page.css alone, once for each theme: hues of Okabe and Ito, which the colour blind tell apart.
+import { Color } from './libraries.js';
+
+export function cssColour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
+export function colour(name) { return new Color(cssColour(name)); }
+export const FORCE_COLOURS = ['force-other', 'force-friendly', 'force-opposing', 'force-neutral'];
+export const HAND_COLOURS = ['hand-0', 'hand-1', 'hand-2', 'hand-3'];
+export function handColour(index) { return HAND_COLOURS[index % HAND_COLOURS.length]; }

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Entities as they are shown: shape by kind, nose where they head, colour by force. What the followed one does not hear is faint.
+import { Color, DoubleSide, MeshBasicMaterial } from './libraries.js';
+import { Bodies, leastScale, shapeOf } from './bodies.js';
+import { colour, FORCE_COLOURS } from './colours.js';
+import { NONE } from './picture.js';
+
+export const drawnEntities = {
+  name: 'entities', view: 'world', says: 'entity as shown', mark: 'body force-friendly',
+  make(group, view) { return new Entities(group, view); },
+};
+
+class Entities {
+  constructor(group, view) {
+    this.view = view;
+    this.bodies = new Bodies(group, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
+    this.known = '';
+    this.tinted = '';
+  }
+
+  paint() {
+    this.teams = FORCE_COLOURS.map(colour);
+    this.faint = this.teams.map((team) => new Color().lerpColors(team, colour('sky'), 0.72));
+    this.tinted = '';
+  }
+
+  update(moment) {
+    const { picture } = moment;
+    const known = `${moment.rosterNumber} ${picture.epoch} ${moment.count}`;
+    if (known !== this.known) {
+      this.known = known;
+      this.rows = Array.from({ length: moment.count }, (_, i) => moment.roster.get(picture.slot(i)));
+      this.bodies.shape(this.rows.map((row) => shapeOf(row?.kind, row?.haptic)));
+      this.tinted = '';
+    }
+    // Entities go from cell to cell: once a second is often enough for what is faint.
+    const tinted = `${moment.followed} ${moment.cellsNumber} ${moment.followed === NONE ? '' : Math.floor(moment.time)}`;
+    if (tinted !== this.tinted) {
+      this.tinted = tinted;
+      this.tint(moment);
+    }
+    const scale = leastScale(this.view);
+    const { shown, turns } = moment;
+    this.bodies.begin();
+    for (let i = 0; i < moment.count; ++i) {
+      const x = shown[3 * i];
+      const y = shown[3 * i + 1];
+      const z = shown[3 * i + 2];
+      this.bodies.set(i, x, y, z, turns, scale(x, y, z, this.rows[i]?.radius || 1));
+    }
+    this.bodies.end();
+  }
+
+  tint(moment) {
+    const { picture, followed } = moment;
+    const heard = moment.heardBy(followed);
+    const all = followed === NONE || !heard.size;
+    this.bodies.colours((i) => {
+      const near = all || heard.has(picture.cell(i)) || picture.slot(i) === followed;
+      return (near ? this.teams : this.faint)[picture.force(i)];
+    });
+  }
+}

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The entity that the reader follows: its name, and a mark above it.
+import { ConeGeometry, Mesh, MeshBasicMaterial } from './libraries.js';
+import { leastScale } from './bodies.js';
+import { colour } from './colours.js';
+import { foreign } from './words.js';
+
+export const drawnFollowed = {
+  name: 'followed', view: 'world', says: 'followed', mark: 'followed',
+  make(group, view, labels) { return new Followed(group, view, labels); },
+};
+
+class Followed {
+  constructor(group, view, labels) {
+    Object.assign(this, { view, labels });
+    this.material = new MeshBasicMaterial();
+    this.mark = new Mesh(new ConeGeometry(0.55, 1.1, 4).rotateX(-Math.PI / 2), this.material);
+    group.add(this.mark);
+  }
+
+  paint() { this.material.color = colour('text'); }
+
+  update(moment) {
+    const i = moment.picture.indexOf(moment.followed);
+    this.mark.visible = i >= 0;
+    if (i < 0) return;
+    const [x, y, z] = moment.shown.subarray(3 * i, 3 * i + 3);
+    const scale = leastScale(this.view)(x, y, z, moment.roster.get(moment.followed)?.radius || 1);
+    this.mark.scale.setScalar(scale);
+    this.mark.position.set(x, y, z + 2.4 * scale);
+    this.labels.put(this.view, x, y, z + 3.2 * scale, foreign(moment.name(moment.followed), 24), 'name', 4);
+  }
+}

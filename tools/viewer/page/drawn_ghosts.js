@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where each entity was predicted, beside where it is shown. The way between is drawn larger, so that it is seen at all.
+import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, LineBasicMaterial, LineSegments, MeshBasicMaterial } from './libraries.js';
+import { Bodies, leastScale, shapeOf } from './bodies.js';
+import { colour } from './colours.js';
+
+const TIMES = 4;
+
+export const drawnGhosts = {
+  name: 'predicted', view: 'world', says: `predicted, error × ${TIMES}`, mark: 'ghost',
+  make(group, view) { return new Ghosts(group, view); },
+};
+
+class Ghosts {
+  constructor(group, view) {
+    this.view = view;
+    this.material = new MeshBasicMaterial({ transparent: true, opacity: 0.34, depthWrite: false, side: DoubleSide });
+    this.bodies = new Bodies(group, this.material);
+    this.lineMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.8 });
+    this.lines = new LineSegments(new BufferGeometry(), this.lineMaterial);
+    this.lines.frustumCulled = false;
+    group.add(this.lines);
+    this.known = '';
+  }
+
+  paint() {
+    this.material.color = colour('ghost');
+    this.lineMaterial.color = colour('error');
+  }
+
+  update(moment) {
+    const known = `${moment.rosterNumber} ${moment.picture.epoch} ${moment.count}`;
+    if (known !== this.known) {
+      this.known = known;
+      this.rows = Array.from({ length: moment.count }, (_, i) => moment.roster.get(moment.picture.slot(i)));
+      this.slots = this.rows.map((row) => shapeOf(row?.kind, row?.haptic));
+    }
+    if (!this.way || this.way.length < 6 * moment.count) {
+      this.way = new Float32Array(6 * Math.ceil(1.2 * moment.count));
+      this.lines.geometry.dispose();
+      this.lines.geometry.setAttribute('position', new BufferAttribute(this.way, 3).setUsage(DynamicDrawUsage));
+    }
+    const off = this.off(moment);
+    this.bodies.shape(off.map((i) => this.slots[i]));
+    this.write(moment, off);
+  }
+
+  // Those whose error would be seen: a pixel and more.
+  off({ shown, predicted, count }) {
+    const { position } = this.view.orbit.camera;
+    const pixel = 0.65 / Math.max(200, this.view.rectangle.height);
+    const list = [];
+    for (let i = 0; i < count; ++i) {
+      const o = 3 * i;
+      const error = Math.hypot(shown[o] - predicted[o], shown[o + 1] - predicted[o + 1], shown[o + 2] - predicted[o + 2]);
+      const depth = Math.hypot(shown[o] - position.x, shown[o + 1] - position.y, shown[o + 2] - position.z);
+      if (TIMES * error > 2 * pixel * depth) list.push(i);
+    }
+    return list;
+  }
+
+  write({ shown, predicted, turns }, off) {
+    const scale = leastScale(this.view);
+    const { way } = this;
+    const turn = new Float32Array(4 * off.length);
+    this.bodies.begin();
+    off.forEach((i, n) => {
+      for (let k = 0; k < 3; ++k) {
+        const x = shown[3 * i + k];
+        way[6 * n + k] = x;
+        way[6 * n + 3 + k] = x + TIMES * (predicted[3 * i + k] - x);
+      }
+      for (let k = 0; k < 4; ++k) turn[4 * n + k] = turns[4 * i + k];
+      const [x, y, z] = [way[6 * n + 3], way[6 * n + 4], way[6 * n + 5]];
+      this.bodies.set(n, x, y, z, turn, scale(x, y, z, this.rows[i]?.radius || 1));
+    });
+    this.bodies.end();
+    const { position } = this.lines.geometry.attributes;
+    this.lines.geometry.setDrawRange(0, 2 * off.length);
+    position.clearUpdateRanges();
+    position.addUpdateRange(0, 6 * off.length);
+    position.needsUpdate = true;
+  }
+}

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What is drawn, in order. One more thing: its file, and its row here.
+//   { name, view: 'world' or 'touch', says: words of the key, mark: shape and colour of the key,
+//     make(group, view, labels) -> { paint(), update(moment) } }
+import { drawnCells } from './drawn_cells.js';
+import { drawnTrails } from './drawn_trails.js';
+import { drawnGhosts } from './drawn_ghosts.js';
+import { drawnEntities } from './drawn_entities.js';
+import { drawnContacts } from './drawn_contacts.js';
+import { drawnFollowed } from './drawn_followed.js';
+import { drawnFloor } from './drawn_floor.js';
+import { drawnSolids } from './drawn_solids.js';
+import { drawnHandGhosts } from './drawn_hand_ghosts.js';
+import { drawnHands } from './drawn_hands.js';
+import { drawnTouchEntities } from './drawn_touch_entities.js';
+import { drawnForces } from './drawn_forces.js';
+import { drawnCones } from './drawn_cones.js';
+
+export const DRAWN = [
+  drawnCells, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnFollowed,
+  drawnFloor, drawnSolids, drawnHandGhosts, drawnHands, drawnTouchEntities, drawnForces, drawnCones,
+];

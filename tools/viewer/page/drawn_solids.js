@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What does not yield or only a little: meshes, spheres, boxes and walls of the scene.
+import { DoubleSide, Mesh, MeshLambertMaterial } from './libraries.js';
+import { colour } from './colours.js';
+import { solidReach, solidShape } from './solid_shapes.js';
+
+export const drawnSolids = {
+  name: 'solids', view: 'touch', says: 'solid of the scene', mark: 'body stone',
+  make(group) { return new Solids(group); },
+};
+
+class Solids {
+  constructor(group) {
+    this.group = group;
+    this.meshes = [];
+    this.number = -1;
+  }
+
+  paint() { for (const { material } of this.meshes) material.color = colour('stone'); }
+
+  update(moment) {
+    if (moment.touchNumber === this.number) return;
+    this.number = moment.touchNumber;
+    for (const mesh of this.meshes) {
+      mesh.geometry.dispose();
+      mesh.removeFromParent();
+    }
+    this.meshes = moment.touch.solids.flatMap((solid) => this.mesh(solid));
+    this.paint();
+  }
+
+  mesh(solid) {
+    const shape = solidShape(solid);
+    if (!shape) return [];
+    solid.reach ??= solidReach(solid, shape);
+    const material = new MeshLambertMaterial({ side: solid.shape === 'plane' ? DoubleSide : 0, vertexColors: !!shape.attributes.color });
+    const mesh = new Mesh(shape, material);
+    mesh.position.fromArray(solid.position);
+    const [w, x, y, z] = solid.quaternion;
+    mesh.quaternion.set(x, y, z, w).normalize();
+    this.group.add(mesh);
+    return [mesh];
+  }
+}

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where each entity has been in the last 10 s. Pieces are written once, round and round; the shader fades them by age.
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, ShaderMaterial } from './libraries.js';
+import { colour, FORCE_COLOURS } from './colours.js';
+import { NONE } from './picture.js';
+
+const TRAIL_SECONDS = 10;
+const FINE = 20; // pieces of a trail
+const COARSE = 10; // of one among many: lines are what software GL is slow at
+const MANY = 400;
+const MOST_TRAILS = 4096; // entities with a trail
+
+export const drawnTrails = {
+  name: 'trails', view: 'world', says: 'trail of 10 s', mark: 'line force-friendly',
+  make(group) { return new Trails(group); },
+};
+
+class Trails {
+  constructor(group) {
+    this.material = new ShaderMaterial({
+      transparent: true, depthWrite: false,
+      uniforms: { now: { value: 0 }, strength: { value: 0.5 }, teams: { value: [] } },
+      vertexShader: `
+        attribute float born; attribute float team; uniform float now; uniform float strength; uniform vec3 teams[4]; varying vec4 tint;
+        void main() {
+          float age = (now - born) / ${TRAIL_SECONDS.toFixed(1)};
+          tint = vec4(teams[int(team)], age < 0.0 || age > 1.0 ? 0.0 : strength * (1.0 - age));
+          gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+        }`,
+      fragmentShader: `
+        varying vec4 tint;
+        void main() { gl_FragColor = tint; if (tint.a < 0.01) discard;
+          #include <colorspace_fragment>
+        }`,
+    });
+    this.lines = new LineSegments(new BufferGeometry(), this.material);
+    this.lines.frustumCulled = false;
+    group.add(this.lines);
+    this.key = '';
+  }
+
+  paint() { this.material.uniforms.teams.value = FORCE_COLOURS.map(colour); }
+
+  // One piece more than is full: the last one follows the entity.
+  room(count) {
+    this.pieces = count > MANY ? COARSE : FINE;
+    const corners = 2 * count * (this.pieces + 1);
+    this.at = new Float32Array(3 * corners);
+    this.born = new Float32Array(corners).fill(-1e9);
+    this.team = new Float32Array(corners);
+    this.lines.geometry.dispose();
+    const { geometry } = this.lines;
+    geometry.setAttribute('position', new BufferAttribute(this.at, 3).setUsage(DynamicDrawUsage));
+    geometry.setAttribute('born', new BufferAttribute(this.born, 1).setUsage(DynamicDrawUsage));
+    geometry.setAttribute('team', new BufferAttribute(this.team, 1).setUsage(DynamicDrawUsage));
+    this.old = new Float32Array(3 * count);
+    this.piece = 0;
+    this.next = -Infinity;
+  }
+
+  update(moment) {
+    const { picture, time, shown } = moment;
+    const count = Math.min(moment.count, MOST_TRAILS);
+    const key = `${picture.epoch} ${count}`;
+    // Somebody went back in time, or slots mean others: the trails begin anew.
+    if (key !== this.key || time < this.last - 0.2 || time > this.last + 2) {
+      this.key = key;
+      this.room(count);
+      this.base = time;
+      this.old.set(shown.subarray(0, 3 * count));
+      this.since = 0;
+    }
+    const now = time - this.base; // small numbers: floats of the shader are short
+    if (now >= this.next) {
+      this.piece = (this.piece + 1) % (this.pieces + 1);
+      if (Number.isFinite(this.next)) this.old.set(shown.subarray(0, 3 * count));
+      this.since = now;
+      this.next = now + TRAIL_SECONDS / this.pieces;
+    }
+    this.write(moment, count, now);
+    this.last = time;
+    this.material.uniforms.now.value = now;
+    this.material.uniforms.strength.value = moment.followed === NONE ? 0.5 : 0.2; // what is lit is to be seen
+  }
+
+  write({ picture, shown }, count, now) {
+    const first = this.piece * count * 2;
+    for (let i = 0; i < count; ++i) {
+      const v = first + 2 * i;
+      for (let k = 0; k < 3; ++k) {
+        this.at[3 * v + k] = this.old[3 * i + k];
+        this.at[3 * v + 3 + k] = shown[3 * i + k];
+      }
+      this.born[v] = this.since;
+      this.born[v + 1] = now;
+      this.team[v] = picture.force(i);
+      this.team[v + 1] = picture.force(i);
+    }
+    for (const name of ['position', 'born', 'team']) {
+      const attribute = this.lines.geometry.attributes[name];
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(first * attribute.itemSize, 2 * count * attribute.itemSize);
+      attribute.needsUpdate = true;
+    }
+  }
+}

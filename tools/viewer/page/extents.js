@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The sphere that a camera should hold: of the world, and of what is touched.
+
+// All but the outermost fiftieth, so that one straggler does not make all others specks; at least a cell.
+export function worldExtent(moment) {
+  if (!moment.count) return null;
+  const columns = [0, 1, 2].map((k) => {
+    const step = Math.max(1, Math.floor(moment.count / 400));
+    const list = [];
+    for (let i = 0; i < moment.count; i += step) if (Number.isFinite(moment.shown[3 * i + k])) list.push(moment.shown[3 * i + k]);
+    return list.sort((a, b) => a - b);
+  });
+  if (!columns[0].length) return null;
+  const cut = (list, share) => list[Math.round((list.length - 1) * share)];
+  const share = columns[0].length > 50 ? 0.02 : 0;
+  const low = columns.map((list) => cut(list, share));
+  const high = columns.map((list) => cut(list, 1 - share));
+  const centre = low.map((x, k) => (x + high[k]) / 2);
+  const spread = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2;
+  return { centre, radius: Math.max(0.78 * spread, 0.55 * moment.cells.size, 0.05) };
+}
+
+// Solids that have an end, and hands; 10 times as large as a hand at least.
+export function touchExtent(moment) {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  const add = (point, radius) => {
+    for (let k = 0; k < 3; ++k) {
+      low[k] = Math.min(low[k], point[k] - radius);
+      high[k] = Math.max(high[k], point[k] + radius);
+    }
+  };
+  for (const solid of moment.touch.solids) if (solid.shape !== 'plane') add(solid.position, solid.reach ?? solid.radius ?? 0.1);
+  if (!Number.isFinite(low[0])) {
+    for (const { position, index } of moment.hands) add(position, 5 * moment.handRadius(index));
+  }
+  if (!Number.isFinite(low[0])) {
+    for (let i = 0; i < moment.count; ++i) {
+      const row = moment.roster.get(moment.picture.slot(i));
+      if (row?.haptic) add(moment.shown.subarray(3 * i, 3 * i + 3), 5 * (row.radius || 0.01));
+    }
+  }
+  if (!Number.isFinite(low[0])) return null;
+  const centre = low.map((x, k) => (x + high[k]) / 2);
+  return { centre, radius: 0.66 * Math.max(...high.map((x, k) => x - low[k])) };
+}

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Keys, each with what it does: the list that `?` shows and the one that is obeyed.
+import { element } from './words.js';
+
+// `page` has the parts that main.js put together.
+export const KEYS = [
+  ['Space', 'pause, play', (page) => page.timeLine.playOrPause(), ' '],
+  ['← →', 'one update back, on', (page, event) => page.timeLine.step(event.key === 'ArrowLeft' ? -2 : 2), 'ArrowLeft', 'ArrowRight'],
+  ['Shift ← →', '1 s back, on', (page, event) => page.timeLine.step(event.key.endsWith('Left') ? -1 : 1), 'Shift+ArrowLeft', 'Shift+ArrowRight'],
+  [', .', 'slower, faster', (page, event) => page.timeLine.faster(event.key === ',' ? -1 : 1), ',', '.'],
+  ['End', 'live', (page) => page.timeLine.live(), 'End'],
+  ['v', 'swap world and touch', (page) => page.swap(), 'v'],
+  ['f', 'fit the picture', (page) => page.fit(), 'f'],
+  ['[ ]', 'turn the picture', (page, event) => page.turn(event.key === '[' ? -20 : 20, 0), '[', ']'],
+  ['PgUp PgDn', 'tilt the picture', (page, event) => page.turn(0, event.key === 'PageUp' ? 20 : -20), 'PageUp', 'PageDown'],
+  ['+ −', 'nearer, farther', (page, event) => page.zoom(event.key === '-' ? 1.15 : 1 / 1.15), '+', '=', '-'],
+  ['c', 'friction cones', (page) => page.toggle('friction cones'), 'c'],
+  ['g', 'what is predicted', (page) => page.toggle('predicted', 'predicted hand'), 'g'],
+  ['h', 'take a hand, give it back', (page) => page.hand.askOrGive(), 'h'],
+  ['w a s d', 'move your hand up, left, down, right', null],
+  ['q e', 'move your hand away, nearer', null],
+  ['o', 'outage of the demo\u2019s network', (page) => page.outage(), 'o'],
+  ['p', 'save the picture', (page) => page.savePicture(), 'p'],
+  ['m', 'save the last minute', (page) => page.saveMinute(), 'm'],
+  ['t', 'light, dark', (page) => page.swapTheme(), 't'],
+  ['l', 'what was done', (page) => page.log.toggle(), 'l'],
+  ['Esc', 'let go, follow nobody', (page) => page.escape(), 'Escape'],
+  ['?', 'this list', (page) => page.showKeys(), '?'],
+];
+
+const TYPED = ['INPUT', 'SELECT', 'TEXTAREA'];
+
+export function listenForKeys(page) {
+  const acts = new Map(KEYS.flatMap(([, , act, ...names]) => names.map((name) => [name, act])));
+  const dialog = document.getElementById('keys');
+  dialog.querySelector('dl').append(...KEYS.flatMap(([name, what]) => [element('dt', '', name), element('dd', '', what)]));
+  addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey || dialog.open) return;
+    if (TYPED.includes(event.target.tagName)) return;
+    if (event.key === ' ' && event.target.tagName === 'BUTTON') return; // presses that button
+    if (page.hand.key(event.key, true)) return;
+    const act = acts.get(event.shiftKey && event.key.startsWith('Arrow') ? `Shift+${event.key}` : event.key);
+    if (!act) return;
+    event.preventDefault();
+    act(page, event);
+  });
+  addEventListener('keyup', (event) => page.hand.key(event.key, false));
+}

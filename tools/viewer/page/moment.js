@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The world at the instant that is drawn: between the last two pictures, with the names and shapes that came as text.
+import { NONE } from './picture.js';
+
+export class Moment {
+  constructor() {
+    this.count = 0;
+    this.shown = new Float32Array(0); // 3 each
+    this.predicted = new Float32Array(0);
+    this.turns = new Float32Array(0); // 4 each: w x y z, body to east-north-up
+    this.hands = [];
+    this.contacts = [];
+    this.followed = NONE;
+    this.reset();
+  }
+
+  reset() {
+    this.roster = new Map();
+    this.rosterNumber = (this.rosterNumber ?? 0) + 1;
+    this.cells = { size: 0, cells: [] };
+    this.cellsNumber = (this.cellsNumber ?? 0) + 1;
+    this.touch = { solids: [], hands: [] };
+    this.touchNumber = (this.touchNumber ?? 0) + 1;
+    this.numbers = {};
+    this.hello = {};
+  }
+
+  // A share s of the way from picture a to picture b.
+  set(a, b, s) {
+    const count = b.entities;
+    if (this.shown.length < 3 * count) {
+      const room = Math.ceil(1.2 * count);
+      this.shown = new Float32Array(3 * room);
+      this.predicted = new Float32Array(3 * room);
+      this.turns = new Float32Array(4 * room);
+    }
+    this.picture = b;
+    this.count = count;
+    this.time = a.time + (b.time - a.time) * s;
+    for (let i = 0; i < count; ++i) this.place(i, a, b, s);
+    this.hands = b.hands.map((hand) => between(a.hands.find((old) => old.index === hand.index), hand, s));
+    this.contacts = b.contacts;
+  }
+
+  place(i, a, b, s) {
+    const same = a === b || (i < a.entities && a.slot(i) === b.slot(i));
+    const old = same ? i : a.indexOf(b.slot(i));
+    const from = old < 0 ? b : a;
+    const p = b.floatAt(i);
+    const q = old < 0 ? p : a.floatAt(old);
+    for (let k = 0; k < 3; ++k) {
+      const x = from.floats[q + k] + (b.floats[p + k] - from.floats[q + k]) * s;
+      const error = from.floats[q + 5 + k] + (b.floats[p + 5 + k] - from.floats[q + 5 + k]) * s;
+      this.predicted[3 * i + k] = x;
+      this.shown[3 * i + k] = x + error;
+    }
+    const t = b.turnAt(i);
+    const u = old < 0 ? t : a.turnAt(old);
+    let dot = 0;
+    for (let k = 0; k < 4; ++k) dot += from.shorts[u + k] * b.shorts[t + k];
+    const first = dot < 0 ? s - 1 : 1 - s;
+    let length = 0;
+    for (let k = 0; k < 4; ++k) {
+      const x = first * from.shorts[u + k] + s * b.shorts[t + k];
+      this.turns[4 * i + k] = x;
+      length += x * x;
+    }
+    const scale = length > 0 ? 1 / Math.sqrt(length) : 0;
+    for (let k = 0; k < 4; ++k) this.turns[4 * i + k] *= scale;
+  }
+
+  name(slot) {
+    const row = this.roster.get(slot);
+    return row?.marking || row?.id || `slot ${slot}`;
+  }
+
+  // Cells that a slot hears, as a set of their numbers.
+  heardBy(slot) {
+    return new Set(this.cells.cells.filter((cell) => cell.heard_by.includes(slot)).map((cell) => cell.cell));
+  }
+
+  handRow(index) { return this.touch.hands.find((row) => row.index === index); }
+  handName(index) { return this.handRow(index)?.name || `hand ${index + 1}`; }
+  handRadius(index) { return this.handRow(index)?.radius || 0.01; }
+}
+
+const mix = (a, b, s) => a.map((x, k) => x + (b[k] - x) * s);
+
+function between(old, hand, s) {
+  if (!old || s >= 1) return hand;
+  const force = mix(old.force, hand.force, s);
+  return {
+    ...hand, force, newtons: Math.hypot(...force), position: mix(old.position, hand.position, s),
+    surface: mix(old.surface, hand.surface, s),
+  };
+}

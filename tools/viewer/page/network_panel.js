@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Delay, jitter, loss and an outage of the demo's own impairment.
+
+const FIELDS = { delay: 'ms', jitter: 'ms', loss: '%' };
+
+export class NetworkPanel {
+  constructor(tell, say) {
+    Object.assign(this, { tell, say });
+    this.inputs = Object.fromEntries(Object.keys(FIELDS).map((name) => [name, document.getElementById(name)]));
+    this.outage = document.getElementById('outage');
+    for (const [name, input] of Object.entries(this.inputs)) {
+      input.addEventListener('input', () => this.send());
+      input.addEventListener('change', () => this.say(`The demo's network: ${name} ${input.value} ${FIELDS[name]}.`));
+    }
+    this.outage.addEventListener('click', () => this.toggleOutage());
+  }
+
+  toggleOutage() {
+    this.out = !this.out;
+    this.outage.setAttribute('aria-pressed', String(this.out));
+    this.send();
+    this.say(this.out ? 'Outage: nothing arrives any more.' : 'The outage is over.');
+  }
+
+  send() {
+    for (const [name, input] of Object.entries(this.inputs)) {
+      input.parentElement.querySelector('output').textContent = `${input.value} ${FIELDS[name]}`;
+    }
+    const { delay, jitter, loss } = this.inputs;
+    this.tell('network', {
+      delay: Number(delay.value), jitter: Number(jitter.value), loss: Number(loss.value) / 100, outage: !!this.out,
+    });
+  }
+}

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A camera that goes round a point, z up, and fits itself to a box.
+import { PerspectiveCamera, Vector3 } from './libraries.js';
+
+const FIELD = 36; // degrees, of the shorter side
+const calm = matchMedia('(prefers-reduced-motion: reduce)');
+
+export class OrbitCamera {
+  constructor(yaw, tilt) {
+    this.camera = new PerspectiveCamera(FIELD, 1, 0.01, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.goal = { yaw, tilt, distance: 10, target: new Vector3() };
+    this.now = { yaw, tilt, distance: 10, target: new Vector3() };
+    this.touched = false;
+  }
+
+  // Holds a box from its least to its greatest corner.
+  fit(centre, radius) {
+    this.goal.target.fromArray(centre);
+    this.goal.distance = (1.12 * radius) / Math.sin((FIELD / 2) * (Math.PI / 180));
+    this.touched = false;
+    if (!this.fitted || calm.matches) this.jump();
+    this.fitted = true;
+  }
+
+  jump() {
+    Object.assign(this.now, { yaw: this.goal.yaw, tilt: this.goal.tilt, distance: this.goal.distance });
+    this.now.target.copy(this.goal.target);
+  }
+
+  turn(dx, dy) {
+    this.goal.yaw -= dx * 0.006;
+    this.goal.tilt = Math.min(1.52, Math.max(-0.2, this.goal.tilt + dy * 0.005));
+    this.touched = true;
+  }
+
+  zoom(factor) {
+    this.goal.distance = Math.min(1e6, Math.max(0.01, this.goal.distance * factor));
+    this.touched = true;
+  }
+
+  pan(dx, dy) {
+    const step = this.now.distance * 0.0012;
+    const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    const up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
+    this.goal.target.addScaledVector(right, -dx * step).addScaledVector(up, dy * step);
+    this.touched = true;
+  }
+
+  // Moves towards its goal; true while it is on its way.
+  advance(seconds, width, height) {
+    const { now, goal, camera } = this;
+    const share = calm.matches ? 1 : 1 - Math.exp(-seconds / 0.09);
+    let rest = now.target.distanceTo(goal.target) / now.distance;
+    now.target.lerp(goal.target, share);
+    for (const key of ['yaw', 'tilt']) {
+      rest += Math.abs(goal[key] - now[key]);
+      now[key] += (goal[key] - now[key]) * share;
+    }
+    rest += Math.abs(goal.distance / now.distance - 1);
+    now.distance *= (goal.distance / now.distance) ** share;
+    const flat = Math.cos(now.tilt) * now.distance;
+    camera.position.set(flat * Math.cos(now.yaw), flat * Math.sin(now.yaw), Math.sin(now.tilt) * now.distance).add(now.target);
+    camera.lookAt(now.target);
+    camera.aspect = width / height;
+    // The field is that of the shorter side.
+    const half = Math.tan((FIELD / 2) * (Math.PI / 180)) * Math.max(1, height / width);
+    camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
+    camera.near = now.distance / 100;
+    camera.far = now.distance * 30;
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    return rest > 1e-3;
+  }
+}

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Pictures as the server sends them: little endian, fixed sizes, read where they lie without a copy.
+
+const MAGIC = 0x31564b52; // "RKV1"
+const HEAD = 32;
+const ENTITY = 44;
+const HAND = 72;
+const CONTACT = 28;
+
+export const PICTURE_FLAGS = { live: 1, paused: 2, end: 4, gap: 8 };
+export const HAND_FLAGS = {
+  contact: 1, softened: 2, limited: 4, letGo: 8, pointer: 16, free: 32, yours: 64, trueKnown: 128, twin: 256,
+};
+export const CAUSES = ['', 'first', 'threshold', 'heartbeat', 'event'];
+export const NONE = 0xffff;
+
+// Throws where the length does not follow from the counts.
+export function decodePicture(buffer) {
+  if (buffer.byteLength < HEAD) throw new Error('a picture of less than 32 octets');
+  const view = new DataView(buffer);
+  if (view.getUint32(0, true) !== MAGIC) throw new Error('a picture of another version');
+  const entities = view.getUint16(16, true);
+  const hands = view.getUint16(18, true);
+  const contacts = view.getUint16(20, true);
+  const length = HEAD + ENTITY * entities + HAND * hands + CONTACT * contacts;
+  if (buffer.byteLength !== length) throw new Error(`a picture of ${buffer.byteLength} octets, its counts give ${length}`);
+  return new Picture(buffer, view, entities, hands, contacts);
+}
+
+class Picture {
+  constructor(buffer, view, entities, hands, contacts) {
+    this.buffer = buffer;
+    this.entities = entities;
+    this.number = view.getUint32(4, true);
+    this.time = view.getFloat64(8, true);
+    this.flags = view.getUint16(22, true);
+    this.epoch = view.getUint32(24, true);
+    // Views of the whole buffer: sizes are multiples of 4, so each field lies on its own boundary.
+    this.octets = new Uint8Array(buffer);
+    this.words = new Uint16Array(buffer);
+    this.shorts = new Int16Array(buffer);
+    this.floats = new Float32Array(buffer);
+    const firstHand = HEAD + ENTITY * entities;
+    this.hands = Array.from({ length: hands }, (_, i) => this.hand(view, firstHand + HAND * i));
+    const firstContact = firstHand + HAND * hands;
+    this.contacts = Array.from({ length: contacts }, (_, i) => this.contact(view, firstContact + CONTACT * i));
+  }
+
+  hand(view, at) {
+    const flags = view.getUint16(at + 2, true);
+    const vector = (offset) => [0, 4, 8].map((k) => number(view.getFloat32(at + offset + k, true)));
+    const scalar = (offset) => number(view.getFloat32(at + offset, true));
+    const force = vector(32);
+    return {
+      index: view.getUint16(at, true), flags, slot: view.getUint16(at + 4, true), position: vector(8),
+      surface: vector(20), force, newtons: Math.hypot(...force), normal: vector(44),
+      trueForce: flags & HAND_FLAGS.trueKnown ? scalar(56) : null, energy: scalar(60), loan: scalar(64),
+      twin: flags & HAND_FLAGS.twin ? scalar(68) : null,
+    };
+  }
+
+  contact(view, at) {
+    const vector = (offset) => [0, 4, 8].map((k) => number(view.getFloat32(at + offset + k, true)));
+    const force = vector(16);
+    return {
+      felt: view.getUint16(at, true), feeling: view.getUint16(at + 2, true), point: vector(4), force,
+      newtons: Math.hypot(...force),
+    };
+  }
+
+  slot(i) { return this.words[(HEAD + ENTITY * i) >> 1]; }
+  force(i) { return this.octets[HEAD + ENTITY * i + 2] & 3; }
+  cause(i) { return this.octets[HEAD + ENTITY * i + 3]; }
+  cell(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 2]; }
+  group(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 3]; }
+  // Index of the first float of the predicted position; that of the error is 5 on.
+  floatAt(i) { return (HEAD >> 2) + (ENTITY >> 2) * i + 2; }
+  // Index of the first of four shorts: w x y z.
+  turnAt(i) { return (HEAD >> 1) + (ENTITY >> 1) * i + 10; }
+  rate(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 20] / 100; }
+  jump(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 21]; }
+
+  // Index of the entity in a slot, or -1.
+  indexOf(slot) {
+    if (!this.indices) {
+      this.indices = new Map();
+      for (let i = 0; i < this.entities; ++i) this.indices.set(this.slot(i), i);
+    }
+    return this.indices.get(slot) ?? -1;
+  }
+}
+
+function number(x) { return Number.isFinite(x) ? x : 0; }

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+export const plotEnergy = {
+  name: 'energy', title: 'Energy at the port', unit: 'mJ', good: 'Good: never below zero. A loan is small and is paid back.',
+  lines: [
+    { says: 'energy', colour: 'hand-0', at: ({ hands }) => millijoules(hands[0]?.energy) },
+    { says: 'energy', colour: 'hand-1', at: ({ hands }) => millijoules(hands[1]?.energy) },
+    { says: 'loan', colour: 'hand-0', dash: true, at: ({ hands }) => millijoules(hands[0]?.loan) },
+    { says: 'loan', colour: 'hand-1', dash: true, at: ({ hands }) => millijoules(hands[1]?.loan) },
+    { says: 'without the gate', colour: 'twin', at: ({ numbers }) => millijoules(numbers.twin?.[0]?.energy) },
+  ],
+};
+
+function millijoules(x) { return Number.isFinite(x) ? 1000 * x : null; }

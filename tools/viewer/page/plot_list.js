@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What is plotted, in order. One more plot: its file, and its row here.
+//   { name, title, unit, good: one short line of what good looks like, log: true for a logarithmic scale,
+//     lines: [{ says, colour, dash: true, right: unit of a scale of its own, at(moment): number or null }] }
+import { plotForce } from './plot_force.js';
+import { plotEnergy } from './plot_energy.js';
+import { plotError } from './plot_error.js';
+import { plotPackets } from './plot_packets.js';
+import { plotDelay } from './plot_delay.js';
+
+export const PLOTS = [plotForce, plotEnergy, plotError, plotPackets, plotDelay];

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The mouse is a hand: it moves in the plane through the hand that faces the camera; wheel, shift and keys move it in depth.
+import { Vector3 } from './libraries.js';
+import { HAND_FLAGS } from './picture.js';
+
+const MOVES = { a: [-1, 0, 0], d: [1, 0, 0], w: [0, 1, 0], s: [0, -1, 0], q: [0, 0, 1], e: [0, 0, -1] };
+
+export class PointerHand {
+  constructor(stage, tell, say) {
+    Object.assign(this, { stage, tell, say });
+    this.index = null;
+    this.held = false;
+    this.wanted = new Vector3();
+    this.keys = new Set();
+    this.button = document.getElementById('hand');
+    this.text = document.getElementById('hand-text');
+    this.button.addEventListener('click', () => this.askOrGive());
+    addEventListener('blur', () => this.letGo());
+    document.addEventListener('visibilitychange', () => { if (document.hidden) this.letGo(); });
+  }
+
+  askOrGive() {
+    if (this.index === null) {
+      this.tell('askHand');
+      this.say('Asked for a hand.');
+    } else {
+      this.letGo();
+      this.tell('giveHand');
+      this.say('Gave the hand back.');
+    }
+  }
+
+  answer({ index, text }) {
+    this.index = Number.isInteger(index) ? index : null;
+    this.held = false;
+    this.button.textContent = this.index === null ? 'Take a hand' : 'Give it back';
+    this.text.textContent = this.index === null ? (text ?? '') : 'Move the mouse; wheel or shift for depth. Leaving the picture lets go.';
+    if (text) this.say(text);
+    if (this.index !== null && this.stage.large !== 'touch') this.stage.swap();
+  }
+
+  hand(moment) { return moment.hands.find((hand) => hand.index === this.index); }
+  get camera() { return this.stage.view('touch').orbit; }
+
+  // Metres that a pixel is, at the hand.
+  get metresPerPixel() {
+    const { camera } = this.camera;
+    const depth = this.wanted.clone().sub(camera.position).length();
+    return (2 * depth * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, this.stage.canvas.clientHeight);
+  }
+
+  grip(moment) {
+    if (this.held) return true;
+    const hand = moment && this.hand(moment);
+    if (!hand) return false;
+    this.wanted.fromArray(hand.position);
+    this.held = true;
+    return true;
+  }
+
+  // The pointer at a place of the large picture [pixels].
+  move(moment, x, y) {
+    if (this.index === null || this.stage.large !== 'touch' || !this.grip(moment)) return;
+    const { camera } = this.camera;
+    const { width, height } = this.stage.view('touch').rectangle;
+    const forward = camera.getWorldDirection(new Vector3());
+    const ray = new Vector3((2 * x) / width - 1, 1 - (2 * y) / height, 0.5).unproject(camera).sub(camera.position).normalize();
+    const along = this.wanted.clone().sub(camera.position).dot(forward) / ray.dot(forward);
+    this.wanted.copy(camera.position).addScaledVector(ray, along);
+  }
+
+  // Towards the camera by some pixels.
+  deepen(moment, pixels) {
+    if (this.index === null || !this.grip(moment)) return;
+    const step = this.metresPerPixel * pixels;
+    this.wanted.addScaledVector(this.camera.camera.getWorldDirection(new Vector3()), -step);
+  }
+
+  key(key, down) {
+    if (this.index === null || !MOVES[key]) return false;
+    if (down) this.keys.add(key); else this.keys.delete(key);
+    return true;
+  }
+
+  letGo() {
+    this.keys.clear();
+    if (!this.held) return;
+    this.held = false;
+    this.tell('pointer', this.index, this.wanted.toArray(), false);
+  }
+
+  // Once a picture.
+  advance(moment, seconds) {
+    if (this.index === null) return;
+    if (this.keys.size && this.grip(moment)) this.moveByKeys(seconds);
+    if (this.held) this.tell('pointer', this.index, this.wanted.toArray(), true);
+    const hand = this.hand(moment);
+    if (hand && hand.flags & HAND_FLAGS.letGo && !this.told) this.say('The device let go; the force comes back when it is calm.', 'warning');
+    this.told = !!hand && (hand.flags & HAND_FLAGS.letGo) !== 0;
+  }
+
+  moveByKeys(seconds) {
+    const step = this.metresPerPixel * 160 * Math.min(seconds, 0.1);
+    const matrix = this.camera.camera.matrixWorld;
+    for (const key of this.keys) {
+      MOVES[key].forEach((sign, k) => {
+        this.wanted.addScaledVector(new Vector3().setFromMatrixColumn(matrix, k), (k === 2 ? -sign : sign) * step);
+      });
+    }
+  }
+}

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the last minute that this page has seen, for a saved file. Large pictures are thinned to a budget.
+
+const KEPT_SECONDS = 60;
+const BUDGET = 14e6; // octets of pictures
+const STATE = ['hello', 'roster', 'touch', 'cells'];
+
+export class Recorder {
+  constructor(budget = BUDGET) {
+    this.budget = budget;
+    this.clear();
+  }
+
+  clear() {
+    this.items = []; // [time, 'text' or 'picture', payload]
+    this.before = new Map(); // last text of each type that is older than the items
+    this.last = -Infinity;
+    this.lastNumbers = -Infinity;
+    this.spacing = 0;
+  }
+
+  text(message) {
+    if (message.type === 'numbers') {
+      if (this.last - this.lastNumbers < 1) return;
+      this.lastNumbers = this.last;
+    } else if (!STATE.includes(message.type)) return;
+    if (this.last === -Infinity) this.before.set(message.type, message);
+    else this.items.push([this.last, 'text', message]);
+  }
+
+  picture(picture) {
+    this.spacing = (picture.buffer.byteLength * KEPT_SECONDS) / this.budget;
+    if (picture.time <= this.last || picture.time - this.last < this.spacing) return;
+    this.last = picture.time;
+    this.items.push([picture.time, 'picture', picture.buffer]);
+    while (this.items.length && this.items[0][0] < picture.time - KEPT_SECONDS) {
+      const [, type, payload] = this.items.shift();
+      if (type === 'text') this.before.set(payload.type, payload);
+    }
+  }
+
+  // The items of a saved file; text comes before the picture it belongs to.
+  saved() {
+    const first = this.items.find((item) => item[1] === 'picture')?.[0] ?? 0;
+    const head = STATE.filter((type) => this.before.has(type)).map((type) => [0, 'text', this.before.get(type)]);
+    const rest = this.items.map(([time, type, payload]) => [Math.max(0, Math.round((time - first) * 1e6) / 1e3), type,
+      type === 'picture' ? base64(new Uint8Array(payload)) : payload]);
+    return [...head, ...rest].map(([ms, type, payload]) => [ms, type,
+      payload.type === 'hello' ? { ...payload, kind: 'saved', may_push: false } : payload]);
+  }
+}
+
+export function base64(octets) {
+  const pieces = [];
+  for (let i = 0; i < octets.length; i += 0x6000) pieces.push(String.fromCharCode(...octets.subarray(i, i + 0x6000)));
+  return btoa(pieces.join(''));
+}

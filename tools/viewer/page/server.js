@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The world as a server streams it. A lost connection is tried again by itself, at most every 4 s.
+import { COMMANDS } from './commands.js';
+import { decodePicture } from './picture.js';
+
+const LONGEST_WAIT = 4000;
+
+export class Server {
+  // `hear` takes text(object), picture(picture), state(word, sentence) and bad(sentence).
+  constructor(word, hear) {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.url = `${scheme}://${location.host}/stream${word ? `?word=${encodeURIComponent(word)}` : ''}`;
+    this.hear = hear;
+    this.octets = 0;
+    this.bad = 0;
+    this.wait = 500;
+    this.open();
+  }
+
+  open() {
+    const socket = new WebSocket(this.url);
+    this.socket = socket;
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => {
+      this.wait = 500;
+      this.hear.state('live', '');
+    };
+    socket.onclose = () => {
+      this.hear.state('lost', `No server at ${location.host}.`);
+      setTimeout(() => this.open(), this.wait);
+      this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
+    };
+    socket.onmessage = ({ data }) => {
+      this.octets += data.byteLength ?? data.length;
+      try {
+        if (typeof data === 'string') this.hear.text(JSON.parse(data));
+        else this.hear.picture(decodePicture(data));
+      } catch (error) {
+        ++this.bad;
+        this.hear.bad(error.message);
+        if (typeof data !== 'string') this.tell('drawn', numberOf(data));
+      }
+    };
+  }
+
+  tell(name, ...values) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(COMMANDS[name](...values));
+  }
+
+  advance() {}
+}
+
+// A picture that is refused is answered all the same, or no other would come.
+function numberOf(buffer) { return buffer.byteLength < 8 ? 0 : new DataView(buffer).getUint32(4, true); }

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The large picture and the inset: two scenes on one canvas, each with the things of drawn_list.js that belong to it.
+import { Color, DirectionalLight, Group, HemisphereLight, Scene, Vector3, WebGLRenderer } from './libraries.js';
+import { cssColour } from './colours.js';
+import { DRAWN } from './drawn_list.js';
+import { Labels } from './labels.js';
+import { OrbitCamera } from './orbit_camera.js';
+import { worldExtent, touchExtent } from './extents.js';
+
+function drawnBySoftware() {
+  const context = document.createElement('canvas').getContext('webgl2');
+  const names = context?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+class View {
+  constructor(name, yaw, tilt, extent) {
+    this.name = name;
+    this.scene = new Scene();
+    this.orbit = new OrbitCamera(yaw, tilt);
+    this.extentOf = extent;
+    this.extent = null;
+    this.rectangle = { x: 0, y: 0, width: 1, height: 1 };
+    this.peak = 1; // [N], of late
+    const sun = new DirectionalLight(0xffffff, 2.2);
+    sun.position.set(-3, -5, 8);
+    this.scene.add(sun, new HemisphereLight(0xffffff, 0xc4cad1, 2.3));
+  }
+
+  // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
+  get metresPerNewton() { return (0.3 * (this.extent?.radius ?? 1)) / this.scale; }
+
+  // How large a length is at a place.
+  pixels(length, place) {
+    const { camera } = this.orbit;
+    const depth = Math.hypot(...place.map((x, k) => x - camera.position.getComponent(k)));
+    return (length * this.rectangle.height) / (2 * depth * Math.tan((camera.fov * Math.PI) / 360));
+  }
+
+  weigh(newtons, seconds) {
+    this.peak = Math.max(this.peak * Math.exp(-seconds / 20), newtons, 0.1);
+    const wanted = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 1e4, 1e5].find((step) => step >= this.peak) ?? 1e6;
+    if (!this.scale || wanted > this.scale || this.peak < this.scale / 3) this.scale = wanted;
+  }
+}
+
+export class Stage {
+  constructor(host, fine) {
+    this.host = host;
+    this.canvas = host.querySelector('canvas');
+    this.inset = host.querySelector('#inset');
+    const soft = drawnBySoftware();
+    this.ratio = soft && !fine ? 1 : Math.min(2, devicePixelRatio);
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !soft || fine, preserveDrawingBuffer: false });
+    this.renderer.autoClear = false;
+    this.renderer.setPixelRatio(this.ratio);
+    this.views = { world: new View('world', -1.1, 0.68, worldExtent), touch: new View('touch', -1.15, 0.36, touchExtent) };
+    this.labels = new Labels(host.querySelector('#labels'));
+    this.large = 'world';
+    this.hidden = new Set();
+    this.things = DRAWN.map((row) => this.add(row));
+    this.restless = true;
+  }
+
+  add(row) {
+    const view = this.views[row.view];
+    const group = new Group();
+    view.scene.add(group);
+    return { row, view, group, thing: row.make(group, view, this.labels) };
+  }
+
+  get small() { return this.large === 'world' ? 'touch' : 'world'; }
+  view(name) { return this.views[name]; }
+  swap() { this.show(this.small); }
+
+  show(name) {
+    this.large = name;
+    this.host.dataset.large = name;
+    this.inset.dataset.name = this.small;
+    this.restless = true;
+  }
+
+  toggle(name) {
+    if (!this.hidden.delete(name)) this.hidden.add(name);
+    this.restless = true;
+    return !this.hidden.has(name);
+  }
+
+  paint() {
+    for (const view of Object.values(this.views)) view.scene.background = new Color(cssColour('sky'));
+    for (const { thing } of this.things) thing.paint();
+    this.restless = true;
+  }
+
+  fit(name) {
+    const view = this.views[name];
+    if (view.extent) view.orbit.fit(view.extent.centre, view.extent.radius);
+    this.restless = true;
+  }
+
+  // Draws what has changed; false where nothing has.
+  draw(moment, seconds, changed) {
+    if (changed) this.take(moment, seconds);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return false;
+    if (this.canvas.width !== Math.round(width * this.ratio) || this.canvas.height !== Math.round(height * this.ratio)) {
+      this.renderer.setSize(width, height, false);
+      this.restless = true;
+    }
+    this.lay(width, height);
+    let moving = false;
+    for (const view of Object.values(this.views)) {
+      moving = view.orbit.advance(seconds, view.rectangle.width, view.rectangle.height) || moving;
+    }
+    if (!changed && !moving && !this.restless) return false;
+    this.restless = false;
+    this.labels.begin();
+    for (const { row, view, group, thing } of this.things) {
+      group.visible = !this.hidden.has(row.name) && (view.name === this.large || !this.inset.hidden);
+      if (group.visible) thing.update(moment);
+    }
+    this.labels.end();
+    this.renderer.setScissorTest(true);
+    this.render(this.views[this.large]);
+    if (!this.inset.hidden) this.render(this.views[this.small]);
+    return true;
+  }
+
+  take(moment, seconds) {
+    const strongest = (list) => list.reduce((most, { newtons }) => Math.max(most, newtons), 0);
+    this.views.touch.weigh(Math.max(strongest(moment.hands), strongest(moment.contacts)), seconds);
+    this.views.world.weigh(strongest(moment.contacts), seconds);
+    for (const view of Object.values(this.views)) {
+      const extent = view.extentOf(moment);
+      if (!extent) continue;
+      const old = view.extent;
+      view.extent = extent;
+      const grown = old && (extent.radius > 1.5 * view.fittedRadius || extent.radius < view.fittedRadius / 2.5);
+      if (!old || (grown && !view.orbit.touched)) {
+        view.fittedRadius = extent.radius;
+        view.orbit.fit(extent.centre, extent.radius);
+      }
+    }
+    const followed = moment.picture.indexOf(moment.followed);
+    if (followed >= 0) this.views.world.orbit.goal.target.fromArray(moment.shown, 3 * followed);
+  }
+
+  lay(width, height) {
+    const inner = this.inset;
+    inner.hidden = !this.views[this.small].extent;
+    this.views[this.large].rectangle = { x: 0, y: 0, width, height };
+    if (inner.hidden) return;
+    const box = { width: inner.clientWidth, height: inner.clientHeight };
+    this.views[this.small].rectangle = {
+      x: inner.offsetLeft + inner.clientLeft, y: height - inner.offsetTop - inner.clientTop - box.height, ...box,
+    };
+  }
+
+  render(view) {
+    const { x, y, width, height } = view.rectangle;
+    this.renderer.setScissor(x, y, width, height);
+    this.renderer.setViewport(x, y, width, height);
+    this.renderer.clear();
+    this.renderer.render(view.scene, view.orbit.camera);
+  }
+
+  placeOf(name, point) {
+    const { orbit, rectangle } = this.views[name];
+    const { x, y } = new Vector3().fromArray(point).project(orbit.camera);
+    return [rectangle.x + ((x + 1) / 2) * rectangle.width, this.canvas.clientHeight - rectangle.y - ((y + 1) / 2) * rectangle.height];
+  }
+
+  // The slot that is drawn nearest to a point of the large picture, within 14 pixels.
+  pick(moment, x, y) {
+    const { camera } = this.views.world.orbit;
+    const { width, height } = this.views.world.rectangle;
+    const place = new Vector3();
+    let best = -1;
+    let least = 14 * 14;
+    for (let i = 0; i < moment.count; ++i) {
+      place.fromArray(moment.shown, 3 * i).project(camera);
+      if (place.z > 1) continue;
+      const dx = ((place.x + 1) / 2) * width - x;
+      const dy = ((1 - place.y) / 2) * height - y;
+      if (dx * dx + dy * dy < least) {
+        least = dx * dx + dy * dy;
+        best = moment.picture.slot(i);
+      }
+    }
+    return best;
+  }
+}

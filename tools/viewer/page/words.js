@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and names as a reader wants them.
+
+export function digits(x, count = 3) {
+  if (x === null || x === undefined || !Number.isFinite(x)) return '–';
+  const size = Math.abs(x);
+  if (size >= 10 ** count) return Math.round(x).toLocaleString('en');
+  const whole = size < 1 ? 1 : Math.floor(Math.log10(size)) + 1;
+  return x.toFixed(Math.max(0, count - whole));
+}
+
+export function bitRate(x) {
+  if (!Number.isFinite(x)) return '–';
+  if (x >= 1e6) return `${digits(x / 1e6)} Mbit/s`;
+  return `${digits(x / 1e3)} kbit/s`;
+}
+
+export function metres(x) {
+  if (!Number.isFinite(x)) return '–';
+  const size = Math.abs(x);
+  if (size < 1) return `${digits(x * 1e3)} mm`;
+  return size < 1000 ? `${digits(x)} m` : `${digits(x / 1e3)} km`;
+}
+
+export function clock(seconds) {
+  if (!Number.isFinite(seconds)) return '–';
+  const minutes = Math.floor(seconds / 60);
+  return `${minutes}:${(seconds - 60 * minutes).toFixed(1).padStart(4, '0')}`;
+}
+
+// What a stranger sent, at a length that cannot push the page apart.
+export function foreign(text, most = 80) {
+  const all = String(text ?? '');
+  return all.length > most ? `${all.slice(0, most - 1)}…` : all;
+}
+
+// The next of 1, 2, 5, 10, .. that is not below x.
+export function roundUp(x) {
+  const power = 10 ** Math.floor(Math.log10(Math.max(x, 1e-9)));
+  return power * [1, 2, 5, 10].find((step) => step * power >= x * 0.999999);
+}
+
+export function element(tag, className, text, ...children) {
+  const made = document.createElement(tag);
+  if (className) made.className = className;
+  if (text) made.textContent = text;
+  made.append(...children);
+  return made;
+}
+
+export function byId(id) { return document.getElementById(id); }
