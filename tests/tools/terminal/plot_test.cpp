@@ -67,7 +67,7 @@ TEST(SvgPlotText, EscapesNamesAndDrawsNoMoreCurvesThanColours) {
   const std::vector<float> values{0, std::numeric_limits<float>::quiet_NaN(), 3};
   for (int i = 0; i < 9; ++i) plot.curves.push_back({"curve <" + std::to_string(i) + ">", values});
   const std::string svg = svg_text(plot);
-  EXPECT_THAT(svg, HasSubstr("a &lt; b &amp; \"c\" ?"));
+  EXPECT_THAT(svg, HasSubstr("a &lt; b &amp; &quot;c&quot; ?"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   std::size_t curves = 0;
   for (std::size_t at = svg.find("<polyline"); at != std::string::npos;
