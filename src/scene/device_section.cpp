@@ -41,7 +41,7 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
                    const DeviceConfig& device) {
   if (device.source != DeviceSource::pointer) {
     if (table.has("reach"))
-      table.problem("reach", "'reach' is of a pointer: add kind = \"pointer\", or take it out");
+      table.problem("reach", "only a pointer has a reach: add kind = \"pointer\", or take it out");
     return;
   }
   if (device.operator_number > operators.size()) return;

@@ -153,7 +153,7 @@ TEST(DeviceSection, RefusesWhatCannotBeMeant) {
       {"peer = 65\n", "it must be 1 to 64"},
       {"kind = \"mouse\"\n", "it wants one of simulated pointer"},
       {"kind = \"pointer\"\nreach = 0\n", "x.toml:3:9: 'reach' is 0 m; it must be 1 mm to 10 m"},
-      {"reach = 0.1\n", "x.toml:2:9: 'reach' is of a pointer: add kind = \"pointer\""},
+      {"reach = 0.1\n", "x.toml:2:9: only a pointer has a reach: add kind = \"pointer\""},
   };
   for (const auto& [lines, words] : cases) {
     EXPECT_THAT(refusal("[[device]]\n" + lines + kOperator), HasSubstr(words)) << lines;
