@@ -214,6 +214,22 @@ class PeerPage {
   SelfView view_;
 };
 
+// What there is to tell since the last look.
+void tell_notices(RunningPeer& running, const Console& console, bool as_events,
+                  LiveDisplay& display, PeerPage* page) {
+  const pdu::SimulationAddress own = running.peer().views().read().own.simulation();
+  const auto tell = [&](const peer::Notice& notice) {
+    display.add({own, notice});
+    if (page != nullptr) page->note(notice);
+    if (as_events) print_notice(console.out, notice, pdu::to_seconds(running.elapsed()));
+  };
+  while (const peer::Notice* notice = running.peer().notices().front()) {
+    tell(*notice);
+    running.peer().notices().pop();
+  }
+  for (const peer::Notice& notice : running.sealing_notices()) tell(notice);
+}
+
 std::vector<peer::NamedPeer> read_list(const std::string& list) {
   if (list.empty()) return {};
   try {
@@ -286,16 +302,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
       print_line(console.out, felt_lines(view, elapsed));
       next_felt += kLookEvery;
     }
-    while (const peer::Notice* notice = running->peer().notices().front()) {
-      display.add({view.own.simulation(), *notice});
-      if (page) page->note(*notice);
-      if (options.events) print_notice(console.out, *notice, elapsed);
-      running->peer().notices().pop();
-    }
-    for (const peer::Notice& notice : running->sealing_notices()) {
-      display.add({view.own.simulation(), notice});
-      if (options.events) print_notice(console.out, notice, elapsed);
-    }
+    tell_notices(*running, console, options.events, display, page ? &*page : nullptr);
     const TablePeer table{&view, &running->peer().counters()};
     display.show(std::span(&table, 1), scene, running->elapsed());
   }

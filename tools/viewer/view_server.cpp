@@ -19,6 +19,7 @@
 
 #include "reckon/tools/viewer/page_files.hpp"
 #include "reckon/tools/viewer/protocol/short_messages.hpp"
+#include "reckon/tools/viewer/web/http_answer.hpp"
 #include "reckon/tools/viewer/web/http_request.hpp"
 
 namespace reckon::tools {
@@ -31,31 +32,6 @@ constexpr int kPortsTried = 32;
 constexpr std::size_t kReadSize = 1024;
 /// A file of the page takes no longer.
 constexpr nanoseconds kSlowest = std::chrono::minutes(1);
-
-constexpr std::string_view kHeaders =
-    "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; "
-    "connect-src 'self'; img-src data:; frame-ancestors 'none'; base-uri 'none'; "
-    "form-action 'none'\r\n"
-    "X-Content-Type-Options: nosniff\r\n"
-    "Referrer-Policy: no-referrer\r\n"
-    "Cross-Origin-Resource-Policy: same-origin\r\n"
-    "Cache-Control: no-store\r\n"
-    "Connection: close\r\n";
-
-std::string refusal(int status, std::string_view reason, std::string_view text) {
-  return fmt::format(
-      "HTTP/1.1 {} {}\r\nContent-Type: text/plain; charset=utf-8\r\n{}Content-Length: "
-      "{}\r\n\r\n{}\n",
-      status, reason, kHeaders, text.size() + 1, text);
-}
-
-std::string file_answer(const PageFile& file) {
-  std::string answer = fmt::format(
-      "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Encoding: gzip\r\n{}Content-Length: "
-      "{}\r\n\r\n",
-      file.content_type, kHeaders, file.gzip.size());
-  return answer.append(file.gzip);
-}
 
 /// As a browser writes it.
 std::string address_text(const asio::ip::address& address) {
@@ -263,17 +239,14 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (is_stream) return upgrade(request);
     const PageFile* file = find_page_file(request.path);
     if (file == nullptr) return refuse(404, "Not Found", "the page has no such file");
-    end_with(file_answer(*file));
+    end_with(file_answer(file->content_type, file->gzip));
   }
 
   void upgrade(const HttpRequest& request) {
     if (request.origin.empty() || request.version != "13" || !is_web_socket_key(request.key) ||
         !lists_word(request.upgrade, "websocket") || !lists_word(request.connection, "upgrade"))
       return refuse(400, "Bad Request", "/stream takes a WebSocket of version 13");
-    std::string head = fmt::format(
-        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: "
-        "Upgrade\r\nSec-WebSocket-Accept: {}\r\n\r\n",
-        web_socket_accept(request.key));
+    std::string head = upgrade_answer(request.key);
     if (all_.tabs() >= kMostTabs) return turn_away(std::move(head));
     const bool knows_word = all_.access_.is_word(value_in_query(request.query, "word"));
     in_.erase(0, request.length);
@@ -301,7 +274,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
 
   void refuse(int status, std::string_view reason, std::string_view text) {
     ++all_.counts_.refused;
-    end_with(refusal(status, reason, text));
+    end_with(refusal_answer(status, reason, text));
   }
 
   void end_with(std::string text) {

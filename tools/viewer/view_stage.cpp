@@ -97,7 +97,8 @@ void ViewStage::pass(Time now) {
     ++cells_tick_;
   }
   if (now_ >= next_numbers_) {
-    next_numbers_ = std::max(next_numbers_ + kNumbersEvery, now_);
+    next_numbers_ += kNumbersEvery;
+    if (next_numbers_ <= now_) next_numbers_ = now_ + kNumbersEvery;
     ++numbers_tick_;
   }
 }

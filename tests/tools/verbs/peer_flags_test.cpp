@@ -93,6 +93,8 @@ class PeerFlags : public testing::Test {
 
     Facts facts;
     if (result.err.find("this is peer") != std::string::npos) facts.insert("finds its number");
+    if (result.err.find("page: http://127.0.0.1:") != std::string::npos)
+      facts.insert("serves a page");
     for (const std::string& line : result.lines()) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
       if (row.is_discarded()) {
@@ -140,6 +142,7 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
       {"--to", "127.0.0.1", "is seen as HAND", false},
       {"--events", "", "tells appeared"},
       {"--felt", "", "tells felt"},
+      {"--view", "", "serves a page"},
       {"--balance", "200ms", "tells balance"},
       {"--mesh", corner_, "is seen as HAND", false},
       {"--hand", trace_, "moves"},
