@@ -127,7 +127,7 @@ class Page {
     this.moment.hello = message;
     this.chosen = false;
     this.timeLine.hello(message);
-    byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.\w+$)/, ''), 60);
+    byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.[a-z]\w*$)/, ''), 60);
     byId('source').title = foreign(`${message.program}: ${message.source}`, 200);
     byId('push').hidden = !message.may_push;
     byId('network').hidden = message.kind !== 'demo';

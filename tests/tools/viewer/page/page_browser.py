@@ -122,6 +122,15 @@ class Page:
         seen = self.ask("window.reckon?.frames ?? 0")
         self.wait(f"(window.reckon?.frames ?? 0) >= {seen + count}", f"{count} pictures")
 
+    def settled(self, expression):
+        """Its value when the page has said the same for four looks of the page at itself."""
+        before, since = self.ask(expression), time.monotonic()
+        while time.monotonic() - since < 1:
+            now = self.ask(expression)
+            if now != before:
+                before, since = now, time.monotonic()
+        return before
+
     def press(self, *keys):
         actions = ActionChains(self.driver)
         for key in keys:
@@ -175,7 +184,7 @@ def demo(reckon, scenes):
         page.wait("window.reckon.large === 'world'", "the world large")
         page.press(" ")
         page.wait("window.reckon.play === 'paused'", "paused")
-        paused_at = page.ask("window.reckon.time")
+        paused_at = page.settled("window.reckon.time")
         page.click("back-second")
         page.wait(f"Math.abs(window.reckon.time - ({paused_at} - 1)) < 0.1", "a second back")
         page.click("live")
