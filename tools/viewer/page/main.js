@@ -361,6 +361,7 @@ class Page {
       ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.age ?? null, bad: this.source.bad,
       entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, kind: moment.hello.kind,
       numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
+      depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
     };
   }
 }

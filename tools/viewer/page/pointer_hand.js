@@ -50,6 +50,12 @@ export class PointerHand {
     return (2 * depth * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, this.stage.canvas.clientHeight);
   }
 
+  // How far a place is before the hand, towards the camera [pixels].
+  depthTo(place) {
+    const forward = this.camera.camera.getWorldDirection(new Vector3());
+    return -new Vector3().fromArray(place).sub(this.wanted).dot(forward) / this.metresPerPixel;
+  }
+
   grip(moment) {
     if (this.held) return true;
     const hand = moment && this.hand(moment);
