@@ -268,6 +268,7 @@ class Page {
 
   swap() {
     if (byId('inset').hidden) return;
+    this.hand.letGo();
     this.stage.swap();
     this.log.say(`Large: ${this.stage.large}.`);
   }

@@ -126,7 +126,7 @@ export class Stage {
     this.restless = false;
     this.labels.begin();
     for (const { row, view, group, thing } of this.things) {
-      group.visible = !this.hidden.has(row.name) && (view.name === this.large || !this.inset.hidden);
+      group.visible = !this.hidden.has(row.name) && (view.name === this.large || (!row.large && !this.inset.hidden));
       if (group.visible) thing.update(moment);
     }
     this.labels.end();
