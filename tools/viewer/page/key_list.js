@@ -9,7 +9,7 @@ export const KEYS = [
   ['← →', 'one update back, on', (page, event) => page.timeLine.step(event.key === 'ArrowLeft' ? -2 : 2), 'ArrowLeft', 'ArrowRight'],
   ['Shift ← →', '1 s back, on', (page, event) => page.timeLine.step(event.key.endsWith('Left') ? -1 : 1), 'Shift+ArrowLeft', 'Shift+ArrowRight'],
   [', .', 'slower, faster', (page, event) => page.timeLine.faster(event.key === ',' ? -1 : 1), ',', '.'],
-  ['End', 'live', (page) => page.timeLine.live(), 'End'],
+  ['End', 'live, or the end of a capture', (page) => page.timeLine.live(), 'End'],
   ['v', 'swap world and touch', (page) => page.swap(), 'v'],
   ['f', 'fit the picture', (page) => page.fit(), 'f'],
   ['[ ]', 'turn the picture', (page, event) => page.turn(event.key === '[' ? -20 : 20, 0), '[', ']'],

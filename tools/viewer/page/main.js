@@ -95,7 +95,7 @@ class Page {
         ++moment.rosterNumber;
       },
       cells: () => {
-        moment.cells = { size: message.size || 0, cells: message.cells ?? [] };
+        moment.cells = { size: message.size || 0, shape: message.shape, cells: message.cells ?? [] };
         ++moment.cellsNumber;
       },
       touch: () => {
@@ -237,8 +237,10 @@ class Page {
     const { cells } = moment.cells;
     const heard = moment.heardBy(moment.followed).size;
     const name = foreign(moment.name(moment.followed), 30);
+    const at = moment.picture?.indexOf(moment.followed) ?? -1;
+    const by = cells.find(({ cell }) => at >= 0 && cell === moment.picture.cell(at))?.heard_by.length;
     byId('hearing').textContent = moment.followed === NONE
-      ? (cells.length ? `${cells.length} cells · click an entity to see what it hears` : '') : `${name} hears ${heard} of ${cells.length} cells`;
+      ? (cells.length ? `${cells.length} cells · click an entity to see what it hears` : '') : `${name} hears ${heard} of ${cells.length} cells${by === undefined ? '' : `, is heard by ${by}`}`;
   }
 
   tip() {
