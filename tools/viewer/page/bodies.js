@@ -115,6 +115,6 @@ export class Bodies {
 // Bodies are drawn at no less than some pixels, so that a vehicle is seen among kilometres.
 export function leastScale(view) {
   const { position } = view.orbit.camera;
-  const share = 4.5 / Math.max(200, view.rectangle.height);
+  const share = 5 / Math.max(200, view.rectangle.height);
   return (x, y, z, radius) => Math.max(radius, share * Math.hypot(x - position.x, y - position.y, z - position.z));
 }

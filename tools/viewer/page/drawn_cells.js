@@ -30,22 +30,20 @@ class Cells {
   }
 
   update(moment) {
-    const { cells, size } = moment.cells;
+    const { cells, size, shape } = moment.cells;
     const reach = roundUp((this.view.extent?.radius ?? 1) * 1.2);
     const key = `${moment.cellsNumber} ${moment.followed} ${cells.length ? '' : reach}`;
     if (key === this.key) return;
     this.key = key;
     const z = this.floor(moment);
-    const square = ({ x, y }) => [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
-    const sides = cells.flatMap((cell) => {
-      const [a, b, c, d] = square(cell);
-      return [a, b, b, c, c, d, d, a];
-    });
+    const corners = cornersOf(shape, size || 0.04 * reach);
+    const around = ({ x, y }) => corners.map(([dx, dy]) => [x + dx, y + dy]);
+    const sides = cells.flatMap((cell) => around(cell).flatMap((corner, i, all) => [corner, all[(i + 1) % all.length]]));
     const lines = cells.length ? sides : plainGrid(reach, this.view.extent?.centre ?? [0, 0, 0]);
     const heard = moment.followed === NONE ? [] : cells.filter((cell) => cell.heard_by.includes(moment.followed));
     const faces = heard.flatMap((cell) => {
-      const [a, b, c, d] = square(cell);
-      return [a, b, c, a, c, d];
+      const all = around(cell);
+      return all.slice(2).flatMap((corner, i) => [all[0], all[i + 1], corner]);
     });
     const points = (list) => new Float32BufferAttribute(list.flatMap(([x, y]) => [x, y, z]), 3);
     this.lines.geometry.setAttribute('position', points(lines));
@@ -57,6 +55,18 @@ class Cells {
     const heights = Array.from({ length: count }, (_, i) => shown[3 * i + 2]).filter(Number.isFinite).sort((a, b) => a - b);
     return (heights[Math.floor(heights.length / 20)] ?? 0) - 0.002 * (this.view.extent?.radius ?? 1);
   }
+}
+
+// About the centre: a square of this side; a hexagon that is so far from centre to corner, with corners to the north and
+// south; of cells without one shape a mark.
+function cornersOf(shape, size) {
+  const ring = (count, radius, first) => Array.from({ length: count }, (_, i) => {
+    const angle = first + (2 * Math.PI * i) / count;
+    return [radius * Math.cos(angle), radius * Math.sin(angle)];
+  });
+  if (shape === 'hexagon') return ring(6, size, Math.PI / 6);
+  if (shape === 'point') return ring(4, size / 2, 0);
+  return ring(4, size * Math.SQRT1_2, Math.PI / 4);
 }
 
 function plainGrid(reach, [cx, cy]) {

@@ -28,21 +28,23 @@ class Forces {
 
   update(moment) {
     this.arrows.begin();
-    for (const { surface, force, newtons } of moment.hands.slice(0, 64)) this.put(surface, force, newtons);
+    for (const { surface, force, newtons, index } of moment.hands.slice(0, 64)) {
+      this.put(surface, force, newtons, index % 2 ? '' : ' before'); // as its name: on the side where no other hand of a pair is
+    }
     const own = new Set(moment.hands.map((hand) => hand.slot));
     for (const { felt, point, force, newtons } of moment.contacts.slice(0, 64)) {
-      if (!own.has(felt) && moment.roster.get(felt)?.haptic) this.put(point, force, newtons);
+      if (!own.has(felt) && moment.roster.get(felt)?.haptic) this.put(point, force, newtons, '');
     }
     this.arrows.end();
   }
 
-  put(from, force, newtons) {
+  put(from, force, newtons, side) {
     const width = 0.009 * (this.view.extent?.radius ?? 1);
     const shown = this.arrows.next().set(from, force, newtons * this.view.metresPerNewton, width);
     if (!shown && newtons < LEAST) return;
     const { tipAt } = this.arrows.list[this.arrows.used - 1];
     const [x, y, z] = shown ? tipAt.toArray() : from;
-    const small = this.view.rectangle.width < 400 ? 'newtons small' : 'newtons';
-    this.labels.put(this.view, x, y, z, `${digits(newtons)} N`, small, 10);
+    const kind = `newtons${side}${this.view.rectangle.width < 400 ? ' small' : ''}`;
+    this.labels.put(this.view, x, y, z, `${digits(newtons)} N`, kind, 10);
   }
 }

@@ -8,7 +8,7 @@ import { colour } from './colours.js';
 const TIMES = 4;
 
 export const drawnGhosts = {
-  name: 'predicted', view: 'world', says: `predicted, error × ${TIMES}`, mark: 'ghost',
+  name: 'predicted', view: 'world', large: true, says: `predicted, error × ${TIMES}`, mark: 'ghost',
   make(group, view) { return new Ghosts(group, view); },
 };
 

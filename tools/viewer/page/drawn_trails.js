@@ -13,11 +13,12 @@ const MOST_TRAILS = 4096; // entities with a trail
 
 export const drawnTrails = {
   name: 'trails', view: 'world', says: 'trail of 10 s', mark: 'line force-friendly',
-  make(group) { return new Trails(group); },
+  make(group, view) { return new Trails(group, view); },
 };
 
 class Trails {
-  constructor(group) {
+  constructor(group, view) {
+    this.view = view;
     this.material = new ShaderMaterial({
       transparent: true, depthWrite: false,
       uniforms: { now: { value: 0 }, strength: { value: 0.5 }, teams: { value: [] } },
@@ -78,6 +79,7 @@ class Trails {
       this.since = now;
       this.next = now + TRAIL_SECONDS / this.pieces;
     }
+    this.lines.visible = count <= MANY || this.view.rectangle.width > 400; // among many a small picture is full without
     this.write(moment, count, now);
     this.last = time;
     this.material.uniforms.now.value = now;

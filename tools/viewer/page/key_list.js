@@ -9,7 +9,7 @@ export const KEYS = [
   ['← →', 'one update back, on', (page, event) => page.timeLine.step(event.key === 'ArrowLeft' ? -2 : 2), 'ArrowLeft', 'ArrowRight'],
   ['Shift ← →', '1 s back, on', (page, event) => page.timeLine.step(event.key.endsWith('Left') ? -1 : 1), 'Shift+ArrowLeft', 'Shift+ArrowRight'],
   [', .', 'slower, faster', (page, event) => page.timeLine.faster(event.key === ',' ? -1 : 1), ',', '.'],
-  ['End', 'live', (page) => page.timeLine.live(), 'End'],
+  ['End', 'live, or the end of a capture', (page) => page.timeLine.live(), 'End'],
   ['v', 'swap world and touch', (page) => page.swap(), 'v'],
   ['f', 'fit the picture', (page) => page.fit(), 'f'],
   ['[ ]', 'turn the picture', (page, event) => page.turn(event.key === '[' ? -20 : 20, 0), '[', ']'],
@@ -29,7 +29,8 @@ export const KEYS = [
   ['?', 'this list', (page) => page.showKeys(), '?'],
 ];
 
-const TYPED = ['INPUT', 'SELECT', 'TEXTAREA'];
+// What a slider or a list takes itself.
+const TAKEN = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp', 'PageDown'];
 
 export function listenForKeys(page) {
   const acts = new Map(KEYS.flatMap(([, , act, ...names]) => names.map((name) => [name, act])));
@@ -37,8 +38,9 @@ export function listenForKeys(page) {
   dialog.querySelector('dl').append(...KEYS.flatMap(([name, what]) => [element('dt', '', name), element('dd', '', what)]));
   addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || dialog.open) return;
-    if (TYPED.includes(event.target.tagName)) return;
-    if (event.key === ' ' && event.target.tagName === 'BUTTON') return; // presses that button
+    const { tagName } = event.target;
+    if (tagName === 'SELECT' || (tagName === 'INPUT' && TAKEN.includes(event.key))) return;
+    if (event.key === ' ' && tagName === 'BUTTON') return; // presses that button
     if (page.hand.key(event.key, true)) return;
     const act = acts.get(event.shiftKey && event.key.startsWith('Arrow') ? `Shift+${event.key}` : event.key);
     if (!act) return;

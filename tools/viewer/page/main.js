@@ -95,7 +95,7 @@ class Page {
         ++moment.rosterNumber;
       },
       cells: () => {
-        moment.cells = { size: message.size || 0, cells: message.cells ?? [] };
+        moment.cells = { size: message.size || 0, shape: message.shape, cells: message.cells ?? [] };
         ++moment.cellsNumber;
       },
       touch: () => {
@@ -127,7 +127,7 @@ class Page {
     this.moment.hello = message;
     this.chosen = false;
     this.timeLine.hello(message);
-    byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.\w+$)/, ''), 60);
+    byId('source').textContent = foreign(String(message.source ?? '').replace(/^.*\/(?=[^/]+\.[a-z]\w*$)/, ''), 60);
     byId('source').title = foreign(`${message.program}: ${message.source}`, 200);
     byId('push').hidden = !message.may_push;
     byId('network').hidden = message.kind !== 'demo';
@@ -237,8 +237,10 @@ class Page {
     const { cells } = moment.cells;
     const heard = moment.heardBy(moment.followed).size;
     const name = foreign(moment.name(moment.followed), 30);
+    const at = moment.picture?.indexOf(moment.followed) ?? -1;
+    const by = cells.find(({ cell }) => at >= 0 && cell === moment.picture.cell(at))?.heard_by.length;
     byId('hearing').textContent = moment.followed === NONE
-      ? (cells.length ? `${cells.length} cells · click an entity to see what it hears` : '') : `${name} hears ${heard} of ${cells.length} cells`;
+      ? (cells.length ? `${cells.length} cells · click an entity to see what it hears` : '') : `${name} hears ${heard} of ${cells.length} cells${by === undefined ? '' : `, is heard by ${by}`}`;
   }
 
   tip() {
@@ -268,6 +270,7 @@ class Page {
 
   swap() {
     if (byId('inset').hidden) return;
+    this.hand.letGo();
     this.stage.swap();
     this.log.say(`Large: ${this.stage.large}.`);
   }
@@ -361,6 +364,7 @@ class Page {
       ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.age ?? null, bad: this.source.bad,
       entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, kind: moment.hello.kind,
       numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
+      depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
     };
   }
 }

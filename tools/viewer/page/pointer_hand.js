@@ -3,6 +3,7 @@
 // The mouse is a hand: it moves in the plane through the hand that faces the camera; wheel, shift and keys move it in depth.
 import { Vector3 } from './libraries.js';
 import { HAND_FLAGS } from './picture.js';
+import { byId } from './words.js';
 
 const MOVES = { a: [-1, 0, 0], d: [1, 0, 0], w: [0, 1, 0], s: [0, -1, 0], q: [0, 0, 1], e: [0, 0, -1] };
 
@@ -13,15 +14,17 @@ export class PointerHand {
     this.held = false;
     this.wanted = new Vector3();
     this.keys = new Set();
-    this.button = document.getElementById('hand');
-    this.text = document.getElementById('hand-text');
+    this.button = byId('hand');
+    this.text = byId('hand-text');
     this.button.addEventListener('click', () => this.askOrGive());
     addEventListener('blur', () => this.letGo());
     document.addEventListener('visibilitychange', () => { if (document.hidden) this.letGo(); });
   }
 
   askOrGive() {
-    if (this.index === null) {
+    if (byId('push').hidden) {
+      this.say('This page watches: open the address that the program printed, with its word.');
+    } else if (this.index === null) {
       this.tell('askHand');
       this.say('Asked for a hand.');
     } else {
@@ -48,6 +51,12 @@ export class PointerHand {
     const { camera } = this.camera;
     const depth = this.wanted.clone().sub(camera.position).length();
     return (2 * depth * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, this.stage.canvas.clientHeight);
+  }
+
+  // How far a place is before the hand, towards the camera [pixels].
+  depthTo(place) {
+    const forward = this.camera.camera.getWorldDirection(new Vector3());
+    return -new Vector3().fromArray(place).sub(this.wanted).dot(forward) / this.metresPerPixel;
   }
 
   grip(moment) {

@@ -90,7 +90,7 @@ export class Replay {
         this.times = value;
         this.report(value ? 'playing' : 'paused');
       },
-      live: () => { this.times = 1; this.go(0); this.report('playing'); },
+      live: () => { this.go(this.length); this.report('end'); },
       step: () => { this.times = 0; this.step(value); this.report('paused'); },
     }[name];
     act?.();

@@ -33,6 +33,13 @@ class View {
   // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
   get metresPerNewton() { return (0.3 * (this.extent?.radius ?? 1)) / this.scale; }
 
+  // Is what should be seen no longer what the camera was fitted to?
+  outgrown() {
+    const { radius, centre } = this.fitted;
+    const drift = Math.hypot(...centre.map((x, k) => x - this.extent.centre[k]));
+    return this.extent.radius > 1.5 * radius || this.extent.radius < radius / 2.5 || drift > 0.5 * radius;
+  }
+
   // How large a length is at a place.
   pixels(length, place) {
     const { camera } = this.orbit;
@@ -119,7 +126,7 @@ export class Stage {
     this.restless = false;
     this.labels.begin();
     for (const { row, view, group, thing } of this.things) {
-      group.visible = !this.hidden.has(row.name) && (view.name === this.large || !this.inset.hidden);
+      group.visible = !this.hidden.has(row.name) && (view.name === this.large || (!row.large && !this.inset.hidden));
       if (group.visible) thing.update(moment);
     }
     this.labels.end();
@@ -136,11 +143,9 @@ export class Stage {
     for (const view of Object.values(this.views)) {
       const extent = view.extentOf(moment);
       if (!extent) continue;
-      const old = view.extent;
       view.extent = extent;
-      const grown = old && (extent.radius > 1.5 * view.fittedRadius || extent.radius < view.fittedRadius / 2.5);
-      if (!old || (grown && !view.orbit.touched)) {
-        view.fittedRadius = extent.radius;
+      if (!view.fitted || (view.outgrown() && !view.orbit.touched)) {
+        view.fitted = extent;
         view.orbit.fit(extent.centre, extent.radius);
       }
     }

@@ -31,7 +31,7 @@ export class Steering {
     this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
     this.start = [event.clientX, event.clientY];
     this.page.stage.canvas.setPointerCapture(event.pointerId);
-    if (this.handed && event.button === 0) this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
+    if (this.handed && event.button === 0 && this.fingers.size === 1) this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
   }
 
   move(event) {

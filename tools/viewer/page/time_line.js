@@ -85,7 +85,7 @@ export class TimeLine {
 
   live() {
     this.tell('live');
-    this.say(this.whole ? 'From the beginning.' : 'Live.');
+    this.say(this.whole ? 'The end.' : 'Live.');
   }
 
   words(time) {

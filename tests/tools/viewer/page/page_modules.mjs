@@ -216,6 +216,10 @@ test('A saved minute goes to any instant and steps by seconds and by pictures', 
   one.advance(9e5);
   assert.deepEqual(since(), []);
   assert.deepEqual(one.span, [100, 103]);
+  one.tell('seek', 100);
+  since();
+  one.tell('live');
+  assert.deepEqual(since(), ['hello', 103, 'end']);
 });
 
 test('A saved minute without pictures, and one with a damaged picture, say so and do not throw', () => {
