@@ -51,6 +51,9 @@ struct FederateOptions {
   /// Stream of the random impairment of the scene: peers with different numbers lose different
   /// datagrams.
   std::uint64_t receiver = 0;
+  /// The impairment may change while it runs: JoinedPeer::change_impairment(). Ignored with a link
+  /// of the caller.
+  bool impairment_changes = false;
   /// The thread that runs the servos, shared with other peers; must outlive the federate. Null: the
   /// federate makes one.
   ServoThread* servo = nullptr;

@@ -47,6 +47,7 @@ LanLinkOptions lan_options(const FederateOptions& options) {
     lan.udp.unicast_port = lan.pool.base().port;  // the others know no other
   }
   lan.law = scene.impairment.law;
+  lan.changes = options.impairment_changes;
   lan.seed = scene.impairment.seed;
   lan.receiver = options.receiver;
   return lan;
@@ -175,6 +176,11 @@ std::vector<Notice> JoinedPeer::take_sealing_notices() {
   if (!sealed_) return notices;
   for (const std::string& line : sealed_->take_news()) notices.push_back(make_notice("{}", line));
   return notices;
+}
+
+void JoinedPeer::change_impairment(const ImpairmentLaw& law) {
+  if (!lan_) throw std::logic_error("the caller's link has its own impairment");
+  lan_->change_law(law);
 }
 
 std::vector<std::string> JoinedPeer::link_report() const {

@@ -67,6 +67,10 @@ class JoinedPeer {
   [[nodiscard]] const Clock& clock() const noexcept { return *clock_; }
   /// Since construction.
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept { return clock_->now() - begun_; }
+  /// Changes what the network does to what this peer receives. By one thread, any, while it runs.
+  /// @throws std::logic_error without FederateOptions::impairment_changes or with a link of the
+  /// caller, std::invalid_argument with law.problem()
+  void change_impairment(const ImpairmentLaw& law);
   /// LanLink::report(); empty with a link of the caller.
   [[nodiscard]] std::vector<std::string> link_report() const;
   /// Reports of datagrams that the scene's key does not open, since the last call.

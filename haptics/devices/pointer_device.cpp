@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace reckon::haptics {
 namespace {
@@ -34,8 +35,9 @@ double pull_of(const SimulatedDeviceConfig& config) {
 
 }  // namespace
 
-PointerDevice::PointerDevice(const SimulatedDeviceConfig& config, double reach)
+PointerDevice::PointerDevice(const SimulatedDeviceConfig& config, double reach, HandScript course)
     : SimulatedDevice(config, [this](double time) { return target_at(time); }),
+      course_(std::move(course)),
       path_(box_about(config.start, reach), config.start, kPathShare * config.max_speed),
       most_pull_(pull_of(config)) {}
 
@@ -69,8 +71,10 @@ HandTarget PointerDevice::target_at(double time) noexcept {
 
 // While the grip fades the path comes to rest; where nothing is left of it, it goes with the hand.
 void PointerDevice::lead() noexcept {
-  if (grip_.rests()) return;
-  if (grip_.holds()) {
+  if (course_ && !grip_.holds() && grip_.since() > kAlone) grip_.rest();
+  if (grip_.rests()) {
+    if (course_) path_.lead_to(course_(time_).position);
+  } else if (grip_.holds()) {
     path_.lead_to(inbox_.sample().position);
   } else if (grip_.share() > 0) {
     path_.rest();

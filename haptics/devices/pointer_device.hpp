@@ -13,9 +13,9 @@
 namespace reckon::haptics {
 
 /// Mass, damping and grip are those of any simulated device; the grip's far end goes the way of a
-/// PointerPath. It rests at the start until the first sample. Where the pointer lets go or stalls,
-/// the grip fades within 0.3 s and the path waits where the hand is, so that whoever takes it again
-/// begins there.
+/// PointerPath. Until the first sample it rests at the start, or goes a course. Where the pointer
+/// lets go or stalls, the grip fades within 0.3 s and the path waits where the hand is, so that
+/// whoever takes it again begins there. After kAlone without a pointer the course goes on.
 ///
 /// The grip stands on the operator's side of the port. The servo's ledger books the work of the
 /// forces that it renders, and the device's own damping, with the motion that comes of it; whatever
@@ -26,10 +26,14 @@ namespace reckon::haptics {
 /// handle at more than 0.9 of max_speed against the damping of device and grip.
 class PointerDevice : public SimulatedDevice {
  public:
+  /// Without a pointer for so long [s] a hand goes its course again.
+  static constexpr double kAlone = 20.0;
+
   /// @param reach [m] > 0: so far from the start the pointer takes it, along each axis of the
-  /// device. @throws std::invalid_argument for that, or a grip without damping, or as
-  /// SimulatedDevice
-  PointerDevice(const SimulatedDeviceConfig& config, double reach);
+  /// device. @param course where the hand wants to be while nobody points, frame D; null: it rests
+  /// at the start and is never taken again. @throws std::invalid_argument for the reach, or a grip
+  /// without damping, or as SimulatedDevice
+  PointerDevice(const SimulatedDeviceConfig& config, double reach, HandScript course = nullptr);
   PointerDevice(const PointerDevice&) = delete;
   PointerDevice& operator=(const PointerDevice&) = delete;
 
@@ -48,6 +52,7 @@ class PointerDevice : public SimulatedDevice {
   [[nodiscard]] HandTarget target_at(double time) noexcept;
   void lead() noexcept;
 
+  HandScript course_;
   PointerInbox inbox_;
   PointerPath path_;
   PointerGrip grip_;

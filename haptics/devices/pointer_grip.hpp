@@ -7,9 +7,9 @@
 
 namespace reckon::haptics {
 
-/// Share of the grip's spring and damper, 0 .. 1: full until the first sample, for it rests where
-/// it is; full while samples hold it; else it fades, and comes back as smoothly. Within kPatience +
-/// kFade = 0.29 s of the last sample nothing is left of it.
+/// Share of the grip's spring and damper, 0 .. 1: full until the first sample, and after rest(),
+/// for then nobody points; full while samples hold it; else it fades, and comes back as smoothly.
+/// Within kPatience + kFade = 0.29 s of the last sample nothing is left of it.
 class PointerGrip {
  public:
   static constexpr double kPatience = 0.09;  ///< [s], longest way between samples that hold
@@ -22,6 +22,9 @@ class PointerGrip {
     since_ = 0.0;
   }
 
+  /// Nobody points any more: as before the first sample.
+  void rest() noexcept { rests_ = true; }
+
   /// @param h [s] >= 0
   void advance(double h) noexcept {
     since_ += h;
@@ -30,8 +33,10 @@ class PointerGrip {
 
   /// Whether the pointer is held and its last sample is young.
   [[nodiscard]] bool holds() const noexcept { return held_ && since_ <= kPatience; }
-  /// Before the first sample.
+  /// Before the first sample, and after rest().
   [[nodiscard]] bool rests() const noexcept { return rests_; }
+  /// Since the last sample [s].
+  [[nodiscard]] double since() const noexcept { return since_; }
   /// Minimum jerk between 0 and 1.
   [[nodiscard]] double share() const noexcept {
     return phase_ * phase_ * phase_ * (10.0 + phase_ * (6.0 * phase_ - 15.0));

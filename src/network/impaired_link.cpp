@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/delay_queue.hpp"
@@ -35,7 +36,9 @@ struct ImpairedLink::Emulator {
         start(options.start),
         tap(options.tap),
         max_senders(std::max<std::size_t>(options.max_senders, 1)),
-        impairment(options.law, direction_seed(options.seed, options.receiver)),
+        seed(direction_seed(options.seed, options.receiver)),
+        impairment(options.law, seed),
+        next_law(impairment),
         queue(options.queue, options.max_datagram) {
     senders.reserve(max_senders);
   }
@@ -51,7 +54,9 @@ struct ImpairedLink::Emulator {
   nanoseconds start;
   DatagramTap* tap;
   std::size_t max_senders;
+  std::uint64_t seed;
   Impairment impairment;
+  haptics::TripleBuffer<Impairment> next_law;  // of change_law()
   DelayQueue queue;
   std::vector<Sender> senders;
   std::uint64_t numbered_by_appearance{0};
@@ -92,6 +97,10 @@ void ImpairedLink::number_sender(const IpEndpoint& sender, std::uint64_t number)
   emulator_->sender_of(sender).number = number;
 }
 
+void ImpairedLink::change_law(const ImpairmentLaw& law) {
+  emulator_->next_law.write(Impairment(law, emulator_->seed));
+}
+
 bool ImpairedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
   return emulator_->inner.send(to, bytes);
 }
@@ -102,6 +111,7 @@ SentBatch ImpairedLink::send_batch(std::span<const OutgoingDatagram> batch) noex
 
 std::size_t ImpairedLink::receive(std::span<Datagram> out) noexcept {
   Emulator& s = *emulator_;
+  if (s.next_law.update()) s.impairment = s.next_law.read();
   s.queue.release();
   for (int i = 0; i < kBatchesPerReceive; ++i) {
     const std::size_t count = s.inner.receive(s.batch);

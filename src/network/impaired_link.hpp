@@ -41,6 +41,11 @@ class ImpairedLink final : public Link {
   /// Needed for equal decisions in two runs, as real senders have other ports each time.
   void number_sender(const IpEndpoint& sender, std::uint64_t number);
 
+  /// Another law from the next receive() on, with the same seed; what is delayed already comes when
+  /// it would have come. By one thread, any; allocates where the law has outages.
+  /// @throws std::invalid_argument with law.problem()
+  void change_law(const ImpairmentLaw& law);
+
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
   /// Datagram::received is the time at which the law lets it arrive.
   SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;

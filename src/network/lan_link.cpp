@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/network/lan_link.hpp"
 
+#include <stdexcept>
+
 namespace reckon::peer {
 
 LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(options.udp, clock) {
@@ -13,7 +15,7 @@ LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(optio
     to.tap = options.udp.tap;
     fan_out_ = std::make_unique<FanOutLink>(udp_, options.pool, to);
   }
-  if (options.law.is_perfect()) return;
+  if (options.law.is_perfect() && !options.changes) return;
   ImpairedLinkOptions impaired;
   impaired.law = options.law;
   impaired.seed = options.seed;
@@ -21,6 +23,11 @@ LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(optio
   impaired.start = clock.now();
   impaired.tap = options.udp.tap;
   impaired_ = std::make_unique<ImpairedLink>(link(), impaired, clock);
+}
+
+void LanLink::change_law(const ImpairmentLaw& law) {
+  if (!impaired_) throw std::logic_error("this link's law does not change: see `changes`");
+  impaired_->change_law(law);
 }
 
 std::vector<std::string> LanLink::report() const {

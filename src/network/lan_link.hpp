@@ -22,6 +22,7 @@ namespace reckon::peer {
 struct LanLinkOptions {
   UdpMulticastOptions udp;
   ImpairmentLaw law;          ///< of arriving datagrams; a perfect one costs nothing
+  bool changes{false};        ///< the law may change: a perfect one costs a copy too
   std::uint64_t seed{1};      ///< of the law
   std::uint64_t receiver{0};  ///< number of this peer; other numbers lose other datagrams
   /// Recipients of each datagram if there is no multicast. Empty: the groups themselves.
@@ -42,6 +43,8 @@ class LanLink {
     if (impaired_) return *impaired_;
     return fan_out_ ? *fan_out_ : static_cast<Link&>(udp_);
   }
+  /// See ImpairedLink::change_law(). @throws std::logic_error without `changes`
+  void change_law(const ImpairmentLaw& law);
   [[nodiscard]] const UdpMulticast& udp() const noexcept { return udp_; }
   /// Sentences for the user: the chosen interface with the reason, then what falls short of the
   /// request.

@@ -102,6 +102,7 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   own.transfer = options_.transfer;
   own.record_shown = options_.measure;
   own.receiver = index;
+  own.impairment_changes = options_.impairment_changes;
   own.servo = servo_.get();
   if (options_.simulated_time) {
     own.loops = peer::FederateLoops::by_hand;
@@ -136,6 +137,10 @@ double Exercise::raw_rate() const noexcept {
 }
 
 peer::Peer& Exercise::peer(std::size_t index) noexcept { return members_[index]->joined->peer(); }
+
+void Exercise::change_impairment(const peer::ImpairmentLaw& law) {
+  for (const auto& member : members_) member->joined->change_impairment(law);
+}
 
 std::span<const PointerHand> Exercise::pointers(std::size_t index) const noexcept {
   return members_[index]->hands.pointers;

@@ -35,9 +35,10 @@ struct ExerciseOptions {
   /// No sockets, no waiting: as fast as the machine goes. Every servo steps at the period of its
   /// own device, to the instant, and its model loop after it, as live; all peers each 1 ms.
   bool simulated_time = false;
-  bool transfer = true;     ///< energy given on demand
-  bool measure = true;      ///< compare the peers with one another
-  std::uint32_t epoch = 0;  ///< 0 = drawn at random
+  bool transfer = true;             ///< energy given on demand
+  bool measure = true;              ///< compare the peers with one another
+  std::uint32_t epoch = 0;          ///< 0 = drawn at random
+  bool impairment_changes = false;  ///< real time: change_impairment() may be called
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool time_servo = false;  ///< simulated time: measure what servo steps take
@@ -75,6 +76,9 @@ class Exercise {
   [[nodiscard]] peer::Peer& peer(std::size_t index) noexcept;
   /// The hands of a peer that follow pointers; they go with the exercise.
   [[nodiscard]] std::span<const PointerHand> pointers(std::size_t index) const noexcept;
+  /// What the network does to all peers from now on, see JoinedPeer::change_impairment(). By one
+  /// thread, any.
+  void change_impairment(const peer::ImpairmentLaw& law);
   /// Newest picture of a peer, as of the last run().
   [[nodiscard]] const peer::PeerView& view(std::size_t index) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept;

@@ -153,8 +153,10 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 
 std::unique_ptr<haptics::PointerDevice> make_pointer_device(const peer::SceneFile& scene,
                                                             const peer::DeviceConfig& device) {
-  const Held held = hold(scene, device, nullptr);
-  return std::make_unique<haptics::PointerDevice>(held.config, device.reach);
+  Held held = hold(scene, device, nullptr);
+  const bool moves = operator_of(scene, device.operator_number).kind != peer::OperatorKind::passive;
+  return std::make_unique<haptics::PointerDevice>(held.config, device.reach,
+                                                  moves ? std::move(held.script) : nullptr);
 }
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::SceneFile& scene,

@@ -32,7 +32,8 @@ namespace reckon::tools {
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
     const haptics::HandScript& script = nullptr);
 
-/// One device of a scene that follows a pointer, whatever its table says of that. @throws as above.
+/// One device of a scene that follows a pointer, whatever its table says of that, and its operator
+/// while nobody points. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::PointerDevice> make_pointer_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device);
 

@@ -13,9 +13,11 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
@@ -26,6 +28,7 @@
 #include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/view_controls.hpp"
 #include "reckon/tools/viewer/self_view.hpp"
 
 namespace reckon::tools {
@@ -60,8 +63,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
                    "reckon demo --simulated-time --for 10min\n"
                    "reckon demo --view");
-  line.word("SCENE", options.scene.scene, false,
-            "scene file; default: meeting.toml as installed");
+  line.word("SCENE", options.scene.scene, false, "scene file; default: meeting.toml as installed");
   line.option("--peers", options.peers, "how many peers, 1 to 64");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
@@ -236,13 +238,11 @@ class DemoPage {
  public:
   DemoPage(const ViewFlags& flags, const peer::SceneFile& scene, const DemoOptions& options,
            Exercise& exercise)
-      : view_(flags, scene, page_options(options, exercise), hands_of(exercise, scene)) {
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < exercise.size(); ++i) {
-      first_.push_back(first);
-      first += exercise.view(i).hand_count;
-    }
-  }
+      : controls_(scene.impairment.law,
+                  [&exercise](const peer::ImpairmentLaw& law) { exercise.change_impairment(law); }),
+        first_(first_hands(exercise)),
+        pointers_(add_pointers(exercise)),
+        view_(flags, scene, page_options(options, exercise), hands_of(exercise, scene)) {}
 
   void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
     view_.hands().take(first_[peer] + device, step);
@@ -251,30 +251,53 @@ class DemoPage {
     for (std::size_t i = 0; i < exercise.size(); ++i)
       for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
         view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);
+    mark_pointers(view_.hands());
     view_.show_hands();
   }
   void note(const HeardNotice& heard) { view_.note(heard.notice.text.data()); }
   [[nodiscard]] const std::string& address() const { return view_.address(); }
 
  private:
-  static SelfViewOptions page_options(const DemoOptions& options, const Exercise& exercise) {
+  static std::vector<std::size_t> first_hands(const Exercise& exercise) {
+    std::vector<std::size_t> first(1, 0);
+    for (std::size_t i = 0; i < exercise.size(); ++i)
+      first.push_back(first.back() + exercise.view(i).hand_count);
+    return first;
+  }
+  std::vector<std::size_t> add_pointers(const Exercise& exercise) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < exercise.size(); ++i)
+      for (const PointerHand& pointer : exercise.pointers(i)) {
+        indices.push_back(first_[i] + pointer.device);
+        controls_.add_hand(indices.back(), pointer);
+      }
+    return indices;
+  }
+  void mark_pointers(OwnHands& hands) const {
+    for (const std::size_t hand : pointers_) hands.set_pointer(hand, controls_.is_free(hand));
+  }
+  SelfViewOptions page_options(const DemoOptions& options, const Exercise& exercise) {
     SelfViewOptions page;
     page.kind = "demo";
-    page.source = options.scene.scene.empty() ? "two_hands.toml" : options.scene.scene;
+    page.source = options.scene.scene.empty() ? "meeting.toml" : options.scene.scene;
+    page.controls = &controls_;
     page.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
     page.raw_bit_per_s = 8 * kRawOctets * exercise.raw_rate();
     page.knows_all = true;
     return page;
   }
-  static OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) {
+  [[nodiscard]] OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) const {
     OwnHands hands(scene.hand);
     for (std::size_t i = 0; i < exercise.size(); ++i)
       for (const peer::HandView& hand : exercise.view(i).own_hands()) hands.add(i, hand);
+    mark_pointers(hands);
     return hands;
   }
 
+  ViewControls controls_;              // of the page, and so before it
+  std::vector<std::size_t> first_;     // of a peer's hands
+  std::vector<std::size_t> pointers_;  // hands that pages may move
   SelfView view_;
-  std::vector<std::size_t> first_;  // of a peer's hands
 };
 
 void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
@@ -307,6 +330,21 @@ void check_flags(const DemoOptions& options) {
     throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
 }
 
+// Where the scene has no hand for a pointer, any of its hands is one; its operator moves it while
+// nobody points.
+void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers) {
+  using peer::DeviceConfig, peer::DeviceSource;
+  const auto is_pointer = [](const DeviceConfig& one) {
+    return one.source == DeviceSource::pointer;
+  };
+  if (std::any_of(scene.devices.begin(), scene.devices.end(), is_pointer)) return;
+  std::vector<DeviceConfig> devices;
+  for (std::uint32_t peer = 1; peer <= peers; ++peer)
+    std::ranges::copy(peer::devices_of(scene, peer), std::back_inserter(devices));
+  for (DeviceConfig& device : devices) device.source = DeviceSource::pointer;
+  scene.devices = std::move(devices);
+}
+
 int run(const DemoOptions& options, const Console& console) {
   check_flags(options);
   peer::SceneFile scene = load_scene(options.scene, "meeting.toml", options.peers);
@@ -320,6 +358,9 @@ int run(const DemoOptions& options, const Console& console) {
   exercise_options.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
   exercise_options.simulated_time = options.simulated_time;
   exercise_options.transfer = !options.no_transfer;
+  const auto flags = flags_of_switch(options.view);
+  exercise_options.impairment_changes = flags.has_value();
+  if (flags) let_pages_move_hands(scene, options.peers);
   std::optional<Exercise> exercise;
   try {
     exercise.emplace(scene, exercise_options);
@@ -330,7 +371,6 @@ int run(const DemoOptions& options, const Console& console) {
   }
   std::unique_ptr<ServoTrace> trace;
   if (!options.trace.empty()) trace = std::make_unique<ServoTrace>(options.trace);
-  const auto flags = flags_of_switch(options.view);
   std::optional<DemoPage> page;
   if (trace || flags) {
     exercise->on_step(

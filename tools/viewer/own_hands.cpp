@@ -51,7 +51,8 @@ void OwnHands::take(std::size_t hand, const ServoSnapshot& step) {
 std::vector<TouchHand> OwnHands::names() const {
   std::vector<TouchHand> names;
   for (std::size_t i = 0; i < hands_.size(); ++i)
-    names.push_back({fmt::format("hand {}", i + 1), hand_.radius, "simulated", hands_[i].limit});
+    names.push_back({fmt::format("hand {}", i + 1), hand_.radius,
+                     hands_[i].pointer_free ? "pointer" : "simulated", hands_[i].limit});
   return names;
 }
 
@@ -86,6 +87,8 @@ HandMark OwnHands::mark(std::size_t index) {
     flags |= kHandRateLimited;
   const std::uint64_t let_go = step.tally.let_go + step.trips;
   if (std::exchange(hand.let_go, let_go) < let_go || !step.enabled) flags |= kHandLetGo;
+  if (hand.pointer_free)
+    flags |= kHandPointer | (*hand.pointer_free ? unsigned{kHandPointerFree} : 0U);
   mark.flags = static_cast<std::uint16_t>(flags);
   mark.position = step.device.cast<float>();
   mark.contact_point = step.scp.cast<float>();

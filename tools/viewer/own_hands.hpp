@@ -26,6 +26,8 @@ class OwnHands {
   void add(std::size_t peer, const peer::HandView& view);
   /// The newest of a hand: from its peer's picture, or a step of its servo.
   void take(std::size_t hand, const haptics::ServoSnapshot& step);
+  /// A page may move it; `free`: none does.
+  void set_pointer(std::size_t hand, bool free) { hands_[hand].pointer_free = free; }
   /// Its entity may get another number while a conflict is settled.
   void set_id(std::size_t hand, const pdu::EntityId& id) { hands_[hand].id = id; }
 
@@ -41,7 +43,8 @@ class OwnHands {
   struct Hand {
     std::size_t peer = 0;
     pdu::EntityId id;
-    double limit = 0;  // [N]
+    std::optional<bool> pointer_free;  // of a hand that pages move
+    double limit = 0;                  // [N]
     haptics::ServoSnapshot step;
     double rate_limited = 0;  // [s], of it so far when it was looked at last
     std::uint64_t let_go = 0;

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/view_controls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::tools {
+namespace {
+
+std::string network_text(const NetworkRequest& request) {
+  if (request.outage) return "network: outage, nothing arrives";
+  if (request.delay_ms == 0 && request.jitter_ms == 0 && request.loss == 0)
+    return "network: as it is, nothing added";
+  return fmt::format("network: {:.0f} ms delay, {:.0f} ms jitter, {:.0f} % loss", request.delay_ms,
+                     request.jitter_ms, 100 * request.loss);
+}
+
+}  // namespace
+
+ViewControls::ViewControls(peer::ImpairmentLaw law, ChangeNetwork change)
+    : law_(std::move(law)), change_(std::move(change)) {}
+
+void ViewControls::add_hand(std::size_t index, const PointerHand& pointer) {
+  hands_.emplace_back(index, pointer);
+}
+
+bool ViewControls::is_free(std::size_t index) const {
+  return std::any_of(hands_.begin(), hands_.end(), [index](const Hand& hand) {
+    return hand.index == index && hand.owner.load(std::memory_order_relaxed) == kNobody;
+  });
+}
+
+ViewerControls::HandAnswer ViewControls::take_hand(Watcher watcher) {
+  Hand* free = nullptr;
+  for (Hand& hand : hands_) {
+    if (hand.owner == watcher)
+      return {static_cast<std::uint16_t>(hand.index),
+              fmt::format("hand {} is yours already", hand.index + 1)};
+    if (free == nullptr && hand.owner == kNobody) free = &hand;
+  }
+  if (free == nullptr)
+    return {std::nullopt, hands_.empty() ? "no hand of this scene follows a pointer"
+                                         : "each hand that follows a pointer is taken; you watch"};
+  free->owner = watcher;
+  return {static_cast<std::uint16_t>(free->index),
+          fmt::format("hand {} is yours", free->index + 1)};
+}
+
+void ViewControls::give_hand(Watcher watcher) {
+  for (Hand& hand : hands_) {
+    if (hand.owner != watcher) continue;
+    hand.pointer.let_go();
+    hand.owner = kNobody;
+  }
+}
+
+void ViewControls::point(Watcher watcher, const PointerRequest& request, std::chrono::nanoseconds) {
+  for (Hand& hand : hands_) {
+    if (hand.index != request.hand || hand.owner != watcher) continue;
+    if (request.held) {
+      static_cast<void>(hand.pointer.lead(request.position.cast<double>()));
+    } else {
+      hand.pointer.let_go();
+    }
+  }
+}
+
+std::string ViewControls::set_network(const NetworkRequest& request) {
+  if (!change_) return "this program has no network of its own to change";
+  law_.delay = pdu::from_seconds(1e-3 * request.delay_ms);
+  law_.jitter = pdu::from_seconds(1e-3 * request.jitter_ms);
+  law_.loss = request.outage ? 1.0 : static_cast<double>(request.loss);
+  change_(law_);
+  return network_text(request);
+}
+
+}  // namespace reckon::tools
