@@ -321,8 +321,9 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
 }
 
 void check_flags(const DemoOptions& options) {
+  const auto page = flags_of_switch(options.view);
   if (!options.simulated_time) return;
-  if (flags_of_switch(options.view))
+  if (page)
     throw UsageError(
         "--view: --simulated-time sends nothing that a page could show; leave one out");
   if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");

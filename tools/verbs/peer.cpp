@@ -338,6 +338,7 @@ int run_peer(Arguments arguments, const Console& console) {
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
   check_beacons(options.follow);
+  (void)flags_of_switch(options.view);
   if (options.balance && *options.balance < kLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is printed");
   return run(options, console);
