@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/haptics/support/pointer_play.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
@@ -265,6 +266,34 @@ TEST(PointerDevice, MakesNoEnergyAtAWallWhateverThePointerDoes) {
   EXPECT_LT(fastest, 2.0) << "no pointer is a fault of the device";
   EXPECT_EQ(trips, 0U);
   EXPECT_GT(refused, 1000U);
+}
+
+// Round and round until somebody points, and again when nobody has for a while.
+TEST(PointerDevice, GoesItsCourseWhileNobodyPoints) {
+  const auto course = [](double time) {
+    HandTarget target;
+    target.position = Vector3d(0.05 * std::sin(time), 0.0, 0.1);
+    return target;
+  };
+  PointerDevice device(held_at(0.1), kReach, course);
+  nanoseconds now{0};
+  const auto pass = [&](nanoseconds duration, bool points) {
+    for (const nanoseconds end = now + duration; now < end;) {
+      now += 1ms;
+      if (points && now % kFrame < 1ms) device.inbox().put({{-0.2, 0.0, 0.1}, true});
+      static_cast<void>(device.read(now));
+      device.write(Vector3d::Zero(), now);
+    }
+  };
+  const auto course_x = [&] { return 0.05 * std::sin(pdu::to_seconds(now)); };
+  pass(5s, false);
+  EXPECT_NEAR(device.position().x(), course_x(), 0.005) << "behind by the path's lag";
+  pass(3s, true);
+  EXPECT_NEAR(device.position().x(), -0.2, 0.001);
+  pass(15s, false);
+  EXPECT_EQ(device.grip(), 0.0) << "let go, and not yet taken again";
+  pass(10s, false);
+  EXPECT_NEAR(device.position().x(), course_x(), 0.005);
 }
 
 }  // namespace

@@ -147,6 +147,33 @@ TEST(ImpairedLink, ReleasesAtTheTimeTheLawGives) {
   EXPECT_EQ(batch[0].group, kGroup);
 }
 
+// Slow, then lost, then as the network is; what is under way comes when it would have come.
+TEST(ImpairedLink, FollowsALawThatChangesWhileItRuns) {
+  ManualClock clock;
+  SimulatedNetwork network({}, clock);
+  ImpairedLink link(network.link(1), {}, clock);
+  ASSERT_FALSE(link.join(kGroup));
+  Arrivals arrivals;
+  const auto send = [&](std::uint32_t number, nanoseconds later) {
+    network.link(0).send(kGroup, octets_of(number));
+    collect(link, arrivals);
+    clock.advance(later);
+    collect(link, arrivals);
+  };
+  link.change_law(delayed_by(0.05));
+  send(1, 10ms);
+  EXPECT_FALSE(arrivals.contains(1));
+  link.change_law(delayed_by(0, 0, 1));
+  send(2, 10ms);
+  link.change_law({});
+  send(3, 1ms);
+  EXPECT_EQ(arrivals, (Arrivals{{3, 1}}));
+  clock.advance(50ms);
+  collect(link, arrivals);
+  EXPECT_EQ(arrivals, (Arrivals{{1, 1}, {3, 1}}));
+  EXPECT_THROW(link.change_law(delayed_by(-1)), std::invalid_argument);
+}
+
 TEST(ImpairedLink, WaitsNoLongerThanTheNextDueTime) {
   const SteadyClock clock;
   UdpMulticastOptions real;
