@@ -7,7 +7,8 @@ import { NONE } from './picture.js';
 
 const TRAIL_SECONDS = 10;
 const FINE = 20; // pieces of a trail
-const COARSE = 10; // of one among many: lines are what software GL is slow at
+const COARSE = 6; // of one among many
+const MOST_LINES = 8000; // about so many in all: they are what software GL is slow at
 const MANY = 400;
 const MOST_TRAILS = 4096; // entities with a trail
 
@@ -31,9 +32,7 @@ class Trails {
         }`,
       fragmentShader: `
         varying vec4 tint;
-        void main() { gl_FragColor = tint; if (tint.a < 0.01) discard;
-          #include <colorspace_fragment>
-        }`,
+        void main() { gl_FragColor = tint; }`,
     });
     this.lines = new LineSegments(new BufferGeometry(), this.material);
     this.lines.frustumCulled = false;
@@ -41,11 +40,11 @@ class Trails {
     this.key = '';
   }
 
-  paint() { this.material.uniforms.teams.value = FORCE_COLOURS.map(colour); }
+  paint() { this.material.uniforms.teams.value = FORCE_COLOURS.map((name) => colour(name).convertLinearToSRGB()); }
 
   // One piece more than is full: the last one follows the entity.
   room(count) {
-    this.pieces = count > MANY ? COARSE : FINE;
+    this.pieces = Math.min(FINE, Math.max(COARSE, Math.round(MOST_LINES / Math.max(1, count))));
     const corners = 2 * count * (this.pieces + 1);
     this.at = new Float32Array(3 * corners);
     this.born = new Float32Array(corners).fill(-1e9);

@@ -195,6 +195,9 @@ def demo(reckon, scenes):
         page.wait("document.getElementById('keys').open", "the list of keys")
         expect(page.ask("document.querySelectorAll('#keys dt').length") > 15, "each key has its line")
         shows_no_fault(page)
+        own = re.match(r"http://[^/]+/", started.address)[0]
+        asked = [url for url in page.requests() if not url.startswith((own, "data:", "about:"))]
+        expect(not asked, f"nobody else is asked for anything: {asked}")
 
 
 def saved(reckon, scenes):
