@@ -133,6 +133,7 @@ class ViewServer::Connections {
   std::vector<std::string> own_;
   Access access_;
   std::set<Pointer> all_;
+  bool is_accepting_ = false;
   nanoseconds now_{};
   ViewServerCounts counts_;
 };
@@ -332,6 +333,7 @@ ViewServer::Connections::~Connections() {
 
 void ViewServer::Connections::tick(nanoseconds now) {
   now_ = now;
+  if (!is_accepting_) accept();
   for (const auto& connection : std::set(all_)) connection->tick();
 }
 
@@ -341,9 +343,12 @@ std::size_t ViewServer::Connections::tabs() const {
 }
 
 void ViewServer::Connections::accept() {
+  is_accepting_ = true;
   acceptor_.async_accept([this](std::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error && all_.size() < kMostConnections) {
+    // With no descriptor left, for example, another try would fail at once: the next tick tries.
+    if (error) return void(is_accepting_ = false);
+    if (all_.size() < kMostConnections) {
       std::error_code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
       socket.set_option(asio::socket_base::keep_alive(true), ignored);
