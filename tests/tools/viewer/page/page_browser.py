@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The viewer's page in Chromium, against the program.
 
-  page_browser.py CASE RECKON [SCENES]     exit status 77 = skipped, with a message
+  page_browser.py CASE RECKON SCENES     exit status 77 = skipped, with a message
 
   demo    a demo of two hands: live within 10 s, two themes and two widths without horizontal scroll, no error
           in the console, swap, pause, a second back, live again, keys
@@ -172,7 +172,7 @@ def pictures_folder():
 
 
 def demo(reckon, scenes):
-    with program(reckon, "demo", "--view=0", "--for", "10min") as started, browser() as page:
+    with program(reckon, "demo", f"{scenes}/two_hands.toml", "--view=0", "--for", "10min") as started, browser() as page:
         for theme in ("dark", "light"):
             for width, height in ((1280, 800), (400, 860)):
                 page.size(width, height)
@@ -203,7 +203,7 @@ def demo(reckon, scenes):
 def saved(reckon, scenes):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "run.html"
-        with program(reckon, "demo", "--view=0", "--for", "10min") as started, browser() as page:
+        with program(reckon, "demo", f"{scenes}/two_hands.toml", "--view=0", "--for", "10min") as started, browser() as page:
             page.open(started.address)
             page.wait("window.reckon?.pictures > 90", "pictures of some seconds")
             page.driver.set_script_timeout(PATIENCE)
@@ -271,7 +271,7 @@ def set_network(page, delay_ms, loss_percent):
 
 
 def hand(reckon, scenes):
-    with program(reckon, "demo", "--view=0", "--for", "10min") as started, browser() as page:
+    with program(reckon, "demo", f"{scenes}/two_hands.toml", "--view=0", "--for", "10min") as started, browser() as page:
         page.size(1280, 800)
         page.open(started.address)
         page.wait("window.reckon?.hands?.length === 2", "two hands")
@@ -299,12 +299,12 @@ def empty(reckon, scenes):
 
 def lost(reckon, scenes):
     with browser() as page:
-        with program(reckon, "demo", "--view=0", "--for", "10min") as started:
+        with program(reckon, "demo", f"{scenes}/two_hands.toml", "--view=0", "--for", "10min") as started:
             page.open(started.address)
             page.wait("window.reckon?.state === 'live' && window.reckon.entities === 2", "live")
             port = re.search(r":(\d+)/", started.address)[1]
         page.wait("window.reckon.state === 'lost' && !document.getElementById('notice').hidden", "the loss is told")
-        with program(reckon, "demo", f"--view={port}", "--for", "10min"):
+        with program(reckon, "demo", f"{scenes}/two_hands.toml", f"--view={port}", "--for", "10min"):
             page.wait("window.reckon.state === 'live' && document.getElementById('notice').hidden", "it comes back by itself")
             page.wait_for_pictures()
 
@@ -313,14 +313,14 @@ CASES = {case.__name__: case for case in (demo, saved, hand, empty, lost)}
 
 
 def main(arguments):
-    name, reckon, *rest = arguments
+    name, reckon, scenes = arguments
     for path in (CHROMIUM, DRIVER):
         if not os.access(path, os.X_OK):
             skip(f"no {path}: apt-get install chromium chromium-driver python3-selenium")
     told = subprocess.run([reckon, "demo", "--help"], capture_output=True, text=True, check=False)
     if "--view" not in told.stdout:
         skip("this program serves no page")
-    CASES[name](reckon, rest[0] if rest else "")
+    CASES[name](reckon, scenes)
     print(f"{name}: good")
 
 
