@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A picture of the world at one instant as the page gets it: plain rows, and their octets.
-// docs/viewer.md has the layout byte by byte.
+// docs/viewer_protocol.md has the layout byte by byte.
 #pragma once
 
 #include <Eigen/Core>
