@@ -384,6 +384,7 @@ int run(const DemoOptions& options, const Console& console) {
   if (!options.simulated_time) {
     fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
                scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
+    if (!flags) fmt::print(console.err, "in a browser, where the mouse is a hand: add --view\n");
   }
   LiveDisplay display(console, !options.json, options.peers);
   if (!display.is_drawn() && !options.json && !options.duration) {

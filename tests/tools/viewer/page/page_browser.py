@@ -270,8 +270,37 @@ def set_network(page, delay_ms, loss_percent):
         expect(str(value) in page.text("log-line"), "the line at the bottom says what a slider did")
 
 
+# Two hands that rest beside each other until a pointer comes.
+RESTING = """
+[scene]
+name = "resting hands"
+origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
+[hand]
+radius = "10 mm"
+k1 = "500 N/m"
+[dead_reckoning]
+algorithm = "fpw"
+position = "0.5 mm"
+force = "0.03 N"
+[[operator]]
+passive = true
+position = "-25 0 90 mm"
+[[operator]]
+passive = true
+position = "25 0 90 mm"
+"""
+
+
+@contextlib.contextmanager
+def resting_hands():
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder) / "resting.toml"
+        scene.write_text(RESTING)
+        yield str(scene)
+
+
 def hand(reckon, scenes):
-    with program(reckon, "demo", f"{scenes}/two_hands.toml", "--view=0", "--for", "10min") as started, browser() as page:
+    with resting_hands() as scene, program(reckon, "demo", scene, "--view=0", "--for", "10min") as started, browser() as page:
         page.size(1280, 800)
         page.open(started.address)
         page.wait("window.reckon?.hands?.length === 2", "two hands")
