@@ -12,8 +12,8 @@ namespace reckon::haptics {
 /// Within kPatience + kFade = 0.29 s of the last sample nothing is left of it.
 class PointerGrip {
  public:
-  static constexpr double kPatience = 0.09;  ///< [s], longest way between samples that hold
-  static constexpr double kFade = 0.2;       ///< [s], from all to nothing and back
+  static constexpr double kPatience = 0.14;  ///< [s], longest way between samples that hold
+  static constexpr double kFade = 0.15;      ///< [s], from all to nothing and back
 
   /// A sample: whether somebody holds the pointer.
   void take(bool held) noexcept {

@@ -19,6 +19,7 @@ export class PointerHand {
     this.button.addEventListener('click', () => this.askOrGive());
     addEventListener('blur', () => this.letGo());
     document.addEventListener('visibilitychange', () => { if (document.hidden) this.letGo(); });
+    setInterval(() => this.send(), 16);
   }
 
   askOrGive() {
@@ -99,11 +100,15 @@ export class PointerHand {
     this.tell('pointer', this.index, this.wanted.toArray(), false);
   }
 
+  // 60 times a second, however slowly pictures are drawn: a hand without samples lets go.
+  send() {
+    if (this.index !== null && this.held) this.tell('pointer', this.index, this.wanted.toArray(), true);
+  }
+
   // Once a picture.
   advance(moment, seconds) {
     if (this.index === null) return;
     if (this.keys.size && this.grip(moment)) this.moveByKeys(seconds);
-    if (this.held) this.tell('pointer', this.index, this.wanted.toArray(), true);
     const hand = this.hand(moment);
     if (hand && hand.flags & HAND_FLAGS.letGo && !this.told) this.say('The device let go; the force comes back when it is calm.', 'warning');
     this.told = !!hand && (hand.flags & HAND_FLAGS.letGo) !== 0;
