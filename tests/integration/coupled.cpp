@@ -4,6 +4,7 @@
 // its hands did, sample by sample, in hexadecimal floating point.
 //   coupled whole MODE server|hand
 //   coupled first|second MODE server|hand OWN_ADDRESS:PORT OTHER_ADDRESS:PORT
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -26,7 +27,9 @@ bench::CouplingRun run_of(peer::CouplingMode mode, std::string_view counterpart)
   run.mode = mode;
   run.counterpart = counterpart == "hand" ? bench::Counterpart::hand : bench::Counterpart::server;
   run.environment = bench::Environment(bench::EnvironmentKind::linear, 400);
-  run.network = {0.02, 0.5, 0.2, 0.1};
+  run.network = peer::delayed_by(0.02, 0.5, 0.2);
+  run.network.reorder = 0.1;
+  run.network.reorder_delay = std::chrono::milliseconds(50);
   run.duration = kSamples * run.device.period;
   run.keep_trace = true;
   return run;
