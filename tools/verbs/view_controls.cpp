@@ -14,8 +14,6 @@ namespace {
 
 std::string network_text(const NetworkRequest& request) {
   if (request.outage) return "network: outage, nothing arrives";
-  if (request.delay_ms == 0 && request.jitter_ms == 0 && request.loss == 0)
-    return "network: as it is, nothing added";
   return fmt::format("network: {:.0f} ms delay, {:.0f} ms jitter, {:.0f} % loss", request.delay_ms,
                      request.jitter_ms, 100 * request.loss);
 }

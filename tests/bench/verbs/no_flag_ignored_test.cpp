@@ -304,7 +304,9 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--no-transfer", {}},      {"--json", {}},
   };
   Words flags = flags_of({"demo"});
-  std::erase_if(flags, [](const std::string& flag) { return flag == "SCENE" || flag == "--help"; });
+  std::erase_if(flags, [](const std::string& flag) {
+    return flag == "SCENE" || flag == "--help" || flag == "--view";  // which is refused
+  });
   for (const std::string& flag : flags) EXPECT_TRUE(values.contains(flag)) << flag;
   const Words demo{"demo", "--simulated-time", "--for", "3s", "--json"};
   const Words poor{"--impair", "delay=20ms jitter=10ms loss=20%"};
@@ -321,6 +323,9 @@ TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {
   const auto iface = run({"demo", "--simulated-time", "--for", "1s", "--iface", "lo"});
   EXPECT_EQ(iface.status, 2);
   EXPECT_THAT(iface.err, HasSubstr("--iface: --simulated-time has no sockets"));
+  const auto view = run({"demo", "--simulated-time", "--for", "1s", "--view"});
+  EXPECT_EQ(view.status, 2);
+  EXPECT_THAT(view.err, HasSubstr("--view: --simulated-time sends nothing"));
   const auto out = run({"figures", "--list", "--out", folder_.file("pictures")});
   EXPECT_EQ(out.status, 2);
   EXPECT_THAT(out.err, HasSubstr("leave --out out"));
