@@ -35,7 +35,7 @@ def sizes(program):
     """Each size from the start, eight peers; the summary stands below the given back screen."""
     for rows, columns in ((24, 80), (10, 40), (60, 200), (2, 5)):
         terminal = Terminal(demo(program), rows=rows, columns=columns)
-        terminal.expect("meeting")
+        terminal.expect("meet")
         for _ in range(20):
             terminal.pump()
         check_within(terminal.everything, rows, columns)
