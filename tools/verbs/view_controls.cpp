@@ -21,7 +21,11 @@ std::string network_text(const NetworkRequest& request) {
 }  // namespace
 
 ViewControls::ViewControls(peer::ImpairmentLaw law, ChangeNetwork change)
-    : law_(std::move(law)), change_(std::move(change)) {}
+    : law_(std::move(law)), change_(std::move(change)) {
+  network_.delay_ms = static_cast<float>(1e3 * pdu::to_seconds(law_.delay));
+  network_.jitter_ms = static_cast<float>(1e3 * pdu::to_seconds(law_.jitter));
+  network_.loss = static_cast<float>(law_.loss);
+}
 
 void ViewControls::add_hand(std::size_t index, const PointerHand& pointer) {
   hands_.emplace_back(index, pointer);
@@ -70,6 +74,7 @@ void ViewControls::point(Watcher watcher, const PointerRequest& request, std::ch
 
 std::string ViewControls::set_network(const NetworkRequest& request) {
   if (!change_) return "this program has no network of its own to change";
+  network_ = request;
   law_.delay = pdu::from_seconds(1e-3 * request.delay_ms);
   law_.jitter = pdu::from_seconds(1e-3 * request.jitter_ms);
   law_.loss = request.outage ? 1.0 : static_cast<double>(request.loss);

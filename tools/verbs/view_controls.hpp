@@ -35,6 +35,7 @@ class ViewControls final : public ViewerControls {
   void give_hand(Watcher watcher) override;
   void point(Watcher watcher, const PointerRequest& request, std::chrono::nanoseconds now) override;
   std::string set_network(const NetworkRequest& request) override;
+  [[nodiscard]] NetworkRequest network() const override { return network_; }
 
  private:
   struct Hand {
@@ -48,6 +49,7 @@ class ViewControls final : public ViewerControls {
 
   peer::ImpairmentLaw law_;
   ChangeNetwork change_;
+  NetworkRequest network_;
   std::deque<Hand> hands_;
 };
 

@@ -63,6 +63,15 @@ void append_optional(JsonObject& object, std::string_view key, std::optional<dou
   if (value) object.decimals(key, *value, decimals);
 }
 
+void append_network(std::string& out, const NetworkRequest& network) {
+  JsonObject(out)
+      .decimals("delay_ms", network.delay_ms, 1)
+      .decimals("jitter_ms", network.jitter_ms, 1)
+      .decimals("loss", network.loss, 3)
+      .value("outage", network.outage)
+      .end();
+}
+
 }  // namespace
 
 void ViewStage::set_touch(const std::vector<TouchHand>& hands) {
@@ -102,6 +111,7 @@ std::string ViewStage::hello(const Watcher& watcher) const {
       .text("source", options_.source)
       .text("kind", options_.kind)
       .value("may_push", watcher.may_push);
+  if (watcher.may_push) append_network(object.member("network"), options_.controls->network());
   object.member("span") +=
       fmt::format("[{:.3f},{:.3f}]", seconds(history_.begin()), seconds(live_end()));
   if (frame_)

@@ -33,6 +33,8 @@ class ViewerControls {
                      std::chrono::nanoseconds now) = 0;
   /// @return a sentence: what the network does from now on
   virtual std::string set_network(const NetworkRequest& request) = 0;
+  /// What the network does now.
+  [[nodiscard]] virtual NetworkRequest network() const { return {}; }
 
  protected:
   ~ViewerControls() = default;

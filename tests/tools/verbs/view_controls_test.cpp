@@ -79,6 +79,7 @@ TEST_F(ViewControlsTest, SetTheLawAndKeepWhatNoSliderSets) {
   EXPECT_EQ(set_.jitter, 20ms);
   EXPECT_EQ(set_.loss, 0.5);
   EXPECT_EQ(set_.duplicate, 0.25);
+  EXPECT_EQ(controls_->network().delay_ms, 100) << "as a page that comes later is told";
   static_cast<void>(controls_->set_network({0, 0, 0, true}));
   EXPECT_EQ(set_.loss, 1.0) << "an outage";
   static_cast<void>(controls_->set_network({0, 0, 0, false}));

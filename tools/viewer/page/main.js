@@ -131,6 +131,7 @@ class Page {
     byId('source').title = foreign(`${message.program}: ${message.source}`, 200);
     byId('push').hidden = !message.may_push;
     byId('network').hidden = message.kind !== 'demo';
+    this.network.show(message.network);
     if (this.moment.followed !== NONE) this.source.tell('follow', this.moment.followed);
   }
 

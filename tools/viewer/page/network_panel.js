@@ -16,17 +16,28 @@ export class NetworkPanel {
     this.outage.addEventListener('click', () => this.toggleOutage());
   }
 
+  // What the program says that the network does.
+  show({ delay_ms: delay = 0, jitter_ms: jitter = 0, loss = 0, outage = false } = {}) {
+    for (const [name, value] of Object.entries({ delay, jitter, loss: 100 * loss })) this.inputs[name].value = Number(value);
+    this.out = outage === true;
+    this.write();
+  }
+
   toggleOutage() {
     this.out = !this.out;
-    this.outage.setAttribute('aria-pressed', String(this.out));
     this.send();
     this.say(this.out ? 'Outage: nothing arrives any more.' : 'The outage is over.');
   }
 
-  send() {
+  write() {
+    this.outage.setAttribute('aria-pressed', String(!!this.out));
     for (const [name, input] of Object.entries(this.inputs)) {
       input.parentElement.querySelector('output').textContent = `${input.value} ${FIELDS[name]}`;
     }
+  }
+
+  send() {
+    this.write();
     const { delay, jitter, loss } = this.inputs;
     this.tell('network', {
       delay: Number(delay.value), jitter: Number(jitter.value), loss: Number(loss.value) / 100, outage: !!this.out,
