@@ -85,22 +85,6 @@ haptics::HandScript script_of(const peer::OperatorConfig& config) {
   };
 }
 
-/// Operator `number` from 1; see make_simulated_hand.
-peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t number) {
-  const std::size_t index = std::max<std::size_t>(number, 1) - 1;
-  peer::OperatorConfig config;
-  config.position = Eigen::Vector3d(0.05 * static_cast<double>(index), 0.0, 0.2);
-  if (scene.operators.empty()) return config;
-  config = scene.operators[index % scene.operators.size()];
-  // A second hand with the same operator stands beside the first.
-  const auto round = static_cast<double>(index / scene.operators.size());
-  const Eigen::Vector3d aside(0.0, 0.0, kAside * scene.hand.radius * round);
-  config.position += aside;
-  config.from += aside;
-  config.to += aside;
-  return config;
-}
-
 /// A target in S as the device sees it.
 haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandScript in_scene) {
   const Eigen::Matrix3d R_DS = device.orientation.conjugate().toRotationMatrix();
@@ -150,6 +134,21 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 }
 
 }  // namespace
+
+peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t number) {
+  const std::size_t index = std::max<std::size_t>(number, 1) - 1;
+  peer::OperatorConfig config;
+  config.position = Eigen::Vector3d(0.05 * static_cast<double>(index), 0.0, 0.2);
+  if (scene.operators.empty()) return config;
+  config = scene.operators[index % scene.operators.size()];
+  // A second hand with the same operator stands beside the first.
+  const auto round = static_cast<double>(index / scene.operators.size());
+  const Eigen::Vector3d aside(0.0, 0.0, kAside * scene.hand.radius * round);
+  config.position += aside;
+  config.from += aside;
+  config.to += aside;
+  return config;
+}
 
 std::unique_ptr<haptics::PointerDevice> make_pointer_device(const peer::SceneFile& scene,
                                                             const peer::DeviceConfig& device) {

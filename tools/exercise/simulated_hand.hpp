@@ -17,6 +17,9 @@
 
 namespace reckon::tools {
 
+/// Operator `number` from 1 as it holds a hand; see make_simulated_hand.
+[[nodiscard]] peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t number);
+
 /// The hand of operator `index`; a scene with fewer operators starts again at the first, a
 /// little aside, and one without any gets hands that hold still above its origin. @param script
 /// moves it in S in the place of the operator, who still holds it; none: the operator does.

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
@@ -28,14 +27,14 @@
 #include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
-#include "reckon/tools/verbs/view_controls.hpp"
-#include "reckon/tools/viewer/self_view.hpp"
+#include "reckon/tools/verbs/demo_page.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using std::chrono::nanoseconds;
 
+constexpr const char* kDefaultScene = "meeting.toml";
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
 // What passes at once; results depend on it.
 constexpr nanoseconds kSimulatedSlice = std::chrono::milliseconds(200);
@@ -63,7 +62,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
                    "reckon demo --simulated-time --for 10min\n"
                    "reckon demo --view");
-  line.word("SCENE", options.scene.scene, false, "scene file; default: meeting.toml as installed");
+  line.word("SCENE", options.scene.scene, false,
+            fmt::format("scene file; default: {} as installed", kDefaultScene));
   line.option("--peers", options.peers, "how many peers, 1 to 64");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
@@ -233,73 +233,6 @@ std::uint8_t exercise_of(const peer::SceneFile& scene, bool simulated) {
   return static_cast<std::uint8_t>(std::uniform_int_distribution<int>(1, 254)(random));
 }
 
-/// The page of a demo: its hands, by peer and device.
-class DemoPage {
- public:
-  DemoPage(const ViewFlags& flags, const peer::SceneFile& scene, const DemoOptions& options,
-           Exercise& exercise)
-      : controls_(scene.impairment.law,
-                  [&exercise](const peer::ImpairmentLaw& law) { exercise.change_impairment(law); }),
-        first_(first_hands(exercise)),
-        pointers_(add_pointers(exercise)),
-        view_(flags, scene, page_options(options, exercise), hands_of(exercise, scene)) {}
-
-  void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
-    view_.hands().take(first_[peer] + device, step);
-  }
-  void show(const Exercise& exercise) {
-    for (std::size_t i = 0; i < exercise.size(); ++i)
-      for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
-        view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);
-    mark_pointers(view_.hands());
-    view_.show_hands();
-  }
-  void note(const HeardNotice& heard) { view_.note(heard.notice.text.data()); }
-  [[nodiscard]] const std::string& address() const { return view_.address(); }
-
- private:
-  static std::vector<std::size_t> first_hands(const Exercise& exercise) {
-    std::vector<std::size_t> first(1, 0);
-    for (std::size_t i = 0; i < exercise.size(); ++i)
-      first.push_back(first.back() + exercise.view(i).hand_count);
-    return first;
-  }
-  std::vector<std::size_t> add_pointers(const Exercise& exercise) {
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < exercise.size(); ++i)
-      for (const PointerHand& pointer : exercise.pointers(i)) {
-        indices.push_back(first_[i] + pointer.device);
-        controls_.add_hand(indices.back(), pointer);
-      }
-    return indices;
-  }
-  void mark_pointers(OwnHands& hands) const {
-    for (const std::size_t hand : pointers_) hands.set_pointer(hand, controls_.is_free(hand));
-  }
-  SelfViewOptions page_options(const DemoOptions& options, const Exercise& exercise) {
-    SelfViewOptions page;
-    page.kind = "demo";
-    page.source = options.scene.scene.empty() ? "meeting.toml" : options.scene.scene;
-    page.controls = &controls_;
-    page.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
-    page.raw_bit_per_s = 8 * kRawOctets * exercise.raw_rate();
-    page.knows_all = true;
-    return page;
-  }
-  [[nodiscard]] OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) const {
-    OwnHands hands(scene.hand);
-    for (std::size_t i = 0; i < exercise.size(); ++i)
-      for (const peer::HandView& hand : exercise.view(i).own_hands()) hands.add(i, hand);
-    mark_pointers(hands);
-    return hands;
-  }
-
-  ViewControls controls_;              // of the page, and so before it
-  std::vector<std::size_t> first_;     // of a peer's hands
-  std::vector<std::size_t> pointers_;  // hands that pages may move
-  SelfView view_;
-};
-
 void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
                         const DemoOptions& options, const Console& console, LiveDisplay& display,
                         DemoPage* page) {
@@ -331,40 +264,45 @@ void check_flags(const DemoOptions& options) {
     throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
 }
 
-// Where the scene has no hand for a pointer, any of its hands is one; its operator moves it while
-// nobody points.
-void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers) {
-  using peer::DeviceConfig, peer::DeviceSource;
-  const auto is_pointer = [](const DeviceConfig& one) {
-    return one.source == DeviceSource::pointer;
-  };
-  if (std::any_of(scene.devices.begin(), scene.devices.end(), is_pointer)) return;
-  std::vector<DeviceConfig> devices;
-  for (std::uint32_t peer = 1; peer <= peers; ++peer)
-    std::ranges::copy(peer::devices_of(scene, peer), std::back_inserter(devices));
-  for (DeviceConfig& device : devices) device.source = DeviceSource::pointer;
-  scene.devices = std::move(devices);
+ExerciseOptions exercise_options(const DemoOptions& options) {
+  ExerciseOptions made;
+  made.peers = options.peers;
+  made.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
+  made.simulated_time = options.simulated_time;
+  made.transfer = !options.no_transfer;
+  made.impairment_changes = flags_of_switch(options.view).has_value();
+  return made;
+}
+
+DemoPageOptions page_options(const DemoOptions& options, const Exercise& exercise) {
+  DemoPageOptions page;
+  page.source = options.scene.scene.empty() ? kDefaultScene : options.scene.scene;
+  page.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
+  page.raw_bit_per_s = 8 * kRawOctets * exercise.raw_rate();
+  return page;
+}
+
+void say_where(const DemoOptions& options, const peer::SceneFile& scene, const Console& console) {
+  if (options.simulated_time) return;
+  fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
+             scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
+  if (!flags_of_switch(options.view))
+    fmt::print(console.err, "in a browser, where the mouse is a hand: add --view\n");
 }
 
 int run(const DemoOptions& options, const Console& console) {
   check_flags(options);
-  peer::SceneFile scene = load_scene(options.scene, "meeting.toml", options.peers);
+  peer::SceneFile scene = load_scene(options.scene, kDefaultScene, options.peers);
   if (!scene.network.peers.empty())
     fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
                counted(scene.network.peers.size(), "peer"));
   scene.network.peers.clear();
   scene.network.exercise = exercise_of(scene, options.simulated_time);
-  ExerciseOptions exercise_options;
-  exercise_options.peers = options.peers;
-  exercise_options.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
-  exercise_options.simulated_time = options.simulated_time;
-  exercise_options.transfer = !options.no_transfer;
   const auto flags = flags_of_switch(options.view);
-  exercise_options.impairment_changes = flags.has_value();
   if (flags) let_pages_move_hands(scene, options.peers);
   std::optional<Exercise> exercise;
   try {
-    exercise.emplace(scene, exercise_options);
+    exercise.emplace(scene, exercise_options(options));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   } catch (const std::runtime_error& error) {
@@ -381,18 +319,14 @@ int run(const DemoOptions& options, const Console& console) {
         });
   }
 
-  if (!options.simulated_time) {
-    fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
-               scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
-    if (!flags) fmt::print(console.err, "in a browser, where the mouse is a hand: add --view\n");
-  }
+  say_where(options, scene, console);
   LiveDisplay display(console, !options.json, options.peers);
   if (!display.is_drawn() && !options.json && !options.duration) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
   }
   if (flags) {
     exercise->run(SelfView::kLookEvery);  // till its hands have numbers
-    page.emplace(*flags, scene, options, *exercise);
+    page.emplace(*flags, scene, page_options(options, *exercise), *exercise);
     display.say("page: " + page->address());
   }
   show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr);

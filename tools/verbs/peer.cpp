@@ -259,14 +259,18 @@ void send_to(const std::vector<peer::NamedPeer>& list, peer::NetworkConfig& netw
   network.peers = list;
 }
 
-int run(const PeerVerbOptions& options, const Console& console) {
-  const std::vector<peer::NamedPeer> list = read_list(options.to);
-  peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
-                                     options.operator_number.value_or(peer::kMostPeers));
+void check_balance(const peer::SceneFile& scene, const PeerVerbOptions& options) {
   if (options.balance && asks_for_number(scene, options))
     throw UsageError(
         "--balance: which peer of the scene this is would be asked for by datagrams without "
         "numbers, of which no balance can be kept; say which it is, as in --operator 1");
+}
+
+int run(const PeerVerbOptions& options, const Console& console) {
+  const std::vector<peer::NamedPeer> list = read_list(options.to);
+  peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
+                                     options.operator_number.value_or(peer::kMostPeers));
+  check_balance(scene, options);
   send_to(list, scene.network, console);
   follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer
@@ -285,13 +289,14 @@ int run(const PeerVerbOptions& options, const Console& console) {
   std::optional<PeerPage> page;
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};
+  bool shown = false;  // a picture has come: it has the hands
   const nanoseconds look_every = flags ? SelfView::kLookEvery : kLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
     std::this_thread::sleep_for(std::min(look_every, end - running->elapsed()));
-    running->peer().views().update();
+    shown |= running->peer().views().update();
     const peer::PeerView& view = running->peer().views().read();
     const double elapsed = pdu::to_seconds(running->elapsed());
-    if (flags && !page) {
+    if (flags && shown && !page) {
       page.emplace(*flags, scene, options, view);
       display.say("page: " + page->address());
     }

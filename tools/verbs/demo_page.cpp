@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/demo_page.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "reckon/peer/scene/belongings.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::DeviceConfig, peer::DeviceSource;
+
+std::vector<std::size_t> first_hands(const Exercise& exercise) {
+  std::vector<std::size_t> first(1, 0);
+  for (std::size_t i = 0; i < exercise.size(); ++i)
+    first.push_back(first.back() + exercise.view(i).hand_count);
+  return first;
+}
+
+SelfViewOptions self_view_options(const DemoPageOptions& options, ViewControls& controls) {
+  SelfViewOptions page;
+  page.kind = "demo";
+  page.source = options.source;
+  page.iface = options.iface;
+  page.raw_bit_per_s = options.raw_bit_per_s;
+  page.knows_all = true;
+  page.controls = &controls;
+  return page;
+}
+
+}  // namespace
+
+void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers) {
+  const auto is_pointer = [](const DeviceConfig& one) {
+    return one.source == DeviceSource::pointer;
+  };
+  if (std::any_of(scene.devices.begin(), scene.devices.end(), is_pointer)) return;
+  std::vector<DeviceConfig> devices;
+  for (std::uint32_t peer = 1; peer <= peers; ++peer)
+    std::ranges::copy(peer::devices_of(scene, peer), std::back_inserter(devices));
+  for (DeviceConfig& device : devices)
+    if (operator_of(scene, device.operator_number).damping > 0)
+      device.source = DeviceSource::pointer;
+  scene.devices = std::move(devices);
+}
+
+DemoPage::DemoPage(const ViewFlags& flags, const peer::SceneFile& scene,
+                   const DemoPageOptions& options, Exercise& exercise)
+    : controls_(scene.impairment.law,
+                [&exercise](const peer::ImpairmentLaw& law) { exercise.change_impairment(law); }),
+      first_(first_hands(exercise)),
+      pointers_(add_pointers(exercise)),
+      view_(flags, scene, self_view_options(options, controls_), hands_of(exercise, scene)) {}
+
+void DemoPage::show(const Exercise& exercise) {
+  for (std::size_t i = 0; i < exercise.size(); ++i)
+    for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
+      view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);
+  mark_pointers(view_.hands());
+  view_.show_hands();
+}
+
+std::vector<std::size_t> DemoPage::add_pointers(const Exercise& exercise) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < exercise.size(); ++i)
+    for (const PointerHand& pointer : exercise.pointers(i)) {
+      indices.push_back(first_[i] + pointer.device);
+      controls_.add_hand(indices.back(), pointer);
+    }
+  return indices;
+}
+
+void DemoPage::mark_pointers(OwnHands& hands) const {
+  for (const std::size_t hand : pointers_) hands.set_pointer(hand, controls_.is_free(hand));
+}
+
+OwnHands DemoPage::hands_of(const Exercise& exercise, const peer::SceneFile& scene) const {
+  OwnHands hands(scene.hand);
+  for (std::size_t i = 0; i < exercise.size(); ++i)
+    for (const peer::HandView& hand : exercise.view(i).own_hands()) hands.add(i, hand);
+  mark_pointers(hands);
+  return hands;
+}
+
+}  // namespace reckon::tools

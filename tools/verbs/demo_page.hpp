@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of a demo: all its hands, which pages may take, and its network, which they may change.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/verbs/view_controls.hpp"
+#include "reckon/tools/viewer/self_view.hpp"
+
+namespace reckon::tools {
+
+/// Where the scene has no hand for a pointer, any of its hands is one, and its operator moves it
+/// while nobody points. A hand whose grip has no damping stays as it is, for it would swing.
+void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers);
+
+struct DemoPageOptions {
+  std::string source;        ///< the scene, as named
+  std::string iface;         ///< on which the peers send
+  double raw_bit_per_s = 0;  ///< that they would send without dead reckoning
+};
+
+/// One thread: that which looks at the exercise.
+class DemoPage {
+ public:
+  /// @param exercise outlives this; its hands have numbers. @throws as SelfView
+  DemoPage(const ViewFlags& flags, const peer::SceneFile& scene, const DemoPageOptions& options,
+           Exercise& exercise);
+
+  /// A step of a servo; peer and device count from 0.
+  void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
+    view_.hands().take(first_[peer] + device, step);
+  }
+  /// Shows the hands as they are now.
+  void show(const Exercise& exercise);
+  void note(const HeardNotice& heard) { view_.note(heard.notice.text.data()); }
+  [[nodiscard]] const std::string& address() const { return view_.address(); }
+
+ private:
+  [[nodiscard]] std::vector<std::size_t> add_pointers(const Exercise& exercise);
+  void mark_pointers(OwnHands& hands) const;
+  [[nodiscard]] OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) const;
+
+  ViewControls controls_;              // of the page, and so before it
+  std::vector<std::size_t> first_;     // of a peer's hands
+  std::vector<std::size_t> pointers_;  // hands that pages may move
+  SelfView view_;
+};
+
+}  // namespace reckon::tools
