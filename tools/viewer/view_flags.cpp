@@ -43,7 +43,8 @@ std::optional<ViewFlags> flags_of_switch(const std::string& view) {
 ViewServerOptions server_options(const ViewFlags& flags) {
   constexpr std::uint64_t kLastPort = 65535;
   if (flags.port && *flags.port > kLastPort)
-    throw UsageError(fmt::format("--port {}: ports are 0 to {}", *flags.port, kLastPort));
+    throw UsageError(
+        fmt::format("port {} of the page: ports are 0 to {}; 0 takes any", *flags.port, kLastPort));
   ViewServerOptions options;
   options.address = flags.listen;
   if (flags.port) options.port = static_cast<std::uint16_t>(*flags.port);
