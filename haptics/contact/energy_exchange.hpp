@@ -37,10 +37,10 @@ struct PortNeeds {
 ///
 /// A loan is energy that nobody put in. Three kinds of contact get one: a contact that began
 /// inside, a contact whose force was cut to zero, and a contact that is short for longer while the
-/// hand holds still. There the port may be empty with nobody left to fill it: hands that start
-/// overlapping, an outage in contact, a late discovery, a start inside a wall, a released switch, a
-/// trip, a row of hands that was pressed quickly. The loan is repaid before anything is given, even
-/// if the contact ends.
+/// hand holds still in touch; none that has parted since. There the port may be empty with nobody
+/// left to fill it: hands that start overlapping, an outage in contact, a late discovery, a start
+/// inside a wall, a released switch, a trip, a row of hands that was pressed quickly. The loan is
+/// repaid before anything is given, even if the contact ends.
 /// @return number of engaged contacts.
 std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port,
                             const PortNeeds& needs) noexcept;

@@ -257,6 +257,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     const Eigen::Vector3d& normal = there_.normal;
     blow_.see(normal.dot(velocity - step.velocity), -normal.dot(step.velocity));
     lost_ = fade_ <= 0;
+    began_inside_ = false;
     tracker_.snap(velocity);
     spring_.move(full_);
     return;

@@ -108,9 +108,11 @@ double ServoLoop::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
 }
 
-// Energy has been short for a second while the hand held still, so that nobody will supply it.
+// Energy has been short for a second while the hand held still in touch, so that nobody will supply
+// it. Hands that part and meet again ring, and would go on for as long as a loan pays.
 bool ServoLoop::at_rest() noexcept {
-  const bool is = softening_.share() < 1.0 && sure_speed() <= kStill;
+  const bool touches = std::ranges::any_of(near(), &RemoteContact::touching);
+  const bool is = touches && softening_.share() < 1.0 && sure_speed() <= kStill;
   rested_ = is ? rested_ + step_.dt : 0.0;
   return rested_ >= kRest;
 }
