@@ -57,6 +57,15 @@ struct SurfacePush {
   Eigen::Vector3d point;   // [m]
 };
 
+// Whether a ball on its way touches a probe more deeply than at either end.
+bool passes(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach,
+            const Eigen::Vector3d& probe) noexcept {
+  const Eigen::Vector3d way = to - from, away = probe - from;
+  const double along = way.dot(away), length = way.squaredNorm();
+  if (!(along > 0 && along < length)) return false;
+  return (away - along / length * way).squaredNorm() < reach * reach;
+}
+
 }  // namespace
 
 void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
@@ -241,6 +250,11 @@ double RemoteContact::calm_share(const ContactParameters& shown,
     missing = std::max(missing, shown.gain * slope * std::abs(there - here));
   }
   missing += shown.gain * std::max(shown.k1, full_.k1) * away;
+  // A ball that passes the hand presses it on the way by more than at either end.
+  if (is_sphere(full_.kind) && passes(shown.point, full_.point, full_.reach, spring_.probe())) {
+    const double slope = std::max(slope_bound(shown), slope_bound(full_));
+    missing = std::max(missing, slope * (full_.point - shown.point).norm());
+  }
   const double share = std::min(1.0, kCalmRate * step.dt / std::max(missing, 1e-3));
   return reshaping_ > 0 && !hand_.has_device ? std::min(share, step.dt / kReshape) : share;
 }
