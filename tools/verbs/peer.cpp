@@ -298,7 +298,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     const double elapsed = pdu::to_seconds(running->elapsed());
     if (flags && shown && !page) {
       page.emplace(*flags, scene, options, view);
-      display.say("page: " + page->address());
+      display.put_in_head("page: " + page->address());
     }
     if (page) page->show(view);
     if (options.events) events.report(elapsed, console.out);
