@@ -10,6 +10,7 @@
   capture the same of a capture, written by `reckon view --save`; names with markup in them are shown as text
   hand    a hand taken by the pointer presses the other one: more than 1 N at both within 5 s, the same within 5 % when held
           still for 3 s, energy never below zero; without delay, and at 100 ms with 20 % loss
+  peer    a peer lends its own hand: it goes where the pointer goes
   empty   a world in which nobody sends says what to do
   lost    a program that ends is told, and is found again at the same port
 """
@@ -348,6 +349,25 @@ def hand(reckon, scenes):
         shows_no_fault(page)
 
 
+def peer(reckon, scenes):
+    with resting_hands() as scene, browser() as page, \
+            program(reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--view=0", "--for", "10min") as started:
+        page.size(1280, 800)
+        page.open(started.address)
+        page.wait("window.reckon?.hands?.length === 1", "its hand")
+        expect(page.ask("document.getElementById('network').hidden"), "it has no network to change")
+        page.click("hand")
+        page.wait("window.reckon.yours === 0", "the hand")
+        canvas = page.driver.find_element("css selector", "canvas")
+        x, y = page.ask("window.reckon.placeOf(0)")
+        before = page.ask("window.reckon.hands[0].position")
+        chain = ActionChains(page.driver, duration=0)
+        for aside in (0, 100):
+            chain.move_to_element_with_offset(canvas, int(x - canvas.size["width"] / 2) + aside, int(y - canvas.size["height"] / 2)).perform()
+        page.wait(f"Math.hypot(...window.reckon.hands[0].position.map((x, i) => x - {json.dumps(before)}[i])) > 0.005", "it follows the pointer")
+        shows_no_fault(page)
+
+
 def empty(reckon, scenes):
     with program(reckon, "view", "udp://239.255.77.1:39977", "--iface", "lo", "--port", "0") as started, browser() as page:
         page.open(started.address)
@@ -368,7 +388,7 @@ def lost(reckon, scenes):
             page.wait_for_pictures()
 
 
-CASES = {case.__name__: case for case in (demo, saved, capture, hand, empty, lost)}
+CASES = {case.__name__: case for case in (demo, saved, capture, hand, peer, empty, lost)}
 
 
 def main(arguments):
