@@ -22,7 +22,7 @@
 namespace reckon::tools {
 namespace {
 
-/// Text that a saved file keeps; of numbers one a second.
+/// Text that a saved file keeps, as recorder.js does; of numbers one a second.
 constexpr std::array<std::string_view, 5> kKeptText{"hello", "roster", "touch", "cells", "numbers"};
 /// Pictures farther apart are played faster, for between those of one speed the stage tells a gap.
 constexpr double kApart = 0.25;  // [s]
