@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -30,6 +31,13 @@ LiveDisplay::~LiveDisplay() {
 }
 
 void LiveDisplay::add(const HeardNotice& heard) { digest_.add(heard, clock_.now()); }
+
+void LiveDisplay::put_in_head(std::string sentence) {
+  if (screen_ == nullptr)
+    fmt::print(console_.err, "{}\n", sentence);
+  else
+    head_ = std::move(sentence);
+}
 
 void LiveDisplay::tell(std::vector<std::string> sentences) {
   for (std::string& sentence : sentences) {
@@ -57,7 +65,10 @@ void LiveDisplay::show(std::span<const TablePeer> peers, const peer::SceneFile& 
                        nanoseconds elapsed) {
   const nanoseconds now = clock_.now();
   tell(digest_.take(now));
-  const LivePicture picture{peers, scene, pdu::to_seconds(elapsed), notices_};
+  for (const TablePeer& peer : peers)
+    for (const peer::HandView& hand : peer.view->own_hands())
+      strongest_ = std::max(strongest_, hand.servo.force.norm());
+  const LivePicture picture{peers, scene, pdu::to_seconds(elapsed), notices_, strongest_, head_};
   if (screen_ != nullptr) {
     take_keys();
     if (now < next_draw_) return;

@@ -40,8 +40,9 @@ class LiveDisplay {
   /// Whether the table is shown.
   [[nodiscard]] bool is_drawn() const noexcept { return screen_ != nullptr; }
   void add(const HeardNotice& heard);
-  /// A sentence of the program's own, among the notices.
-  void say(std::string sentence) { tell({std::move(sentence)}); }
+  /// A sentence of the program's own: in the table's head from now on; without one on `err` at
+  /// once.
+  void put_in_head(std::string sentence);
   /// Takes the keys pressed, and draws when it is time to or the terminal's size is another.
   void show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
             std::chrono::nanoseconds elapsed);
@@ -59,6 +60,8 @@ class LiveDisplay {
   std::unique_ptr<TerminalScreen> screen_;  // null where none can be drawn
   bool tells_status_;
   NoticeDigest digest_;
+  std::string head_;
+  double strongest_ = 1;              // [N], of forces shown so far
   std::vector<std::string> notices_;  // while the table is shown: the newest, at most kMostKept
   std::size_t dropped_ = 0;           // of them
   std::chrono::nanoseconds next_draw_{0};

@@ -12,8 +12,10 @@
 #include <set>
 #include <utility>
 
+#include "reckon/tools/exercise/fitted_columns.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/leaders_report.hpp"
+#include "reckon/tools/terminal/plot_axis.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -45,20 +47,12 @@ struct HandCell {
   bool first;
   std::size_t shown;  // remote entities that have a line
   double elapsed;
+  std::size_t bar;  // columns that a force of `whole` [N] fills
+  double whole;
 };
 struct EntityCell {
   const EntityView& row;
   const PeerView& view;
-};
-
-/// A column, and how soon it is given up where the terminal is narrow: the greatest first.
-template <typename Cell>
-struct Column {
-  std::string_view title;
-  TextTable::Align align;
-  std::size_t width;  // at least
-  int rank;
-  std::string (*text)(const Cell& cell);
 };
 
 // Of the springs of hands: what the energy, and their number, let be shown.
@@ -123,15 +117,30 @@ std::string sent_text(const HandCell& cell) {
   return fmt::format("{:.1f}/s", sent / cell.elapsed);
 }
 
-constexpr std::array<Column<HandCell>, 8> kHandColumns{{
+/// Force that fills a bar [N].
+double bar_end(const LivePicture& picture) {
+  constexpr double kParts = 2;
+  return round_end(picture.strongest, kParts);
+}
+
+/// Of a number with its unit, and of a force's bar behind it, at least and at most.
+constexpr std::size_t kNewtons = 7, kLeastBar = 3, kMostBar = 24;
+
+std::string force_text(const HandCell& cell) {
+  if (cell.hand == nullptr) return "";
+  const double force = cell.hand->servo.force.norm();
+  const double length = std::min(force / cell.whole, 1.0) * static_cast<double>(cell.bar);
+  std::string bar(static_cast<std::size_t>(length), '#');
+  if (bar.empty() && is_felt(cell.hand->servo)) bar = ".";
+  return fmt::format("{:>{}} {:<{}}", fmt::format("{:.2f} N", force), kNewtons, bar, cell.bar);
+}
+
+constexpr std::array<FittedColumn<HandCell>, 8> kHandColumns{{
     {"PEER", kLeft, 10, 0,
      [](const HandCell& c) { return id_text(c.hand != nullptr ? c.hand->id : c.peer.view->own); }},
     {"SEES", kRight, 8, 1, sees_text},
-    {"HAND mm", kRight, 20, 3, place_text},
-    {"FORCE", kRight, 7, 4,
-     [](const HandCell& c) {
-       return c.hand == nullptr ? "" : fmt::format("{:.2f} N", c.hand->servo.force.norm());
-     }},
+    {"HAND mm", kRight, 20, 4, place_text},
+    {"  FORCE", kLeft, kNewtons + 1 + kLeastBar, 3, force_text, kMostBar - kLeastBar},
     {"STATE", kLeft, 8, 2, state_text},
     {"SENT", kRight, 8, 5, sent_text},
     {"LOST", kRight, 4, 6,
@@ -144,7 +153,7 @@ constexpr std::array<Column<HandCell>, 8> kHandColumns{{
      }},
 }};
 
-constexpr std::array<Column<EntityCell>, 10> kEntityColumns{{
+constexpr std::array<FittedColumn<EntityCell>, 10> kEntityColumns{{
     {"  REMOTE", kLeft, 12, 0, [](const EntityCell& c) { return "  " + id_text(c.row.id); }},
     {"MARKING", kLeft, 11, 1,
      [](const EntityCell& c) { return printable_text(c.row.marking.data()); }},
@@ -173,58 +182,6 @@ constexpr std::array<Column<EntityCell>, 10> kEntityColumns{{
        return c.row.haptic ? fmt::format("{:.2f} mJ", 1e3 * c.row.ledger_j) : "";
      }},
 }};
-
-/// Lines of one kind; those of least use are left out until the rest fits.
-template <typename Cell, std::size_t N>
-class Columns {
- public:
-  Columns(const std::array<Column<Cell>, N>& columns, std::size_t room) : columns_(columns) {
-    for (std::size_t i = 0; i < N; ++i) shown_[i] = true;
-    while (width() > room && widest_rank() > 0) {
-      const int worst = widest_rank();
-      for (std::size_t i = 0; i < N; ++i) shown_[i] = shown_[i] && columns_[i].rank != worst;
-    }
-  }
-
-  [[nodiscard]] std::string titles() const {
-    return line([](const Column<Cell>& column) { return std::string(column.title); });
-  }
-  [[nodiscard]] std::string row(const Cell& cell) const {
-    return line([&](const Column<Cell>& column) { return column.text(cell); });
-  }
-
- private:
-  [[nodiscard]] std::size_t width() const {
-    std::size_t sum = 0;
-    for (std::size_t i = 0; i < N; ++i) sum += shown_[i] ? columns_[i].width + 1 : 0;
-    return sum - 1;
-  }
-  [[nodiscard]] int widest_rank() const {
-    int rank = 0;
-    for (std::size_t i = 0; i < N; ++i) rank = shown_[i] ? std::max(rank, columns_[i].rank) : rank;
-    return rank;
-  }
-  template <typename Text>
-  [[nodiscard]] std::string line(const Text& text_of) const {
-    std::string line;
-    std::size_t end = 0;  // where the column ends if nothing is wider than it should be
-    for (std::size_t i = 0; i < N; ++i) {
-      if (!shown_[i]) continue;
-      const std::string text = text_of(columns_[i]);
-      const std::size_t begin = line.empty() ? 0 : line.size() + 1;
-      if (!line.empty()) line += ' ';
-      end += columns_[i].width + (end > 0 ? 1 : 0);
-      const std::size_t padding = std::max(end, begin + text.size()) - begin - text.size();
-      if (columns_[i].align == kRight) line.append(padding, ' ');
-      line += text;
-      if (columns_[i].align == kLeft) line.append(padding, ' ');
-    }
-    return line;
-  }
-
-  const std::array<Column<Cell>, N>& columns_;
-  std::array<bool, N> shown_{};
-};
 
 // Lines that a peer would like to have beside its first one.
 std::size_t hand_lines(const PeerView& view) {
@@ -274,7 +231,8 @@ class Table {
   Table(const LivePicture& picture, ScreenSize size)
       : picture_(picture),
         hands_(kHandColumns, size.columns),
-        entities_(kEntityColumns, size.columns) {}
+        entities_(kEntityColumns, size.columns),
+        whole_(bar_end(picture)) {}
 
   [[nodiscard]] std::vector<ScreenLine> titles() const {
     return {{hands_.titles(), LineStyle::title}, {entities_.titles(), LineStyle::faint}};
@@ -304,7 +262,8 @@ class Table {
     for (std::size_t i = 0; i <= more_hands; ++i) {
       const peer::HandView* hand = i < view.hand_count ? &view.hands[i] : nullptr;
       const bool is_bad = view.frozen || (hand != nullptr && is_worth_a_look(hand->servo));
-      out.push_back({hands_.row({peer, hand, i == 0, shown, picture_.elapsed}),
+      out.push_back({hands_.row({peer, hand, i == 0, shown, picture_.elapsed,
+                                 kLeastBar + hands_.more(), whole_}),
                      is_bad ? LineStyle::bad : LineStyle::title});
     }
     for (const std::size_t i : nearest(view, shown)) {
@@ -317,15 +276,16 @@ class Table {
   }
 
   const LivePicture& picture_;
-  Columns<HandCell, kHandColumns.size()> hands_;
-  Columns<EntityCell, kEntityColumns.size()> entities_;
+  FittedColumns<HandCell, kHandColumns.size()> hands_;
+  FittedColumns<EntityCell, kEntityColumns.size()> entities_;
+  double whole_;  // [N], that fills a bar
 };
 
 std::string title_of(const LivePicture& picture) {
   const auto& thresholds = picture.scene.dead_reckoning.thresholds;
-  return fmt::format("{}  {:.1f} s   thresholds {:.2g} mm, {:.2g} deg, {:.2g} N",
+  return fmt::format("{}  {:.1f} s   thresholds {:.2g} mm, {:.2g} deg, {:.2g} N   bars to {:g} N",
                      picture.scene.name, picture.elapsed, 1e3 * thresholds.position,
-                     thresholds.angle * kDegrees, thresholds.force);
+                     thresholds.angle * kDegrees, thresholds.force, bar_end(picture));
 }
 
 // Of all peers, each thing once; empty where all is shown as asked.
@@ -342,6 +302,14 @@ std::string softer_text(const LivePicture& picture) {
   return text.empty() ? text : "softer than asked: " + text;
 }
 
+// In as many lines as it takes: an address that is cut leads nowhere.
+void append_head(std::string_view head, std::size_t columns, std::vector<ScreenLine>& out) {
+  while (!head.empty() && columns > 0) {
+    out.push_back({std::string(head.substr(0, columns))});
+    head.remove_prefix(std::min(columns, head.size()));
+  }
+}
+
 }  // namespace
 
 std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) {
@@ -354,6 +322,7 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
   }
   if (size.rows >= kRowsForKeys) foot.push_back({std::string(kKeys), LineStyle::faint});
 
+  if (size.rows >= kRowsForKeys) append_head(picture.head, size.columns, out);
   const std::string softer = softer_text(picture);
   if (size.rows >= kRowsForNotices && !softer.empty()) out.push_back({softer, LineStyle::bad});
 

@@ -27,10 +27,13 @@ struct LivePicture {
   const peer::SceneFile& scene;
   double elapsed = 0;                    ///< [s]
   std::span<const std::string> notices;  ///< the newest last
+  double strongest = 1;                  ///< [N], of forces that bars are compared with
+  std::string head;                      ///< ASCII, below the title; empty: none
 };
 
 /// The whole screen: exactly `size.rows` lines of at most `size.columns` columns. What does not fit
-/// in width are the columns of least use. Every peer has a line of its own, the rest of the lines
+/// in width are the columns of least use. Behind the force of a hand is a bar: what is left over of
+/// the width makes it longer. Every peer has a line of its own, the rest of the lines
 /// is shared among them; of its remote entities a peer shows the nearest, in the order of their
 /// IDs, and says how many there are more.
 [[nodiscard]] std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size);

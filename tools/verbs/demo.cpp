@@ -286,8 +286,6 @@ void say_where(const DemoOptions& options, const peer::SceneFile& scene, const C
   if (options.simulated_time) return;
   fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
              scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
-  if (!flags_of_switch(options.view))
-    fmt::print(console.err, "in a browser, where the mouse is a hand: add --view\n");
 }
 
 int run(const DemoOptions& options, const Console& console) {
@@ -327,7 +325,9 @@ int run(const DemoOptions& options, const Console& console) {
   if (flags) {
     exercise->run(SelfView::kLookEvery);  // till its hands have numbers
     page.emplace(*flags, scene, page_options(options, *exercise), *exercise);
-    display.say("page: " + page->address());
+    display.put_in_head("page: " + page->address());
+  } else if (!options.simulated_time) {
+    display.put_in_head("./run demo --view shows it in a browser, where the mouse is a hand");
   }
   show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr);
   display.close();

@@ -25,7 +25,8 @@
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
-#include "reckon/tools/viewer/self_view.hpp"
+#include "reckon/tools/verbs/demo_page.hpp"
+#include "reckon/tools/verbs/peer_page.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -113,6 +114,8 @@ class RunningPeer {
     return joined_.take_sealing_notices();
   }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
+  /// Its hands that a page may move.
+  [[nodiscard]] const std::vector<PointerHand>& pointers() const { return hands_.pointers; }
 
  private:
   static peer::FederateOptions federate_options(const peer::SceneFile& scene,
@@ -123,8 +126,11 @@ class RunningPeer {
     own.name = options.name;
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
-    const auto make_hands = [&scene, &hands](std::uint32_t number) {
-      hands = make_simulated_hands(scene, number);
+    const bool lends = flags_of_switch(options.view).has_value();
+    const auto make_hands = [&scene, &hands, lends](std::uint32_t number) {
+      peer::SceneFile held = scene;
+      if (lends) let_pages_move_hands(held, number);
+      hands = make_simulated_hands(held, number);
       return hands.wired;
     };
     if (asks_for_number(scene, options)) {
@@ -184,34 +190,6 @@ class BalanceLines {
   std::FILE* out_;
   peer::DatagramTap tap_;
   peer::DatagramBalance balance_{tap_};
-};
-
-/// The page of a peer, with its own hands.
-class PeerPage {
- public:
-  PeerPage(const ViewFlags& flags, const peer::SceneFile& scene, const PeerVerbOptions& options,
-           const peer::PeerView& view)
-      : view_(flags, scene,
-              {.kind = "peer", .source = options.scene.scene, .iface = options.scene.iface},
-              hands_of(scene, view)) {}
-
-  void show(const peer::PeerView& view) {
-    for (std::size_t i = 0; i < view.hand_count && i < view_.hands().size(); ++i) {
-      view_.hands().set_id(i, view.hands[i].id);
-      view_.hands().take(i, view.hands[i].servo);
-    }
-    view_.show_hands();
-  }
-  void note(const peer::Notice& notice) { view_.note(notice.text.data()); }
-  [[nodiscard]] const std::string& address() const { return view_.address(); }
-
- private:
-  static OwnHands hands_of(const peer::SceneFile& scene, const peer::PeerView& view) {
-    OwnHands hands(scene.hand);
-    for (const peer::HandView& hand : view.own_hands()) hands.add(0, hand);
-    return hands;
-  }
-  SelfView view_;
 };
 
 // What there is to tell since the last look.
@@ -297,8 +275,9 @@ int run(const PeerVerbOptions& options, const Console& console) {
     const peer::PeerView& view = running->peer().views().read();
     const double elapsed = pdu::to_seconds(running->elapsed());
     if (flags && shown && !page) {
-      page.emplace(*flags, scene, options, view);
-      display.say("page: " + page->address());
+      const PeerPageOptions named{options.scene.scene, options.scene.iface};
+      page.emplace(*flags, scene, named, view, running->pointers());
+      display.put_in_head("page: " + page->address());
     }
     if (page) page->show(view);
     if (options.events) events.report(elapsed, console.out);

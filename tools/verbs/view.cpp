@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,8 +14,13 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
+#include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/viewer/page_files.hpp"
+#include "reckon/tools/viewer/page_frame.hpp"
+#include "reckon/tools/viewer/saved_run.hpp"
 #include "reckon/tools/viewer/view_flags.hpp"
 #include "reckon/tools/viewer/viewing.hpp"
 
@@ -29,24 +35,33 @@ constexpr std::size_t kCaptureRoom = std::size_t{1} << 30;
 constexpr std::string_view kSummary =
     "Shows the world in a browser page, live or from a capture.\n\n"
     "SOURCE is what `reckon inspect` takes: a capture, a scene, udp://GROUP[:PORT], iface:NAME;\n"
-    "without one the default groups, live.";
+    "without one the default groups, live. With --save nothing is served: the page and the last\n"
+    "minute of a capture become one HTML file, which plays from disk anywhere.";
 
 struct ViewOptions {
   SourceChoice source;
   std::string key;
   ViewFlags view;
   std::optional<nanoseconds> duration;
+  std::string save;
+  bool overwrite = false;
 };
 
 std::optional<int> parse(Arguments arguments, const Console& console, ViewOptions& options) {
   CommandLine line("view", kSummary,
                    "reckon view exercise.pcapng --open\n"
+                   "reckon view exercise.pcapng --save run.html\n"
                    "reckon view scenes/two_hands.toml --iface eth0\n"
                    "reckon view udp://239.192.1.0:3000 --port 9000\n"
                    "reckon view --listen 0.0.0.0 --for 1h");
   line.word("SOURCE", options.source.source, false, "where the datagrams come from");
   add_view_flags(line, options.view);
-  line.option("--for", options.duration, "end by itself after this time, as in 10s");
+  line.option("--for", options.duration,
+              "end by itself after this time, as in 10s; with --save: how much of the end of a "
+              "capture is saved (default: 1min), and how long a live source is listened to");
+  line.option("--save", options.save,
+              "write one HTML file that plays, in the place of a page that is served");
+  line.flag("--force", options.overwrite, "overwrite the file of --save");
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: chosen by score)");
   line.option("--key", options.key, "key file: reads what is sealed");
@@ -64,24 +79,30 @@ std::optional<peer::SceneFile> scene_of(const SourceChoice& choice) {
   }
 }
 
-int run(ViewOptions& options, const Console& console) {
-  options.source.sealed = !options.key.empty();
-  const std::optional<peer::SceneFile> scene = scene_of(options.source);
-  ViewingOptions viewing_options;
-  viewing_options.server = server_options(options.view);
-  viewing_options.key = options.key;
-  StageOptions& stage = viewing_options.stage;
+StageOptions stage_options(const ViewOptions& options) {
+  StageOptions stage;
   stage.source = options.source.source.empty() ? "the default groups" : options.source.source;
   stage.is_capture = !is_live(options.source);
   stage.kind = stage.is_capture ? "capture" : "live";
   stage.help = stage.is_capture
                    ? "This capture holds no entities; reckon inspect shows its PDUs."
                    : "Nobody is heard yet: start reckon demo, or a peer of this scene.";
+  return stage;
+}
+
+void keep_all(StageOptions& stage) {
+  stage.history.span.reset();
+  stage.history.octets = kCaptureRoom;
+}
+
+int serve(const ViewOptions& options, const Console& console) {
+  const std::optional<peer::SceneFile> scene = scene_of(options.source);
+  ViewingOptions viewing_options;
+  viewing_options.server = server_options(options.view);
+  viewing_options.key = options.key;
+  StageOptions& stage = viewing_options.stage = stage_options(options);
   stage.scene = scene ? &*scene : nullptr;
-  if (stage.is_capture) {
-    stage.history.span.reset();
-    stage.history.octets = kCaptureRoom;
-  }
+  if (stage.is_capture) keep_all(stage);
   Viewing viewing(viewing_options, open_chosen_source(options.source));
   tell_addresses(viewing.server(), options.view, console);
   const peer::SteadyClock clock;
@@ -95,10 +116,79 @@ int run(ViewOptions& options, const Console& console) {
   return exit_status(problem.empty() ? ExitCode::good : ExitCode::findings);
 }
 
+// A saved file
+// ------------------------------------------------------------------------------------------------
+
+void check_save(const ViewOptions& options) {
+  const ViewFlags& view = options.view;
+  if (view.port || view.open || view.listen != ViewFlags().listen)
+    throw UsageError("--save serves no page: leave --port, --listen and --open out");
+  if (is_live(options.source) && !options.duration)
+    throw UsageError("--save: this source is live; say how long to listen, as in --for 1min");
+  std::error_code none;
+  if (std::filesystem::equivalent(options.source.source, options.save, none))
+    throw UsageError(
+        fmt::format("{} would be overwritten by what is saved of it; choose another "
+                    "name",
+                    options.save));
+  const bool is_there = std::filesystem::exists(options.save, none);
+  if (is_there && !options.overwrite)
+    throw UsageError(
+        fmt::format("{} exists; take another name, or --force to overwrite it", options.save));
+  check_writable(options.save);
+  if (!is_there) std::filesystem::remove(options.save, none);
+}
+
+void tell_saved(const SavedRun& run, std::size_t octets, const Console& console) {
+  fmt::print(console.err, "{:.1f} s, {}, {}, {}\n", run.seconds,
+             run.entities == 1 ? "1 entity" : fmt::format("{} entities", run.entities),
+             counted(run.pictures, "picture"), size_text(octets));
+  if (run.spacing > 1.01 * pdu::to_seconds(ViewServer::kTick))
+    fmt::print(console.err, "pictures are up to {:.2f} s apart, for so many entities\n",
+               run.spacing);
+  if (run.left_out >= 0.05)
+    fmt::print(console.err, "the {:.1f} s before are left out; --for says how much is saved\n",
+               run.left_out);
+}
+
+int save(const ViewOptions& options, const Console& console) {
+  check_save(options);
+  const std::optional<peer::SceneFile> scene = scene_of(options.source);
+  StageOptions stage_of_all = stage_options(options);
+  stage_of_all.kind = "saved";
+  stage_of_all.is_capture = true;  // all of it is heard before it is shown
+  // The folder is nobody else's business.
+  if (!options.source.source.starts_with("udp://"))
+    stage_of_all.source = std::filesystem::path(stage_of_all.source).filename();
+  stage_of_all.scene = scene ? &*scene : nullptr;
+  keep_all(stage_of_all);
+  ViewStage stage(stage_of_all);
+  SealedDatagrams sealed(options.key);
+  const auto source = open_chosen_source(options.source);
+  const peer::SteadyClock clock;
+  const nanoseconds end =
+      is_live(options.source) ? clock.now() + *options.duration : nanoseconds::max();
+  const auto told =
+      take_source(*source, sealed, stage, [&] { return console.stopped() || clock.now() >= end; });
+  for (const std::string& sentence : told) fmt::print(console.err, "{}\n", sentence);
+  const SavedRun run = save_run(stage, {.span = options.duration.value_or(SaveOptions::kMinute)});
+  if (run.entities == 0) {
+    fmt::print(console.err, "nothing is saved: no entity is heard in it\n");
+    return exit_status(ExitCode::findings);
+  }
+  const std::string file = filled_frame(find_page_file("/frame.html")->text, run.items);
+  write_output(options.save, file, console);
+  tell_saved(run, file.size(), console);
+  return exit_status(told.empty() ? ExitCode::good : ExitCode::findings);
+}
+
 int run_view(Arguments arguments, const Console& console) {
   ViewOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
-  return run(options, console);
+  options.source.sealed = !options.key.empty();
+  if (!options.save.empty()) return save(options, console);
+  if (options.overwrite) throw UsageError("--force: there is no --save whose file it overwrites");
+  return serve(options, console);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/viewer/page_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -9,12 +12,16 @@
 #include <utility>
 #include <vector>
 
-// Made by CMakeLists.txt: for each file its name with a NUL, eight octets with its size, and its
-// octets; then an empty name.
+#include "reckon/tools/viewer/page_frame.hpp"
+
+// Made by page_archive.cmake: for each file its name with a NUL, eight octets each with its sizes
+// compressed and plain, and its octets in both forms; then an empty name.
 extern "C" const char reckon_page_archive[];
 
 namespace reckon::tools {
 namespace {
+
+constexpr std::string_view kFramePath = "/frame.html";
 
 std::string_view content_type_of(std::string_view path) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kTypes{
@@ -34,22 +41,40 @@ std::vector<PageFile> read_archive() {
     file.path = at;
     file.content_type = content_type_of(file.path);
     at += file.path.size() + 1;
-    std::uint64_t size = 0;
-    std::memcpy(&size, at, sizeof size);
-    file.gzip = {at + sizeof size, size};
-    at += sizeof size + size;
+    std::array<std::uint64_t, 2> sizes{};
+    std::memcpy(sizes.data(), at, sizeof sizes);
+    at += sizeof sizes;
+    file.gzip = {at, sizes[0]};
+    file.text = {at + sizes[0], sizes[1]};
+    at += sizes[0] + sizes[1];
     if (file.path == "/index.html") file.path = "/";
   }
   return files;
 }
 
+const PageFile* find_in_archive(std::string_view path) {
+  static const std::vector<PageFile> kFiles = read_archive();
+  const auto file = std::ranges::find(kFiles, path, &PageFile::path);
+  return file == kFiles.end() ? nullptr : &*file;
+}
+
+std::string_view text_of(std::string_view name) {
+  const PageFile* file =
+      find_in_archive(name == "index.html" ? std::string("/") : fmt::format("/{}", name));
+  return file == nullptr ? std::string_view() : file->text;
+}
+
+// Made when it is asked for first: few save.
+const PageFile* frame_file() {
+  static const std::string kFrame = page_frame(text_of);
+  static const PageFile kFile{kFramePath, content_type_of(kFramePath), {}, kFrame};
+  return &kFile;
+}
+
 }  // namespace
 
 const PageFile* find_page_file(std::string_view path) {
-  static const std::vector<PageFile> kFiles = read_archive();
-  for (const PageFile& file : kFiles)
-    if (file.path == path) return &file;
-  return nullptr;
+  return path == kFramePath ? frame_file() : find_in_archive(path);
 }
 
 }  // namespace reckon::tools

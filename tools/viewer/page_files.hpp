@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The files of the page, which the program carries in itself, compressed.
+// The files of the page, which the program carries in itself.
 #pragma once
 
 #include <string_view>
@@ -9,9 +9,10 @@ namespace reckon::tools {
 
 /// A file as it is sent.
 struct PageFile {
-  std::string_view path;  ///< "/page.css"; the page itself is "/"
+  std::string_view path;  ///< "/page.css"; the page itself is "/", its frame "/frame.html"
   std::string_view content_type;
-  std::string_view gzip;  ///< its octets, compressed by gzip
+  std::string_view gzip;  ///< its octets, compressed by gzip; empty where they are sent plain
+  std::string_view text;  ///< the same, plain
 };
 
 /// The file that a request names; null where the page has none.

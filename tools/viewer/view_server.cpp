@@ -240,7 +240,9 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (is_stream) return upgrade(request);
     const PageFile* file = find_page_file(request.path);
     if (file == nullptr) return refuse(404, "Not Found", "the page has no such file");
-    end_with(file_answer(file->content_type, file->gzip));
+    const bool is_plain = file->gzip.empty();
+    end_with(file_answer(file->content_type, is_plain ? "" : "gzip",
+                         is_plain ? file->text : file->gzip));
   }
 
   void upgrade(const HttpRequest& request) {

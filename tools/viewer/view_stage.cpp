@@ -214,16 +214,17 @@ struct ViewStage::Requests {
 
 bool ViewStage::answer(Watcher& watcher, std::span<const std::byte> message) {
   const auto request = read_page_request(message);
-  if (!request) return false;
-  if (changes_exercise(*request) && !watcher.may_push) {
-    watcher.answer = hand_message(
-        std::nullopt, options_.controls == nullptr
-                          ? "there is no hand to take here"
-                          : "this tab only looks: open the address that the program printed");
-    return true;
-  }
-  std::visit(Requests{*this, watcher}, *request);
-  return true;
+  if (request) heed(watcher, *request);
+  return request.has_value();
+}
+
+void ViewStage::heed(Watcher& watcher, const PageRequest& request) {
+  if (!changes_exercise(request) || watcher.may_push)
+    return std::visit(Requests{*this, watcher}, request);
+  watcher.answer = hand_message(
+      std::nullopt, options_.controls == nullptr
+                        ? "there is no hand to take here"
+                        : "this tab only looks: open the address that the program printed");
 }
 
 // Pictures

@@ -88,9 +88,13 @@ class ViewStage {
   void leave(const Watcher& watcher);
   /// What it asked. @return false where that is no request: it is to be closed
   [[nodiscard]] bool answer(Watcher& watcher, std::span<const std::byte> message);
+  /// The same of a request that is read already.
+  void heed(Watcher& watcher, const PageRequest& request);
   /// The next thing to send to it, by importance; nothing where it has all there is by now.
   [[nodiscard]] std::optional<Message> next_message(Watcher& watcher);
 
+  /// The latest that was passed.
+  [[nodiscard]] std::chrono::nanoseconds now() const noexcept { return now_; }
   [[nodiscard]] std::size_t watchers() const noexcept { return watchers_; }
   [[nodiscard]] const History& history() const noexcept { return history_; }
 

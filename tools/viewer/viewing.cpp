@@ -14,6 +14,7 @@
 
 #include "reckon/peer/thread_name.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -24,6 +25,7 @@ using std::chrono::nanoseconds;
 /// Datagrams that are taken before tabs are looked at again.
 constexpr int kMostAtOnce = 512;
 constexpr nanoseconds kLongestWait = milliseconds(10);
+constexpr nanoseconds kPatience = milliseconds(100);  // with a quiet source
 /// A step that comes so late tells that the process stood still: what is shown has a gap.
 constexpr nanoseconds kStoodStill = std::chrono::seconds(1);
 
@@ -37,6 +39,27 @@ std::unique_ptr<ViewServer> open_server(ViewStage& stage, const ViewServerOption
 
 }  // namespace
 
+std::vector<std::string> take_source(peer::DatagramSource& source, SealedDatagrams& sealed,
+                                     ViewStage& stage, const std::function<bool()>& is_over) {
+  std::vector<std::string> told;
+  peer::SourceDatagram datagram;
+  while (!is_over()) {
+    const peer::SourceEvent event = source.next(datagram, kPatience);
+    if (event == peer::SourceEvent::end) break;
+    if (event != peer::SourceEvent::datagram || !sealed.open(datagram)) continue;
+    if (!stage.take(datagram)) {
+      told.emplace_back("the source is longer than what is kept of one: its end is left out");
+      break;
+    }
+  }
+  const std::string& problem = source.report().problem;
+  if (!problem.empty()) told.push_back(problem);
+  if (sealed.unread() > 0)
+    told.push_back(fmt::format("{} are sealed and were left out: --key opens them",
+                               counted(sealed.unread(), "datagram")));
+  return told;
+}
+
 Viewing::Viewing(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source)
     : sealed_(options.key),
       source_(std::move(source)),
@@ -44,30 +67,14 @@ Viewing::Viewing(const ViewingOptions& options, std::unique_ptr<peer::DatagramSo
       is_capture_(options.stage.is_capture),
       server_(open_server(stage_, options.server)) {
   if (!options.hands.empty()) stage_.set_touch(options.hands);
-  if (is_capture_) read_capture();
+  if (!is_capture_) return;
+  for (const std::string& sentence : take_source(*source_, sealed_, stage_, [] { return false; }))
+    stage_.note("warning", sentence);
 }
 
 const peer::SourceReport& Viewing::report() const noexcept {
   static const peer::SourceReport kNothing;
   return source_ ? source_->report() : kNothing;
-}
-
-void Viewing::read_capture() {
-  peer::SourceDatagram datagram;
-  for (;;) {
-    const peer::SourceEvent event = source_->next(datagram, nanoseconds::zero());
-    if (event == peer::SourceEvent::end) break;
-    if (event != peer::SourceEvent::datagram || !sealed_.open(datagram)) continue;
-    if (!stage_.take(datagram)) {
-      stage_.note("warning", "the capture is longer than what is kept of one: its end is left out");
-      break;
-    }
-  }
-  const peer::SourceReport& report = source_->report();
-  if (!report.problem.empty()) stage_.note("warning", report.problem);
-  if (sealed_.unread() > 0)
-    stage_.note("warning",
-                fmt::format("{} datagrams are sealed and were left out", sealed_.unread()));
 }
 
 void Viewing::take_arrived() {

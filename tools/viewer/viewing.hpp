@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -30,6 +31,12 @@ struct ViewingOptions {
   std::vector<TouchHand> hands;  ///< of the program itself
 };
 
+/// Takes a source into a stage until it ends, its stage is full, or `is_over` says so, which is
+/// asked at least ten times a second. @return what there is to tell of it
+[[nodiscard]] std::vector<std::string> take_source(peer::DatagramSource& source,
+                                                   SealedDatagrams& sealed, ViewStage& stage,
+                                                   const std::function<bool()>& is_over);
+
 /// One thread drives it.
 class Viewing {
  public:
@@ -47,7 +54,6 @@ class Viewing {
   [[nodiscard]] const peer::SourceReport& report() const noexcept;
 
  private:
-  void read_capture();
   void take_arrived();
   void look_for_gaps(std::chrono::nanoseconds now);
 

@@ -46,7 +46,9 @@ class Peers {
     scene_.name = "a scene";
   }
   peer::PeerView& view(std::size_t i) { return *views_[i]; }
-  [[nodiscard]] LivePicture picture() const { return {rows_, scene_, 12.0, notices_}; }
+  [[nodiscard]] LivePicture picture() const {
+    return {rows_, scene_, 12.0, notices_, strongest_, head_};
+  }
   /// What a terminal of this size shows; each line fits into it.
   [[nodiscard]] std::vector<std::string> shown(std::size_t rows, std::size_t columns) const {
     std::vector<std::string> texts;
@@ -58,6 +60,8 @@ class Peers {
     return texts;
   }
   std::vector<std::string> notices_;
+  double strongest_ = 1;
+  std::string head_;
   peer::SceneFile scene_;
 
  private:
@@ -137,6 +141,40 @@ TEST(LiveTable, DoesNotCallAHandFreeThatFeelsWhatAnotherOwns) {
   EXPECT_THAT(lines,
               Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("0.40 N"), HasSubstr("touches"))));
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:2"), HasSubstr("0.00 N"), HasSubstr("free"))));
+}
+
+std::size_t bar_of(const std::vector<std::string>& lines, std::string_view hand) {
+  for (const std::string& line : lines)
+    if (line.find(hand) != line.npos)
+      return static_cast<std::size_t>(std::count(line.begin(), line.end(), '#'));
+  return 0;
+}
+
+TEST(LiveTable, DrawsForcesAsBarsAsLongAsTheTerminalLets) {
+  Peers peers(1, 1, 3);
+  peers.strongest_ = 4;
+  peers.view(0).hands[0].servo.force.y() = 4;
+  peers.view(0).hands[1].servo.force.y() = 2;
+  peers.view(0).hands[2].servo.force.y() = 0.01;
+  const auto lines = peers.shown(24, 80);
+  EXPECT_THAT(lines[0], HasSubstr("bars to 4 N"));
+  EXPECT_EQ(bar_of(lines, "1:1:1"), 8U);
+  EXPECT_EQ(bar_of(lines, "1:1:2"), 4U);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("4.00 N ######## touches"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:3"), HasSubstr("0.01 N .        touches"))));
+  EXPECT_EQ(bar_of(peers.shown(24, 200), "1:1:1"), 24U);
+  EXPECT_EQ(bar_of(peers.shown(24, 40), "1:1:1"), 3U);
+  EXPECT_EQ(bar_of(peers.shown(24, 30), "1:1:1"), 0U) << "no room";
+}
+
+TEST(LiveTable, KeepsAHeadBelowItsTitleWhateverNoticesCome) {
+  Peers peers(1, 50);
+  peers.notices_ = {"one", "two", "three", "four"};
+  peers.head_ = "page: http://127.0.0.1:8642/#word=1f2e";
+  EXPECT_EQ(peers.shown(24, 80)[1], peers.head_);
+  EXPECT_EQ(peers.shown(10, 80)[1], peers.head_);
+  const auto narrow = peers.shown(24, 20);
+  EXPECT_EQ(narrow[1] + narrow[2], peers.head_) << "whole, where it is wider than the terminal";
 }
 
 TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {

@@ -3,7 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 
@@ -11,8 +17,11 @@ namespace reckon::tools {
 namespace {
 
 using test::run_reckon;
+using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 
 TEST(ViewVerb, ServesACaptureAndPrintsItsAddressAlone) {
   test::CaptureBuilder capture;
@@ -37,6 +46,51 @@ TEST(ViewVerb, RefusesWhatItCannotServe) {
   test::CaptureBuilder capture;
   EXPECT_EQ(run_reckon({"view", capture.path(), "--port", "70000"}).status, 2);
   EXPECT_EQ(run_reckon({"view", capture.path(), "--port", "0", "--listen", "nowhere"}).status, 3);
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(ViewVerb, SavesAPageThatHoldsTheEndOfACapture) {
+  test::CaptureBuilder capture;
+  for (const trucks::Sent& sent : trucks::drive(2, 4)) capture.add(sent.octets, sent.time);
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("run.html");
+  const auto whole = run_reckon({"view", capture.path(), "--save", path});
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  EXPECT_EQ(whole.out, "");
+  EXPECT_THAT(whole.err, AllOf(HasSubstr("wrote " + path + "\n"),
+                               ContainsRegex("3\\.5 s, 2 entities, 10[5-7] pictures, ")));
+  EXPECT_THAT(whole.err, Not(HasSubstr("left out")));
+  EXPECT_THAT(text_of(path), HasSubstr(R"(id="saved">[[0.000,"text",{"type":"hello",)"));
+  EXPECT_THAT(text_of(path), Not(HasSubstr(std::filesystem::path(capture.path()).parent_path())));
+  const auto again = run_reckon({"view", capture.path(), "--save", path});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("--force"));
+  const auto end = run_reckon({"view", capture.path(), "--save", path, "--force", "--for", "1s"});
+  EXPECT_EQ(end.status, 0);
+  EXPECT_THAT(end.err, AllOf(HasSubstr("1.0 s, 2 entities"), HasSubstr("the 2.5 s before are")));
+}
+
+TEST(ViewVerb, SavesNothingThatItCannot) {
+  test::CaptureBuilder capture;
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("run.html");
+  const auto nobody = run_reckon({"view", capture.path(), "--save", path});
+  EXPECT_EQ(nobody.status, 1);
+  EXPECT_THAT(nobody.err, HasSubstr("no entity"));
+  EXPECT_FALSE(std::filesystem::exists(path));
+  const auto live = run_reckon({"view", "--save", path});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.err, HasSubstr("--for 1min"));
+  EXPECT_EQ(run_reckon({"view", capture.path(), "--save", "/no/folder/run.html"}).status, 2);
+  EXPECT_EQ(run_reckon({"view", capture.path(), "--save", path, "--open"}).status, 2);
+  EXPECT_EQ(run_reckon({"view", capture.path(), "--force"}).status, 2);
+  const auto itself = run_reckon({"view", capture.path(), "--save", capture.path(), "--force"});
+  EXPECT_EQ(itself.status, 2);
+  EXPECT_THAT(itself.err, HasSubstr("another name"));
 }
 
 TEST(ViewVerb, IsNoPartOfASimulatedDemo) {

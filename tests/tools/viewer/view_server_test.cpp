@@ -211,6 +211,10 @@ TEST(ViewServer, GivesThePageAndItsFilesWithTheirPolicy) {
   EXPECT_EQ(page.substr(page.find("\r\n\r\n") + 4, 2), "\x1F\x8B");
   EXPECT_EQ(status_of(answer_to(served, request(served, "GET /main.js"))), "HTTP/1.1 200");
   EXPECT_EQ(status_of(answer_to(served, request(served, "GET /?x=1"))), "HTTP/1.1 200");
+  const std::string frame = answer_to(served, request(served, "GET /frame.html"));
+  EXPECT_EQ(frame.find("Content-Encoding"), std::string::npos);
+  EXPECT_TRUE(frame.substr(frame.find("\r\n\r\n") + 4).starts_with("<!doctype html>"));
+  EXPECT_TRUE(frame.ends_with("</html>\n"));
 }
 
 TEST(ViewServer, HasNothingForWhatIsNoFileOfThePage) {

@@ -3,7 +3,7 @@
 // Keeps the last minute that this page has seen, for a saved file. Large pictures are thinned to a budget.
 
 const KEPT_SECONDS = 60;
-const BUDGET = 14e6; // octets of pictures
+const BUDGET = 14e6; // octets of pictures; this and what text is kept as in saved_run
 const STATE = ['hello', 'roster', 'touch', 'cells'];
 
 export class Recorder {

@@ -21,12 +21,13 @@ constexpr std::string_view kPolicy =
 
 }  // namespace
 
-std::string file_answer(std::string_view content_type, std::string_view gzip) {
-  return fmt::format(
-             "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Encoding: gzip\r\n{}Content-Length: "
-             "{}\r\n\r\n",
-             content_type, kPolicy, gzip.size())
-      .append(gzip);
+std::string file_answer(std::string_view content_type, std::string_view encoding,
+                        std::string_view octets) {
+  std::string head = fmt::format("HTTP/1.1 200 OK\r\nContent-Type: {}\r\n", content_type);
+  if (!encoding.empty()) head += fmt::format("Content-Encoding: {}\r\n", encoding);
+  return head.append(kPolicy)
+      .append(fmt::format("Content-Length: {}\r\n\r\n", octets.size()))
+      .append(octets);
 }
 
 std::string refusal_answer(int status, std::string_view reason, std::string_view sentence) {

@@ -8,8 +8,9 @@
 
 namespace reckon::tools {
 
-/// A file of the page. @param gzip its octets, compressed
-[[nodiscard]] std::string file_answer(std::string_view content_type, std::string_view gzip);
+/// A file of the page. @param encoding of its octets: "gzip"; empty where they are plain
+[[nodiscard]] std::string file_answer(std::string_view content_type, std::string_view encoding,
+                                      std::string_view octets);
 /// A refusal with a sentence. @param status 403 and its like  @param reason as HTTP names it
 [[nodiscard]] std::string refusal_answer(int status, std::string_view reason,
                                          std::string_view sentence);

@@ -6,14 +6,14 @@
 #include <bit>
 #include <vector>
 
+#include "reckon/tools/viewer/web/base64.hpp"
+
 namespace reckon::tools {
 namespace {
 
 using Digest = std::array<std::uint8_t, 20>;
 using Sha1State = std::array<std::uint32_t, 5>;
 
-constexpr std::string_view kBase64 =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 // RFC 6455 1.3.
 constexpr std::string_view kAcceptGuid = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
 
@@ -61,27 +61,16 @@ Digest sha1(std::string_view text) {
   return digest;
 }
 
-std::string base64(std::span<const std::uint8_t> octets) {
-  std::string text;
-  for (std::size_t i = 0; i < octets.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, octets.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? octets[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? kBase64[group >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
-
 }  // namespace
 
 bool is_web_socket_key(std::string_view key) noexcept {
   if (key.size() != 24 || !key.ends_with("==")) return false;
-  return key.substr(0, 22).find_first_not_of(kBase64) == std::string_view::npos;
+  return key.substr(0, 22).find_first_not_of(kBase64Letters) == std::string_view::npos;
 }
 
 std::string web_socket_accept(std::string_view key) {
-  return base64(sha1(std::string(key).append(kAcceptGuid)));
+  const Digest digest = sha1(std::string(key).append(kAcceptGuid));
+  return base64(std::as_bytes(std::span(digest)));
 }
 
 FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload) noexcept {

@@ -7,8 +7,10 @@
   demo    a demo of two hands: live within 10 s, two themes and two widths without horizontal scroll, no error
           in the console, swap, pause, a second back, live again, keys
   saved   the last minute as one file: plays from disk, asks nobody for anything, runs no other script
+  capture the same of a capture, written by `reckon view --save`; names with markup in them are shown as text
   hand    a hand taken by the pointer presses the other one: more than 1 N at both within 5 s, the same within 5 % when held
           still for 3 s, energy never below zero; without delay, and at 100 ms with 20 % loss
+  peer    a peer lends its own hand: it goes where the pointer goes
   empty   a world in which nobody sends says what to do
   lost    a program that ends is told, and is found again at the same port
 """
@@ -212,16 +214,43 @@ def saved(reckon, scenes):
             file.write_text(text, encoding="utf-8")
         expect(file.stat().st_size <= 4_000_000, f"at most 4 MB, not {file.stat().st_size}")
         with browser() as page:
-            page.open(f"file://{file}")
-            page.wait("window.reckon?.frames > 5 && window.reckon.entities === 2", "it plays")
-            expect(page.ask("window.reckon.kind") == "saved", "it knows that it is saved")
-            asked = [url for url in page.requests() if not url.startswith(("file://", "about:", "data:"))]
-            expect(not asked, f"nobody is asked for anything: {asked}")
-            expect(page.ask("performance.getEntriesByType('resource').length") == 0, "no resource is loaded")
-            page.driver.execute_script("const s = document.createElement('script'); s.textContent = 'window.foreign = 1'; document.body.append(s)")
-            expect(page.ask("window.foreign ?? 0") == 0, "no other script runs")
-            errors = [text for text in page.errors() if "Content Security Policy" not in text]
-            expect(not errors, f"no error in the console: {errors}")
+            plays_from_disk(page, file, 2)
+
+
+def plays_from_disk(page, file, entities):
+    page.open(f"file://{file}")
+    page.wait(f"window.reckon?.frames > 5 && window.reckon.entities === {entities}", "it plays")
+    expect(page.ask("window.reckon.kind") == "saved", "it knows that it is saved")
+    asked = [url for url in page.requests() if not url.startswith(("file://", "about:", "data:"))]
+    expect(not asked, f"nobody is asked for anything: {asked}")
+    expect(page.ask("performance.getEntriesByType('resource').length") == 0, "no resource is loaded")
+    page.driver.execute_script("const s = document.createElement('script'); s.textContent = 'window.foreign = 1'; document.body.append(s)")
+    expect(page.ask("window.foreign ?? 0") == 0, "no other script runs")
+    errors = [text for text in page.errors() if "Content Security Policy" not in text]
+    expect(not errors, f"no error in the console: {errors}")
+
+
+def capture(reckon, scenes):
+    markup = "<img src=x onerror='window.foreign=1'></script>"
+    marking = "</script><b"  # the eleven letters of one
+    with tempfile.TemporaryDirectory() as folder, resting_hands() as scene:
+        heard, file = Path(folder) / f"{markup.replace('/', '%')}.pcapng", Path(folder) / "run.html"
+        speaker = subprocess.Popen([reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--name", marking, "--for", "1min", "--json"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            subprocess.run([reckon, "record", heard, scene, "--iface", "lo", "--for", "4s"], check=True, capture_output=True)
+        finally:
+            speaker.terminate()
+            speaker.wait(PATIENCE)
+        told = subprocess.run([reckon, "view", heard, "--save", file], check=True, capture_output=True, text=True).stderr
+        expect(re.search(r"\d s, 1 entity, \d+ pictures", told), f"it says what is saved: {told}")
+        with browser() as page:
+            plays_from_disk(page, file, 1)
+            page.wait(f"document.getElementById('table').textContent.includes('{marking}')", "the marking as text")
+            expect("onerror" in page.text("source"), f"the name of the file as text, not {page.text('source')}")
+            expect(page.ask("document.images.length + document.querySelectorAll('#table b').length") == 0, "no element is made of names")
+            begin = page.ask("window.reckon.time")
+            page.wait(f"window.reckon.time > {begin} || window.reckon.play === 'end'", "time passes")
 
 
 class OtherHand:
@@ -297,7 +326,8 @@ position = "25 0 90 mm"
 def resting_hands():
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder) / "resting.toml"
-        scene.write_text(RESTING)
+        # Nobody else's peers on this host come in.
+        scene.write_text(RESTING + f'[network]\ngroup = "239.192.79.0"\nport = {20000 + os.getpid() % 20000}\n')
         yield str(scene)
 
 
@@ -317,6 +347,25 @@ def hand(reckon, scenes):
             other.hold()
         page.press("h")
         page.wait("window.reckon.yours === null", "the hand is given back")
+        shows_no_fault(page)
+
+
+def peer(reckon, scenes):
+    with resting_hands() as scene, browser() as page, \
+            program(reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--view=0", "--for", "10min") as started:
+        page.size(1280, 800)
+        page.open(started.address)
+        page.wait("window.reckon?.hands?.length === 1", "its hand")
+        expect(page.ask("document.getElementById('network').hidden"), "it has no network to change")
+        page.click("hand")
+        page.wait("window.reckon.yours === 0", "the hand")
+        canvas = page.driver.find_element("css selector", "canvas")
+        x, y = page.ask("window.reckon.placeOf(0)")
+        before = page.ask("window.reckon.hands[0].position")
+        chain = ActionChains(page.driver, duration=0)
+        for aside in (0, 100):
+            chain.move_to_element_with_offset(canvas, int(x - canvas.size["width"] / 2) + aside, int(y - canvas.size["height"] / 2)).perform()
+        page.wait(f"Math.hypot(...window.reckon.hands[0].position.map((x, i) => x - {json.dumps(before)}[i])) > 0.005", "it follows the pointer")
         shows_no_fault(page)
 
 
@@ -340,7 +389,7 @@ def lost(reckon, scenes):
             page.wait_for_pictures()
 
 
-CASES = {case.__name__: case for case in (demo, saved, hand, empty, lost)}
+CASES = {case.__name__: case for case in (demo, saved, capture, hand, peer, empty, lost)}
 
 
 def main(arguments):

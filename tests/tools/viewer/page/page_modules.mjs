@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The modules of the page that need no browser:  node page_modules.mjs tools/viewer/page
 import assert from 'node:assert/strict';
-import { createHash } from 'node:crypto';
-import { copyFileSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test, { after } from 'node:test';
@@ -22,8 +21,7 @@ const { Samples } = await take('samples.js');
 const { COMMANDS } = await take('commands.js');
 const { Recorder, base64 } = await take('recorder.js');
 const { Replay } = await take('replay.js');
-const { sha256 } = await take('sha256.js');
-const { bundle, savedFile } = await take('saving.js');
+const { filledFrame } = await take('saving.js');
 const { Moment } = await take('moment.js');
 const { digits, foreign, roundUp } = await take('words.js');
 
@@ -233,36 +231,12 @@ test('A saved minute without pictures, and one with a damaged picture, say so an
   assert.equal(heard.length, 1);
 });
 
-test('SHA-256 is that of everybody', () => {
-  for (let length = 0; length < 200; ++length) {
-    const octets = Uint8Array.from({ length }, (_, i) => (i * 31 + length) & 255);
-    assert.equal(Buffer.from(sha256(octets)).toString('hex'), createHash('sha256').update(octets).digest('hex'));
-  }
-});
-
-test('A bundle has each module once, what is imported first, and neither import nor export', async () => {
-  const modules = {
-    'main.js': "import { b } from './b.js';\nimport { c } from './c.js';\nb(c);", 'b.js': "import { c } from './c.js';\nexport function b() { return c; }",
-    'c.js': 'export const c = 1;',
-  };
-  assert.equal(await bundle('main.js', async (name) => modules[name]), 'const c = 1;\nfunction b() { return c; }\nb(c);');
-});
-
-test('The bundle of this page is a script that a browser can read, and a saved file lets it alone run', async () => {
-  const read = async (name) => readFileSync(join(page, name === 'libraries.js' ? 'third_party/libraries.js' : name), 'utf8');
-  const script = await bundle('main.js', read);
-  const checked = join(copy, 'checked.mjs');
-  writeFileSync(checked, script);
-  const { execFileSync } = await import('node:child_process');
-  execFileSync(process.execPath, ['--check', checked]);
-  const items = [[0, 'text', { type: 'note', text: '</script><script>alert(1)</script>' }]];
-  const html = savedFile({ html: await read('index.html'), css: await read('page.css'), script, items });
-  const digest = createHash('sha256').update(script).digest('base64');
-  assert.ok(html.includes(`script-src 'sha256-${digest}'`));
+test('A frame holds what it is to play, whatever is in it', () => {
+  const frame = '<script type="application/json" id="saved"></script><script type="module">id="saved"></script>';
+  const items = [[0, 'text', { type: 'note', text: '</script><script>alert(1)</script> $& $`' }]];
+  const html = filledFrame(frame, items);
   assert.equal(html.split('</script>').length, 3); // its own two
   assert.deepEqual(JSON.parse(/id="saved">(.*?)<\/script>/s.exec(html)[1]), items);
-  const markup = html.replace(script, '');
-  assert.ok(!markup.includes('src="main.js"') && !markup.includes('href="page.css"'));
 });
 
 test('Words are short, whatever comes', () => {
