@@ -25,8 +25,8 @@ struct PeerThreadsOptions {
   ServoThread* servo = nullptr;
   ServoThreadOptions own_servo = {};
   /// Ask for SCHED_FIFO, below the servo, for the loops between a device and the network: on a busy
-  /// host they otherwise wait for milliseconds behind programs that compute. Given up where
-  /// ordinary threads get hardly any time (ServoThreadOptions::starvation). Needs its real_time.
+  /// host they otherwise wait for milliseconds behind programs that compute. It is given up where
+  /// it starves ordinary threads (ServoThreadOptions::starvation). Needs own_servo.real_time.
   bool real_time = true;
   /// Keep the process's memory from being swapped out, where the right is there: a page that comes
   /// back from a disk is milliseconds late.
@@ -54,7 +54,7 @@ class PeerThreads {
   /// Ends and joins all threads. The peer's own stop(), which says good-bye, is the caller's.
   void stop() noexcept;
 
-  /// The model loop makes a pass soon: somebody has something for it. Any thread.
+  /// Makes the model loop run soon, as when a caller has queued work for it. Any thread.
   void wake() noexcept { news_.notify(); }
 
   /// Lateness, step time and missed periods of the servo, readable while it runs.
@@ -79,7 +79,7 @@ class PeerThreads {
   PeerThreadsOptions options_;
   DutyCycle duty_;
   bool memory_locked_;
-  const bool felt_;  // there is a device: others wait for what these threads do
+  const bool felt_;  // the peer has a device, so these threads are urgent
   std::atomic<bool> stop_{false};
   WakeSignal news_;   // for the model loop: something arrived, the servo made a step
   WakeSignal room_;   // for the reader: the model loop has made room

@@ -17,8 +17,8 @@ namespace reckon::pdu {
 /// Head of a geometry or state record (UID 250).
 struct EnvironmentRecord {
   std::uint32_t record_type = 0;
-  std::uint16_t record_length =
-      0;  ///< head, body, without the padding to a multiple of 8 octets [bit]
+  /// Head and body, without the padding behind them [bit].
+  std::uint16_t record_length = 0;
   std::uint8_t record_index = 0;
   std::uint8_t padding = 0;
 

@@ -14,15 +14,15 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kMostTaken = 512;  // datagrams taken in a step, some 1 ms
-// Datagrams examined at a time for overtaken states, and the same after nearly all were overtaken:
-// as many large ones as the ring holds.
+constexpr std::size_t kMostTaken = 512;  // datagrams decoded in a step, about 1 ms
+// Datagrams searched together for states that a later one replaces. The greater number, as many
+// large datagrams as the ring holds, is for a backlog in which most are replaced.
 constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
-constexpr std::size_t kMostSeen = 4096;  // the same with wholly overtaken ones, some 1 ms more
+constexpr std::size_t kMostSeen = 4096;  // datagrams read in a step, replaced ones included
 constexpr std::size_t kBacklog = 16;     // fewer pending datagrams are no backlog
 
-// Forms in which a state may be a key state of others.
-bool leans_on_states(pdu::CompressedForm form) { return form == pdu::CompressedForm::residual; }
+// Whether an update of this form can be decoded only with the key state that was sent before it.
+bool needs_key_states(pdu::CompressedForm form) { return form == pdu::CompressedForm::residual; }
 
 // By aoim::IncomingVerdict.
 constexpr std::array<DatagramFate, aoim::kIncomingVerdicts> kFateOfVerdict{
@@ -86,7 +86,7 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
   for (const QueuedDatagram& datagram : datagrams)
     count += admit(datagram, reading.pass, admitted_[count]);
   const std::span<const ArrivedDatagram> admitted = std::span(admitted_).first(count);
-  const bool backlog = count >= kBacklog && !leans_on_states(scene_.network.compression);
+  const bool backlog = count >= kBacklog && !needs_key_states(scene_.network.compression);
   if (backlog) overtaken_.look(admitted);
   for (std::size_t i = 0; i < count; ++i) {
     reading.handler.take_datagram(admitted[i].octets);
@@ -107,7 +107,7 @@ std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
 
 // Senders whose states may be key states: peers, for their own entities.
 KeySpeaker DatagramIntake::key_speaker(const Arrival& arrival) const noexcept {
-  if (arrival.epoch == 0 || !leans_on_states(scene_.network.compression)) return {};
+  if (arrival.epoch == 0 || !needs_key_states(scene_.network.compression)) return {};
   const auto id = aoim_.presence().id_of(arrival.epoch);
   return id ? KeySpeaker{*id, arrival.epoch, arrival.from} : KeySpeaker{};
 }

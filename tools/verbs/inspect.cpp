@@ -71,7 +71,7 @@ class Output {
   void write_if_large() {
     if (text_.size() >= kWriteSize) write();
   }
-  /// Throws if the file is full. A closed pipe is no fault and shows in ferror().
+  /// Throws where writing fails, as on a full disk. A closed pipe is no fault; ferror() has it.
   void write() {
     errno = 0;
     const std::size_t written = std::fwrite(text_.data(), 1, text_.size(), file_);

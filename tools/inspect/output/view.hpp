@@ -41,10 +41,10 @@ class View {
   /// Each PDU to be shown.
   virtual void pdu(const peer::SourceDatagram& /*datagram*/, const PduRow& /*row*/,
                    std::chrono::nanoseconds /*start*/, std::string& /*out*/) {}
-  /// After the PDUs, if at least one of them was to be shown,
+  /// After the PDUs of a datagram of which at least one was shown.
   virtual void datagram(const peer::SourceDatagram& /*datagram*/,
                         std::chrono::nanoseconds /*start*/, std::string& /*out*/) {}
-  /// otherwise.
+  /// After the PDUs of a datagram of which none was shown.
   virtual void skip() {}
   /// Live sources: after each datagram and every 0.1 s; `now` since 1970-01-01 UTC.
   virtual void tick(std::chrono::nanoseconds /*now*/, const peer::SourceReport& /*report*/,
