@@ -207,7 +207,6 @@ const Scene kScenes[] = {
 
 class ForceSteps : public ::testing::TestWithParam<Scene> {};
 
-// Not met for a jump of place: a climb of ten minutes finds 1.38 of the bar.
 TEST_P(ForceSteps, AreNotFoundByAClimb) {
   const auto climbed =
       climb<16>([](const Choice& c) { return GetParam().felt(c).step / kMostStep; });
