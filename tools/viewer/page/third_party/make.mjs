@@ -32,6 +32,15 @@ const LEFT_OUT = {
       getEnvironmentBlendMode() { return 'opaque'; } }`,
 };
 
+// Methods that the page never calls: to and from JSON, picking by rays, reading back what was drawn.
+const CALLED_BY_NOBODY = ['toJSON', 'fromJSON', 'raycast'];
+const RENDERER = [
+  'compile', 'compileAsync', 'copyFramebufferToTexture', 'copyTextureToTexture', 'initRenderTarget', 'initTexture', 'readRenderTargetPixels',
+  'readRenderTargetPixelsAsync',
+];
+const METHODS = new RegExp(`\\n\\t(?:${CALLED_BY_NOBODY.join('|')})\\([^)]*\\) \\{\\n[\\s\\S]*?\\n\\t\\}\\n`, 'g');
+const OF_RENDERER = new RegExp(`\\n\\t\\tthis\\.(?:${RENDERER.join('|')}) = (?:async )?function \\([^)]*\\) \\{\\n[\\s\\S]*?\\n\\t\\t\\};\\n`, 'g');
+
 const text = (path) => readFileSync(path, 'utf8');
 const used = new Set();
 function use(path) {
@@ -56,7 +65,7 @@ const leaveOut = {
         return { contents: "export const vertex = ''; export const fragment = '';" };
       }
       if (name.endsWith('.glsl.js')) return { contents: text(path).replace(/\/\/[^\n]*/g, '').replace(/\n\s+/g, '\n').replace(/\n\n+/g, '\n') };
-      return undefined;
+      return { contents: text(path).replace(METHODS, '\n').replace(OF_RENDERER, '\n') };
     });
   },
 };
