@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The mouse is a hand: it moves in the plane through the hand that faces the camera; wheel, shift and keys move it in depth.
+// The mouse is a hand: it moves in the plane through the hand that faces the camera; wheel, shift, a second finger and keys move it in depth.
 import { Vector3 } from './libraries.js';
 import { HAND_FLAGS } from './picture.js';
 import { byId } from './words.js';
@@ -39,7 +39,9 @@ export class PointerHand {
     this.index = Number.isInteger(index) ? index : null;
     this.held = false;
     this.button.textContent = this.index === null ? 'Take a hand' : 'Give it back';
-    this.text.textContent = this.index === null ? (text ?? '') : 'Move the mouse; wheel or shift for depth. Leaving the picture lets go.';
+    const how = matchMedia('(pointer: coarse)').matches ? 'One finger moves it, a second one up and down in depth. Lifting the first lets go.'
+      : 'Move the mouse; wheel or shift for depth. Leaving the picture lets go.';
+    this.text.textContent = this.index === null ? (text ?? '') : how;
     if (text) this.say(text);
     if (this.index !== null && this.stage.large !== 'touch') this.stage.swap();
   }

@@ -9,15 +9,16 @@ export class Steering {
   constructor(page) {
     this.page = page;
     this.fingers = new Map();
+    this.holder = null; // the finger that moves the hand in its plane
     this.mouse = null;
     const { canvas } = page.stage;
     canvas.addEventListener('pointerdown', (event) => this.down(event));
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.up(event));
     canvas.addEventListener('pointercancel', (event) => this.up(event));
-    canvas.addEventListener('pointerleave', () => {
+    canvas.addEventListener('pointerleave', (event) => {
       this.mouse = null;
-      if (this.handed) page.hand.letGo();
+      if (this.handed && event.pointerType !== 'touch') page.hand.letGo(); // a finger that is lifted leaves, too
     });
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
@@ -31,7 +32,9 @@ export class Steering {
     this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
     this.start = [event.clientX, event.clientY];
     this.page.stage.canvas.setPointerCapture(event.pointerId);
-    if (this.handed && event.button === 0 && this.fingers.size === 1) this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
+    if (!this.handed || event.button !== 0 || this.fingers.size !== 1) return;
+    this.holder = event.pointerId;
+    this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
   }
 
   move(event) {
@@ -39,8 +42,9 @@ export class Steering {
     const old = this.fingers.get(event.pointerId);
     const dx = event.movementX;
     const dy = event.movementY;
-    if (this.fingers.size === 2 && old) return this.pinch(event, old);
     if (old) this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (old && this.handed && event.pointerType === 'touch') return this.lead(event, old);
+    if (old && this.fingers.size === 2) return this.pinch(event, old);
     const second = event.buttons & 6; // right or middle
     if (this.handed && !second) {
       if (event.shiftKey) this.page.hand.deepen(this.page.moment, dy);
@@ -52,20 +56,27 @@ export class Steering {
     return undefined;
   }
 
-  // Two fingers: apart is nearer; with a hand that is its depth.
+  // Fingers on a hand: the first moves it in the plane, the next, down or up, nearer or away. The camera stands meanwhile.
+  lead(event, old) {
+    if (event.pointerId === this.holder) this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
+    else if (this.holder !== null) this.page.hand.deepen(this.page.moment, event.clientY - old[1]);
+  }
+
+  // Two fingers on the picture: apart is nearer.
   pinch(event, old) {
     const other = [...this.fingers].find(([id]) => id !== event.pointerId)[1];
     const before = Math.hypot(old[0] - other[0], old[1] - other[1]);
     const after = Math.hypot(event.clientX - other[0], event.clientY - other[1]);
-    this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
-    if (this.handed) return this.page.hand.deepen(this.page.moment, after - before);
     this.orbit.zoom(before / Math.max(1, after));
     return this.orbit.pan((event.clientX - old[0]) / 2, (event.clientY - old[1]) / 2);
   }
 
   up(event) {
     const held = this.fingers.delete(event.pointerId);
-    if (this.handed && event.pointerType === 'touch' && !this.fingers.size) this.page.hand.letGo();
+    if (event.pointerId === this.holder) {
+      this.holder = null;
+      if (this.handed && event.pointerType === 'touch') this.page.hand.letGo();
+    }
     const still = this.start && Math.hypot(event.clientX - this.start[0], event.clientY - this.start[1]) < CLICK;
     if (!held || !still || event.button !== 0 || this.page.stage.large !== 'world' || !this.page.moment.picture) return;
     const slot = this.page.stage.pick(this.page.moment, event.offsetX, event.offsetY);
