@@ -38,6 +38,7 @@ ClockEvidence TimeKeeper::hear(const pdu::DatagramTrailer& trailer,
   if (trailer.epoch == 0) return {is_aligned(), std::nullopt};
   const nanoseconds utc = utc_ - (now_ - arrival);
   peers_.hear(trailer, utc, arrival);
+  transits_.add(pdu::trailer_age(trailer.send_time, utc));
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
     pdu::TimeExchange exchange;
     if (bundled.error == pdu::DecodeError::none &&

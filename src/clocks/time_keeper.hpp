@@ -16,6 +16,7 @@
 #include "reckon/peer/clocks/peer_clock.hpp"
 #include "reckon/peer/clocks/sender_clock.hpp"
 #include "reckon/peer/clocks/steady_utc.hpp"
+#include "reckon/peer/clocks/transit_times.hpp"
 #include "reckon/peer/counters/counters.hpp"
 
 namespace reckon::peer {
@@ -52,6 +53,8 @@ class TimeKeeper {
   [[nodiscard]] bool echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept;
 
   [[nodiscard]] const PeerClocks& peers() const noexcept { return peers_; }
+  /// Of all datagrams that were heard; any thread may read them.
+  [[nodiscard]] const TransitTimes& transits() const noexcept { return transits_; }
 
  private:
   std::uint32_t epoch_;
@@ -60,6 +63,7 @@ class TimeKeeper {
   std::chrono::nanoseconds utc_{0};
   SteadyUtc steady_utc_;
   PeerClocks peers_;
+  TransitTimes transits_;
 
   Counter& clock_leaps_;
   Counter& exchanges_;
