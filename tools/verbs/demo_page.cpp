@@ -54,7 +54,9 @@ DemoPage::DemoPage(const ViewFlags& flags, const peer::SceneFile& scene,
                 [&exercise](const peer::ImpairmentLaw& law) { exercise.change_impairment(law); }),
       first_(first_hands(exercise)),
       pointers_(add_pointers(exercise)),
-      view_(flags, scene, self_view_options(options, controls_), hands_of(exercise, scene)) {}
+      view_(flags, scene, self_view_options(options, controls_), hands_of(exercise, scene)) {
+  for (std::size_t i = 0; i < exercise.size(); ++i) view_.add_receiver(exercise.peer(i));
+}
 
 void DemoPage::show(const Exercise& exercise) {
   for (std::size_t i = 0; i < exercise.size(); ++i)

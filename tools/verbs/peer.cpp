@@ -277,6 +277,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     if (flags && shown && !page) {
       const PeerPageOptions named{options.scene.scene, options.scene.iface};
       page.emplace(*flags, scene, named, view, running->pointers());
+      page->add_receiver(running->peer());
       display.put_in_head("page: " + page->address());
     }
     if (page) page->show(view);

@@ -29,6 +29,8 @@ class PeerPage {
   PeerPage(const ViewFlags& flags, const peer::SceneFile& scene, const PeerPageOptions& options,
            const peer::PeerView& view, std::span<const PointerHand> pointers);
 
+  /// show() shows from now on how the peer receives others, too. @param peer outlives this
+  void add_receiver(const peer::Peer& peer) { view_.add_receiver(peer); }
   /// Shows the hands as they are now.
   void show(const peer::PeerView& view);
   void note(const peer::Notice& notice) { view_.note(notice.text.data()); }

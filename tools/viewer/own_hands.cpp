@@ -90,6 +90,7 @@ HandMark OwnHands::mark(std::size_t index) {
   if (hand.pointer_free)
     flags |= kHandPointer | (*hand.pointer_free ? unsigned{kHandPointerFree} : 0U);
   mark.flags = static_cast<std::uint16_t>(flags);
+  mark.patch = static_cast<std::uint16_t>(step.mesh_patch);
   mark.position = step.device.cast<float>();
   mark.contact_point = step.scp.cast<float>();
   mark.force = step.force.cast<float>();

@@ -23,7 +23,8 @@ namespace reckon::tools {
 namespace {
 
 /// Text that a saved file keeps, as recorder.js does; of numbers one a second.
-constexpr std::array<std::string_view, 5> kKeptText{"hello", "roster", "touch", "cells", "numbers"};
+constexpr std::array<std::string_view, 6> kKeptText{"hello", "roster", "touch",
+                                                    "cells", "groups", "numbers"};
 /// Pictures farther apart are played faster, for between those of one speed the stage tells a gap.
 constexpr double kApart = 0.25;  // [s]
 

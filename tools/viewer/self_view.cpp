@@ -48,6 +48,7 @@ SelfView::SelfView(const ViewFlags& flags, const peer::SceneFile& scene,
 
 void SelfView::show_hands() {
   thread_->put_hands(hands_.frame(clock_.utc_now() - clock_.now(), knows_all_));
+  if (const auto sample = reception_.look(clock_.utc_now())) thread_->put_reception(*sample);
 }
 
 }  // namespace reckon::tools

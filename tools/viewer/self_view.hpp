@@ -15,6 +15,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/viewer/own_hands.hpp"
+#include "reckon/tools/viewer/peers_reception.hpp"
 #include "reckon/tools/viewer/view_flags.hpp"
 #include "reckon/tools/viewer/viewing.hpp"
 
@@ -44,6 +45,8 @@ class SelfView {
   /// To be changed by what is new, then shown.
   [[nodiscard]] OwnHands& hands() noexcept { return hands_; }
   void show_hands();
+  /// From now on show_hands() shows how this peer receives others, too. @param peer outlives it
+  void add_receiver(const peer::Peer& peer) { reception_.add(peer); }
   /// A line for the pages' log.
   void note(std::string_view text) { thread_->put_note("info", std::string(text)); }
   /// What a user opens.
@@ -53,6 +56,7 @@ class SelfView {
   peer::SteadyClock clock_;
   bool knows_all_;
   OwnHands hands_;
+  PeersReception reception_;
   std::unique_ptr<ViewThread> thread_;
 };
 

@@ -3,6 +3,8 @@
 // The text that a stage has for its tabs.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -43,6 +45,12 @@ void append_mesh(JsonObject& object, const DrawnSolid& solid) {
   object.array("triangles", solid.triangles, [](std::string& out, const auto& triangle) {
     fmt::format_to(std::back_inserter(out), "{},{},{}", triangle[0], triangle[1], triangle[2]);
   });
+  if (solid.first_patch == 0) return;
+  object.value("first", solid.first_patch)
+      .array("patches", solid.patches,
+             [](std::string& out, std::uint16_t patch) { out += std::to_string(patch); })
+      .array("patch_names", solid.patch_names,
+             [](std::string& out, const std::string& name) { append_json_string(out, name); });
 }
 
 void append_solid(std::string& out, const DrawnSolid& solid) {
@@ -61,6 +69,14 @@ void append_solid(std::string& out, const DrawnSolid& solid) {
 void append_optional(JsonObject& object, std::string_view key, std::optional<double> value,
                      int decimals) {
   if (value) object.decimals(key, *value, decimals);
+}
+
+void append_delay(JsonObject& object, std::optional<double> median, std::optional<double> p95) {
+  if (!median) return;
+  JsonObject(object.member("delay_ms"))
+      .decimals("median", 1e3 * *median, 3)
+      .decimals("p95", 1e3 * p95.value_or(0), 3)
+      .end();
 }
 
 void append_network(std::string& out, const NetworkRequest& network) {
@@ -142,6 +158,29 @@ std::string ViewStage::play_message(const Watcher& watcher) const {
   return out;
 }
 
+void ViewStage::append_error(std::string& out, const NumbersSample& sample,
+                             std::uint16_t followed) const {
+  JsonObject error(out);
+  append_optional(error, "mean_m", sample.error_mean, 6);
+  append_optional(error, "worst_m", sample.error_worst, 6);
+  if (thresholds_) {
+    error.array("thresholds_m", thresholds_->told(), [](std::string& text, double threshold) {
+      fmt::format_to(std::back_inserter(text), "{:.6f}", threshold);
+    });
+    const Roster& roster = history_.roster();
+    append_optional(error, "followed_m",
+                    thresholds_->of(roster.marking_at(followed), roster.is_haptic(followed)), 6);
+  }
+  error.end();
+}
+
+const ReceptionSample* ViewStage::reception_at(Time time) const {
+  const auto after =
+      std::upper_bound(receptions_.begin(), receptions_.end(), time,
+                       [](Time at, const ReceptionSample& sample) { return at < sample.time; });
+  return after == receptions_.begin() ? nullptr : &*std::prev(after);
+}
+
 std::string ViewStage::numbers_message(const Watcher& watcher) const {
   const Time time = shown_time(watcher);
   std::string out;
@@ -152,19 +191,15 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
   if (const NumbersSample* sample = history_.numbers().at(time)) {
     object.decimals("pdu_per_s", sample->pdu_per_s, 1).decimals("bit_per_s", sample->bit_per_s, 0);
     append_optional(object, "lost_share", sample->lost_share, 5);
-    if (sample->delay_median) {
-      JsonObject(object.member("delay_ms"))
-          .decimals("median", 1e3 * *sample->delay_median, 3)
-          .decimals("p95", 1e3 * sample->delay_p95.value_or(0), 3)
-          .end();
-    }
-    if (sample->error_mean || threshold_) {
-      JsonObject error(object.member("error"));
-      append_optional(error, "mean_m", sample->error_mean, 6);
-      append_optional(error, "worst_m", sample->error_worst, 6);
-      append_optional(error, "threshold_m", threshold_, 6);
-      error.end();
-    }
+    append_delay(object, sample->delay_median, sample->delay_p95);
+    if (sample->error_mean || thresholds_)
+      append_error(object.member("error"), *sample, watcher.follow);
+  }
+  if (const ReceptionSample* sample = reception_at(time)) {
+    JsonObject peers(object.member("peers"));
+    append_delay(peers, sample->delay_median, sample->delay_p95);
+    append_optional(peers, "lost_share", sample->lost_share, 5);
+    peers.end();
   }
   if (options_.raw_bit_per_s > 0) object.decimals("raw_bit_per_s", options_.raw_bit_per_s, 0);
   object.value("watchers", watchers_).end();
@@ -208,14 +243,31 @@ ViewStage::Text ViewStage::next_regular_text(Watcher& watcher) {
   if (watcher.notes < first_note_ + notes_.size()) return notes_[watcher.notes++ - first_note_];
   if (std::exchange(watcher.numbers_tick, numbers_tick_) != numbers_tick_)
     return text(numbers_message(watcher));
-  if (!cells_ || std::exchange(watcher.cells_tick, cells_tick_) == cells_tick_) return nullptr;
+  return next_scenery(watcher);
+}
+
+// What the scene gives a meaning to, where it has changed.
+ViewStage::Text ViewStage::next_scenery(Watcher& watcher) {
+  const auto renew = [](std::string& known, std::string&& message) -> Text {
+    if (message == known) return nullptr;
+    known = std::move(message);
+    return std::make_shared<const std::string>(known);
+  };
+  const bool tells_cells = cells_ && std::exchange(watcher.cells_tick, cells_tick_) != cells_tick_;
+  const bool tells_groups =
+      groups_ && !tells_cells && std::exchange(watcher.groups_tick, cells_tick_) != cells_tick_;
+  if (!tells_cells && !tells_groups) return nullptr;
+  const Time time = shown_time(watcher);
   PictureRows rows;
-  if (is_past(watcher)) fill(world_for(watcher, shown_time(watcher)), shown_time(watcher), rows);
-  std::string cells =
-      cells_->message(is_past(watcher) ? rows.entities : live_rows().entities, watcher.follow);
-  if (cells == watcher.cells) return nullptr;
-  watcher.cells = std::move(cells);
-  return text(std::string(watcher.cells));
+  if (is_past(watcher)) fill(world_for(watcher, time), time, rows);
+  const auto& entities = is_past(watcher) ? rows.entities : live_rows().entities;
+  if (tells_groups) {
+    const HeardGroups& heard = world_for(watcher, time).groups();
+    return renew(watcher.groups,
+                 groups_->message(heard, history_.roster(), entities, time, history_.start()));
+  }
+  if (Text text = renew(watcher.cells, cells_->message(entities, watcher.follow))) return text;
+  return groups_ ? next_scenery(watcher) : nullptr;
 }
 
 }  // namespace reckon::tools

@@ -20,8 +20,17 @@ constexpr nanoseconds kSecond = std::chrono::seconds(1);
 
 HistoryOptions history_options(const StageOptions& options) {
   HistoryOptions history = options.history;
-  if (options.scene != nullptr) history.convergence = options.scene->convergence.settings;
+  if (options.scene == nullptr) return history;
+  history.convergence = options.scene->convergence.settings;
+  history.tiers = GroupTiers(options.scene->network, options.scene->aoim);
   return history;
+}
+
+/// Rows with a time: those older than `span` before the last go.
+template <typename Rows>
+void forget_old(Rows& rows, nanoseconds span) {
+  const nanoseconds oldest = rows.back().time - span;
+  while (rows.size() > 1 && rows.front().time < oldest) rows.pop_front();
 }
 
 /// Where a frame's origin lies on the ellipsoid.
@@ -46,8 +55,9 @@ ViewStage::ViewStage(const StageOptions& options)
     const peer::SceneFile& scene = *options.scene;
     origin_ = scene.origin;
     frame_.emplace(origin_.latitude, origin_.longitude, origin_.height);
-    threshold_ = scene.dead_reckoning.thresholds.position;
+    thresholds_.emplace(scene);
     cells_ = std::make_unique<HeardCells>(scene.aoim);
+    if (DrawnGroups::has_any(scene)) groups_ = std::make_unique<DrawnGroups>(scene);
     solids_ = drawn_solids(scene.scene);
     set_touch({});
   }
@@ -71,9 +81,15 @@ void ViewStage::find_frame() {
 }
 
 void ViewStage::take_hands(HandFrame frame) {
+  for (HandMark& hand : frame.hands)
+    hand.patch = touched_patch(solids_, hand.patch, hand.contact_point.cast<double>());
   hands_.push_back(std::move(frame));
-  const Time oldest = hands_.back().time - options_.history.span.value_or(Time{});
-  while (hands_.size() > 1 && hands_.front().time < oldest) hands_.pop_front();
+  forget_old(hands_, options_.history.span.value_or(Time{}));
+}
+
+void ViewStage::take_reception(const ReceptionSample& sample) {
+  receptions_.push_back(sample);
+  forget_old(receptions_, options_.history.span.value_or(Time{}));
 }
 
 void ViewStage::note(std::string_view level, std::string_view text) {

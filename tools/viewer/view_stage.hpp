@@ -19,8 +19,11 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/listener/contact_forces.hpp"
 #include "reckon/tools/viewer/history/history.hpp"
+#include "reckon/tools/viewer/peers_reception.hpp"
 #include "reckon/tools/viewer/protocol/picture.hpp"
+#include "reckon/tools/viewer/scenery/drawn_groups.hpp"
 #include "reckon/tools/viewer/scenery/heard_cells.hpp"
+#include "reckon/tools/viewer/scenery/shown_thresholds.hpp"
 #include "reckon/tools/viewer/scenery/solid_shapes.hpp"
 #include "reckon/tools/viewer/viewer_controls.hpp"
 #include "reckon/tools/viewer/watcher.hpp"
@@ -48,7 +51,8 @@ struct TouchHand {
   double limit = 0;  ///< [N], its largest force
 };
 
-/// All hands of the program at one instant. Their slots are set by `ids`.
+/// All hands of the program at one instant. Their slots are set by `ids`; what they touch has the
+/// number that it has in its own mesh.
 struct HandFrame {
   std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
   std::vector<HandMark> hands;
@@ -75,6 +79,8 @@ class ViewStage {
   bool take(const peer::SourceDatagram& datagram) { return history_.take(datagram); }
   void set_touch(const std::vector<TouchHand>& hands);
   void take_hands(HandFrame frame);
+  /// How the program's peers receive each other; times rise.
+  void take_reception(const ReceptionSample& sample);
   /// A line for the log of all tabs; the last kMostNotes are kept.
   void note(std::string_view level, std::string_view text);
   /// The source lost something: what is shown from now on has a gap before it.
@@ -115,10 +121,13 @@ class ViewStage {
 
   [[nodiscard]] Text next_text(Watcher& watcher);
   [[nodiscard]] Text next_regular_text(Watcher& watcher);
+  [[nodiscard]] Text next_scenery(Watcher& watcher);
   [[nodiscard]] std::string hello(const Watcher& watcher) const;
   [[nodiscard]] std::string origin_message() const;
   [[nodiscard]] std::string play_message(const Watcher& watcher) const;
   [[nodiscard]] std::string numbers_message(const Watcher& watcher) const;
+  void append_error(std::string& out, const NumbersSample& sample, std::uint16_t followed) const;
+  [[nodiscard]] const ReceptionSample* reception_at(Time time) const;
   void append_origin(std::string& out) const;
 
   [[nodiscard]] bool wants_picture(const Watcher& watcher) const;
@@ -133,11 +142,13 @@ class ViewStage {
   History history_;
   std::optional<deadreckon::LocalFrame> frame_;
   peer::OriginConfig origin_;
-  std::optional<double> threshold_;    // [m]
-  std::unique_ptr<HeardCells> cells_;  // null where none are known
+  std::optional<ShownThresholds> thresholds_;
+  std::unique_ptr<HeardCells> cells_;    // null where none are known
+  std::unique_ptr<DrawnGroups> groups_;  // null where the scene has none
   Text touch_;
   std::vector<DrawnSolid> solids_;
   std::deque<HandFrame> hands_;
+  std::deque<ReceptionSample> receptions_;
   ContactForces contacts_;
   Time now_{};
   Time next_roster_{}, next_numbers_{};

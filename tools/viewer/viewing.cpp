@@ -122,6 +122,12 @@ void ViewThread::put_hands(HandFrame frame) {
   if (frames_.size() < kMostWaiting) frames_.push_back(std::move(frame));
 }
 
+void ViewThread::put_reception(const ReceptionSample& sample) {
+  constexpr std::size_t kMostWaiting = 16;
+  const std::scoped_lock lock(mutex_);
+  if (receptions_.size() < kMostWaiting) receptions_.push_back(sample);
+}
+
 void ViewThread::put_note(std::string level, std::string text) {
   constexpr std::size_t kMostWaiting = 64;
   const std::scoped_lock lock(mutex_);
@@ -133,16 +139,20 @@ void ViewThread::run() {
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
   peer::name_thread(pthread_self(), "rk-view");
   std::vector<HandFrame> frames;
+  std::vector<ReceptionSample> receptions;
   std::vector<std::pair<std::string, std::string>> notes;
   while (!stop_.load(std::memory_order_relaxed)) {
     frames.clear();
+    receptions.clear();
     notes.clear();
     {
       const std::scoped_lock lock(mutex_);
       frames.swap(frames_);
+      receptions.swap(receptions_);
       notes.swap(notes_);
     }
     for (HandFrame& frame : frames) viewing_.stage().take_hands(std::move(frame));
+    for (const ReceptionSample& sample : receptions) viewing_.stage().take_reception(sample);
     for (const auto& [level, text] : notes) viewing_.stage().note(level, text);
     viewing_.step();
   }

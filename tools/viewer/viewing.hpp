@@ -79,6 +79,8 @@ class ViewThread {
 
   /// From the thread that looks at the peers: where the hands are now.
   void put_hands(HandFrame frame);
+  /// The same: how the peers receive each other.
+  void put_reception(const ReceptionSample& sample);
   /// The same: a line for the pages' log.
   void put_note(std::string level, std::string text);
   [[nodiscard]] const std::string& address() const noexcept { return address_; }
@@ -90,6 +92,7 @@ class ViewThread {
   std::string address_;
   std::mutex mutex_;  // of what is handed over
   std::vector<HandFrame> frames_;
+  std::vector<ReceptionSample> receptions_;
   std::vector<std::pair<std::string, std::string>> notes_;
   std::atomic<bool> stop_{false};
   std::thread thread_;

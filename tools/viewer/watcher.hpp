@@ -40,8 +40,8 @@ struct Watcher {
   std::uint32_t epoch = 0;         ///< of the roster that it has
   std::uint64_t notes = 0;         ///< that it has, counted from the first
   std::uint64_t numbers_tick = 0;  ///< of the last numbers
-  std::uint64_t cells_tick = 0;
-  std::string cells;  ///< message that it has
+  std::uint64_t cells_tick = 0, groups_tick = 0;
+  std::string cells, groups;  ///< messages that it has
   std::uint16_t follow = kNoNumber;
   std::optional<std::uint16_t> hand;
   std::string answer;  ///< about a hand, to be sent

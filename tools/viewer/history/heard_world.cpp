@@ -28,28 +28,34 @@ std::uint8_t force_of(const HeardEntity& entity) {
 
 /// What the table tells of an update before it takes it.
 struct HeardWorld::Watching final : EntityTable::Watch {
-  Watching(HeardWorld& the_world, Roster& the_roster, nanoseconds the_start)
-      : world(the_world), roster(the_roster), start(the_start) {}
+  Watching(HeardWorld& the_world, const peer::GroupAddress& the_group, Roster& the_roster,
+           nanoseconds the_start)
+      : world(the_world), group(the_group), roster(the_roster), start(the_start) {}
   void before_state(const StateUpdate& update) override {
-    world.note_update(update, roster, start);
+    world.note_update(update, group, roster, start);
   }
   void before_model(const HeardEntity& entity, const ModelUpdate& update) override {
     roster.note_model(entity.key, update.model.radius, update.arrival);
   }
   HeardWorld& world;
+  const peer::GroupAddress& group;
   Roster& roster;
   nanoseconds start;
 };
 
 void HeardWorld::take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Roster& roster,
                           nanoseconds start) {
-  Watching watching(*this, roster, start);
+  if (row.decoded && row.header.pdu_type == pdu::PduType::cell_roles)
+    return groups_.take_roles(row.bytes, datagram.time);
+  Watching watching(*this, datagram.group, roster, start);
   table_.take_pdu(row, datagram, &watching);
 }
 
-void HeardWorld::note_update(const StateUpdate& update, Roster& roster, nanoseconds start) {
+void HeardWorld::note_update(const StateUpdate& update, const peer::GroupAddress& group,
+                             Roster& roster, nanoseconds start) {
   const std::uint16_t slot = roster.admit(table_.heard(), update);
   if (slot == kNoNumber) return;
+  groups_.note_update(slot, group, update.arrival);
   if (slot >= errors_.size()) errors_.resize(slot + std::size_t{1});
   if (update.is_first) {
     errors_[slot] = {};
@@ -77,7 +83,7 @@ std::size_t HeardWorld::weight() const noexcept {
   constexpr std::size_t kModel = 400;
   return table_.entities().size() * (sizeof(HeardEntity) + sizeof(EntityRow)) +
          table_.heard().models().size() * (sizeof(HeardModel) + kModel) +
-         errors_.size() * sizeof(deadreckon::ConvergingError);
+         errors_.size() * sizeof(deadreckon::ConvergingError) + groups_.weight();
 }
 
 void HeardWorld::add_marks(nanoseconds time, nanoseconds start, const Roster& roster,

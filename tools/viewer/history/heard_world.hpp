@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The world as it is heard at one instant: the listener's table of entities, and beside it how far
-// what is shown still is from what is predicted. A copy is the world at that instant.
+// what is shown still is from what is predicted, and by which groups they are heard. A copy is the
+// world at that instant.
 #pragma once
 
 #include <chrono>
@@ -13,6 +14,7 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/tools/listener/entity_table.hpp"
+#include "reckon/tools/viewer/history/heard_groups.hpp"
 #include "reckon/tools/viewer/history/roster.hpp"
 #include "reckon/tools/viewer/protocol/picture.hpp"
 
@@ -28,8 +30,9 @@ struct HeardJumps {
 class HeardWorld {
  public:
   /// @param most entities
-  HeardWorld(std::size_t most, const deadreckon::ConvergenceSettings& settings)
-      : table_(most), settings_(settings) {}
+  HeardWorld(std::size_t most, const deadreckon::ConvergenceSettings& settings,
+             const GroupTiers& tiers)
+      : table_(most), settings_(settings), groups_(tiers) {}
 
   /// Takes one PDU as the inspector found it.
   /// @param start of the source
@@ -42,6 +45,7 @@ class HeardWorld {
   }
 
   [[nodiscard]] const EntityTable& table() const noexcept { return table_; }
+  [[nodiscard]] const HeardGroups& groups() const noexcept { return groups_; }
   /// Where the first entity is that was heard; geocentric [m].
   [[nodiscard]] std::optional<Eigen::Vector3d> first_place() const;
   [[nodiscard]] HeardJumps take_jumps() noexcept { return std::exchange(jumps_, {}); }
@@ -56,12 +60,14 @@ class HeardWorld {
 
  private:
   struct Watching;  // of one PDU on its way in
-  void note_update(const StateUpdate& update, Roster& roster, std::chrono::nanoseconds start);
+  void note_update(const StateUpdate& update, const peer::GroupAddress& group, Roster& roster,
+                   std::chrono::nanoseconds start);
 
   EntityTable table_;
   deadreckon::ConvergenceSettings settings_;
   std::vector<deadreckon::ConvergingError> errors_;  // by slot
   HeardJumps jumps_;
+  HeardGroups groups_;
 };
 
 }  // namespace reckon::tools

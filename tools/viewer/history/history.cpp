@@ -26,7 +26,8 @@ std::size_t History::Segment::weight() const noexcept {
 History::History(const HistoryOptions& options)
     : options_(options),
       roster_(std::min<std::size_t>(options.entities, kMostPictureRows)),
-      live_(std::min<std::size_t>(options.entities, kMostPictureRows), options.convergence) {}
+      live_(std::min<std::size_t>(options.entities, kMostPictureRows), options.convergence,
+            options.tiers) {}
 
 void History::begin_at(Time time) {
   if (!start_) start_ = end_ = time;

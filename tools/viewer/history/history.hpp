@@ -28,6 +28,7 @@ struct HistoryOptions {
   std::size_t entities = 16384;          ///< shown at most; below kNoNumber
   std::optional<std::uint8_t> exercise;  ///< alone; none: all
   deadreckon::ConvergenceSettings convergence;
+  GroupTiers tiers;
 };
 
 /// One thread. Allocates within its bounds.

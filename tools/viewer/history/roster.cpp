@@ -68,6 +68,15 @@ std::uint16_t Roster::slot_of(const pdu::EntityId& id) const noexcept {
   return found == by_id_.end() ? kNoNumber : found->second;
 }
 
+std::optional<pdu::EntityId> Roster::id_at(std::uint16_t slot) const noexcept {
+  if (key_at(slot) == 0) return std::nullopt;
+  return entries_[slot].id;
+}
+
+std::string_view Roster::marking_at(std::uint16_t slot) const noexcept {
+  return key_at(slot) == 0 ? std::string_view() : letters(entries_[slot].marking);
+}
+
 std::uint16_t Roster::place(std::uint64_t key) {
   const auto known = slots_.find(key);
   if (known != slots_.end()) return known->second;

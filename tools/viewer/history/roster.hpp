@@ -6,8 +6,10 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -36,6 +38,14 @@ class Roster {
   /// The key of the entity at a slot; 0 where there is none.
   [[nodiscard]] std::uint64_t key_at(std::uint16_t slot) const noexcept {
     return slot < entries_.size() ? entries_[slot].key : 0;
+  }
+  /// Of the entity at a slot; none where there is none.
+  [[nodiscard]] std::optional<pdu::EntityId> id_at(std::uint16_t slot) const noexcept;
+  /// Its marking; empty where there is none.
+  [[nodiscard]] std::string_view marking_at(std::uint16_t slot) const noexcept;
+  /// Whether it has a force model.
+  [[nodiscard]] bool is_haptic(std::uint16_t slot) const noexcept {
+    return key_at(slot) != 0 && entries_[slot].haptic;
   }
   /// Frees the slots of those that were last heard before `time`.
   void forget_before(std::chrono::nanoseconds time);

@@ -4,6 +4,8 @@
 //   { name, view: 'world' or 'touch', large: true where an inset is too small for it, says: words of the key, mark: shape and colour of the key,
 //     make(group, view, labels) -> { paint(), update(moment) } }
 import { drawnCells } from './drawn_cells.js';
+import { drawnBeacons } from './drawn_beacons.js';
+import { drawnGroups, drawnContactGroups } from './drawn_groups.js';
 import { drawnTrails } from './drawn_trails.js';
 import { drawnGhosts } from './drawn_ghosts.js';
 import { drawnEntities } from './drawn_entities.js';
@@ -11,6 +13,7 @@ import { drawnContacts } from './drawn_contacts.js';
 import { drawnFollowed } from './drawn_followed.js';
 import { drawnFloor } from './drawn_floor.js';
 import { drawnSolids } from './drawn_solids.js';
+import { drawnPatches } from './drawn_patches.js';
 import { drawnHandGhosts } from './drawn_hand_ghosts.js';
 import { drawnHands } from './drawn_hands.js';
 import { drawnTouchEntities } from './drawn_touch_entities.js';
@@ -18,6 +21,6 @@ import { drawnForces } from './drawn_forces.js';
 import { drawnCones } from './drawn_cones.js';
 
 export const DRAWN = [
-  drawnCells, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnFollowed,
-  drawnFloor, drawnSolids, drawnHandGhosts, drawnHands, drawnTouchEntities, drawnForces, drawnCones,
+  drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
+  drawnFloor, drawnSolids, drawnPatches, drawnHandGhosts, drawnHands, drawnTouchEntities, drawnForces, drawnCones,
 ];

@@ -98,6 +98,7 @@ class Page {
         moment.cells = { size: message.size || 0, shape: message.shape, cells: message.cells ?? [] };
         ++moment.cellsNumber;
       },
+      groups: () => { moment.groups = { groups: message.groups ?? [], beacons: message.beacons ?? [] }; },
       touch: () => {
         moment.touch = { solids: message.solids ?? [], hands: message.hands ?? [] };
         ++moment.touchNumber;

@@ -20,6 +20,7 @@ export class Moment {
     this.rosterNumber = (this.rosterNumber ?? 0) + 1;
     this.cells = { size: 0, cells: [] };
     this.cellsNumber = (this.cellsNumber ?? 0) + 1;
+    this.groups = { groups: [], beacons: [] };
     this.touch = { solids: [], hands: [] };
     this.touchNumber = (this.touchNumber ?? 0) + 1;
     this.numbers = {};

@@ -53,7 +53,7 @@ class Picture {
     const scalar = (offset) => number(view.getFloat32(at + offset, true));
     const force = vector(32);
     return {
-      index: view.getUint16(at, true), flags, slot: view.getUint16(at + 4, true), position: vector(8),
+      index: view.getUint16(at, true), flags, slot: view.getUint16(at + 4, true), patch: view.getUint16(at + 6, true), position: vector(8),
       surface: vector(20), force, newtons: Math.hypot(...force), normal: vector(44),
       trueForce: flags & HAND_FLAGS.trueKnown ? scalar(56) : null, energy: scalar(60), loan: scalar(64),
       twin: flags & HAND_FLAGS.twin ? scalar(68) : null,

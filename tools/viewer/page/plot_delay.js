@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
+// As the program's own peers receive each other, where it has some; else as the page's listener hears all.
 export const plotDelay = {
   name: 'delay', title: 'One-way delay and loss', unit: 'ms', good: 'Good: low and flat. Touch stays calm where it is not.',
   lines: [
-    { says: 'median', colour: 'hand-0', at: ({ numbers }) => numbers.delay_ms?.median },
-    { says: '95 of 100 below', colour: 'hand-2', at: ({ numbers }) => numbers.delay_ms?.p95 },
-    { says: 'lost', colour: 'force', right: '%', at: ({ numbers }) => percent(numbers.lost_share) },
+    { says: 'median at the peers', colour: 'hand-0', at: ({ numbers }) => numbers.peers?.delay_ms?.median },
+    { says: '95 of 100 below', colour: 'hand-2', at: ({ numbers }) => numbers.peers?.delay_ms?.p95 },
+    { says: 'lost', colour: 'force', right: '%', at: ({ numbers }) => percent(numbers.peers?.lost_share) },
+    { brief: true, says: 'median at this listener', colour: 'hand-0', at: heard((numbers) => numbers.delay_ms?.median) },
+    { brief: true, says: '95 of 100 below', colour: 'hand-2', at: heard((numbers) => numbers.delay_ms?.p95) },
+    { brief: true, says: 'lost', colour: 'force', right: '%', at: heard((numbers) => percent(numbers.lost_share)) },
   ],
 };
 
+function heard(what) { return ({ numbers }) => (numbers.peers ? null : what(numbers)); }
 function percent(x) { return Number.isFinite(x) ? 100 * x : null; }

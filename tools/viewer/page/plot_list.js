@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is plotted, in order. One more plot: its file, and its row here.
 //   { name, title, unit, good: one short line of what good looks like, log: true for a logarithmic scale,
-//     lines: [{ says, colour, dash: true, right: unit of a scale of its own, at(moment): number or null }] }
+//     lines: [{ says, colour, dash: true, right: unit of a scale of its own, brief: true where it takes turns with others,
+//       at(moment): number or null }] }
 import { plotForce } from './plot_force.js';
 import { plotEnergy } from './plot_energy.js';
 import { plotError } from './plot_error.js';

@@ -115,14 +115,17 @@ class Pane {
     ctx.restore();
   }
 
-  // Values under the cursor, else those of the instant that is shown; lines without any are not spoken of.
+  // Values under the cursor, else those of the instant that is shown; lines without any are not spoken of, brief ones not where they have none.
   tell() {
     if (!this.data) return;
     const { idx } = this.plot.cursor;
     const times = this.data[0];
     let at = idx ?? times.length - 1;
     if (idx === null || idx === undefined) while (at > 0 && times[at] > this.plots.time + 0.001) --at;
-    const known = this.row.lines.flatMap((line, i) => (this.data[i + 1].some((x) => x !== null) ? [[line, this.data[i + 1][at]]] : []));
+    const known = this.row.lines.flatMap((line, i) => {
+      const column = this.data[i + 1];
+      return (line.brief ? [column[at] ?? null] : column).some((x) => x !== null) ? [[line, column[at]]] : [];
+    });
     this.keys.replaceChildren(...known.map(([line, x]) => {
       const key = element('span', `${line.dash ? 'dash ' : ''}c-${line.colour}`, `${line.says} `, element('b', '', digits(x)));
       if (line.right) key.append(` ${line.right}`);

@@ -4,7 +4,7 @@
 
 const KEPT_SECONDS = 60;
 const BUDGET = 14e6; // octets of pictures; this and what text is kept as in saved_run
-const STATE = ['hello', 'roster', 'touch', 'cells'];
+const STATE = ['hello', 'roster', 'touch', 'cells', 'groups'];
 
 export class Recorder {
   constructor(budget = BUDGET) {

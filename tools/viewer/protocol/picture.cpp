@@ -80,7 +80,7 @@ void write_hand(Writer& out, const HandMark& hand) {
   out.u16(hand.index);
   out.u16(hand.flags);
   out.u16(hand.slot);
-  out.u16(0);
+  out.u16(hand.patch);
   out.vector(hand.position);
   out.vector(hand.contact_point);
   out.vector(hand.force);

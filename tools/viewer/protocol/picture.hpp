@@ -61,7 +61,8 @@ struct EntityMark {
 struct HandMark {
   std::uint16_t index = 0;
   std::uint16_t flags = 0;
-  std::uint16_t slot = kNoNumber;                      ///< of its entity
+  std::uint16_t slot = kNoNumber;  ///< of its entity
+  std::uint16_t patch = 0;  ///< below its contact point, see DrawnSolid::first_patch; 0: none
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< of the handle
   Eigen::Vector3f contact_point = Eigen::Vector3f::Zero();
   Eigen::Vector3f force = Eigen::Vector3f::Zero();   ///< [N], on the hand

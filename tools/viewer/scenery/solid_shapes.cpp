@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/viewer/scenery/solid_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <span>
 
 #include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/haptics/scene/surface_patches.hpp"
+#include "reckon/tools/viewer/protocol/picture.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -80,10 +84,20 @@ void draw_mesh(const haptics::SurfaceMesh& mesh, DrawnSolid& out) {
     out.triangles.push_back({index_of(triangle.a), index_of(triangle.b), index_of(triangle.c)});
 }
 
+void draw_patches(const haptics::SceneObject& object, const haptics::SurfaceMesh& mesh,
+                  DrawnSolid& out) {
+  const auto planned = haptics::plan_patches(object, mesh);
+  if (!planned) return;
+  out.patches = planned->of_triangle;
+  for (std::size_t i = 1; i < planned->patches.size(); ++i)
+    out.patch_names.push_back(planned->patches[i].name);
+}
+
 /// Draws the shape of one solid.
 struct Drawing {
   DrawnSolid& out;
   std::size_t most;
+  const haptics::SceneObject& object;
 
   void operator()(const haptics::PlaneShape& plane) const {
     out.shape = "plane";
@@ -111,7 +125,10 @@ struct Drawing {
   void operator()(const haptics::MeshShape& shape) const {
     try {
       const auto mesh = haptics::SurfaceMesh::load(shape);
-      if (mesh.triangles().size() <= most) return draw_mesh(mesh, out);
+      if (mesh.triangles().size() <= most) {
+        draw_patches(object, mesh, out);
+        return draw_mesh(mesh, out);
+      }
       draw_box(mesh.bounds().sizes(), out);
       out.pose.position += out.pose.orientation * (mesh.origin() + mesh.bounds().center());
     } catch (const std::exception&) {
@@ -121,6 +138,19 @@ struct Drawing {
   }
   void operator()(const haptics::CsgShape&) const {}
 };
+
+/// Square of the distance to the nearest corner of this patch [m^2].
+double distance_to_patch(const DrawnSolid& solid, std::uint32_t patch,
+                         const Eigen::Vector3d& point) {
+  const Eigen::Vector3d local = solid.pose.orientation.conjugate() * (point - solid.pose.position);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < solid.triangles.size(); ++i) {
+    if (solid.patches[i] != patch) continue;
+    for (const std::uint32_t corner : solid.triangles[i])
+      least = std::min(least, (solid.vertices[corner] - local).squaredNorm());
+  }
+  return least;
+}
 
 ObjectPose placed(const ObjectPose& object, const haptics::CsgPart& part) {
   return {object.position + object.orientation.normalized() * part.position,
@@ -140,7 +170,7 @@ std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene, std::size_t mo
       solid.stiffness = object.effects.of<haptics::SpringDamper>().stiffness;
       if (const auto* friction = object.effects.find<haptics::StickSlipFriction>())
         solid.friction = friction->static_coefficient;
-      std::visit(Drawing{solid, most}, shape);
+      std::visit(Drawing{solid, most, object}, shape);
     };
     const auto* parts = std::get_if<haptics::CsgShape>(&object.shape);
     if (parts == nullptr) {
@@ -150,7 +180,30 @@ std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene, std::size_t mo
     for (const haptics::CsgPart& part : parts->parts)
       if (part.operation == haptics::CsgOperation::add) add(placed(object.pose, part), part.shape);
   }
+  std::size_t next = 1;
+  for (DrawnSolid& solid : solids) {
+    const std::size_t count = solid.patches.empty() ? 0 : solid.patch_names.size() + 1;
+    if (count == 0 || next + count > kNoNumber) continue;
+    solid.first_patch = static_cast<std::uint16_t>(next);
+    next += count;
+  }
   return solids;
+}
+
+std::uint16_t touched_patch(std::span<const DrawnSolid> solids, std::uint32_t patch,
+                            const Eigen::Vector3d& point) {
+  if (patch == 0) return 0;
+  std::vector<const DrawnSolid*> having;
+  for (const DrawnSolid& solid : solids)
+    if (solid.first_patch > 0 && patch <= solid.patch_names.size()) having.push_back(&solid);
+  if (having.empty()) return 0;
+  const DrawnSolid* nearest = having.front();
+  if (having.size() > 1) {
+    nearest = *std::ranges::min_element(having, {}, [&](const DrawnSolid* solid) {
+      return distance_to_patch(*solid, patch, point);
+    });
+  }
+  return static_cast<std::uint16_t>(nearest->first_patch + patch);
 }
 
 }  // namespace reckon::tools

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,10 @@ struct DrawnSolid {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m] of a box
   std::vector<Eigen::Vector3d> vertices;           ///< [m] of a mesh, object axes
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint16_t> patches;    ///< of each triangle, 0: in none; empty: it has none
+  std::vector<std::string> patch_names;  ///< from patch 1 on
+  /// Number of its patch 0 among those of all solids, >= 1; 0 where it has none.
+  std::uint16_t first_patch = 0;
   double stiffness = 0;  ///< [N/m]
   double friction = 0;   ///< static coefficient; 0: smooth
 };
@@ -32,5 +37,11 @@ struct DrawnSolid {
 /// cannot be read, or has more than `most` triangles, is its bounding box. Reads mesh files.
 [[nodiscard]] std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene,
                                                    std::size_t most = 200'000);
+
+/// The number, among those of all solids, of patch `patch` of a mesh that is touched at `point`
+/// [m, S]; 0 where there is none. Where several meshes have a patch of this number, of that which
+/// is nearest: some ns for each corner of them.
+[[nodiscard]] std::uint16_t touched_patch(std::span<const DrawnSolid> solids, std::uint32_t patch,
+                                          const Eigen::Vector3d& point);
 
 }  // namespace reckon::tools

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
+#include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 
@@ -190,6 +192,103 @@ TEST(History, TellsRatesAndErrorsOfTheSecondBefore) {
   EXPECT_NEAR(sample->error_mean.value(), 0.25, 0.01);
   EXPECT_FALSE(sample->lost_share.has_value());
   EXPECT_EQ(history.numbers().at(kStart), nullptr);
+}
+
+/// A scene of 8 groups of cells at 239.192.1.1, then near groups, then contact groups.
+GroupTiers three_tiers() {
+  peer::AoimConfig aoim;
+  aoim.pool = 8;
+  aoim::Channel near, far;
+  near.farthest = 10;
+  aoim.tiers = peer::distance_tiers(std::array{near, far}, false);
+  aoim.tiers[0].own_group = true;
+  aoim.tiers.insert(aoim.tiers.begin(), {peer::Recipients::touch, {}, false});
+  return {peer::NetworkConfig{}, aoim};
+}
+
+peer::GroupAddress group_number(std::uint32_t number, std::uint16_t port = 3000) {
+  return peer::IpEndpoint::v4(0xEFC00100 + number, port);
+}
+
+TEST(GroupTiers, TellNearAndContactGroupsFromThoseOfCells) {
+  const GroupTiers tiers = three_tiers();
+  for (const std::uint32_t number : {0U, 1U, 8U, 25U})
+    EXPECT_EQ(tiers.of(group_number(number)).number, 0) << number;
+  EXPECT_EQ(tiers.of(group_number(9)).tier, GroupTier::near);
+  EXPECT_EQ(tiers.of(group_number(16)).tier, GroupTier::near);
+  EXPECT_EQ(tiers.of(group_number(17)).tier, GroupTier::contact);
+  EXPECT_EQ(tiers.of(group_number(24)).number, 24);
+  EXPECT_EQ(tiers.of(group_number(24, 3001)).number, 24) << "sealed";
+  EXPECT_EQ(tiers.of(peer::IpEndpoint::v4(0x7F000001, 3000)).number, 0);
+  EXPECT_EQ(GroupTiers().of(group_number(24)).number, 0) << "no scene, no knowledge";
+}
+
+TEST(HeardGroups, KnowWhoWasHeardOfLateInAContactGroup) {
+  HistoryOptions options = whole();
+  options.tiers = three_tiers();
+  History history(options);
+  const auto hear = [&](std::uint16_t number, double t, std::uint32_t group) {
+    Sent sent{{}, kStart + nanoseconds(std::llround(1e9 * t))};
+    test::append_pdu(sent.octets, trucks::truck(number, t));
+    peer::SourceDatagram datagram = datagram_of(sent);
+    datagram.group = group_number(group);
+    ASSERT_TRUE(history.take(datagram));
+  };
+  hear(1, 0.0, 17);
+  hear(2, 0.1, 17);
+  hear(3, 0.2, 2);  // by its cell's group
+  hear(2, 1.0, 9);
+  hear(2, 1.2, 2);
+  const auto at = [&](nanoseconds time) {
+    return history.live().groups().shared_at(kStart + time);
+  };
+  const auto shared = at(milliseconds(1200));
+  ASSERT_EQ(shared.size(), 2U);
+  EXPECT_EQ(shared[0].group.number, 9);
+  EXPECT_EQ(shared[0].slots, (std::vector<std::uint16_t>{1}));
+  EXPECT_EQ(shared[1].group.tier, GroupTier::contact);
+  EXPECT_EQ(shared[1].slots, (std::vector<std::uint16_t>{0, 1}));
+  EXPECT_EQ(at(milliseconds(3050)).at(1).slots, (std::vector<std::uint16_t>{1}));
+  EXPECT_TRUE(at(seconds(5)).empty()) << "not of late";
+  std::unique_ptr<History::Cursor> cursor;
+  history.seek(cursor, kStart + milliseconds(50));
+  EXPECT_EQ(cursor->world().groups().shared_at(cursor->time()).at(0).slots.size(), 1U);
+}
+
+/// The roles of a peer that carries one beacon.
+Sent roles(std::uint32_t tag, std::int32_t column, std::uint16_t flags, double t) {
+  Sent sent{{}, kStart + nanoseconds(std::llround(1e9 * t))};
+  pdu::CellRoles roles;
+  roles.simulation = {1, 2};
+  test::Octets octets(pdu::kFixedSize<pdu::CellRole>);
+  pdu::CellRole role;
+  role.column = column;
+  role.beacon = tag;
+  role.flags = flags;
+  EXPECT_GT(pdu::store_record(role, octets), 0U);
+  roles.roles = octets;
+  test::append_pdu(sent.octets, roles);
+  return sent;
+}
+
+TEST(HeardGroups, KnowTheCellOfABeaconUntilItLeaves) {
+  History history(whole());
+  take(history, {roles(7, 3, 0, 0), roles(7, 4, 0, 1), roles(7, 3, pdu::kRoleLeaves, 1.1)});
+  const auto& beacons = history.live().groups().beacons();
+  ASSERT_EQ(beacons.size(), 1U) << "it has left another cell";
+  EXPECT_EQ(beacons.at(7).cell.column, 4);
+  EXPECT_EQ(beacons.at(7).owner, (pdu::SimulationAddress{1, 2}));
+  EXPECT_EQ(beacons.at(7).heard, kStart + seconds(1));
+  take(history, {roles(7, 4, pdu::kRoleLeaves, 2)});
+  EXPECT_TRUE(beacons.empty());
+}
+
+TEST(HeardGroups, HaveRoomForSoManyBeaconsAndForNewOnesWhenTheOldAreSilent) {
+  History history(whole());
+  for (std::uint32_t tag = 1; tag <= 2000; ++tag) take(history, {roles(tag, 0, 0, 0.001 * tag)});
+  EXPECT_EQ(history.live().groups().beacons().size(), HeardGroups::kMostBeacons);
+  take(history, {roles(5000, 0, 0, 60)});
+  EXPECT_TRUE(history.live().groups().beacons().contains(5000));
 }
 
 TEST(Roster, NamesWhomItShowsAndGivesSlotsAwayAgain) {

@@ -23,6 +23,10 @@ const { Recorder, base64 } = await take('recorder.js');
 const { Replay } = await take('replay.js');
 const { filledFrame } = await take('saving.js');
 const { Moment } = await take('moment.js');
+const { Steering } = await take('steering.js');
+const { hull } = await take('hull.js');
+const { plotDelay } = await take('plot_delay.js');
+const { plotError } = await take('plot_error.js');
 const { digits, foreign, roundUp } = await take('words.js');
 
 function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, flags = 1 }) {
@@ -45,10 +49,11 @@ function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0
     view.setUint16(at + 40, 250, true);
     view.setUint16(at + 42, 12, true);
   });
-  hands.forEach(({ index = 0, flags: of = 0, force = [0, 0, 0], position = [0, 0, 0] }, i) => {
+  hands.forEach(({ index = 0, flags: of = 0, patch = 0, force = [0, 0, 0], position = [0, 0, 0] }, i) => {
     const at = 32 + 44 * entities.length + 72 * i;
     view.setUint16(at, index, true);
     view.setUint16(at + 2, of, true);
+    view.setUint16(at + 6, patch, true);
     position.forEach((x, k) => view.setFloat32(at + 8 + 4 * k, x, true));
     force.forEach((x, k) => view.setFloat32(at + 32 + 4 * k, x, true));
     [5, 6, 7, 8].forEach((x, k) => view.setFloat32(at + 56 + 4 * k, x, true));
@@ -58,7 +63,7 @@ function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0
 
 test('A picture gives each field back', () => {
   const decoded = decodePicture(picture({
-    time: 12.5, number: 9, entities: [{ slot: 3, x: 2 }, { slot: 8, x: 4, error: 0.5 }], hands: [{ index: 1, flags: 128, force: [3, 0, 4] }], contacts: 2,
+    time: 12.5, number: 9, entities: [{ slot: 3, x: 2 }, { slot: 8, x: 4, error: 0.5 }], hands: [{ index: 1, flags: 128, patch: 5, force: [3, 0, 4] }], contacts: 2,
   }));
   assert.deepEqual([decoded.time, decoded.number, decoded.epoch, decoded.entities], [12.5, 9, 7, 2]);
   assert.deepEqual([decoded.slot(1), decoded.force(1), decoded.cause(1), decoded.cell(1), decoded.group(1), decoded.rate(1), decoded.jump(1)],
@@ -66,7 +71,7 @@ test('A picture gives each field back', () => {
   assert.deepEqual([decoded.floats[decoded.floatAt(1)], decoded.floats[decoded.floatAt(1) + 5], decoded.shorts[decoded.turnAt(1)]], [4, 0.5, 32767]);
   assert.deepEqual([decoded.indexOf(8), decoded.indexOf(4)], [1, -1]);
   const [hand] = decoded.hands;
-  assert.deepEqual([hand.index, hand.newtons, hand.trueForce, hand.energy, hand.loan, hand.twin], [1, 5, 5, 6, 7, null]);
+  assert.deepEqual([hand.index, hand.patch, hand.newtons, hand.trueForce, hand.energy, hand.loan, hand.twin], [1, 5, 5, 5, 6, 7, null]);
   assert.equal(decoded.contacts.length, 2);
 });
 
@@ -140,6 +145,84 @@ test('Commands have the octets of the protocol', () => {
   assert.equal(hex(COMMANDS.pointer(1, [1, 0, 0], true)), '0601000000803f000000000000000001');
   assert.equal(hex(COMMANDS.network({ delay: 1, jitter: 0, loss: 1, outage: true })), '070000803f000000000000803f01');
   assert.deepEqual([hex(COMMANDS.askHand()), hex(COMMANDS.giveHand()), hex(COMMANDS.follow(258))], ['08', '09', '0a0201']);
+});
+
+// A canvas that is touched: what a hand and a camera were told.
+function touched(hasHand) {
+  const listeners = new Map();
+  const told = [];
+  const note = (name) => (...values) => told.push([name, ...values.filter((x) => typeof x === 'number')]);
+  const canvas = { addEventListener: (type, act) => listeners.set(type, act), setPointerCapture() {} };
+  const orbit = { zoom: note('zoom'), pan: note('pan'), turn: note('turn') };
+  const hand = { index: hasHand ? 0 : null, move: note('move'), deepen: note('deepen'), letGo: note('letGo') };
+  new Steering({ stage: { canvas, large: 'touch', view: () => ({ orbit }) }, hand, moment: {}, fit() {}, follow() {} });
+  const finger = (id) => {
+    let last = [0, 0];
+    const send = (type, [x, y]) => {
+      listeners.get(type)({ pointerId: id, pointerType: 'touch', button: type === 'pointermove' ? -1 : 0, buttons: 1, clientX: x, clientY: y,
+        offsetX: x, offsetY: y, movementX: x - last[0], movementY: y - last[1] });
+      last = [x, y];
+    };
+    return { down: (...at) => send('pointerdown', at), to: (...at) => send('pointermove', at),
+      up: () => { send('pointerup', last); send('pointerleave', last); } };
+  };
+  return { finger, told: () => told.splice(0) };
+}
+
+test('One finger moves a hand in its plane, a second one in depth, and the camera stands', () => {
+  const { finger, told } = touched(true);
+  const [one, two] = [finger(1), finger(2)];
+  one.down(10, 20);
+  one.to(15, 25);
+  assert.deepEqual(told(), [['move', 10, 20], ['move', 15, 25]]);
+  two.down(200, 100);
+  two.to(230, 90);
+  one.to(18, 26);
+  two.to(230, 130);
+  assert.deepEqual(told(), [['deepen', -10], ['move', 18, 26], ['deepen', 40]]);
+  two.up();
+  one.to(20, 26);
+  assert.deepEqual(told(), [['move', 20, 26]], 'the hand is held on');
+  two.down(50, 50);
+  one.up();
+  two.to(90, 90);
+  two.up();
+  assert.deepEqual(told(), [['letGo']], 'the finger that is left moves nothing');
+});
+
+test('Without a hand two fingers move the camera alone', () => {
+  const { finger, told } = touched(false);
+  const [one, two] = [finger(1), finger(2)];
+  one.down(0, 0);
+  two.down(100, 0);
+  two.to(200, 0);
+  assert.deepEqual(told(), [['zoom', 0.5], ['pan', 50, 0]]);
+});
+
+test('The plot of errors shows all against at most three thresholds, or the followed one against its own', () => {
+  const at = (error, followed = 65535) => {
+    const moment = { picture: decodePicture(picture({ entities: [{ slot: 3 }] })), followed, numbers: { error } };
+    return plotError.lines.map((line) => line.at(moment)).map((x) => (Number.isFinite(x) ? x : null));
+  };
+  const all = { mean_m: 0.25, worst_m: 2, thresholds_m: [0.0005, 1] };
+  assert.deepEqual(at(all), [250, 2000, null, null, 0.5, 1000, null]);
+  assert.deepEqual(at({ ...all, followed_m: 1 }, 3), [null, null, 12, 1000, null, null, null]);
+  assert.deepEqual(at({ mean_m: 0.25 }), [250, null, null, null, null, null, null]);
+  assert.deepEqual(at(undefined), Array(7).fill(null));
+});
+
+test('The plot of delay shows the peers where a program has some, and never both', () => {
+  const at = (numbers) => plotDelay.lines.map((line) => line.at({ numbers })).map((x) => (Number.isFinite(x) ? x : null));
+  const heard = { delay_ms: { median: 1, p95: 2 }, lost_share: 0 };
+  assert.deepEqual(at(heard), [null, null, null, 1, 2, 0]);
+  assert.deepEqual(at({ ...heard, peers: { delay_ms: { median: 100, p95: 130 }, lost_share: 0.2 } }), [100, 130, 20, null, null, null]);
+  assert.deepEqual(at({ ...heard, peers: {} }), Array(6).fill(null), 'an outage');
+});
+
+test('A hull goes round its points', () => {
+  assert.deepEqual(hull([[0, 0], [2, 0], [1, 1], [2, 2], [0, 2], [1, 0]]), [[0, 0], [2, 0], [2, 2], [0, 2]]);
+  assert.deepEqual(hull([[3, 1], [1, 1]]), [[1, 1], [3, 1]]);
+  assert.deepEqual(hull([]), []);
 });
 
 function saved(times) {

@@ -38,6 +38,7 @@ PictureRows rows() {
   picture.hands.resize(1);
   picture.hands[0].index = 3;
   picture.hands[0].flags = kHandInContact;
+  picture.hands[0].patch = 6;
   picture.hands[0].twin_force = 4.5F;
   picture.contacts.resize(1);
   picture.contacts[0].feeling = 9;
@@ -79,6 +80,7 @@ TEST(Picture, HasEachThingAtItsPlace) {
   EXPECT_EQ(at<std::uint16_t>(octets, entity + 42), 12);
   const std::size_t hand = 32 + 2 * 44;
   EXPECT_EQ(at<std::uint16_t>(octets, hand), 3);
+  EXPECT_EQ(at<std::uint16_t>(octets, hand + 6), 6);
   EXPECT_EQ(at<float>(octets, hand + 68), 4.5F);
   EXPECT_EQ(at<std::uint16_t>(octets, hand + 72 + 2), 9);
   EXPECT_EQ(at<float>(octets, hand + 72 + 24), 2.0F);

@@ -1,10 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "reckon/aoim/leader/beacon_book.hpp"
+#include "reckon/pdu/reckon/cell_roles.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tests/tools/support/driven_trucks.hpp"
+#include "reckon/tools/viewer/history/history.hpp"
+#include "reckon/tools/viewer/scenery/drawn_groups.hpp"
 #include "reckon/tools/viewer/scenery/heard_cells.hpp"
+#include "reckon/tools/viewer/scenery/shown_thresholds.hpp"
 #include "reckon/tools/viewer/scenery/solid_shapes.hpp"
 
 namespace reckon::tools {
@@ -56,6 +67,87 @@ TEST(HeardCells, HaveNoNumberForAPlaceThatIsNone) {
   EXPECT_EQ(nlohmann::json::parse(cells.message(marks, 1))["cells"].size(), 0U);
 }
 
+constexpr const char* kGate = R"(
+[aoim]
+scheme = "square"
+cell = "10 m"
+radius = "12 m"
+leaders = true
+hand_out = true
+follow = "ferry"
+[[entity]]
+marking = "gate"
+type = "1.1"
+beacon = "gate"
+)";
+
+/// Roles of peer 1:2 that carries a beacon in this cell.
+test::Octets roles(std::string_view name, aoim::CellId cell) {
+  pdu::CellRoles roles;
+  test::Octets one(pdu::kFixedSize<pdu::CellRole>), octets;
+  pdu::CellRole role;
+  role.column = cell.q;
+  role.row = cell.r;
+  role.beacon = aoim::beacon_tag(name);
+  EXPECT_GT(pdu::store_record(role, one), 0U);
+  roles.roles = one;
+  roles.simulation = {1, 2};
+  test::append_pdu(octets, roles);
+  return octets;
+}
+
+/// A cell far away that has the same number.
+aoim::CellId same_number(const aoim::CellPartition& cells, aoim::CellId cell) {
+  aoim::CellId other = cell;
+  do ++other.q;
+  while (cells.group(other) != cells.group(cell));
+  return other;
+}
+
+TEST(DrawnGroups, PutABeaconInTheCellOfItsOwnersEntityUnderItsName) {
+  const peer::SceneFile scene = peer::parse_scene_file(kGate, "gate.toml");
+  ASSERT_TRUE(DrawnGroups::has_any(scene));
+  using std::chrono::seconds;
+  History history(HistoryOptions{});  // knows truck 1:2:1 at slot 0
+  trucks::Sent sent{{}, trucks::kStart};
+  test::append_pdu(sent.octets, trucks::truck(1, 0));
+  ASSERT_TRUE(history.take(trucks::datagram_of(sent)));
+  const std::vector<EntityMark> marks{mark_at(7, 5, 5), mark_at(0, 23, -4)};
+  const aoim::CellPartition cells = peer::cells_of(scene.aoim);
+  HeardGroups heard{GroupTiers(scene.network, scene.aoim)};
+  heard.take_roles(roles("gate", same_number(cells, {2, -1})), seconds(105));
+  heard.take_roles(roles("stranger", {2, -1}), seconds(104));
+  heard.take_roles(roles("ferry", {2, -1}), seconds(100));
+  heard.take_roles(roles("nowhere", {0, 0}), seconds(105));
+  const auto message = nlohmann::json::parse(
+      DrawnGroups(scene).message(heard, history.roster(), marks, seconds(106), seconds(100)));
+  EXPECT_EQ(message["type"], "groups");
+  ASSERT_EQ(message["beacons"].size(), 2U) << "one is silent, one where its owner has nothing";
+  for (const auto& beacon : message["beacons"]) {
+    const bool is_ours = beacon["name"] == "gate";
+    EXPECT_TRUE(is_ours || beacon["name"].get<std::string>().starts_with("beacon "));
+    EXPECT_EQ(beacon["x"], 25);
+    EXPECT_EQ(beacon["y"], -5);
+    EXPECT_EQ(beacon["heard"], is_ours ? 5 : 4);
+    EXPECT_EQ(beacon["peer"], "1:2");
+  }
+}
+
+TEST(DrawnGroups, SayWhoSharesAGroup) {
+  const peer::SceneFile scene =
+      peer::parse_scene_file("[aoim]\npool = 4\n[[aoim.tier]]\nto = \"touch\"\n", "touch.toml");
+  ASSERT_TRUE(DrawnGroups::has_any(scene));
+  HeardGroups heard{GroupTiers(scene.network, scene.aoim)};
+  for (const std::uint16_t slot : {3, 8})
+    heard.note_update(slot, peer::IpEndpoint::v4(0xEFC00106, 3000), {});
+  const History history(HistoryOptions{});
+  const auto message =
+      nlohmann::json::parse(DrawnGroups(scene).message(heard, history.roster(), {}, {}, {}));
+  EXPECT_EQ(message["groups"],
+            nlohmann::json::parse(R"([{"tier":"contact","group":6,"slots":[3,8]}])"));
+  EXPECT_FALSE(DrawnGroups::has_any(peer::parse_scene_file("[aoim]\npool = 4\n", "plain.toml")));
+}
+
 TEST(SolidShapes, DrawEveryKindOfSolid) {
   haptics::Scene scene;
   const auto add = [&](const haptics::Shape& shape) {
@@ -87,6 +179,67 @@ TEST(SolidShapes, DrawEveryKindOfSolid) {
   for (const Eigen::Vector3d& p : solids[6].vertices)
     EXPECT_NEAR(p.cwiseQuotient(Eigen::Vector3d(0.06, 0.04, 0.03)).norm(), 1, 1e-12);
   EXPECT_EQ(solids[7].shape, "sphere") << "a part that is taken away is not drawn";
+}
+
+/// Two sides of a box, of a material each, and a third of none.
+constexpr const char* kPad = R"(
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+usemtl felt
+f 1 2 3
+usemtl steel
+f 1 3 4
+usemtl bare
+f 1 2 6
+)";
+
+TEST(SolidShapes, NumberThePatchesOfAllMeshesAndFindTheOneThatIsTouched) {
+  const std::string file = testing::TempDir() + "reckon_pad.obj";
+  std::ofstream(file) << kPad;
+  haptics::Scene scene;
+  haptics::SceneObject object;
+  object.shape = haptics::MeshShape{file, 0.1};
+  object.patches = {{"steel", {}, {}}, {"felt", {}, {}}};
+  scene.objects = {{"ball", haptics::SphereShape{}, {}, {}, {}}, object, object};
+  scene.objects[2].pose.position.x() = 1;
+  const auto solids = drawn_solids(scene);
+  ASSERT_EQ(solids.size(), 3U);
+  EXPECT_EQ(solids[0].first_patch, 0) << "no patches, no number";
+  EXPECT_EQ(solids[1].patch_names, (std::vector<std::string>{"felt", "steel"})) << "of the file";
+  EXPECT_EQ(solids[1].patches, (std::vector<std::uint16_t>{1, 2, 0}));
+  EXPECT_EQ(solids[1].patches.size(), solids[1].triangles.size());
+  EXPECT_EQ(solids[1].first_patch, 1);
+  EXPECT_EQ(solids[2].first_patch, 4);
+  EXPECT_EQ(touched_patch(solids, 2, {0.1, 0, 0}), 3) << "steel of the near one";
+  EXPECT_EQ(touched_patch(solids, 2, {0.9, 0, 0}), 6);
+  EXPECT_EQ(touched_patch(solids, 0, {0.9, 0, 0}), 0) << "in no patch";
+  EXPECT_EQ(touched_patch(solids, 9, {0.9, 0, 0}), 0);
+}
+
+TEST(ShownThresholds, AreThreeAtMostAndThoseOfAnEntityByItsMarking) {
+  const auto scene = [](std::string_view more) {
+    return peer::parse_scene_file(fmt::format("[dead_reckoning]\nposition = \"0.5 mm\"\n{}", more),
+                                  "thresholds.toml");
+  };
+  EXPECT_EQ(ShownThresholds(scene("")).told(), (std::vector<double>{0.0005}));
+  const auto entity = [](std::string_view marking, std::string_view position) {
+    return fmt::format(
+        "[[entity]]\nmarking = \"{}\"\ntype = \"1.1\"\ndead_reckoning = {{position = \"{}\"}}\n",
+        marking, position);
+  };
+  const ShownThresholds one(scene(entity("A", "2 m") + entity("B", "2 m")));
+  EXPECT_EQ(one.told(), (std::vector<double>{2})) << "there are no hands";
+  const ShownThresholds many(scene("[[operator]]\npassive = true\n" + entity("A", "2 m") +
+                                   entity("B", "5 m") + entity("B", "6 m") + entity("C", "9 m")));
+  EXPECT_EQ(many.told(), (std::vector<double>{0.0005, 5, 9}));
+  EXPECT_EQ(many.of("A", false), 2);
+  EXPECT_EQ(many.of("B", false), std::nullopt) << "there are two of that name";
+  EXPECT_EQ(many.of("HAND1", true), 0.0005);
+  EXPECT_EQ(many.of("stranger", false), std::nullopt);
 }
 
 TEST(SolidShapes, DrawTheBoxOfAMeshThatCannotBeRead) {

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How a program's own peers receive each other, from what their loops count anyway: behind the
+// impairment of the scene, which a listener beside them does not have.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "reckon/peer/peer.hpp"
+
+namespace reckon::tools {
+
+/// Over the second before `time`, of all peers together. What is absent is not known.
+struct ReceptionSample {
+  std::chrono::nanoseconds time{};
+  std::optional<double> lost_share;               ///< by the numbers of trailers
+  std::optional<double> delay_median, delay_p95;  ///< [s], one way, rounded up by 1/16 at most
+};
+
+/// One thread, any: that which looks at the peers.
+class PeersReception {
+ public:
+  static constexpr std::chrono::nanoseconds kEvery = std::chrono::milliseconds(250);
+
+  /// @param peer outlives it
+  void add(const peer::Peer& peer) { peers_.push_back(&peer); }
+  /// A sample where one is due; nothing without peers, and in the first second.
+  /// @param now of any clock that rises
+  [[nodiscard]] std::optional<ReceptionSample> look(std::chrono::nanoseconds now);
+
+ private:
+  static constexpr std::size_t kParts = 4;  // of a second
+  struct Look {
+    peer::TransitTimes::Counts came{};
+    std::int64_t lost = 0;
+  };
+  [[nodiscard]] Look sum() const;
+
+  std::vector<const peer::Peer*> peers_;
+  std::deque<Look> looks_;  // oldest first
+  std::optional<std::chrono::nanoseconds> next_;
+};
+
+}  // namespace reckon::tools

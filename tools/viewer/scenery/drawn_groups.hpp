@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Near and contact groups of a scene, and its beacons, as a page draws them.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "reckon/aoim/cells/cell_partition.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/viewer/history/heard_groups.hpp"
+#include "reckon/tools/viewer/history/roster.hpp"
+
+namespace reckon::tools {
+
+/// One thread; immutable.
+class DrawnGroups {
+ public:
+  /// @throws std::invalid_argument where the scene's cells cannot be made
+  explicit DrawnGroups(const peer::SceneFile& scene);
+
+  /// Whether a scene has any of it: else there is nothing to tell.
+  [[nodiscard]] static bool has_any(const peer::SceneFile& scene) noexcept;
+
+  /// The message, as of `time`. A beacon is in the cell of an entity of its owner, for where
+  /// groups are handed out a cell goes by a number that others far away have as well.
+  /// @param marks entities then  @param start of the source
+  [[nodiscard]] std::string message(const HeardGroups& heard, const Roster& roster,
+                                    std::span<const EntityMark> marks,
+                                    std::chrono::nanoseconds time,
+                                    std::chrono::nanoseconds start) const;
+
+ private:
+  [[nodiscard]] std::string name_of(std::uint32_t tag) const;
+  [[nodiscard]] std::optional<aoim::Position> place_of(const HeardBeacon& beacon,
+                                                       const Roster& roster,
+                                                       std::span<const EntityMark> marks) const;
+
+  aoim::CellPartition cells_;
+  std::map<std::uint32_t, std::string> names_;  // of beacons, by tag
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The thresholds of position at which a scene's entities send an update. They are not on the wire:
+// a scene says them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::tools {
+
+/// Immutable.
+class ShownThresholds {
+ public:
+  static constexpr std::size_t kMost = 3;
+
+  explicit ShownThresholds(const peer::SceneFile& scene);
+
+  /// Those that differ [m], ascending; of more than kMost the least, the middle and the greatest.
+  [[nodiscard]] const std::vector<double>& told() const noexcept { return told_; }
+  /// Of an entity by its marking [m]; none where the scene does not say which it is.
+  [[nodiscard]] std::optional<double> of(std::string_view marking, bool is_haptic) const;
+
+ private:
+  std::optional<double> hands_;                                         // none: there are no hands
+  std::map<std::string, std::optional<double>, std::less<>> entities_;  // by marking
+  std::vector<double> told_;
+};
+
+}  // namespace reckon::tools
