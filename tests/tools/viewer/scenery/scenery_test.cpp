@@ -138,7 +138,7 @@ TEST(DrawnGroups, SayWhoSharesAGroup) {
       peer::parse_scene_file("[aoim]\npool = 4\n[[aoim.tier]]\nto = \"touch\"\n", "touch.toml");
   ASSERT_TRUE(DrawnGroups::has_any(scene));
   HeardGroups heard{GroupTiers(scene.network, scene.aoim)};
-  for (const std::uint16_t slot : {3, 8})
+  for (const std::uint16_t slot : {std::uint16_t{3}, std::uint16_t{8}})
     heard.note_update(slot, peer::IpEndpoint::v4(0xEFC00106, 3000), {});
   const History history(HistoryOptions{});
   const auto message =
