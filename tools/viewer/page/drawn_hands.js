@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Hands: a ball of its radius where the device is, a dot where its contact point is held on the surface, its name and state.
-import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, SphereGeometry } from './libraries.js';
+import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, SphereGeometry, Vector3 } from './libraries.js';
 import { Pool } from './arrow.js';
 import { colour, handColour } from './colours.js';
 import { HAND_FLAGS } from './picture.js';
@@ -42,10 +42,22 @@ class Hands {
     const side = hand.index % 2 ? 1 : -1;
     const aside = side * (6 + this.view.pixels(radius, hand.position));
     const kind = `${side < 0 ? 'left' : 'right'} hand-${hand.index % 4}`;
+    const lift = this.lift(hand, side, this.view.pixels(radius, hand.position));
     const yours = hand.flags & HAND_FLAGS.yours ? ' (you)' : '';
-    this.labels.put(this.view, x, y, z, `${foreign(moment.handName(hand.index), 24)}${yours}`, `hand ${kind}`, 9, aside);
+    this.labels.put(this.view, x, y, z, `${foreign(moment.handName(hand.index), 24)}${yours}`, `hand ${kind}`, lift, aside);
     const words = handWords(hand.flags);
-    if (words) this.labels.put(this.view, x, y, z, words, `state ${kind}`, -7, aside);
+    if (words) this.labels.put(this.view, x, y, z, words, `state ${kind}`, lift - 16, aside);
+  }
+
+  // How high the name stands [pixels]: under the newtons of the force's arrow where these would stand on it.
+  lift({ position, surface, force }, side, radius) {
+    const { camera } = this.view.orbit;
+    const { width, height } = this.view.rectangle;
+    const at = new Vector3().fromArray(position).project(camera);
+    const tip = new Vector3().fromArray(force).multiplyScalar(this.view.metresPerNewton).add(new Vector3().fromArray(surface)).project(camera);
+    const beside = (side * (tip.x - at.x) * width) / 2 - radius;
+    const above = ((tip.y - at.y) * height) / 2;
+    return Math.hypot(...force) > 0.005 && Math.abs(beside) < 56 && above > -37 && above < 5 ? above + 3 : 9;
   }
 }
 
