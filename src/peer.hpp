@@ -126,6 +126,11 @@ class Peer {
   void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept {
     if (device < servos_.size()) servos_[device]->trace(ring);
   }
+  /// Records the contact sets that one servo finds, each that differs from the last, into `ring`;
+  /// call while no loop runs. The model loop writes them; the servo does nothing for it.
+  void trace_contacts(haptics::ContactRing* ring, std::size_t device = 0) noexcept {
+    model_.trace_contacts(ring, device);
+  }
 
   [[nodiscard]] const ModelLoop& model() const noexcept { return model_; }
   /// The owned entities; for the thread of model_step(), or while no loop runs.

@@ -65,6 +65,17 @@ void SimulatedDevice::let_go() noexcept {
   for (Eigen::Vector3d& force : under_way_) force.setZero();
 }
 
+void SimulatedDevice::restart(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
+                              nanoseconds now) noexcept {
+  if (started_) time_ += pdu::to_seconds(std::max(now - read_at_, nanoseconds(0)));
+  started_ = true;
+  read_at_ = written_at_ = now;
+  let_go();
+  position_ = position;
+  velocity_ = velocity;
+  port_work_ = damping_loss_ = hand_work_ = 0.0;
+}
+
 bool SimulatedDevice::holds_force() const noexcept {
   const auto some = [](const Eigen::Vector3d& force) { return force.squaredNorm() > 0; };
   return some(force_) || std::any_of(under_way_.begin(), under_way_.end(), some);

@@ -67,6 +67,11 @@ class SimulatedDevice : public HapticDevice {
   void enable(bool held) noexcept { enabled_ = held; }
   /// While false, reads fail as if the cable were out, and the force is zero.
   void plug(bool in) noexcept;
+  /// The handle is there at `now`, wherever it was: no force is held or on its way, the books begin
+  /// anew, and of what happened since the last read only the hand's own path goes on. Between a
+  /// read and a write. @param position [m], frame D  @param velocity [m/s]
+  void restart(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
+               std::chrono::nanoseconds now) noexcept;
 
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
   [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }

@@ -167,4 +167,12 @@ struct ServoConfig {
 /// cannot disturb the servo.
 using TraceRing = SpscRing<ServoSnapshot>;
 
+/// A contact set as a servo found it from this time on.
+struct TimedContactSet {
+  std::chrono::nanoseconds time{0};
+  ContactSet set;
+};
+/// The contact sets of one servo for a recorder. A full ring drops and counts new ones.
+using ContactRing = SpscRing<TimedContactSet>;
+
 }  // namespace reckon::haptics

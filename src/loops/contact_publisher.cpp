@@ -91,7 +91,7 @@ void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodie
       out.has_device = false;
     }
   }
-  port.publish_contacts();
+  port.publish_contacts(sources.now);
 }
 
 }  // namespace reckon::peer

@@ -83,6 +83,11 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   /// @param guest outlives the loop, or the next call; nullptr: none.
   void receive(ModelGuest* guest) noexcept { guest_ = guest; }
 
+  /// See Peer::trace_contacts().
+  void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
+    touch_.trace_contacts(ring, device);
+  }
+
   /// Announces this peer at the next step. Call before the first step.
   void start(std::chrono::nanoseconds now);
   /// One pass.  @param utc the same instant as `now` by the host's clock, which may jump.

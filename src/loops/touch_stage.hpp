@@ -68,6 +68,10 @@ class TouchStage {
   void consider(const Pass& pass) noexcept;
   /// Publishes the bodies nearby to the servos.
   void publish_contacts(const Pass& pass) noexcept;
+  /// Records what is published to the servo of this device, see Peer::trace_contacts().
+  void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
+    if (device < hands_.size()) hands_[device].trace_contacts(ring);
+  }
   /// Records the account of a remote body with ours.
   void note_accounts(const Inbound& update, const Pass& pass) noexcept;
 

@@ -12,6 +12,7 @@
 
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/peer/world/contact_recorder.hpp"
 #include "reckon/peer/world/owned_entity.hpp"
 #include "reckon/peer/world/velocity_trend.hpp"
 
@@ -48,7 +49,12 @@ class HandPort {
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return snapshots_->read(); }
   /// Slot for the next set of hands nearby; publish_contacts() publishes it.
   [[nodiscard]] haptics::ContactSet& contact_slot() noexcept { return contacts_->write_slot(); }
-  void publish_contacts() noexcept { contacts_->publish(); }
+  void publish_contacts(std::chrono::nanoseconds now) noexcept {
+    recorder_.note(contacts_->write_slot(), now);
+    contacts_->publish();
+  }
+  /// Records what is published from now on, see ContactRecorder.
+  void trace_contacts(haptics::ContactRing* ring) noexcept { recorder_.record_into(ring); }
 
   /// Updates the entity from the snapshot: its motion, the position of its sphere, begin and end of
   /// a touch, energy requested or given.
@@ -73,6 +79,7 @@ class HandPort {
   haptics::TripleBuffer<haptics::ServoSnapshot>* snapshots_;
   haptics::TripleBuffer<haptics::ContactSet>* contacts_;
   EntityNumber hand_;
+  ContactRecorder recorder_;
   std::array<EnergyAccount, kMostAccounts> accounts_{};
   std::size_t account_count_ = 0;
   std::chrono::nanoseconds last_seen_{0};

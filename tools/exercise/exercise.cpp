@@ -20,6 +20,8 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for collect()
+// Updates of remote hands that may wait: at 125 a second of each of two, half a second.
+constexpr std::size_t kContactSets = 128;
 constexpr nanoseconds kCollect = milliseconds(20);
 constexpr nanoseconds kTick = milliseconds(1);  // simulated: all peers look at the network
 constexpr std::uint16_t kSite = 1;
@@ -53,6 +55,7 @@ struct Exercise::Hand {
   nanoseconds period{0};
   nanoseconds due{0};  // simulated time
   std::unique_ptr<haptics::TraceRing> ring;
+  std::unique_ptr<haptics::ContactRing> contacts;
 };
 
 Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
@@ -121,7 +124,11 @@ void Exercise::add_hands(std::size_t index) {
   member.first_hand = hands_.size();
   for (std::size_t device = 0; device < member.hands.wired.size(); ++device) {
     Hand& hand =
-        hands_.emplace_back(Hand{member, index, device, peer.servo_period_of(device), {}, {}});
+        hands_.emplace_back(Hand{member, index, device, peer.servo_period_of(device), {}, {}, {}});
+    if (options_.trace_contacts) {
+      hand.contacts = std::make_unique<haptics::ContactRing>(kContactSets);
+      peer.trace_contacts(hand.contacts.get(), device);
+    }
     if (!options_.measure) continue;
     hand.ring = std::make_unique<haptics::TraceRing>(kTraceSteps);
     peer.trace(hand.ring.get(), device);
@@ -144,6 +151,15 @@ void Exercise::change_impairment(const peer::ImpairmentLaw& law) {
 
 std::span<const PointerHand> Exercise::pointers(std::size_t index) const noexcept {
   return members_[index]->hands.pointers;
+}
+
+haptics::ContactRing* Exercise::contacts(std::size_t peer, std::size_t device) noexcept {
+  return hands_[members_[peer]->first_hand + device].contacts.get();
+}
+
+const peer::Clock& Exercise::clock() const noexcept {
+  if (options_.simulated_time) return manual_;
+  return steady_;
 }
 
 const peer::PeerView& Exercise::view(std::size_t index) const noexcept {

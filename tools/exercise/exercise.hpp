@@ -39,6 +39,7 @@ struct ExerciseOptions {
   bool measure = true;              ///< compare the peers with one another
   std::uint32_t epoch = 0;          ///< 0 = drawn at random
   bool impairment_changes = false;  ///< real time: change_impairment() may be called
+  bool trace_contacts = false;      ///< fill contacts()
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool time_servo = false;  ///< simulated time: measure what servo steps take
@@ -76,6 +77,11 @@ class Exercise {
   [[nodiscard]] peer::Peer& peer(std::size_t index) noexcept;
   /// The hands of a peer that follow pointers; they go with the exercise.
   [[nodiscard]] std::span<const PointerHand> pointers(std::size_t index) const noexcept;
+  /// With trace_contacts: the contact sets that the servo of a device finds; one reader, within the
+  /// sink of on_step() or after run(). Else null.
+  [[nodiscard]] haptics::ContactRing* contacts(std::size_t peer, std::size_t device) noexcept;
+  /// That the peers go by.
+  [[nodiscard]] const peer::Clock& clock() const noexcept;
   /// What the network does to all peers from now on, see JoinedPeer::change_impairment(). By one
   /// thread, any.
   void change_impairment(const peer::ImpairmentLaw& law);

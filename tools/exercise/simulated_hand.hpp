@@ -14,6 +14,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/exercise/pointer_recorder.hpp"
 
 namespace reckon::tools {
 
@@ -47,12 +48,19 @@ struct PointerHand {
   haptics::PointerInbox* inbox = nullptr;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
+  PointerRecorder* recorder = nullptr;  ///< gets the same, for a second device; null: none
 
   /// Leads the hand to a point of S [m]; see haptics::PointerInbox::put, whose thread it is.
   bool lead(const Eigen::Vector3d& p_S) const noexcept {
-    return inbox->put({orientation.conjugate() * (p_S - origin), true});
+    return put({orientation.conjugate() * (p_S - origin), true});
   }
-  void let_go() const noexcept { static_cast<void>(inbox->put({{}, false})); }
+  void let_go() const noexcept { static_cast<void>(put({{}, false})); }
+
+ private:
+  bool put(const haptics::PointerSample& sample) const noexcept {
+    if (recorder != nullptr) recorder->put(sample);
+    return inbox->put(sample);
+  }
 };
 
 /// The devices of one peer, and how they stand in the scene.

@@ -270,7 +270,7 @@ ExerciseOptions exercise_options(const DemoOptions& options) {
   made.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
   made.simulated_time = options.simulated_time;
   made.transfer = !options.no_transfer;
-  made.impairment_changes = flags_of_switch(options.view).has_value();
+  made.impairment_changes = made.trace_contacts = flags_of_switch(options.view).has_value();
   return made;
 }
 
@@ -308,11 +308,14 @@ int run(const DemoOptions& options, const Console& console) {
   }
   std::unique_ptr<ServoTrace> trace;
   if (!options.trace.empty()) trace = std::make_unique<ServoTrace>(options.trace);
+  std::optional<HandTwins> twins;
+  if (flags) twins.emplace(scene, *exercise);
   std::optional<DemoPage> page;
   if (trace || flags) {
     exercise->on_step(
         [&](std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
           if (trace) trace->write(peer, device, step);
+          if (twins) twins->take(peer, device, step);
           if (page) page->take(peer, device, step);
         });
   }
@@ -324,7 +327,7 @@ int run(const DemoOptions& options, const Console& console) {
   }
   if (flags) {
     exercise->run(SelfView::kLookEvery);  // till its hands have numbers
-    page.emplace(*flags, scene, page_options(options, *exercise), *exercise);
+    page.emplace(*flags, scene, page_options(options, *exercise), *exercise, *twins);
     display.put_in_head("page: " + page->address());
   } else if (!options.simulated_time) {
     display.put_in_head("./run demo --view shows it in a browser, where the mouse is a hand");

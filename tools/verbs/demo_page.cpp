@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/verbs/demo_page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <utility>
 
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -49,9 +52,13 @@ void let_pages_move_hands(peer::SceneFile& scene, std::size_t peers) {
 }
 
 DemoPage::DemoPage(const ViewFlags& flags, const peer::SceneFile& scene,
-                   const DemoPageOptions& options, Exercise& exercise)
-    : controls_(scene.impairment.law,
-                [&exercise](const peer::ImpairmentLaw& law) { exercise.change_impairment(law); }),
+                   const DemoPageOptions& options, Exercise& exercise, HandTwins& twins)
+    : twins_(twins),
+      controls_(scene.impairment.law,
+                [&exercise, &twins](const peer::ImpairmentLaw& law) {
+                  exercise.change_impairment(law);
+                  twins.change_impairment(law);
+                }),
       first_(first_hands(exercise)),
       pointers_(add_pointers(exercise)),
       view_(flags, scene, self_view_options(options, controls_), hands_of(exercise, scene)) {
@@ -63,7 +70,29 @@ void DemoPage::show(const Exercise& exercise) {
     for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
       view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);
   mark_pointers(view_.hands());
+  show_twins(exercise);
   view_.show_hands();
+}
+
+void DemoPage::show_twins(const Exercise& exercise) {
+  for (std::size_t i = 0; i < exercise.size(); ++i)
+    for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k) {
+      const haptics::UngatedTwin* twin = twins_.find(i, k);
+      if (twin == nullptr) continue;
+      TwinFeeling feeling{std::nullopt, twin->energy(), twin->resets()};
+      if (twin->feels()) feeling.force = twin->force().norm();
+      view_.hands().set_twin(first_[i] + k, feeling);
+    }
+  tell_lost(exercise.elapsed());
+}
+
+void DemoPage::tell_lost(std::chrono::nanoseconds now) {
+  if (twins_.resets() == told_resets_ || now - told_at_ < kTellEvery) return;
+  told_resets_ = twins_.resets();
+  told_at_ = now;
+  view_.note(
+      fmt::format("without the gate the hands are thrown about: their twins began anew, {} so far",
+                  counted(told_resets_, "time")));
 }
 
 std::vector<std::size_t> DemoPage::add_pointers(const Exercise& exercise) {
@@ -71,7 +100,7 @@ std::vector<std::size_t> DemoPage::add_pointers(const Exercise& exercise) {
   for (std::size_t i = 0; i < exercise.size(); ++i)
     for (const PointerHand& pointer : exercise.pointers(i)) {
       indices.push_back(first_[i] + pointer.device);
-      controls_.add_hand(indices.back(), pointer);
+      controls_.add_hand(indices.back(), twins_.followed(i, pointer));
     }
   return indices;
 }

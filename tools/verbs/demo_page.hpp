@@ -3,12 +3,15 @@
 // The page of a demo: all its hands, which pages may take, and its network, which they may change.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/exercise/hand_twins.hpp"
 #include "reckon/tools/verbs/view_controls.hpp"
 #include "reckon/tools/viewer/self_view.hpp"
 
@@ -27,9 +30,13 @@ struct DemoPageOptions {
 /// One thread: that which looks at the exercise.
 class DemoPage {
  public:
-  /// @param exercise outlives this; its hands have numbers. @throws as SelfView
+  /// The log says no more often that twins got lost.
+  static constexpr std::chrono::seconds kTellEvery{5};
+
+  /// @param exercise outlives this; its hands have numbers. @param twins of its hands, outlive this
+  /// @throws as SelfView
   DemoPage(const ViewFlags& flags, const peer::SceneFile& scene, const DemoPageOptions& options,
-           Exercise& exercise);
+           Exercise& exercise, HandTwins& twins);
 
   /// A step of a servo; peer and device count from 0.
   void take(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
@@ -43,11 +50,16 @@ class DemoPage {
  private:
   [[nodiscard]] std::vector<std::size_t> add_pointers(const Exercise& exercise);
   void mark_pointers(OwnHands& hands) const;
+  void show_twins(const Exercise& exercise);
+  void tell_lost(std::chrono::nanoseconds now);
   [[nodiscard]] OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) const;
 
+  HandTwins& twins_;
   ViewControls controls_;              // of the page, and so before it
   std::vector<std::size_t> first_;     // of a peer's hands
   std::vector<std::size_t> pointers_;  // hands that pages may move
+  std::uint64_t told_resets_ = 0;      // of the twins
+  std::chrono::nanoseconds told_at_ = -kTellEvery;
   SelfView view_;
 };
 

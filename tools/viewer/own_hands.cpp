@@ -89,6 +89,10 @@ HandMark OwnHands::mark(std::size_t index) {
   if (std::exchange(hand.let_go, let_go) < let_go || !step.enabled) flags |= kHandLetGo;
   if (hand.pointer_free)
     flags |= kHandPointer | (*hand.pointer_free ? unsigned{kHandPointerFree} : 0U);
+  if (hand.twin && hand.twin->force) {
+    flags |= kHandTwin;
+    mark.twin_force = static_cast<float>(*hand.twin->force);
+  }
   mark.flags = static_cast<std::uint16_t>(flags);
   mark.patch = static_cast<std::uint16_t>(step.mesh_patch);
   mark.position = step.device.cast<float>();
@@ -109,6 +113,8 @@ HandFrame OwnHands::frame(std::chrono::nanoseconds steady_to_utc, bool knows_all
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandMark& hand = frame.hands.emplace_back(mark(i));
     frame.ids.push_back(hands_[i].id);
+    if (const auto& twin = hands_[i].twin)
+      frame.twins.push_back({hand.index, twin->energy, twin->resets});
     frame.time = std::max(frame.time, hands_[i].step.time + steady_to_utc);
     if (!knows_all) continue;
     if (const auto force = true_force(i)) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,13 @@
 #include "reckon/tools/viewer/view_stage.hpp"
 
 namespace reckon::tools {
+
+/// What the hidden twin of a hand feels.
+struct TwinFeeling {
+  std::optional<double> force;  ///< [N]; none while it stands aside
+  double energy = 0;            ///< [J], at its port
+  std::uint64_t resets = 0;     ///< times that it got lost
+};
 
 /// Follows hands, numbered from 0 over all peers. One thread: that which looks at the peers.
 class OwnHands {
@@ -28,6 +36,8 @@ class OwnHands {
   void take(std::size_t hand, const haptics::ServoSnapshot& step);
   /// A page may move it; `free`: none does.
   void set_pointer(std::size_t hand, bool free) { hands_[hand].pointer_free = free; }
+  /// It has a hidden twin.
+  void set_twin(std::size_t hand, const TwinFeeling& twin) { hands_[hand].twin = twin; }
   /// Its entity may get another number while a conflict is settled.
   void set_id(std::size_t hand, const pdu::EntityId& id) { hands_[hand].id = id; }
 
@@ -44,7 +54,8 @@ class OwnHands {
     std::size_t peer = 0;
     pdu::EntityId id;
     std::optional<bool> pointer_free;  // of a hand that pages move
-    double limit = 0;                  // [N]
+    std::optional<TwinFeeling> twin;
+    double limit = 0;  // [N]
     haptics::ServoSnapshot step;
     double rate_limited = 0;  // [s], of it so far when it was looked at last
     std::uint64_t let_go = 0;

@@ -79,6 +79,14 @@ void append_delay(JsonObject& object, std::optional<double> median, std::optiona
       .end();
 }
 
+void append_twin(std::string& out, const TwinMark& twin) {
+  JsonObject(out)
+      .value("hand", twin.hand)
+      .decimals("energy", twin.energy, 7)
+      .value("resets", twin.resets)
+      .end();
+}
+
 void append_network(std::string& out, const NetworkRequest& network) {
   JsonObject(out)
       .decimals("delay_ms", network.delay_ms, 1)
@@ -201,6 +209,8 @@ std::string ViewStage::numbers_message(const Watcher& watcher) const {
     append_optional(peers, "lost_share", sample->lost_share, 5);
     peers.end();
   }
+  if (const HandFrame* frame = hands_at(time); frame != nullptr && !frame->twins.empty())
+    object.array("twin", frame->twins, append_twin);
   if (options_.raw_bit_per_s > 0) object.decimals("raw_bit_per_s", options_.raw_bit_per_s, 0);
   object.value("watchers", watchers_).end();
   return out;

@@ -283,15 +283,19 @@ void ViewStage::add_contacts(const HeardWorld& world, Time time, PictureRows& ro
   }
 }
 
-void ViewStage::add_hands(Time time, PictureRows& rows) const {
+const HandFrame* ViewStage::hands_at(Time time) const {
   const auto after =
       std::upper_bound(hands_.begin(), hands_.end(), time,
                        [](Time at, const HandFrame& frame) { return at < frame.time; });
-  if (after == hands_.begin()) return;
-  const HandFrame& frame = *std::prev(after);
-  rows.hands = frame.hands;
-  for (std::size_t i = 0; i < rows.hands.size() && i < frame.ids.size(); ++i)
-    rows.hands[i].slot = history_.roster().slot_of(frame.ids[i]);
+  return after == hands_.begin() ? nullptr : &*std::prev(after);
+}
+
+void ViewStage::add_hands(Time time, PictureRows& rows) const {
+  const HandFrame* frame = hands_at(time);
+  if (frame == nullptr) return;
+  rows.hands = frame->hands;
+  for (std::size_t i = 0; i < rows.hands.size() && i < frame->ids.size(); ++i)
+    rows.hands[i].slot = history_.roster().slot_of(frame->ids[i]);
 }
 
 const PictureRows& ViewStage::live_rows() {

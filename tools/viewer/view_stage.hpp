@@ -51,12 +51,20 @@ struct TouchHand {
   double limit = 0;  ///< [N], its largest force
 };
 
+/// The hidden twin of a hand, which has no gate.
+struct TwinMark {
+  std::uint16_t hand = 0;    ///< index of it
+  double energy = 0;         ///< [J], at the twin's port
+  std::uint64_t resets = 0;  ///< times that it got lost and began anew
+};
+
 /// All hands of the program at one instant. Their slots are set by `ids`; what they touch has the
 /// number that it has in its own mesh.
 struct HandFrame {
   std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
   std::vector<HandMark> hands;
   std::vector<pdu::EntityId> ids;
+  std::vector<TwinMark> twins;
 };
 
 /// One thread. Times are since 1970-01-01 UTC, those of a capture its own.
@@ -135,6 +143,7 @@ class ViewStage {
   [[nodiscard]] std::uint16_t flags_for(const Watcher& watcher, Time time) const;
   void fill(const HeardWorld& world, Time time, PictureRows& rows);
   void add_contacts(const HeardWorld& world, Time time, PictureRows& rows);
+  [[nodiscard]] const HandFrame* hands_at(Time time) const;
   void add_hands(Time time, PictureRows& rows) const;
   [[nodiscard]] const PictureRows& live_rows();
 

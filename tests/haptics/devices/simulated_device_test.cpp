@@ -56,6 +56,32 @@ TEST(SimulatedDevice, LosesAtLeastTheDampingThatTheGateCounts) {
   }
 }
 
+TEST(SimulatedDevice, BeginsAnewElsewhereWithItsHandsPathGoingOn) {
+  double asked = 0;
+  SimulatedDeviceConfig config;
+  config.delay_samples = 2;
+  SimulatedDevice device(config, [&asked](double t) {
+    asked = t;
+    return HandTarget{};
+  });
+  for (auto now = 0ns; now < 100ms; now += 1ms) {
+    (void)device.read(now);
+    device.write({1, 0, 0}, now);
+  }
+  device.restart({0.1, 0.2, 0.3}, {0, 1, 0}, 5s);
+  EXPECT_EQ(device.position(), Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(device.velocity(), Vector3d(0, 1, 0));
+  EXPECT_EQ(device.force().norm(), 0);
+  EXPECT_EQ(device.port_work(), 0);
+  EXPECT_EQ(device.damping_loss(), 0);
+  EXPECT_EQ(device.hand_work(), 0);
+  device.write({5, 0, 0}, 5s);
+  EXPECT_EQ(device.force().norm(), 0);  // those under way are gone, this one is not there yet
+  const DeviceSample sample = device.read(5s + 1ms);
+  EXPECT_FALSE(sample.watchdog);
+  EXPECT_NEAR(asked, 5.0009, 1e-9);
+}
+
 TEST(SimulatedDevice, RestsWhereHandAndForceBalance) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 100;

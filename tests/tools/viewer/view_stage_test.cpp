@@ -277,6 +277,7 @@ TEST(ViewStage, ShowsHandsAsTheyWereAtTheInstant) {
     frame.hands.resize(1);
     frame.hands[0].position.x() = static_cast<float>(i);
     frame.ids = {{1, 2, 3}};
+    frame.twins = {{0, -0.001 * i, static_cast<std::uint64_t>(i)}};
     live.stage.take_hands(frame);
     live.run(kTick, {&tab});
   }
@@ -288,9 +289,16 @@ TEST(ViewStage, ShowsHandsAsTheyWereAtTheInstant) {
   EXPECT_EQ(tab.last("touch")["hands"][0]["name"], "left");
   EXPECT_EQ(tab.head().hands, 1);
   EXPECT_EQ(x_of(tab.pictures.back()), 99.F);
+  EXPECT_LT(tab.last("numbers")["twin"][0]["energy"], -0.08);
   tab.ask(2, 0.33);
   live.run(kTick, {&tab});
   EXPECT_EQ(x_of(tab.pictures.back()), 10.F);
+  live.run(ViewStage::kNumbersEvery, {&tab});
+  const json twins = tab.last("numbers")["twin"];
+  ASSERT_EQ(twins.size(), 1U);
+  EXPECT_EQ(twins[0]["hand"], 0);
+  EXPECT_EQ(twins[0]["energy"], -0.01);
+  EXPECT_EQ(twins[0]["resets"], 10);
 }
 
 peer::SceneFile scene_of(const char* text) { return peer::parse_scene_file(text, "scene.toml"); }

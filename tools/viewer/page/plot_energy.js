@@ -7,8 +7,10 @@ export const plotEnergy = {
     { says: 'energy', colour: 'hand-1', at: ({ hands }) => millijoules(hands[1]?.energy) },
     { says: 'loan', colour: 'hand-0', dash: true, at: ({ hands }) => millijoules(hands[0]?.loan) },
     { says: 'loan', colour: 'hand-1', dash: true, at: ({ hands }) => millijoules(hands[1]?.loan) },
-    { says: 'without the gate', colour: 'twin', at: ({ numbers }) => millijoules(numbers.twin?.[0]?.energy) },
+    { says: 'without the gate', colour: 'twin', at: ({ numbers }) => millijoules(together(numbers.twin)) },
   ],
 };
 
+// What one twin puts in another gets out: of all of them it is never below zero where the coupling is passive.
+function together(twins) { return twins?.reduce((sum, { energy }) => sum + energy, 0); }
 function millijoules(x) { return Number.isFinite(x) ? 1000 * x : null; }

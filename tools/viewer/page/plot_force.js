@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
+import { shownTwin } from './twins.js';
+
 export const plotForce = {
   name: 'force', title: 'Force on the hand', unit: 'N', good: 'Good: felt lies on true, and rests when the hand does.',
   lines: [
@@ -7,6 +9,11 @@ export const plotForce = {
     { says: 'felt', colour: 'hand-1', at: ({ hands }) => hands[1]?.newtons },
     { says: 'true', colour: 'hand-0', dash: true, at: ({ hands }) => hands[0]?.trueForce },
     { says: 'true', colour: 'hand-1', dash: true, at: ({ hands }) => hands[1]?.trueForce },
-    { says: 'without the gate', colour: 'twin', at: ({ hands }) => hands.find(({ twin }) => twin !== null)?.twin },
+    { says: 'without the gate', colour: 'twin', at: twinForce },
   ],
 };
+
+function twinForce(moment) {
+  const twin = shownTwin(moment);
+  return moment.hands.find(({ index }) => index === twin?.hand)?.twin;
+}

@@ -40,7 +40,7 @@ enum HandFlag : std::uint16_t {
   kHandPointerFree = 32,
   kHandYours = 64,       ///< by this page
   kHandTrueForce = 128,  ///< true_force is known
-  kHandTwin = 256
+  kHandTwin = 256        ///< twin_force is known
 };
 
 /// An entity; east, north, up of the origin [m].
@@ -70,7 +70,7 @@ struct HandMark {
   float true_force = 0;                              ///< [N]
   float energy = 0;                                  ///< [J], at the port
   float loan = 0;                                    ///< [J]
-  float twin_force = 0;                              ///< [N]
+  float twin_force = 0;                              ///< [N], without the gate
 };
 
 /// A contact between two entities, as a listener computes it.

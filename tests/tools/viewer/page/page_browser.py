@@ -10,6 +10,7 @@
   capture the same of a capture, written by `reckon view --save`; names with markup in them are shown as text
   hand    a hand taken by the pointer presses the other one: more than 1 N at both within 5 s, the same within 5 % when held
           still for 3 s, energy never below zero; without delay, and at 100 ms with 20 % loss
+  twin    what a hand would feel without the gate: the same without delay, thrown about at 150 ms with 20 % loss, and said
   peer    a peer lends its own hand: it goes where the pointer goes
   empty   a world in which nobody sends says what to do
   lost    a program that ends is told, and is found again at the same port
@@ -350,6 +351,28 @@ def hand(reckon, scenes):
         shows_no_fault(page)
 
 
+def twin(reckon, scenes):
+    """Without the gate: on the felt force at no delay, shaken over a bad network, where the hands themselves stay calm."""
+    with program(reckon, "demo", f"{scenes}/meeting.toml", "--view=0", "--for", "10min") as started, browser() as page:
+        page.size(1280, 800)
+        page.open(started.address)
+        pressed = "window.reckon.hands?.length === 2 && window.reckon.hands.every(({ newtons }) => newtons > 1.8)"
+        made = "(window.reckon.numbers.twin ?? []).reduce((sum, { energy }) => sum + energy, 0)"
+        page.wait(pressed, "hands that press each other")
+        page.wait(f"{pressed} && window.reckon.hands.every((hand) => Math.abs(hand.twin - hand.newtons) < 0.2)", "twins that feel the same")
+        expect(page.ask("window.reckon.numbers.twin.every(({ resets }) => resets === 0)"), "no twin is lost")
+        set_network(page, 150, 20)
+        page.wait(f"{made} < -0.05", "twins that make energy")
+        page.wait("window.reckon.hands.some(({ twin }) => twin > 5)", "a twin that is thrown about")
+        expect(page.ask("window.reckon.hands.every((hand) => hand.energy >= -1e-9 && hand.newtons < 4)"), "hands that stay calm")
+        page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('their twins began anew'))",
+                  "the log says that twins began anew")
+        page.wait("[...document.querySelectorAll('.plot')].filter((plot) => plot.parentElement.textContent.includes('without the gate')).length === 2",
+                  "lines in the plots of force and energy")
+        shows_no_fault(page)
+        page.driver.save_screenshot(str(pictures_folder() / "twin.png"))
+
+
 def peer(reckon, scenes):
     with resting_hands() as scene, browser() as page, \
             program(reckon, "peer", scene, "--iface", "lo", "--operator", "1", "--view=0", "--for", "10min") as started:
@@ -389,7 +412,7 @@ def lost(reckon, scenes):
             page.wait_for_pictures()
 
 
-CASES = {case.__name__: case for case in (demo, saved, capture, hand, peer, empty, lost)}
+CASES = {case.__name__: case for case in (demo, saved, capture, hand, twin, peer, empty, lost)}
 
 
 def main(arguments):

@@ -27,6 +27,8 @@ const { Steering } = await take('steering.js');
 const { hull } = await take('hull.js');
 const { plotDelay } = await take('plot_delay.js');
 const { plotError } = await take('plot_error.js');
+const { plotForce } = await take('plot_force.js');
+const { plotEnergy } = await take('plot_energy.js');
 const { digits, foreign, roundUp } = await take('words.js');
 
 function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, flags = 1 }) {
@@ -320,6 +322,21 @@ test('A frame holds what it is to play, whatever is in it', () => {
   const html = filledFrame(frame, items);
   assert.equal(html.split('</script>').length, 3); // its own two
   assert.deepEqual(JSON.parse(/id="saved">(.*?)<\/script>/s.exec(html)[1]), items);
+});
+
+test('Of hidden twins your own one is shown, else the first, and the energy of all together', () => {
+  const hands = decodePicture(picture({ hands: [{ index: 0, flags: HAND_FLAGS.twin }, { index: 1, flags: HAND_FLAGS.twin }] })).hands;
+  hands[1].twin = 3;
+  const numbers = { twin: [{ hand: 0, energy: -0.03, resets: 1 }, { hand: 1, energy: 0.01, resets: 1 }] };
+  const line = (plot) => plot.lines.find(({ says }) => says.startsWith('without the gate')).at;
+  assert.equal(line(plotForce)({ hands, numbers }), 8);
+  assert.ok(Math.abs(line(plotEnergy)({ hands, numbers }) + 20) < 1e-9);
+  hands[1].flags |= HAND_FLAGS.yours;
+  assert.equal(line(plotForce)({ hands, numbers }), 3);
+  hands[1].twin = null; // it stands aside
+  assert.equal(line(plotForce)({ hands, numbers }), null);
+  assert.ok(!Number.isFinite(line(plotForce)({ hands, numbers: {} })));
+  assert.equal(line(plotEnergy)({ hands, numbers: {} }), null);
 });
 
 test('Words are short, whatever comes', () => {

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Keeps, for whoever asks, the contact sets that the model loop publishes to a servo. Part of the
+// model loop.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+
+namespace reckon::peer {
+
+/// Records a set where it says something else than the last recorded one: other entities, another
+/// update of one, or another end of its validity. One thread; no allocation; nothing to do without
+/// a ring.
+class ContactRecorder {
+ public:
+  /// @param ring outlives the recorder, or the next call; nullptr: records nothing.
+  void record_into(haptics::ContactRing* ring) noexcept { ring_ = ring; }
+  /// @param now from when on the servo finds this set
+  void note(const haptics::ContactSet& set, std::chrono::nanoseconds now) noexcept {
+    if (ring_ != nullptr) record(set, now);
+  }
+
+ private:
+  // What tells two records of an entity apart.
+  struct Mark {
+    pdu::EntityId id;
+    std::uint32_t version = 0;
+    std::chrono::nanoseconds valid_until{0};
+    friend bool operator==(const Mark&, const Mark&) = default;
+  };
+  void record(const haptics::ContactSet& set, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] bool is_known(const haptics::ContactSet& set) const noexcept;
+
+  haptics::ContactRing* ring_ = nullptr;
+  std::array<Mark, haptics::kMaxRemoteHands> marks_{};  // of the last set in the ring
+  std::size_t count_ = 0;
+  bool frozen_ = false;
+};
+
+}  // namespace reckon::peer

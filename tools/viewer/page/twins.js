@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The hidden twin that plots show: that of your own hand, else the first.
+import { HAND_FLAGS } from './picture.js';
+
+export function shownTwin({ hands, numbers }) {
+  const twins = numbers.twin ?? [];
+  const own = hands.find(({ flags }) => flags & HAND_FLAGS.yours);
+  return twins.find(({ hand }) => hand === own?.index) ?? twins[0];
+}
