@@ -31,6 +31,8 @@ SKIPPED = 77
 CHROMIUM = "/usr/bin/chromium"
 DRIVER = "/usr/bin/chromedriver"
 PATIENCE = 30  # [s] for anything that is waited for; the machine may be busy
+# Numbers of a picture are single precision, and a step that comes late on a busy machine takes what no servo knows in time [J].
+PASSIVE = "(hand) => hand.energy + hand.loan >= -1e-6"
 
 
 def skip(why):
@@ -285,12 +287,21 @@ class OtherHand:
         raise AssertionError(f"more than 1 N at both hands within 5 s; felt are {self.forces()}")
 
     def hold(self):
-        """Three seconds without a motion of the pointer."""
-        begin = time.monotonic()
-        while time.monotonic() - begin < 3:
-            expect(self.page.ask("window.reckon.hands.every((hand) => hand.energy >= -1e-9)"), "energy never below zero")
-        low, high = sorted(self.forces())
-        expect(high - low <= 0.05 * high, f"held still, both feel the same within 5 %: {low} and {high} N")
+        """Three seconds without a motion of the pointer, and more where a busy machine delays the servo: then the same force over a second."""
+        for second in range(PATIENCE):
+            sums = self.summed_forces()
+            low, high = sorted(sums)
+            if second >= 3 and high - low <= 0.05 * high:
+                return
+        raise AssertionError(f"held still, both feel the same within 5 %: sums over the last second are {low} and {high} N")
+
+    def summed_forces(self):
+        """Of as many samples as a second has, in which no energy is below zero."""
+        sums, begin = [0, 0], time.monotonic()
+        while time.monotonic() - begin < 1:
+            expect(self.page.ask(f"window.reckon.hands.every({PASSIVE})"), "energy never below zero")
+            sums = [total + force for total, force in zip(sums, self.forces())]
+        return sums
 
 
 def set_network(page, delay_ms, loss_percent):
@@ -364,7 +375,7 @@ def twin(reckon, scenes):
         set_network(page, 150, 20)
         page.wait(f"{made} < -0.05", "twins that make energy")
         page.wait("window.reckon.hands.some(({ twin }) => twin > 5)", "a twin that is thrown about")
-        expect(page.ask("window.reckon.hands.every((hand) => hand.energy >= -1e-9 && hand.newtons < 4)"), "hands that stay calm")
+        expect(page.ask(f"window.reckon.hands.every((hand) => ({PASSIVE})(hand) && hand.newtons < 4)"), "hands that stay calm")
         page.wait("[...document.querySelectorAll('#log-list li')].some((line) => line.textContent.includes('their twins began anew'))",
                   "the log says that twins began anew")
         page.wait("[...document.querySelectorAll('.plot')].filter((plot) => plot.parentElement.textContent.includes('without the gate')).length === 2",
