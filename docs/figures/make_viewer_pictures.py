@@ -33,9 +33,10 @@ class Picture(NamedTuple):
 
 PRESSED = "window.reckon.hands.some((hand) => hand.newtons > 0.3) && window.reckon.time > 25"
 SHAKES = "window.reckon.hands.every((hand) => hand.newtons > 1) && window.reckon.hands.some((hand) => hand.twin > 4) && window.reckon.time > 42"
+STILL = "window.reckon.hands.every((hand) => hand.newtons > 1.9 && !(hand.flags & 14)) && window.reckon.numbers.pdu_per_s < 60 && window.reckon.time > 25"
 FOLLOW = "document.querySelector('tbody tr:nth-child(3)').click()"
 PICTURES = [
-    Picture("viewer_touch", ["demo"], {"theme": "dark"}, (1280, 800), PRESSED),
+    Picture("viewer_touch", ["demo"], {"theme": "dark"}, (1280, 800), STILL),
     Picture("viewer_network", ["demo", "--impair", "delay=100ms jitter=30ms loss=20%"], {"theme": "light"}, (1280, 800), PRESSED),
     Picture("viewer_twin", ["demo", "--impair", "delay=150ms loss=20%"], {"theme": "dark"}, (1280, 800), SHAKES),
     Picture("viewer_world", ["demo", "{folder}/trucks.toml"], {"theme": "light", "main": "world"}, (1280, 800), "window.reckon.time > 30", FOLLOW),
