@@ -244,6 +244,16 @@ void check_balance(const peer::SceneFile& scene, const PeerVerbOptions& options)
         "numbers, of which no balance can be kept; say which it is, as in --operator 1");
 }
 
+/// @param lines whether the output has lines of its own, which a summary would end
+void print_run(const PeerVerbOptions& options, bool lines, const FinishedRun& finished,
+               const Console& console) {
+  if (options.json) {
+    print_run_json(console.out, finished);
+  } else if (!lines) {
+    print_run_text(console.out, finished);
+  }
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
   const std::vector<peer::NamedPeer> list = read_list(options.to);
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
@@ -298,11 +308,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   if (balance) balance->end(*running);
   if (options.events) events.report_rest(finished.peer.model(), finished.seconds, console.out);
   display.close();
-  if (options.json) {
-    print_run_json(console.out, finished);
-  } else if (!lines) {
-    print_run_text(console.out, finished);
-  }
+  print_run(options, lines, finished, console);
   return exit_status(ExitCode::good);
 }
 
