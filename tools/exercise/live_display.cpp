@@ -39,7 +39,7 @@ void LiveDisplay::put_in_head(std::string sentence) {
     head_ = std::move(sentence);
 }
 
-void LiveDisplay::tell(std::vector<std::string> sentences) {
+void LiveDisplay::add(std::vector<std::string> sentences) {
   for (std::string& sentence : sentences) {
     if (screen_ == nullptr) {
       fmt::print(console_.err, "{}\n", sentence);
@@ -64,7 +64,7 @@ void LiveDisplay::take_keys() {
 void LiveDisplay::show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
                        nanoseconds elapsed) {
   const nanoseconds now = clock_.now();
-  tell(digest_.take(now));
+  add(digest_.take(now));
   for (const TablePeer& peer : peers)
     for (const peer::HandView& hand : peer.view->own_hands())
       strongest_ = std::max(strongest_, hand.servo.force.norm());
@@ -81,11 +81,11 @@ void LiveDisplay::show(std::span<const TablePeer> peers, const peer::SceneFile& 
 }
 
 void LiveDisplay::close() {
-  tell(digest_.take_all());
+  add(digest_.take_all());
   screen_.reset();
   if (dropped_ > 0) fmt::print(console_.err, "{} before these\n", counted(dropped_, "notice"));
   dropped_ = 0;
-  tell(std::exchange(notices_, {}));
+  add(std::exchange(notices_, {}));
 }
 
 }  // namespace reckon::tools

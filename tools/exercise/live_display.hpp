@@ -40,6 +40,8 @@ class LiveDisplay {
   /// Whether the table is shown.
   [[nodiscard]] bool is_drawn() const noexcept { return screen_ != nullptr; }
   void add(const HeardNotice& heard);
+  /// Notices of the program itself, a line each.
+  void add(std::vector<std::string> sentences);
   /// A sentence of the program's own: in the table's head from now on; without one on `err` at
   /// once.
   void put_in_head(std::string sentence);
@@ -53,7 +55,6 @@ class LiveDisplay {
 
  private:
   void take_keys();
-  void tell(std::vector<std::string> sentences);
 
   const Console& console_;
   peer::SteadyClock clock_;

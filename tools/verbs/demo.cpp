@@ -28,6 +28,7 @@
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/demo_page.hpp"
+#include "reckon/tools/verbs/page_address.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -50,7 +51,7 @@ struct DemoOptions {
   bool json = false;
   bool simulated_time = false;
   bool no_transfer = false;
-  std::string view;
+  ViewSwitch view;
 };
 
 std::optional<int> parse(Arguments arguments, const Console& console, DemoOptions& options) {
@@ -328,7 +329,7 @@ int run(const DemoOptions& options, const Console& console) {
   if (flags) {
     exercise->run(SelfView::kLookEvery);  // till its hands have numbers
     page.emplace(*flags, scene, page_options(options, *exercise), *exercise, *twins);
-    display.put_in_head("page: " + page->address());
+    show_address(page->view(), *flags, display);
   } else if (!options.simulated_time) {
     display.put_in_head("./run demo --view shows it in a browser, where the mouse is a hand");
   }

@@ -45,7 +45,7 @@ class DemoPage {
   /// Shows the hands as they are now.
   void show(const Exercise& exercise);
   void note(const HeardNotice& heard) { view_.note(heard.notice.text.data()); }
-  [[nodiscard]] const std::string& address() const { return view_.address(); }
+  [[nodiscard]] const SelfView& view() const noexcept { return view_; }
 
  private:
   [[nodiscard]] std::vector<std::size_t> add_pointers(const Exercise& exercise);

@@ -26,6 +26,7 @@
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/demo_page.hpp"
+#include "reckon/tools/verbs/page_address.hpp"
 #include "reckon/tools/verbs/peer_page.hpp"
 
 namespace reckon::tools {
@@ -46,7 +47,7 @@ struct PeerVerbOptions {
   std::optional<nanoseconds> balance;
   std::string to;
   std::string follow;
-  std::string view;
+  ViewSwitch view;
 };
 
 /// Letters of an entity marking on the wire.
@@ -288,7 +289,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
       const PeerPageOptions named{options.scene.scene, options.scene.iface};
       page.emplace(*flags, scene, named, view, running->pointers());
       page->add_receiver(running->peer());
-      display.put_in_head("page: " + page->address());
+      show_address(page->view(), *flags, display);
     }
     if (page) page->show(view);
     if (options.events) events.report(elapsed, console.out);

@@ -34,7 +34,7 @@ class PeerPage {
   /// Shows the hands as they are now.
   void show(const peer::PeerView& view);
   void note(const peer::Notice& notice) { view_.note(notice.text.data()); }
-  [[nodiscard]] const std::string& address() const { return view_.address(); }
+  [[nodiscard]] const SelfView& view() const noexcept { return view_; }
 
  private:
   void mark_pointers(OwnHands& hands) const;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -51,6 +52,10 @@ class SelfView {
   void note(std::string_view text) { thread_->put_note("info", std::string(text)); }
   /// What a user opens.
   [[nodiscard]] const std::string& address() const noexcept { return thread_->address(); }
+  /// By which users of other hosts open it; none where it serves this host alone.
+  [[nodiscard]] const std::vector<std::string>& addresses_for_others() const noexcept {
+    return thread_->addresses_for_others();
+  }
 
  private:
   peer::SteadyClock clock_;

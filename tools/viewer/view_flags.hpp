@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/viewer/view_server.hpp"
@@ -22,13 +23,24 @@ struct ViewFlags {
 /// Declares --port, --listen and --open.
 void add_view_flags(CommandLine& line, ViewFlags& flags);
 
-/// The flag of a verb that serves itself: --view[=PORT].
-void add_view_switch(CommandLine& line, std::string& view);
-/// What it says; nothing where it was not given. @throws UsageError for what is no port
-[[nodiscard]] std::optional<ViewFlags> flags_of_switch(const std::string& view);
+/// The flags of a verb that serves itself, as typed.
+struct ViewSwitch {
+  std::string view;    ///< "true" or a port; empty: not given
+  std::string listen;  ///< empty: not given
+  bool open = false;
+};
+
+/// Declares --view[=PORT], --listen and --open.
+void add_view_switch(CommandLine& line, ViewSwitch& typed);
+/// What they say; nothing where --view was not given.
+/// @throws UsageError for what is no port, and for --listen or --open without --view
+[[nodiscard]] std::optional<ViewFlags> flags_of_switch(const ViewSwitch& typed);
 
 /// What they mean, with a new word. @throws UsageError for a port that there is not
 [[nodiscard]] ViewServerOptions server_options(const ViewFlags& flags);
+
+/// Lines that say that others reach it too, what they may do, and by which addresses.
+[[nodiscard]] std::vector<std::string> invitation(const std::vector<std::string>& addresses);
 
 /// Prints the address on out, and on err whom else it lets in, and by which addresses; opens the
 /// browser where that is asked for.

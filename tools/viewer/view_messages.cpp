@@ -231,7 +231,7 @@ ViewStage::Text ViewStage::next_text(Watcher& watcher) {
   }
   if (!std::exchange(watcher.knows_state, true)) return text(play_message(watcher));
   if (!watcher.answer.empty()) return text(std::exchange(watcher.answer, {}));
-  if (watcher.under_way.size() >= Watcher::kCredit) return nullptr;
+  if (watcher.under_way.size() >= watcher.credit) return nullptr;
   return next_regular_text(watcher);
 }
 

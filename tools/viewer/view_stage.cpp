@@ -181,7 +181,11 @@ struct ViewStage::Requests {
     // A picture that is drawn says the same of those before it.
     auto& under_way = watcher.under_way;
     const auto drawn = std::find(under_way.begin(), under_way.end(), request.number);
-    if (drawn != under_way.end()) under_way.erase(under_way.begin(), std::next(drawn));
+    if (drawn == under_way.end()) return;
+    under_way.erase(under_way.begin(), std::next(drawn));
+    const std::uint64_t ticks = stage.tick_ - request.number;
+    if (ticks >= Watcher::kLate) watcher.credit = Watcher::kLateCredit;
+    if (ticks <= Watcher::kInTime) watcher.credit = Watcher::kCredit;
   }
   void operator()(const SeekRequest& request) const {
     constexpr double kFarthest = 1e9;  // [s]
@@ -316,7 +320,7 @@ std::uint16_t ViewStage::flags_for(const Watcher& watcher, Time time) const {
 }
 
 bool ViewStage::wants_picture(const Watcher& watcher) const {
-  if (watcher.under_way.size() >= Watcher::kCredit || watcher.tick == tick_) return false;
+  if (watcher.under_way.size() >= watcher.credit || watcher.tick == tick_) return false;
   const bool moves = watcher.state == PlayState::live || watcher.state == PlayState::playing;
   return moves || watcher.needs_picture;
 }

@@ -109,6 +109,7 @@ void Viewing::step() {
 ViewThread::ViewThread(const ViewingOptions& options, std::unique_ptr<peer::DatagramSource> source)
     : viewing_(options, std::move(source)),
       address_(viewing_.server().address()),
+      addresses_for_others_(viewing_.server().addresses_for_others()),
       thread_([this] { run(); }) {}
 
 ViewThread::~ViewThread() {

@@ -84,12 +84,16 @@ class ViewThread {
   /// The same: a line for the pages' log.
   void put_note(std::string level, std::string text);
   [[nodiscard]] const std::string& address() const noexcept { return address_; }
+  [[nodiscard]] const std::vector<std::string>& addresses_for_others() const noexcept {
+    return addresses_for_others_;
+  }
 
  private:
   void run();
 
   Viewing viewing_;
   std::string address_;
+  std::vector<std::string> addresses_for_others_;
   std::mutex mutex_;  // of what is handed over
   std::vector<HandFrame> frames_;
   std::vector<ReceptionSample> receptions_;

@@ -19,8 +19,11 @@ enum class PlayState : std::uint8_t { live, playing, paused, end };
 
 /// Plain data, changed by ViewStage alone.
 struct Watcher {
-  /// Pictures that may be on their way: sent, and not yet drawn.
-  static constexpr std::size_t kCredit = 2;
+  /// Pictures that may be on their way: sent, and not yet drawn. To a tab that draws them late, on
+  /// a slow line say, one is: the second would only be older when it is drawn.
+  static constexpr std::size_t kCredit = 2, kLateCredit = 1;
+  /// Ticks from sending to drawing: of a tab that is late from now on, and that no longer is.
+  static constexpr std::uint64_t kLate = 8, kInTime = 3;
 
   std::uint64_t number = 0;  ///< never the same twice
   bool may_push = false;
@@ -34,6 +37,7 @@ struct Watcher {
   bool needs_picture = true;                      ///< though time stands still
   std::uint64_t gaps = 0;                         ///< of the source that it was told of
   std::vector<std::uint32_t> under_way;           ///< numbers of pictures
+  std::size_t credit = kCredit;                   ///< of them
   std::uint64_t tick = 0;                         ///< of the last picture
 
   bool greeted = false, knows_origin = false, knows_touch = false, knows_state = false;

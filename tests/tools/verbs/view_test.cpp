@@ -100,5 +100,23 @@ TEST(ViewVerb, IsNoPartOfASimulatedDemo) {
   EXPECT_EQ(run_reckon({"demo", "--view=x", "--for", "1s"}).status, 2);
 }
 
+TEST(ViewVerb, OfADemoIsServedToOtherHostsWhereThatIsAskedFor) {
+  const auto alone = run_reckon({"demo", "--view=0", "--for", "200ms"});
+  EXPECT_EQ(alone.status, 0);
+  EXPECT_THAT(alone.err, HasSubstr("page: http://127.0.0.1:"));
+  EXPECT_THAT(alone.err, Not(HasSubstr("other hosts")));
+  const auto open = run_reckon({"demo", "--view=0", "--listen", "0.0.0.0", "--for", "200ms"});
+  EXPECT_EQ(open.status, 0);
+  EXPECT_THAT(open.err, HasSubstr("page: http://127.0.0.1:"));
+  EXPECT_EQ(run_reckon({"demo", "--view=0", "--listen", "nowhere", "--for", "200ms"}).status, 3);
+  for (const auto& flags : {std::vector<std::string>{"--listen", "0.0.0.0"}, {"--open"}}) {
+    std::vector<std::string> typed{"demo", "--for", "200ms"};
+    typed.insert(typed.end(), flags.begin(), flags.end());
+    const auto pageless = run_reckon(typed);
+    EXPECT_EQ(pageless.status, 2);
+    EXPECT_THAT(pageless.err, HasSubstr("add --view"));
+  }
+}
+
 }  // namespace
 }  // namespace reckon::tools

@@ -165,6 +165,23 @@ TEST(ViewStage, GivesTheNewestPictureToATabThatIsSlow) {
   EXPECT_EQ(slow.watcher().under_way.size(), 1U) << "a number that was never sent";
 }
 
+TEST(ViewStage, SendsOnePictureAtATimeToATabThatDrawsLate) {
+  LiveTrucks live;
+  Tab late(live.stage, false);
+  late.draws = false;
+  live.run(seconds(1), {&late});
+  ASSERT_EQ(late.watcher().under_way.size(), 2U);
+  late.draw(late.head().number);
+  live.run(seconds(1), {&late});
+  EXPECT_EQ(late.watcher().under_way.size(), 1U) << "a second one would be old when it is drawn";
+  late.draw(late.head().number);
+  late.draws = true;
+  live.run(seconds(1), {&late});
+  late.draws = false;
+  live.run(seconds(1), {&late});
+  EXPECT_EQ(late.watcher().under_way.size(), 2U) << "it is in time again";
+}
+
 TEST(ViewStage, PausesOneTabWhileOthersStayLive) {
   LiveTrucks live;
   Tab one(live.stage, false), other(live.stage, false);
