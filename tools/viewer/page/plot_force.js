@@ -4,12 +4,13 @@ import { shownTwin } from './twins.js';
 
 export const plotForce = {
   name: 'force', title: 'Force on the hand', unit: 'N', good: 'Good: felt lies on true, and rests when the hand does.',
+  // Drawn in this order: what is felt lies over the twin's.
   lines: [
+    { says: 'without the gate', colour: 'twin', at: twinForce },
     { says: 'felt', colour: 'hand-0', at: ({ hands }) => hands[0]?.newtons },
     { says: 'felt', colour: 'hand-1', at: ({ hands }) => hands[1]?.newtons },
     { says: 'true', colour: 'hand-0', dash: true, at: ({ hands }) => hands[0]?.trueForce },
     { says: 'true', colour: 'hand-1', dash: true, at: ({ hands }) => hands[1]?.trueForce },
-    { says: 'without the gate', colour: 'twin', at: twinForce },
   ],
 };
 
