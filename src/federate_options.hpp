@@ -45,9 +45,13 @@ struct FederateOptions {
   std::function<std::vector<PeerDevice>(std::uint32_t scene_peer)> deal;
   /// Site of the entity IDs. Absent: from the host's address, or 1 with a link of the caller.
   std::optional<std::uint16_t> site;
-  std::uint16_t application = 1;  ///< of the entity IDs; after a conflict the next free one
-  bool transfer = true;           ///< give energy on demand; otherwise no hand can push another
-  bool record_shown = false;      ///< fill Peer::shown() at every model step
+  /// Application of the entity IDs, 1 to 65534. In an interop scene (plain DIS) it is never
+  /// changed, and joining fails if another program of this host has it; absent: the smallest that
+  /// none has. In other scenes peers settle a conflict of IDs by taking the next free one; absent:
+  /// 1 at first.
+  std::optional<std::uint16_t> application;
+  bool transfer = true;       ///< give energy on demand; otherwise no hand can push another
+  bool record_shown = false;  ///< fill Peer::shown() at every model step
   /// Stream of the random impairment of the scene: peers with different numbers lose different
   /// datagrams.
   std::uint64_t receiver = 0;

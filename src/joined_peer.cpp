@@ -12,6 +12,7 @@
 #include "reckon/peer/loops/life_proof.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/loops/roll_call.hpp"
+#include "reckon/peer/network/application_hold.hpp"
 #include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -69,6 +70,17 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
   join(link, PeerOptions{}.site, {epoch, chain_secret_of(epoch)}, guest);
 }
 
+JoinedPeer::~JoinedPeer() { resign(); }
+
+// Peers of a scene of Reckon's agree on their IDs by datagrams, and plain DIS has none for that.
+std::uint16_t JoinedPeer::application(std::uint16_t site) {
+  const NetworkConfig& network = options_.scene->network;
+  if (lan_ && network.interop)
+    hold_ = std::make_unique<ApplicationHold>(
+        ApplicationScope{network.group, network.exercise, site}, options_.application);
+  return hold_ ? hold_->number() : options_.application.value_or(PeerOptions{}.application);
+}
+
 // The link that the peer talks to: `link` itself, or sealed around it.
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene->network;
@@ -84,7 +96,7 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   sealing.key = load_group_key(network.key);
   sealing.base = network.group;
   sealing.site = site;
-  sealing.application = options_.application;
+  sealing.application = options_.application.value_or(PeerOptions{}.application);
   sealing.places.exercise = network.exercise;
   const bool is_listed = lan_ && !(options_.peers.empty() && network.peers.empty());
   if (is_listed) sealing.places.listed = pool_of(*options_.scene);
@@ -97,7 +109,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   PeerOptions own;
   own.name = options_.name;
   own.site = options_.site.value_or(site);
-  own.application = options_.application;
+  own.application = application(own.site);
   own.epoch = life.epoch;
   own.chain_secret = life.secret;
   own.started = static_cast<std::uint32_t>(
@@ -118,6 +130,8 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   own.record_changes = guest != nullptr;
   peer_ = std::make_unique<Peer>(*options_.scene, own, way, options_.devices);
   if (sealed_) sealed_->count_in(peer_->counters());
+  if (hold_ && !hold_->report().empty())
+    static_cast<void>(peer_->notices().push(make_notice("{}", hold_->report())));
   peer_->model().receive(guest);
   begun_ = clock_->now();
   peer_->start(begun_);
@@ -169,6 +183,7 @@ void JoinedPeer::resign() noexcept {
   stop_loops();
   peer_->stop(clock_->now(), clock_->utc_now());
   peer_->model().receive(nullptr);
+  hold_.reset();
 }
 
 std::vector<Notice> JoinedPeer::take_sealing_notices() {

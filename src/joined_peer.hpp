@@ -23,6 +23,7 @@
 
 namespace reckon::peer {
 
+class ApplicationHold;
 class RollCall;
 
 /// A peer that has joined. Its link is open after construction. Its loops do not run before run(),
@@ -43,7 +44,7 @@ class JoinedPeer {
   /// @param epoch identifies this run of the peer: not 0, and different for each run
   JoinedPeer(const FederateOptions& options, Link& link, const Clock& clock, std::uint32_t epoch,
              ModelGuest* guest = nullptr);
-  ~JoinedPeer() { resign(); }
+  ~JoinedPeer();
   JoinedPeer(const JoinedPeer&) = delete;
   JoinedPeer& operator=(const JoinedPeer&) = delete;
 
@@ -54,8 +55,8 @@ class JoinedPeer {
   void pass() noexcept;
   /// Ends the threads. Their statistics remain until the next run().
   void stop_loops() noexcept;
-  /// Calls stop_loops(), deactivates all own entities, and announces the end of the peer. A second
-  /// call does nothing.
+  /// Calls stop_loops(), deactivates all own entities, and announces the end of the peer. Its
+  /// application is free for others after that. A second call does nothing.
   void resign() noexcept;
 
   [[nodiscard]] Peer& peer() noexcept { return *peer_; }
@@ -83,13 +84,15 @@ class JoinedPeer {
     aoim::ChainLink secret;
   };
   void join(Link& link, std::uint16_t site, const Life& life, ModelGuest* guest);
+  [[nodiscard]] std::uint16_t application(std::uint16_t site);
   [[nodiscard]] Link& sealed(Link& link, std::uint16_t site);
 
   FederateOptions options_;
   SteadyClock steady_;
   const Clock* clock_;
   std::unique_ptr<LanLink> lan_;
-  std::unique_ptr<SealedLink> sealed_;  // null if the scene has no key
+  std::unique_ptr<ApplicationHold> hold_;  // in plain DIS on a LAN
+  std::unique_ptr<SealedLink> sealed_;     // null if the scene has no key
   std::unique_ptr<Peer> peer_;
   std::unique_ptr<PeerThreads> threads_;
   std::chrono::nanoseconds begun_{0};

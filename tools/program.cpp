@@ -3,11 +3,16 @@
 #include "reckon/tools/program.hpp"
 
 #include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/manual_page.hpp"
 #include "reckon/tools/command_line/verb_program.hpp"
 #include "reckon/tools/verbs/completion.hpp"
+#include "reckon/tools/verbs/given_file.hpp"
 
 namespace reckon::tools {
 namespace verb {
@@ -61,8 +66,18 @@ std::span<const Verb> list() {
   return kVerbs;
 }
 
+/// `reckon FILE`
+std::optional<int> run_file(Arguments arguments, const Console& console);
+
 VerbProgram program() {
-  return {"reckon", "Reckon: worlds that people touch together, peer to peer.", list()};
+  return {"reckon", "Reckon: worlds that people touch together, peer to peer.", list(), run_file};
+}
+
+std::optional<int> run_file(Arguments arguments, const Console& console) {
+  const auto words = words_for_file(arguments, console);
+  if (!words) return std::nullopt;
+  const std::vector<std::string_view> views(words->begin(), words->end());
+  return find_verb(program(), views.front())->run(Arguments(views).subspan(1), console);
 }
 
 int run_help(Arguments arguments, const Console& console) {

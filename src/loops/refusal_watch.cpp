@@ -27,8 +27,9 @@ void RefusalWatch::report_dispute(const Dispute& dispute, const aoim::PeerId& ow
   const AddressText owner(dispute.owner), speaker(dispute.speaker);
   const auto [site, application] = dispute.name;
   report(dispute.name == own
-             ? make_notice("somebody at {} speaks in our name, {}:{} (refused)", speaker.view(),
-                           site, application)
+             ? make_notice("somebody at {} speaks in our name, {}:{} (refused); to plain DIS "
+                           "programs both are one: give one another application",
+                           speaker.view(), site, application)
              : make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)", site,
                            application, owner.view(), speaker.view()),
          dispute.speaker, now);

@@ -8,6 +8,18 @@
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
+namespace {
+
+// After so many periods of its rate, and this time [s], without an update the rate is no more.
+constexpr double kPeriods = 5.0, kLeastSilence = 1.0;
+
+double rate_of(const RemoteEntity& row, double age) noexcept {
+  const double span = pdu::to_seconds(row.last_heard - row.first_heard);
+  const double rate = span > 0.0 ? static_cast<double>(row.updates - 1) / span : 0.0;
+  return age > kLeastSilence && age * rate > kPeriods ? 0.0 : rate;
+}
+
+}  // namespace
 
 EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
                    std::chrono::nanoseconds now) noexcept {
@@ -17,10 +29,9 @@ EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
   view.kind = row.type.kind;
   view.algorithm = row.state.algorithm;
   view.position = row.shown(now).position;
-  const double span = pdu::to_seconds(row.last_heard - row.first_heard);
-  view.rate_hz = span > 0.0 ? static_cast<double>(row.updates - 1) / span : 0.0;
-  view.jump_m = row.jump_m;
   view.age = pdu::to_seconds(now - row.last_heard);
+  view.rate_hz = rate_of(row, view.age);
+  view.jump_m = row.jump_m;
   view.haptic = row.haptic;
   view.frozen = row.frozen;
   view.refused = row.model_refused;

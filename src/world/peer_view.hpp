@@ -27,7 +27,7 @@ struct EntityView {
   pdu::EntityKind kind = pdu::EntityKind::other;
   pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::static_;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< as shown, S [m]
-  double rate_hz = 0.0;  ///< updates a second since the first reception
+  double rate_hz = 0.0;  ///< updates a second since the first reception; 0 once they fail to come
   double jump_m = 0.0;   ///< innovation of the last update
   double age = 0.0;      ///< [s] since the last update
   bool haptic = false;

@@ -66,7 +66,11 @@ void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
 
 bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
-  if (aoim_.presence().is_own(update.entity)) return false;
+  if (aoim_.presence().is_own(update.entity)) {
+    // Presence settles a conflict with a peer; plain DIS has nothing that does.
+    if (arrival.epoch == 0) static_cast<void>(hear(std::span(&update.entity, 1), arrival));
+    return false;
+  }
   if (!is_nameable(update.entity)) return counts_.reserved.add(), false;
   RemoteEntity* row = table_.find(update.entity);
   if (!ownership_.may_speak(update.entity, arrival, row)) return false;

@@ -31,8 +31,9 @@ inline void drive(reckon::peer::Federate& federate, const std::function<bool()>&
     speed = 0.0;
   });
 
-  const auto handle =
-      federate.register_object(truck, federate.place(kLatitude, kLongitude, 430.0));
+  const auto handle = federate.register_object(truck, federate.place(kLatitude, kLongitude, 430.0));
+  const pdu::EntityId own = federate.id_of(handle);
+  std::printf("is %u:%u:%u\n", own.site, own.application, own.entity);
   const double radius = 50.0;  // [m]
   double angle = 0.0;
   auto before = federate.now();

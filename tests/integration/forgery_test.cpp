@@ -222,6 +222,19 @@ TEST_F(InteropForgery, OfADeactivationIsRefusedToo) {
   expect_refused_and_told();
 }
 
+// Nobody has to give way, for plain DIS has no word for it; but nobody shares an ID in silence.
+TEST_F(InteropForgery, InOurOwnNameIsToldWithTheRemedy) {
+  for (int i = 0; i < 10; ++i) {
+    say_from(2, state_of(0));
+    world_.run(50);
+  }
+  EXPECT_THAT(world_.notices(0), Contains(AllOf(StartsWith("somebody at " + endpoint(2) +
+                                                           " speaks in our name, 1:1 (refused)"),
+                                                HasSubstr("give one another application"))));
+  EXPECT_GE(world_.count(0, "disputed_in"), 9U);
+  EXPECT_EQ(world_.peer(0).own_id(), (pdu::EntityId{1, 1, 1})) << "an ID was changed unasked";
+}
+
 TEST_F(InteropForgery, OneGatewayMaySpeakForManySimulations) {
   for (std::uint16_t application = 1; application <= 40; ++application) {
     pdu::EntityState guest = state_of(1);

@@ -91,6 +91,43 @@ TEST(JoinedPeer, IdentifiesItselfByTheHostUnlessTheSiteIsGiven) {
   EXPECT_EQ(JoinedPeer(options).peer().own_id().site, 4711);
 }
 
+TEST(JoinedPeer, TakesTheNextFreeApplicationBesidePlainDisProgramsOfThisHostAndSaysSo) {
+  JoinedPeer first(on_loopback(63)), second(on_loopback(63));
+  EXPECT_EQ(first.peer().own_id().application, 1);
+  EXPECT_EQ(first.peer().notices().front(), nullptr);
+  EXPECT_EQ(second.peer().own_id().application, 2);
+  const Notice* notice = second.peer().notices().front();
+  ASSERT_NE(notice, nullptr);
+  EXPECT_THAT(notice->text.data(), HasSubstr("this is application 2 of site"));
+  first.resign();
+  EXPECT_EQ(JoinedPeer(on_loopback(63)).peer().own_id().application, 1)
+      << "who has resigned keeps a number";
+}
+
+TEST(JoinedPeer, RefusesAnApplicationThatAnotherPlainDisProgramOfThisHostHas) {
+  FederateOptions options = on_loopback(64);
+  options.application = 7;
+  const JoinedPeer first(options);
+  try {
+    const JoinedPeer second(options);
+    FAIL() << "two programs have one ID";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("application 7 of site"));
+  }
+  options.site = 4711;  // another ID
+  EXPECT_EQ(JoinedPeer(options).peer().own_id().application, 7);
+}
+
+// Its peers settle who has which ID, so nobody is refused.
+TEST(JoinedPeer, HoldsNoApplicationInASceneOfPeers) {
+  FederateOptions options = on_loopback(65);
+  options.scene->network.interop = false;
+  options.scene->aoim = {};
+  options.application = 7;
+  const JoinedPeer first(options);
+  EXPECT_EQ(JoinedPeer(options).peer().own_id().application, 7);
+}
+
 TEST(JoinedPeer, AGuestSeesEachPassUntilThePeerResigns) {
   ManualClock clock(1s, 1h);
   test::ManualLink link;

@@ -144,7 +144,7 @@ void print_manual_page(std::span<const Verb> verbs, std::FILE* out) {
              ".\\\" Made by `reckon help --man`.\n"
              ".TH RECKON 1 {} \"reckon {}\" \"User Commands\"\n"
              ".SH NAME\nreckon \\- worlds that people touch together, peer to peer\n"
-             ".SH SYNOPSIS\n.B reckon\n.I VERB\n.RI [ ARGUMENTS ]\n.br\n"
+             ".SH SYNOPSIS\n.B reckon\n.I VERB\n.RI [ ARGUMENTS ]\n.br\n.B reckon\n.I FILE\n.br\n"
              ".B reckon \\-\\-help\n|\n.B \\-\\-version\n"
              ".SH DESCRIPTION\n",
              RECKON_DATE, program_version());
@@ -155,6 +155,7 @@ void print_manual_page(std::span<const Verb> verbs, std::FILE* out) {
       "Data goes to standard output, everything else to standard error. Durations take units, as "
       "in "
       "250ms, 10s or 5min; lengths and sizes too. `reckon VERB --help` shows what a verb takes. "
+      "`reckon FILE` inspects a capture and touches a scene or a mesh. "
       "With --json, data comes as one JSON object a line.",
       out);
   print_verbs(verbs, out);

@@ -38,8 +38,11 @@ int dispatch(const VerbProgram& program, Arguments arguments, const Console& con
     return exit_status(ExitCode::good);
   }
   const Verb* verb = find_verb(program, first);
-  return verb != nullptr ? verb->run(arguments.subspan(1), console)
-                         : refuse_verb(program, first, console);
+  if (verb != nullptr) return verb->run(arguments.subspan(1), console);
+  if (program.run_other != nullptr) {
+    if (const auto status = program.run_other(arguments, console)) return *status;
+  }
+  return refuse_verb(program, first, console);
 }
 
 int report_error(const Console& console, Arguments arguments, const std::exception& error,
@@ -110,7 +113,11 @@ const Verb* find_verb(const VerbProgram& program, std::string_view name) {
 }
 
 void print_overview(const VerbProgram& program, std::FILE* out) {
-  fmt::print(out, "{}\n\nusage: {} VERB [ARGUMENTS]\n\n", program.title, program.name);
+  fmt::print(out, "{}\n\nusage: {} VERB [ARGUMENTS]\n", program.title, program.name);
+  if (program.run_other != nullptr)
+    fmt::print(out, "       {} FILE    a capture is inspected, a scene or a mesh touched\n",
+               program.name);
+  fmt::print(out, "\n");
   for (const Verb& verb : program.verbs) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
   fmt::print(out,
              "\n`{} VERB --help` shows what a verb takes, with examples.\n"
@@ -126,7 +133,13 @@ int refuse_verb(const VerbProgram& program, std::string_view name, const Console
   const bool is_flag = name.starts_with('-');
   if (is_flag) names = {"--help", "--version"};
   const std::string_view nearest = peer::nearest_word(name, names);
-  fmt::print(console.err, "reckon: there is no {} '{}'", is_flag ? "flag" : "verb", name);
+  const bool is_path = !is_flag && program.run_other != nullptr &&
+                       name.find_first_of("./") != std::string_view::npos;
+  fmt::print(console.err, "reckon: there is no {} '{}'",
+             is_flag   ? "flag"
+             : is_path ? "file"
+                       : "verb",
+             name);
   if (!nearest.empty()) fmt::print(console.err, "; did you mean '{}'?", nearest);
   fmt::print(console.err, "\n`{} --help` lists the verbs.\n", program.name);
   return exit_status(ExitCode::usage);

@@ -4,6 +4,7 @@
 // line on stderr and an exit status. `reckon` is one, `reckon-bench` another.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -15,6 +16,8 @@ struct VerbProgram {
   std::string_view name;   ///< as typed
   std::string_view title;  ///< first line of the overview
   std::span<const Verb> verbs;
+  /// Runs words of which the first is no verb, or returns nothing if it cannot; null: never.
+  std::optional<int> (*run_other)(Arguments arguments, const Console& console) = nullptr;
 };
 
 /// The verb with this name; null if there is none.

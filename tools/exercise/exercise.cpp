@@ -101,7 +101,9 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   own.scene_peer = number;
   own.devices = member.hands.wired;
   own.site = kSite;
-  own.application = static_cast<std::uint16_t>(number);
+  // Over the LAN a plain DIS program takes the next free one.
+  if (options_.simulated_time || !scene.network.interop)
+    own.application = static_cast<std::uint16_t>(number);
   own.transfer = options_.transfer;
   own.record_shown = options_.measure;
   own.receiver = index;

@@ -160,7 +160,9 @@ constexpr std::array<FittedColumn<EntityCell>, 10> kEntityColumns{{
     {"AWAY", kRight, 7, 2,
      [](const EntityCell& c) { return distance_text((c.row.position - c.view.middle).norm()); }},
     {"RATE", kRight, 8, 5,
-     [](const EntityCell& c) { return fmt::format("{:.1f} Hz", c.row.rate_hz); }},
+     [](const EntityCell& c) {
+       return c.row.rate_hz > 0 ? fmt::format("{:.1f} Hz", c.row.rate_hz) : std::string("-");
+     }},
     {"JUMP", kRight, 9, 3,
      [](const EntityCell& c) { return fmt::format("{:.2f} mm", 1e3 * c.row.jump_m); }},
     {"AGE", kRight, 6, 4, [](const EntityCell& c) { return fmt::format("{:.1f} s", c.row.age); }},

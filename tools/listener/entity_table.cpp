@@ -39,6 +39,7 @@ void set_cause(EntityRow& row, UpdateCause cause) {
 }  // namespace
 
 double EntityRow::rate(const HeardEntity& entity, nanoseconds now) const noexcept {
+  if (entity.gone || entity.is_silent(now)) return 0;
   const auto count = static_cast<double>(entity.updates - window_updates[0]);
   const double span = to_seconds(entity.arrival - window_time[0]);
   if (count == 0 || span <= 0) return 0;

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -38,8 +40,9 @@ constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
 
 struct PeerVerbOptions {
   SceneOptions scene;
-  std::string name = "HAND";
+  std::string name;
   std::optional<std::uint64_t> operator_number;
+  std::optional<std::uint64_t> application;
   std::optional<nanoseconds> duration;
   bool json = false;
   bool events = false;
@@ -53,6 +56,19 @@ struct PeerVerbOptions {
 /// Letters of an entity marking on the wire.
 constexpr std::size_t kLongestMarking = 11;
 
+/// The first part of this host's name as a marking, so that others know whose hand it is. A letter
+/// is left for the number of a second hand.
+std::string marking_of_host() {
+  std::array<char, 256> host{};
+  static_cast<void>(::gethostname(host.data(), host.size() - 1));
+  std::string name(host.data());
+  name.resize(std::min({name.find('.'), name.size(), kLongestMarking - 1}));
+  const auto is_printable = [](char letter) { return letter > ' ' && letter <= '~'; };
+  return name.empty() || !std::all_of(name.begin(), name.end(), is_printable) ? "HAND" : name;
+}
+/// Numbers above address all applications.
+constexpr std::uint64_t kMostApplications = 65534;
+
 std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOptions& options) {
   CommandLine line("peer",
                    "One peer on a LAN: its entities, and simulated hands as the scene says.",
@@ -62,10 +78,15 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
                    "reckon peer scenes/two_hands.toml --iface eth0 --view");
   line.word("SCENE", options.scene.scene, true, "scene file; all peers need the same");
   add_scene_options(line, options.scene);
-  line.option("--name", options.name, "marking of the hand, at most 11 characters");
+  line.option("--name", options.name,
+              "marking of the hand, at most 11 characters; default: the name of this host");
   line.option("--operator", options.operator_number,
               "which peer of the scene this is, from 1: its devices, entities and operator; "
               "default: the first that no other peer is");
+  line.option(
+      "--application", options.application,
+      "second number of the entity IDs, 1 to 65534, in a scene with 'interop'; default: the "
+      "first that no program of this host has");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.option("--to", options.to,
               "where there is no multicast: to whom each datagram goes, e.g. "
@@ -127,6 +148,7 @@ class RunningPeer {
     own.name = options.name;
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
+    if (options.application) own.application = static_cast<std::uint16_t>(*options.application);
     const bool lends = flags_of_switch(options.view).has_value();
     const auto make_hands = [&scene, &hands, lends](std::uint32_t number) {
       peer::SceneFile held = scene;
@@ -245,6 +267,16 @@ void check_balance(const peer::SceneFile& scene, const PeerVerbOptions& options)
         "numbers, of which no balance can be kept; say which it is, as in --operator 1");
 }
 
+void check_application(const peer::SceneFile& scene, const PeerVerbOptions& options) {
+  if (!options.application) return;
+  if (!scene.network.interop)
+    throw UsageError(
+        "--application: peers of this scene agree on their IDs; it is for a scene with 'interop'");
+  if (*options.application < 1 || *options.application > kMostApplications)
+    throw UsageError(fmt::format("--application: {} is none of an ID: they are 1 to {}",
+                                 *options.application, kMostApplications));
+}
+
 /// @param lines whether the output has lines of its own, which a summary would end
 void print_run(const PeerVerbOptions& options, bool lines, const FinishedRun& finished,
                const Console& console) {
@@ -260,6 +292,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                      options.operator_number.value_or(peer::kMostPeers));
   check_balance(scene, options);
+  check_application(scene, options);
   send_to(list, scene.network, console);
   follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer
@@ -329,6 +362,7 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.name.size() > kLongestMarking)
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
+  if (options.name.empty()) options.name = marking_of_host();
   check_beacons(options.follow);
   (void)flags_of_switch(options.view);
   if (options.balance && *options.balance < kLookEvery)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -37,6 +38,22 @@ std::set<double> places_of(std::span<const std::uint32_t> chosen,
   std::set<double> places;
   for (const std::uint32_t i : chosen) places.insert(rows[i].state.position.x());
   return places;
+}
+
+TEST(EntityView, HasNoRateOnceUpdatesFailToCome) {
+  using std::chrono::milliseconds;
+  RemoteEntity row;
+  row.first_heard = milliseconds(1000);
+  row.last_heard = milliseconds(3000);
+  const auto rate = [&](std::uint64_t updates, int ms_later) {
+    row.updates = updates;
+    return view_of(row, {}, row.last_heard + milliseconds(ms_later)).rate_hz;
+  };
+  EXPECT_DOUBLE_EQ(rate(101, 0), 50.0);
+  EXPECT_DOUBLE_EQ(rate(101, 900), 50.0) << "a stall of the network is no end";
+  EXPECT_EQ(rate(101, 1100), 0.0);
+  EXPECT_DOUBLE_EQ(rate(2, 5000), 0.5) << "one heartbeat in 2 s may be lost";
+  EXPECT_EQ(rate(2, 10'100), 0.0);
 }
 
 TEST(ViewChoice, HasAllWhereThereIsRoomInTheOrderOfTheirIds) {

@@ -167,6 +167,15 @@ TEST(LiveTable, DrawsForcesAsBarsAsLongAsTheTerminalLets) {
   EXPECT_EQ(bar_of(peers.shown(24, 30), "1:1:1"), 0U) << "no room";
 }
 
+TEST(LiveTable, ShowsNoRateOfAnEntityFromWhichNothingComes) {
+  Peers peers(1, 2);
+  peers.view(0).rows[0].rate_hz = 52.4;
+  peers.view(0).rows[1].rate_hz = 0;
+  const auto lines = peers.shown(24, 80);
+  EXPECT_EQ(lines_with(lines, "52.4 Hz"), 1U);
+  EXPECT_EQ(lines_with(lines, " Hz"), 1U);
+}
+
 TEST(LiveTable, KeepsAHeadBelowItsTitleWhateverNoticesCome) {
   Peers peers(1, 50);
   peers.notices_ = {"one", "two", "three", "four"};

@@ -121,7 +121,7 @@ void expect_numbers(const json& object, std::initializer_list<const char*> keys,
 void expect_entity_state(const json& row, const json& wanted) {
   EXPECT_EQ(row["id"], id_text(wanted["entityID"]));
   EXPECT_EQ(row["marking"], wanted["marking"]);
-  EXPECT_EQ(row["force"], wanted["forceID"]);
+  EXPECT_EQ(row["force_id"], wanted["forceID"]);
   EXPECT_EQ(row["drm"], wanted["deadReckoningAlgorithm"]);
   const json& fields = row["fields"];
   for (std::size_t i = 0; i < 3; ++i) {

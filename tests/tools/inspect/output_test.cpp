@@ -104,11 +104,12 @@ TEST(InspectJson, WritesAnEntityStateWithTheFixedKeys) {
   const TemporaryFile file(datagram);
   const auto result = run_reckon({"inspect", file.raw(), "--json"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out,
-            R"({"frame":1,"pdu":1,"offset":0,"time":0.000000000,"type":"entity_state",)"
-            R"("type_number":1,"length":144,"status":"ok","id":"1:2:3","marking":"HAND","force":1,)"
-            R"("location":[4336565.215,-2958480.588,0.100],"drm":4})"
-            "\n");
+  EXPECT_EQ(
+      result.out,
+      R"({"frame":1,"pdu":1,"offset":0,"time":0.000000000,"type":"entity_state",)"
+      R"("type_number":1,"length":144,"status":"ok","id":"1:2:3","marking":"HAND","force_id":1,)"
+      R"("location":[4336565.215,-2958480.588,0.100],"drm":4})"
+      "\n");
   EXPECT_THAT(result.err, EndsWith("1 PDU in 1 datagram: 1 good, 0 errors, 0 notes\n"));
 }
 

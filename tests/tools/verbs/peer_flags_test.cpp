@@ -48,6 +48,13 @@ position = [0.1, 0.0, 0.05]
 pool = 16
 )";
 
+/// As a marking has it: the first part, and room for a number.
+std::string name_of_host() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return std::string(name).substr(0, std::string(name).find('.')).substr(0, 10);
+}
+
 /// A flag, and the fact that comes or goes with it.
 struct Change {
   std::string flag, value, fact;
@@ -133,21 +140,21 @@ class PeerFlags : public testing::Test {
 };
 
 TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
+  const std::string host = "is seen as " + name_of_host();
   const Facts plain = facts_of(scene_, mode_);
-  EXPECT_EQ(plain,
-            (Facts{"hears somebody", "is seen as HAND", "prints one object", "runs for 1.5 s"}));
+  EXPECT_EQ(plain, (Facts{"hears somebody", host, "prints one object", "runs for 1.5 s"}));
   const std::vector<Change> changes{
       {"--name", "BOB", "is seen as BOB"},
       {"--for", "500ms", "runs for 1.5 s", false},
-      {"--to", "127.0.0.1", "is seen as HAND", false},
+      {"--to", "127.0.0.1", host, false},
       {"--events", "", "tells appeared"},
       {"--felt", "", "tells felt"},
       {"--view", "", "serves a page"},
       {"--balance", "200ms", "tells balance"},
-      {"--mesh", corner_, "is seen as HAND", false},
+      {"--mesh", corner_, host, false},
       {"--hand", trace_, "moves"},
       {"--impair", "loss=100%", "hears somebody", false},
-      {"--key", key_, "is seen as HAND", false},
+      {"--key", key_, host, false},
   };
   for (const Change& change : changes) {
     const Facts facts = facts_of(scene_, with(mode_, change.flag, change.value));
@@ -166,7 +173,9 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   EXPECT_THAT(follower, Contains("follows"));
 
   // Of a flag that is not in this list nobody knows what it does.
-  Facts known{"SCENE", "--help", "--operator", "--json", "--follow", "--iface", "--seed"};
+  // The test two_applications shows what --application does.
+  Facts known{"SCENE",    "--help",  "--operator", "--json",
+              "--follow", "--iface", "--seed",     "--application"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
@@ -178,6 +187,7 @@ TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
       {"--seed", "7"},       // nothing is drawn; that it draws otherwise a simulated demo shows
       {"--iface", "no-such-interface"},
       {"--operator", "0"},
+      {"--application", "2"},  // peers agree on their IDs
   };
   for (const Words& flag : refused) {
     Words words{"peer", scene_, "--for", "10ms"};
@@ -190,6 +200,14 @@ TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
   const ProgramResult unnumbered = run_reckon({"peer", scene_, "--iface", "lo", "--balance", "1s"});
   EXPECT_EQ(unnumbered.status, 2);
   EXPECT_THAT(unnumbered.err, HasSubstr("--operator 1"));
+
+  std::ofstream(scene_, std::ios::app) << "interop = true\n";
+  for (const char* number : {"0", "65535"}) {
+    const ProgramResult none =
+        run_reckon({"peer", scene_, "--iface", "lo", "--for", "10ms", "--application", number});
+    EXPECT_EQ(none.status, 2);
+    EXPECT_THAT(none.err, HasSubstr("1 to 65534"));
+  }
 }
 
 }  // namespace

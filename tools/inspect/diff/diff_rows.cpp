@@ -97,7 +97,7 @@ void json_traits(std::string_view side, const EntityTraits* traits, std::string&
                  traits == nullptr ? 0 : traits->share.octets);
   if (traits == nullptr || !traits->has_state) return;
   append_json_member(out, fmt::format("{}_marking", side), traits->marking);
-  fmt::format_to(end_of(out), ",\"{}_force\":{},\"{}_drm\":[", side, traits->force, side);
+  fmt::format_to(end_of(out), ",\"{}_force_id\":{},\"{}_drm\":[", side, traits->force, side);
   bool first = true;
   for (const unsigned number : algorithms_of(*traits)) {
     fmt::format_to(end_of(out), "{}{}", first ? "" : ",", number);

@@ -178,7 +178,7 @@ std::string both_text(const EntityInBoth& entity, std::string (*text)(const Enti
 
 void append_entities(const CaptureDifference& found, std::string& out) {
   TextTable table(
-      {{"BY ENTITY"}, {"PDUs A", kRight}, {"B", kRight}, {"MARKING"}, {"FORCE"}, {"DRM"}});
+      {{"BY ENTITY"}, {"PDUs A", kRight}, {"B", kRight}, {"MARKING"}, {"SIDE"}, {"DRM"}});
   std::size_t rows = 0;
   for (const EntityInBoth& entity : entities_of(found)) {
     if (!entity.differs() || ++rows > kMostRows) continue;

@@ -34,7 +34,7 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   pdu::TextSink sink(out);
   out += ",\"marking\":";
   pdu::put_json_string(sink, pdu.marking.view());
-  append_member(out, ",\"force\":", static_cast<unsigned>(pdu.force_id));
+  append_member(out, ",\"force_id\":", static_cast<unsigned>(pdu.force_id));
   out += ",\"location\":[";
   append_millimetres(out, pdu.location.x);
   out += ',';

@@ -31,7 +31,7 @@ void append_printable(std::string& out, std::string_view text) {
   for (const char letter : text) out += letter < ' ' || letter > '~' ? '.' : letter;
 }
 
-/// Appends the name of a value, or its kind and number if it has none: "Friendly", "force 77".
+/// Appends the name of a value, or its kind and number if it has none: "Friendly", "side 77".
 template <typename Enumeration>
 void append_name(std::string& out, std::string_view what, Enumeration value) {
   const std::string_view name = pdu::name(value);
@@ -47,7 +47,7 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   pdu::TextSink sink(out);
   pdu::put_type_in_words(sink, pdu.entity_type);
   out += "  ";
-  append_name(out, "force", pdu.force_id);
+  append_name(out, "side", pdu.force_id);
   out += "  ";
   append_name(out, "DRM", pdu.dead_reckoning.algorithm);
   std::string_view before = "  (";

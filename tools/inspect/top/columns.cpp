@@ -150,7 +150,7 @@ constexpr auto kColumns = std::to_array<TopColumn>({
        return c.entity.has_state ? printable_text(state(c).marking.view()) : std::string("-");
      },
      nullptr},
-    {"FORCE", kRight,
+    {"SIDE", kRight,
      [](const Cell& c) {
        return c.entity.has_state ? of_state<[](const State& s) { return s.force_id; }>(c)
                                  : std::string("-");
@@ -188,7 +188,7 @@ constexpr auto kMembers = std::to_array<TopMember>({
      [](const Cell& c) {
        return c.entity.has_state ? std::string(state(c).marking.view()) : std::string();
      }},
-    {"force", false, of_state<[](const State& s) { return s.force_id; }>},
+    {"force_id", false, of_state<[](const State& s) { return s.force_id; }>},
     {"kind", false, of_state<[](const State& s) { return s.entity_type.kind; }>},
     {"domain", false, of_state<[](const State& s) { return s.entity_type.domain; }>},
     {"drm", false, of_state<[](const State& s) { return s.dead_reckoning.algorithm; }>},

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "reckon/tools/inspect/top/columns.hpp"
 #include "reckon/tools/inspect/top/panes.hpp"
@@ -16,15 +18,29 @@ constexpr std::size_t kShiftStep = 8;
 constexpr std::size_t kMostHeadLines = 3;
 constexpr std::size_t kRowsForAdvice = 16;
 constexpr std::string_view kGap = "  ";
-constexpr std::string_view kKeys =
-    "[/] filter  [s] sort  [r] reverse  [Enter] follow  [b] bundles  [c] check  [space] freeze  "
-    "[q] quit";
-constexpr std::string_view kPaneKeys = "[Esc] back  [space] freeze  [q] quit";
+// The first ones are shown at any width.
+constexpr auto kKeys = std::to_array<std::string_view>(
+    {"[q] quit", "[/] filter", "[s] sort", "[r] reverse", "[Enter] follow", "[b] bundles",
+     "[c] check", "[space] freeze"});
+constexpr auto kPaneKeys =
+    std::to_array<std::string_view>({"[q] quit", "[Esc] back", "[space] freeze"});
 
 /// The visible part of a line: from column `shift` on, `columns` wide.
 std::string window_of(std::string_view text, std::size_t shift, std::size_t columns) {
   const auto begin = text.substr(std::min(shift, text.size()));
   return std::string(begin.substr(0, columns));
+}
+
+/// The first of the keys that fit, none cut.
+std::string keys_text(std::span<const std::string_view> keys, std::size_t columns) {
+  std::string line;
+  for (const std::string_view key : keys) {
+    const std::size_t gap = line.empty() ? 0 : kGap.size();
+    if (line.size() + gap + key.size() > columns) break;
+    if (gap > 0) line += kGap;
+    line += key;
+  }
+  return line;
 }
 
 /// Breaks a line between its items, which are separated by three spaces.
@@ -318,7 +334,9 @@ void TopScreen::footer(ScreenSize size, std::vector<ScreenLine>& out) const {
     return;
   }
   if (!accepted_.empty()) out.push_back({"filter: " + accepted_, LineStyle::title});
-  out.push_back({std::string(pane_ == Pane::table ? kKeys : kPaneKeys), LineStyle::faint});
+  out.push_back(
+      {pane_ == Pane::table ? keys_text(kKeys, size.columns) : keys_text(kPaneKeys, size.columns),
+       LineStyle::faint});
 }
 
 }  // namespace reckon::tools

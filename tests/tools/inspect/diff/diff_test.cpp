@@ -230,8 +230,8 @@ TEST(InspectDiff, TellsWhatEntitiesSayOfThemselves) {
   EXPECT_EQ(entities[1]["differs"], true);
   EXPECT_EQ(entities[1]["a_marking"], "BALL2");
   EXPECT_EQ(entities[1]["b_marking"], "TALL2");
-  EXPECT_EQ(entities[1]["a_force"], 1);
-  EXPECT_EQ(entities[1]["b_force"], 2);
+  EXPECT_EQ(entities[1]["a_force_id"], 1);
+  EXPECT_EQ(entities[1]["b_force_id"], 2);
   EXPECT_EQ(entities[1]["a_drm"], json({2}));
   EXPECT_EQ(entities[1]["b_drm"], json({5}));
 }

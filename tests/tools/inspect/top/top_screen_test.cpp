@@ -77,6 +77,19 @@ TEST(TopScreen, FitsEveryTerminalWhateverItShows) {
   }
 }
 
+TEST(TopScreen, SaysHowToQuitInAnyTerminalAndCutsNoKey) {
+  const TopData data = data_of(5);
+  TopScreen screen;
+  for (const bool pane : {false, true}) {
+    if (pane) type(screen, "b", data);
+    for (const std::size_t columns : {40U, 80U, 200U})
+      EXPECT_THAT(screen.lines(data, {}, {24, columns})[23].text, HasSubstr("[q] quit"));
+  }
+  screen.press({Key::escape}, data);
+  EXPECT_THAT(screen.lines(data, {}, {24, 80})[23].text, testing::EndsWith("[b] bundles"));
+  EXPECT_THAT(screen.lines(data, {}, {24, 120})[23].text, testing::EndsWith("[space] freeze"));
+}
+
 TEST(TopScreen, ScrollsThroughAllRows) {
   const TopData data = data_of(50);
   TopScreen screen;

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// `reckon FILE`: captures, scenes and meshes are opened, and of others the verb is told.
+#include "reckon/tools/verbs/given_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "reckon/tests/support/places.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using test::run_reckon;
+using ::testing::HasSubstr;
+
+class GivenFile : public testing::Test {
+ protected:
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.file(name), std::ios::binary) << text;
+    return folder_.file(name);
+  }
+  [[nodiscard]] static std::string shipped(const std::string& name) {
+    return test::source_dir() + "/scenes/" + name;
+  }
+
+  test::ScratchFolder folder_;
+};
+
+TEST_F(GivenFile, IsInspectedIfItIsACapture) {
+  const auto by_name = run_reckon({shipped("exercise.pcapng"), "stats", "--json"});
+  EXPECT_EQ(by_name.status, 0);
+  EXPECT_THAT(by_name.err, HasSubstr("exercise.pcapng is a capture: reckon inspect "));
+  EXPECT_EQ(by_name.out,
+            run_reckon({"inspect", shipped("exercise.pcapng"), "stats", "--json"}).out);
+  // By its octets, whatever it is called.
+  std::filesystem::copy_file(shipped("exercise.pcapng"), folder_.file("recorded.toml"));
+  EXPECT_EQ(run_reckon({folder_.file("recorded.toml"), "stats", "--json"}).status, 0);
+}
+
+TEST_F(GivenFile, IsTouchedIfItIsASceneOrAMesh) {
+  const std::vector<std::string> quick{"--simulated-time", "--for", "100ms", "--json"};
+  for (const char* name : {"two_hands.toml", "touchstone.obj"}) {
+    std::vector<std::string> words{shipped(name)};
+    words.insert(words.end(), quick.begin(), quick.end());
+    const auto result = run_reckon(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(": reckon demo "));
+    EXPECT_THAT(result.out, HasSubstr("pose_error_m"));
+  }
+}
+
+TEST_F(GivenFile, IsToldTheVerbIfNoneOpensItByItself) {
+  const auto key = run_reckon({write("crane.key", "epoch 1\n")});
+  EXPECT_EQ(key.status, 2);
+  EXPECT_THAT(key.err, HasSubstr("a key: `reckon peer SCENE --key " + folder_.file("crane.key")));
+  const auto table = run_reckon({shipped("truck_track.csv")});
+  EXPECT_EQ(table.status, 2);
+  EXPECT_THAT(table.err, HasSubstr("`reckon tune " + shipped("truck_track.csv") + "`"));
+  const auto other = run_reckon({write("notes.txt", "hello")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("no capture, no scene (.toml)"));
+  EXPECT_TRUE((key.out + table.out + other.out).empty());
+}
+
+TEST_F(GivenFile, IsMissedByItsNameAndVerbsGoBeforeFiles) {
+  const auto missing = run_reckon({folder_.file("none.pcap")});
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("there is no file '" + folder_.file("none.pcap") + "'"));
+  EXPECT_THAT(run_reckon({"inspetc"}).err, HasSubstr("there is no verb 'inspetc'; did you mean"));
+  EXPECT_EQ(run_reckon({test::source_dir() + "/scenes"}).status, 2);
+}
+
+TEST_F(GivenFile, IsKnownByItsFirstOctetsOrTheEndOfItsName) {
+  EXPECT_EQ(kind_of_file(write("A.OBJ", "v 0 0 0\n")), FileKind::mesh);
+  EXPECT_EQ(kind_of_file(write("a.stl", "solid a\n")), FileKind::mesh);
+  EXPECT_EQ(kind_of_file(write("empty.pcap", "")), FileKind::capture);
+  EXPECT_EQ(kind_of_file(write("a", "\x28\xb5\x2f\xfd")), FileKind::capture);
+  EXPECT_EQ(kind_of_file(write("b", "\x1f\x8b\x08")), FileKind::capture);
+  EXPECT_EQ(kind_of_file(write("c", "x")), FileKind::unknown);
+  EXPECT_EQ(kind_of_file(folder_.file("absent.csv")), FileKind::unknown);
+}
+
+}  // namespace
+}  // namespace reckon::tools
