@@ -15,6 +15,8 @@
 #include <stdexcept>
 
 #include "reckon/peer/capture/capture_stream.hpp"
+#include "reckon/peer/capture/frame_parser.hpp"
+#include "reckon/peer/capture/ip_reassembler.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -90,10 +92,11 @@ class PcapSource final : public DatagramSource {
   void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
 
  private:
-  SourceEvent finish(int result);
+  void finish(int result);
   void tell_compression();
   bool step_back(off_t frame);
   bool take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out);
+  bool take_udp(const ParsedFrame& parsed, SourceDatagram& out);
   bool wait(nanoseconds patience);
   void count_drops();
 
@@ -105,12 +108,18 @@ class PcapSource final : public DatagramSource {
   bool nanosecond_stamps_{false};
   std::atomic<bool> stopped_{false};
   bool ended_{false};
+  IpReassembler reassembler_;
   SourceReport report_;
 };
 
 SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
   bool waited = false;
-  while (!ended_ && !stopped_.load(std::memory_order_relaxed)) {
+  while (!stopped_.load(std::memory_order_relaxed)) {
+    if (reassembler_.take_lost(out)) {
+      ++report_.datagrams;
+      return SourceEvent::datagram;
+    }
+    if (ended_) break;
     pcap_pkthdr* header = nullptr;
     const u_char* bytes = nullptr;
     const off_t frame = grows_ != nullptr ? ftello(grows_) : 0;
@@ -121,7 +130,7 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
       if (waited || !wait(patience)) return SourceEvent::nothing_yet;
       waited = true;
     } else {
-      return finish(result);
+      finish(result);
     }
   }
   return SourceEvent::end;
@@ -135,19 +144,20 @@ bool PcapSource::step_back(off_t frame) {
 }
 
 // The true end of a file, or a damaged place: what came before it remains valid.
-SourceEvent PcapSource::finish(int result) {
+void PcapSource::finish(int result) {
   ended_ = true;
+  reassembler_.give_up_all();
+  report_.fragments = reassembler_.counts();
   std::string reason;
   if (stream_) {
     tell_compression();
     reason = stream_->problem();  // the error of the stream causes that of libpcap
   }
-  if (reason.empty() && result == PCAP_ERROR_BREAK) return SourceEvent::end;
+  if (reason.empty() && result == PCAP_ERROR_BREAK) return;
   if (reason.empty()) reason = pcap_geterr(handle_.get());
   report_.problem = name_ + " cannot be read beyond frame " + std::to_string(report_.frames) +
                     " (" + reason + "); the " + std::to_string(report_.frames) +
                     " frames before that are good";
-  return SourceEvent::end;
 }
 
 void PcapSource::tell_compression() {
@@ -164,22 +174,25 @@ bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceData
   const std::span frame(reinterpret_cast<const std::byte*>(bytes), header.caplen);
   out.captured = frame;
   out.captured_on_wire = header.len;
-  switch (parse_frame(layer_, frame, header.len, out)) {
-    case FrameContent::not_udp:
-      ++report_.skipped;
-      return false;
-    case FrameContent::malformed:
-      ++report_.malformed;
-      return false;
-    case FrameContent::udp:
-      break;
-  }
+  reassembler_.advance(out.time);
+  const ParsedFrame parsed = parse_frame(layer_, frame, header.len, out);
+  const bool is_datagram = parsed.content == FrameContent::udp && take_udp(parsed, out);
+  if (parsed.content == FrameContent::not_udp) ++report_.skipped;
+  if (parsed.content == FrameContent::malformed) ++report_.malformed;
+  report_.fragments = reassembler_.counts();
+  if (!is_datagram) return false;
   ++report_.datagrams;
   if (out.portion == Portion::cut) ++report_.cut;
-  if (out.portion == Portion::first_fragment || out.portion == Portion::later_fragment) {
-    ++report_.fragments;
-  }
   return true;
+}
+
+// Whether there is a datagram to return.
+bool PcapSource::take_udp(const ParsedFrame& parsed, SourceDatagram& out) {
+  if (!parsed.fragment) return true;
+  const FragmentFate fate = reassembler_.take(layer_, *parsed.fragment, out);
+  if (fate == FragmentFate::not_udp) ++report_.skipped;
+  if (fate == FragmentFate::malformed) ++report_.malformed;
+  return fate == FragmentFate::whole || fate == FragmentFate::overlapping;
 }
 
 bool PcapSource::wait(nanoseconds patience) {

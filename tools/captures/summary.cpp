@@ -139,7 +139,7 @@ void CaptureSummary::add(const peer::SourceDatagram& datagram) {
   first = std::min(first.value_or(datagram.time), datagram.time);
   last = std::max(last.value_or(datagram.time), datagram.time);
   datagrams.add(datagram.bytes.size());
-  if (datagram.portion != peer::Portion::later_fragment) {
+  if (!peer::is_headless(datagram.portion)) {
     senders[datagram.source].add(datagram.bytes.size());
     groups[datagram.group].add(datagram.bytes.size());
   }
@@ -185,6 +185,9 @@ std::string summary_text(const std::string& name, const CaptureSummary& summary,
     out += fmt::format("compressed: {} hold {}, {:.3g} times less, {}\n",
                        size_text(report.zstd_octets), size_text(report.zstd_content),
                        compression(report), counted(report.zstd_frames, "zstd frame"));
+  if (report.fragments.whole > 0)
+    out += fmt::format("{} put together from IP fragments\n",
+                       counted(report.fragments.whole, "datagram"));
   const std::string damage = damage_text(report);
   if (!damage.empty()) out += fmt::format("damage: {}\n", damage);
   if (report.skipped > 0) out += fmt::format("{} without UDP\n", counted(report.skipped, "frame"));
@@ -216,7 +219,12 @@ std::string summary_json(const std::string& name, const CaptureSummary& summary,
       .value("zstd_frames", report.zstd_frames)
       .value("zstd_octets", report.zstd_octets)
       .value("zstd_content", report.zstd_content)
-      .value("fragments", report.fragments)
+      .value("fragments", report.fragments.frames)
+      .value("reassembled", report.fragments.whole)
+      .value("incomplete", report.fragments.lost)
+      .value("overlapping", report.fragments.overlapping)
+      .value("late_fragments", report.fragments.late)
+      .value("duplicate_fragments", report.fragments.duplicate)
       .value("cut", report.cut)
       .value("malformed", report.malformed)
       .value("skipped", report.skipped)

@@ -85,9 +85,10 @@ std::string_view portion_text(peer::Portion portion) {
     case peer::Portion::whole:
       return "";
     case peer::Portion::first_fragment:
-      return "; only the first IP fragment is here";
+      return "; IP fragments behind these octets are missing";
     case peer::Portion::later_fragment:
-      return "; a later IP fragment";
+    case peer::Portion::overlapping_fragment:
+      return "";
     case peer::Portion::cut:
       return "; the capture kept only a part of the frame";
   }
@@ -120,8 +121,7 @@ std::string_view PduRow::type() const noexcept {
 
 void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
   ++tally_.datagrams;
-  if (datagram.portion == peer::Portion::first_fragment ||
-      datagram.portion == peer::Portion::later_fragment)
+  if (datagram.portion == peer::Portion::first_fragment || peer::is_headless(datagram.portion))
     ++tally_.fragments;
   row_.frame = datagram.frame;
   row_.time = datagram.time;
@@ -177,10 +177,13 @@ void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
   row_.decoded = false;
   row_.id.reset();
   row_.entity_state = nullptr;
-  set_fault(row_, "E-FRAGMENT",
-            {DecodeError::truncated, 0,
-             fmt::format("{} octets of a later IP fragment: its datagram cannot be put together",
-                         datagram.bytes.size())});
+  set_fault(
+      row_, "E-FRAGMENT",
+      {DecodeError::truncated, 0,
+       fmt::format("{} octets of {}", datagram.bytes.size(),
+                   datagram.portion == peer::Portion::later_fragment
+                       ? "IP fragments whose first one is missing"
+                       : "an IP fragment that overlaps earlier ones: its datagram is refused")});
 }
 
 }  // namespace reckon::tools

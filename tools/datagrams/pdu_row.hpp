@@ -70,7 +70,7 @@ class DatagramInspector {
   template <typename Show>
   bool inspect(const peer::SourceDatagram& datagram, Show&& show) {
     begin(datagram);
-    if (datagram.portion == peer::Portion::later_fragment) {
+    if (peer::is_headless(datagram.portion)) {
       fill_fragment(datagram);
       return count_and(show);
     }

@@ -23,6 +23,7 @@ constexpr std::string_view kExamples =
 ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report) {
   const InspectTally& tally = summary.tally();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
+                       report.fragments.lost + report.fragments.overlapping > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty();
   return damaged ? ExitCode::findings : ExitCode::good;
 }
