@@ -31,6 +31,9 @@ enum class Portion : std::uint8_t {
   return portion == Portion::later_fragment || portion == Portion::overlapping_fragment;
 }
 
+/// LINKTYPE_RAW of pcap files: a frame begins with its IP header.
+inline constexpr std::uint16_t kLinkTypeRawIp = 101;
+
 /// One datagram of a source. `bytes` is valid until the next call of next(). Of a datagram that was
 /// put together from IP fragments, frame and time are those of the fragment that completed it, and
 /// of one that remained incomplete, those of its first fragment to come.
@@ -45,11 +48,9 @@ struct SourceDatagram {
   /// The captured frame, from its link layer on; empty if the source is no capture. Of a datagram
   /// that was put together, the frame that would have carried it whole.
   std::span<const std::byte> captured;
-  std::size_t captured_on_wire{0};  ///< its length before the capture truncated it [octets]
+  std::size_t captured_on_wire{0};          ///< its length before the capture truncated it [octets]
+  std::uint16_t link_type{kLinkTypeRawIp};  ///< its LINKTYPE_... of pcap
 };
-
-/// LINKTYPE_RAW of pcap files: a frame begins with its IP header.
-inline constexpr std::uint16_t kLinkTypeRawIp = 101;
 
 /// Result of next().
 enum class SourceEvent : std::uint8_t {
@@ -77,9 +78,10 @@ struct SourceReport {
   std::uint64_t skipped{0};    ///< frames without UDP
   std::uint64_t malformed{0};  ///< skipped frames with broken IP or UDP headers
   std::uint64_t dropped{0};    ///< lost before they reached us (kernel buffer)
-  /// Of a compressed capture after reading: whole zstd frames, octets of the file and of its
-  /// content.
-  std::uint64_t zstd_frames{0}, zstd_octets{0}, zstd_content{0};
+  /// Of a compressed capture after reading: the method ("zstd", "gzip", "bzip2", "xz", "lz4"),
+  /// octets of the file and of its content, whole zstd frames.
+  std::string_view compression;
+  std::uint64_t compressed_octets{0}, compressed_content{0}, zstd_frames{0};
   std::string problem;  ///< a sentence if the source ended early; else empty
 };
 
@@ -95,7 +97,7 @@ class DatagramSource {
   [[nodiscard]] virtual const SourceReport& report() const noexcept = 0;
   /// True if more may come at any time (groups, interface).
   [[nodiscard]] virtual bool is_live() const noexcept = 0;
-  /// The link type of the captured frames by pcap (LINKTYPE_...).
+  /// The link type of the first captured frames by pcap (LINKTYPE_...).
   [[nodiscard]] virtual std::uint16_t link_type() const noexcept { return kLinkTypeRawIp; }
   /// Makes next() return `end` soon.
   virtual void stop() noexcept = 0;

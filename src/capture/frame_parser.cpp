@@ -42,38 +42,37 @@ struct IpPayload {
   [[nodiscard]] bool is_later_fragment() const { return fragment && fragment->offset > 0; }
 };
 
-// Octets before the IP header, 0xffff if it is not IP; false if the frame is too short.
-bool skip_ethernet(const Octets& frame, std::size_t& header) {
-  header = 14;
-  std::size_t type_at = 12;
-  for (int tags = 0; tags < kMaxTags; ++tags) {
-    if (!frame.has(type_at + 2)) return false;
+constexpr std::size_t kNoIp = 0xffff;
+
+bool is_tag(std::uint16_t type) { return type == 0x8100 || type == 0x88a8 || type == 0x9100; }
+
+// Octets before the IP header, kNoIp if it is not IP; false if the frame is too short. The type at
+// `type_at` belongs to what follows the first `header` octets; VLAN tags have two octets and again
+// a type.
+bool skip_tags(const Octets& frame, std::size_t type_at, std::size_t& header) {
+  for (int tags = 0; tags <= kMaxTags; ++tags) {
+    if (!frame.has(std::max(type_at + 2, header))) return false;
     const std::uint16_t type = frame.u16(type_at);
     if (type == kTypeIpv4 || type == kTypeIpv6) return true;
-    if (type != 0x8100 && type != 0x88a8 && type != 0x9100) break;
-    type_at += 4;
+    if (!is_tag(type)) break;
+    type_at = header + 2;
     header += 4;
   }
-  header = 0xffff;
-  return true;
-}
-
-bool skip_cooked(const Octets& frame, std::size_t type_at, std::size_t length,
-                 std::size_t& header) {
-  if (!frame.has(length)) return false;
-  const std::uint16_t type = frame.u16(type_at);
-  header = type == kTypeIpv4 || type == kTypeIpv6 ? length : 0xffff;
+  header = kNoIp;
   return true;
 }
 
 bool skip_link_layer(LinkLayer layer, const Octets& frame, std::size_t& header) {
   switch (layer) {
     case LinkLayer::ethernet:
-      return skip_ethernet(frame, header);
+      header = 14;
+      return skip_tags(frame, 12, header);
     case LinkLayer::linux_cooked:
-      return skip_cooked(frame, 14, 16, header);
+      header = 16;
+      return skip_tags(frame, 14, header);
     case LinkLayer::linux_cooked_2:
-      return skip_cooked(frame, 0, 20, header);
+      header = 20;
+      return skip_tags(frame, 0, header);
     // The family number differs between systems and octet orders; the IP version identifies the
     // family too.
     case LinkLayer::bsd_loopback:
@@ -196,7 +195,7 @@ ParsedFrame parse_frame(LinkLayer layer, std::span<const std::byte> frame, std::
   const Octets all{frame, std::max(on_wire, frame.size())};
   std::size_t header = 0;
   if (!skip_link_layer(layer, all, header)) return {FrameContent::malformed, {}};
-  if (header == 0xffff) return {FrameContent::not_udp, {}};
+  if (header == kNoIp) return {FrameContent::not_udp, {}};
   if (!all.has(header + 1)) return {FrameContent::malformed, {}};
   const Octets ip = all.from(header);
   IpPayload payload{};

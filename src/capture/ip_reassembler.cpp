@@ -90,7 +90,7 @@ FragmentFate IpReassembler::take(LinkLayer layer, const IpFragment& fragment,
     return FragmentFate::held;
   }
   const auto known = by_key_.find(key);
-  const Place place = known != by_key_.end() ? known->second : start(key, layer, datagram);
+  const Place place = known != by_key_.end() ? known->second : start(key, datagram);
   const std::size_t before = place->octets.capacity();
   const Added added = add(*place, fragment);
   octets_ += place->octets.capacity() - before;
@@ -106,7 +106,7 @@ FragmentFate IpReassembler::take(LinkLayer layer, const IpFragment& fragment,
     return FragmentFate::overlapping;
   }
   if (added == Added::duplicate) ++counts_.duplicate;
-  keep_head(*place, fragment, datagram);
+  keep_head(*place, layer, fragment, datagram);
   const bool is_complete = place->end && place->ranges.size() == 1 && place->ranges[0].begin == 0 &&
                            place->ranges[0].end == *place->end;
   if (is_complete) return complete(place, fragment, datagram);
@@ -132,6 +132,7 @@ bool IpReassembler::take_lost(SourceDatagram& out) {
   }
   out.frame = lost.first.frame;
   out.time = lost.first.time;
+  out.link_type = lost.first.link_type;
   out.captured = frame_;
   out.captured_on_wire = frame_.size();
   return true;
@@ -181,12 +182,10 @@ bool IpReassembler::belongs_to_finished(const Key& key, const IpFragment& fragme
   return false;
 }
 
-IpReassembler::Place IpReassembler::start(const Key& key, LinkLayer layer,
-                                          const SourceDatagram& datagram) {
+IpReassembler::Place IpReassembler::start(const Key& key, const SourceDatagram& datagram) {
   incomplete_.push_back({});
   const Place place = std::prev(incomplete_.end());
   place->key = key;
-  place->layer = layer;
   place->first.frame = datagram.frame;
   place->first.time = datagram.time;
   by_key_.emplace(key, place);
@@ -231,7 +230,7 @@ IpReassembler::Added IpReassembler::add(Incomplete& to, const IpFragment& fragme
   return Added::added;
 }
 
-void IpReassembler::keep_head(Incomplete& of, const IpFragment& fragment,
+void IpReassembler::keep_head(Incomplete& of, LinkLayer layer, const IpFragment& fragment,
                               const SourceDatagram& frame) {
   const bool is_first = fragment.offset == 0 && of.head_fragment.offset != 0;
   if (!of.head.empty() && !is_first) return;
@@ -241,6 +240,8 @@ void IpReassembler::keep_head(Incomplete& of, const IpFragment& fragment,
   octets_ += of.head.capacity();
   of.head_fragment = fragment;
   of.head_fragment.octets = {};
+  of.layer = layer;
+  of.first.link_type = frame.link_type;
 }
 
 FragmentFate IpReassembler::complete(Place place, const IpFragment& fragment,
@@ -252,10 +253,10 @@ FragmentFate IpReassembler::complete(Place place, const IpFragment& fragment,
   finished.last_hash = hash_of(fragment.octets);
   const bool is_built = build_whole(*place);
   const LinkLayer layer = place->layer;
+  SourceDatagram out = place->first;
   release(place);
   incomplete_.erase(place);
   if (!is_built) return FragmentFate::malformed;
-  SourceDatagram out;
   out.frame = datagram.frame;
   out.time = datagram.time;
   out.captured = frame_;

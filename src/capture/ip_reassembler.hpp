@@ -67,8 +67,8 @@ class IpReassembler {
   /// An incomplete datagram.
   struct Incomplete {
     Key key;
-    SourceDatagram first;  ///< frame and time of the first fragment to come
-    LinkLayer layer{};
+    SourceDatagram first;         ///< frame and time of the first fragment to come
+    LinkLayer layer{};            ///< of the head, and so is the link type
     IpFragment head_fragment;     ///< whose frame gave the head: the one of offset 0, else any
     std::vector<std::byte> head;  ///< octets of that frame before its fragment's own
     std::vector<std::byte> octets;
@@ -88,9 +88,10 @@ class IpReassembler {
 
   void bound();
   bool belongs_to_finished(const Key& key, const IpFragment& fragment);
-  Place start(const Key& key, LinkLayer layer, const SourceDatagram& datagram);
+  Place start(const Key& key, const SourceDatagram& datagram);
   Added add(Incomplete& to, const IpFragment& fragment);
-  void keep_head(Incomplete& of, const IpFragment& fragment, const SourceDatagram& frame);
+  void keep_head(Incomplete& of, LinkLayer layer, const IpFragment& fragment,
+                 const SourceDatagram& frame);
   FragmentFate complete(Place place, const IpFragment& fragment, SourceDatagram& datagram);
   void give_up(Place place);
   void remember(Finished finished);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kSummary =
     "Tells what a capture holds: times, datagrams, PDUs by type, senders, groups, entities, "
     "damage.\n\n"
-    "FILE is pcap or pcapng, also compressed by zstd; - is stdin. Exit status 1 where something in "
+    "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 where something in "
     "it is damaged.";
 constexpr std::string_view kExamples =
     "reckon info exercise.pcapng\n"

@@ -46,7 +46,7 @@ constexpr std::string_view kSummary =
     "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
     "They reach every program of this host that has joined their groups; with --iface also the\n"
     "network there, in IP fragments where they are above its MTU. FILE is pcap or pcapng, also\n"
-    "compressed by zstd. What is sealed goes out as it is, and members refuse it as a recording;\n"
+    "compressed. What is sealed goes out as it is, and members refuse it as a recording;\n"
     "with --key it goes out plain, to the port below. At the end it tells the speed that it kept.\n"
     "On a terminal, keys: space pauses and goes on, left and right leap by 10 s, + and - double\n"
     "and halve the speed, q ends.";

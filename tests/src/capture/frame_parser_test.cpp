@@ -42,7 +42,9 @@ TEST(ParseFrame, FindsUdpBehindEveryLinkLayer) {
        Bytes(12, 1) + u16(0x88a8) + u16(7) + u16(0x8100) + u16(8) + u16(0x0800) + ip},
       {LinkLayer::raw_ip, ip},
       {LinkLayer::linux_cooked, Bytes(14, 0) + u16(0x0800) + ip},
+      {LinkLayer::linux_cooked, Bytes(14, 0) + u16(0x8100) + u16(7) + u16(0x0800) + ip},
       {LinkLayer::linux_cooked_2, u16(0x0800) + Bytes(18, 0) + ip},
+      {LinkLayer::linux_cooked_2, u16(0x8100) + Bytes(18, 0) + u16(7) + u16(0x0800) + ip},
       {LinkLayer::bsd_loopback, Bytes{2, 0, 0, 0} + ip}};
   for (const auto& [layer, frame] : frames) {
     const Parsed parsed = parse(layer, frame);

@@ -261,7 +261,7 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "compare the record's type with the PDU it is in"},
     {"E-STRAY", "Octets behind the last PDU are neither padding nor a PDU.",
      "padding is zero octets to the next multiple of 8; else a length field is too small"},
-    {"E-FRAGMENT", "A later IP fragment: its datagram cannot be put together.",
+    {"E-FRAGMENT", "IP fragments that cannot be put together: some are missing, or overlap.",
      "keep datagrams below the MTU, 1400 octets are safe"},
     {"W-NOT-FINITE", "A field holds NaN or infinity; receivers drop such a PDU.",
      "look in the sender for a division by zero or an unset value"},
