@@ -21,6 +21,12 @@ constexpr std::size_t kIpv6Header = 40;
 /// Gaps of a datagram; one with more is given up. Fragments of an MTU of 1280 make 51 at most.
 constexpr std::size_t kMaxRanges = 256;
 
+/// Fragments of a datagram whose copies are known as such.
+constexpr std::size_t kMaxPieces = 64;
+
+/// Copies come so soon after a datagram is complete. Some senders use one identifier for all.
+constexpr std::chrono::nanoseconds kCopyAge = std::chrono::milliseconds(100);
+
 /// Finished datagrams that are remembered; they are not given by the user, as they only tell copies
 /// and late fragments from new datagrams.
 constexpr std::size_t kMaxFinished = 4096;
@@ -85,7 +91,7 @@ FragmentFate IpReassembler::take(LinkLayer layer, const IpFragment& fragment,
   if (!is_sound(fragment)) return FragmentFate::malformed;
   advance(datagram.time);
   const Key key{without_port(datagram.source), without_port(datagram.group), fragment.id};
-  if (fragment.octets.empty() || belongs_to_finished(key, fragment)) {
+  if (fragment.octets.empty() || belongs_to_finished(key, fragment, datagram.time)) {
     ++counts_.frames;
     return FragmentFate::held;
   }
@@ -97,7 +103,7 @@ FragmentFate IpReassembler::take(LinkLayer layer, const IpFragment& fragment,
   if (added == Added::overlapping) {
     ++counts_.frames;
     ++counts_.overlapping;
-    remember({key, datagram.time, std::move(place->ranges), {}, 0});
+    remember({key, datagram.time, std::move(place->ranges), {}});
     release(place);
     incomplete_.erase(place);
     datagram.portion = Portion::overlapping_fragment;
@@ -109,7 +115,7 @@ FragmentFate IpReassembler::take(LinkLayer layer, const IpFragment& fragment,
   keep_head(*place, layer, fragment, datagram);
   const bool is_complete = place->end && place->ranges.size() == 1 && place->ranges[0].begin == 0 &&
                            place->ranges[0].end == *place->end;
-  if (is_complete) return complete(place, fragment, datagram);
+  if (is_complete) return complete(place, datagram);
   ++counts_.frames;
   if (place->ranges.size() > kMaxRanges) give_up(place);
   bound();
@@ -156,17 +162,22 @@ void IpReassembler::bound() {
     give_up(incomplete_.begin());
 }
 
-// A copy of the fragment that completed a datagram, or one that fills a gap of a datagram given up.
-// All else with its key begins a new datagram.
-bool IpReassembler::belongs_to_finished(const Key& key, const IpFragment& fragment) {
+// A copy of a fragment of a completed datagram, or one that fills a gap of a datagram given up. All
+// else with its key begins a new datagram.
+bool IpReassembler::belongs_to_finished(const Key& key, const IpFragment& fragment,
+                                        std::chrono::nanoseconds time) {
   const auto found = finished_by_key_.find(key);
   if (found == finished_by_key_.end()) return false;
   const Finished& finished = *found->second;
   const std::size_t end = fragment.offset + fragment.octets.size();
   if (finished.ranges.empty()) {
     // A datagram that is in progress again is newer.
-    const bool is_copy = !by_key_.contains(key) && finished.last.begin == fragment.offset &&
-                         finished.last.end == end && finished.last_hash == hash_of(fragment.octets);
+    if (by_key_.contains(key) || time - finished.time > kCopyAge) return false;
+    const auto is_copied = [&](const Piece& piece) {
+      return piece.range.begin == fragment.offset && piece.range.end == end &&
+             piece.hash == hash_of(fragment.octets);
+    };
+    const bool is_copy = std::any_of(finished.pieces.begin(), finished.pieces.end(), is_copied);
     if (is_copy) ++counts_.duplicate;
     return is_copy;
   }
@@ -213,6 +224,7 @@ IpReassembler::Added IpReassembler::add(Incomplete& to, const IpFragment& fragme
                    to.octets.begin() + static_cast<std::ptrdiff_t>(fragment.offset));
     return is_copy ? Added::duplicate : Added::overlapping;
   }
+  if (to.pieces.size() < kMaxPieces) to.pieces.push_back({range, hash_of(fragment.octets)});
   if (!fragment.has_more) to.end = wire_end;
   if (to.octets.size() < range.end) to.octets.resize(range.end);
   std::copy(fragment.octets.begin(), fragment.octets.end(),
@@ -244,13 +256,8 @@ void IpReassembler::keep_head(Incomplete& of, LinkLayer layer, const IpFragment&
   of.first.link_type = frame.link_type;
 }
 
-FragmentFate IpReassembler::complete(Place place, const IpFragment& fragment,
-                                     SourceDatagram& datagram) {
-  remember({place->key, datagram.time, {}, {}, 0});
-  Finished& finished = finished_.back();
-  finished.last = {static_cast<std::uint32_t>(fragment.offset),
-                   static_cast<std::uint32_t>(fragment.offset + fragment.octets.size())};
-  finished.last_hash = hash_of(fragment.octets);
+FragmentFate IpReassembler::complete(Place place, SourceDatagram& datagram) {
+  remember({place->key, datagram.time, {}, std::move(place->pieces)});
   const bool is_built = build_whole(*place);
   const LinkLayer layer = place->layer;
   SourceDatagram out = place->first;
@@ -272,7 +279,7 @@ FragmentFate IpReassembler::complete(Place place, const IpFragment& fragment,
 
 void IpReassembler::give_up(Place place) {
   ++counts_.lost;
-  remember({place->key, place->first.time + limits_.age, place->ranges, {}, 0});
+  remember({place->key, place->first.time + limits_.age, place->ranges, {}});
   release(place);
   lost_.splice(lost_.end(), incomplete_, place);
 }

@@ -35,8 +35,9 @@ struct ReassemblyLimits {
   std::size_t datagrams{4096};                ///< incomplete ones; likewise
 };
 
-/// Holds incomplete datagrams. Fragments come in any order and number; copies of them do no harm,
-/// and a datagram whose fragments overlap is refused as a whole (RFC 8200 4.5, here for IPv4 too).
+/// Holds incomplete datagrams. Fragments come in any order; copies of them do no harm, also those
+/// that come up to 0.1 s after their datagram was completed. A datagram whose fragments contradict
+/// each other or overlap is refused as a whole (RFC 8200 4.5, here for IPv4 too).
 /// Memory is bounded by the limits. One thread.
 class IpReassembler {
  public:
@@ -64,6 +65,11 @@ class IpReassembler {
   struct Range {
     std::uint32_t begin, end;
   };
+  /// A fragment, to know its copies by.
+  struct Piece {
+    Range range;
+    std::size_t hash;  ///< of its octets
+  };
   /// An incomplete datagram.
   struct Incomplete {
     Key key;
@@ -73,6 +79,7 @@ class IpReassembler {
     std::vector<std::byte> head;  ///< octets of that frame before its fragment's own
     std::vector<std::byte> octets;
     std::vector<Range> ranges;  ///< ascending, apart
+    std::vector<Piece> pieces;  ///< the fragments, as many as are remembered
     std::optional<std::size_t> end;
   };
   /// A datagram of which fragments may still come.
@@ -80,19 +87,19 @@ class IpReassembler {
     Key key;
     std::chrono::nanoseconds time{};
     std::vector<Range> ranges;  ///< of one that was given up; empty if it was completed
-    Range last{};               ///< the fragment that completed it
-    std::size_t last_hash{0};   ///< of its octets
+    std::vector<Piece> pieces;  ///< of one that was completed
   };
   using Place = std::list<Incomplete>::iterator;
   enum class Added : std::uint8_t { added, duplicate, overlapping };
 
   void bound();
-  bool belongs_to_finished(const Key& key, const IpFragment& fragment);
+  bool belongs_to_finished(const Key& key, const IpFragment& fragment,
+                           std::chrono::nanoseconds time);
   Place start(const Key& key, const SourceDatagram& datagram);
   Added add(Incomplete& to, const IpFragment& fragment);
   void keep_head(Incomplete& of, LinkLayer layer, const IpFragment& fragment,
                  const SourceDatagram& frame);
-  FragmentFate complete(Place place, const IpFragment& fragment, SourceDatagram& datagram);
+  FragmentFate complete(Place place, SourceDatagram& datagram);
   void give_up(Place place);
   void remember(Finished finished);
   void release(Place place);

@@ -55,6 +55,10 @@ nanoseconds time_of(std::uint64_t stamp, const Resolution& resolution) {
   std::uint64_t rest = stamp % resolution.units;
   std::uint64_t units = resolution.units;
   // So few bits that the product fits into 64; the rest is below a nanosecond.
+  if (units > kNano && units % kNano == 0) {
+    rest /= units / kNano;
+    units = kNano;
+  }
   while (units > (std::uint64_t{1} << 33)) {
     units /= 2;
     rest /= 2;

@@ -191,6 +191,8 @@ std::string summary_text(const std::string& name, const CaptureSummary& summary,
   if (report.fragments.whole > 0)
     out += fmt::format("{} put together from IP fragments\n",
                        counted(report.fragments.whole, "datagram"));
+  if (tally.foreign > 0)
+    out += fmt::format("{} of other protocols, no DIS\n", counted(tally.foreign, "datagram"));
   const std::string damage = damage_text(report);
   if (!damage.empty()) out += fmt::format("damage: {}\n", damage);
   if (report.skipped > 0) out += fmt::format("{} without UDP\n", counted(report.skipped, "frame"));
@@ -219,6 +221,7 @@ std::string summary_json(const std::string& name, const CaptureSummary& summary,
       .value("notes", tally.of(PduStatus::note))
       .value("warnings", tally.of(PduStatus::warning))
       .value("errors", tally.of(PduStatus::error))
+      .value("foreign", tally.foreign)
       .text("compression", report.compression)
       .value("compressed_octets", report.compressed_octets)
       .value("compressed_content", report.compressed_content)

@@ -116,6 +116,7 @@ PduStatus status_of(std::string_view rule) noexcept {
 }
 
 std::string_view PduRow::type() const noexcept {
+  if (rule == kForeignRule) return "foreign";
   return has_header ? pdu::snake_name(header.pdu_type) : "unreadable";
 }
 
@@ -168,7 +169,7 @@ DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFa
   });
 }
 
-void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
+void DatagramInspector::fill_whole(const peer::SourceDatagram& datagram) {
   row_.pdu = 1;
   row_.offset = 0;
   row_.header = {};
@@ -177,6 +178,16 @@ void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
   row_.decoded = false;
   row_.id.reset();
   row_.entity_state = nullptr;
+}
+
+void DatagramInspector::fill_foreign(const peer::SourceDatagram& datagram) {
+  ++tally_.foreign;
+  fill_whole(datagram);
+  set_fault(row_, kForeignRule, {DecodeError::none, 0, foreign_reason(datagram)});
+}
+
+void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
+  fill_whole(datagram);
   set_fault(
       row_, "E-FRAGMENT",
       {DecodeError::truncated, 0,

@@ -203,6 +203,8 @@ void Inspection::summarise() const {
                                  counted(tally.datagrams, "datagram"));
   if (!view_->found_faults().has_value()) line += quality(tally);
   if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
+  if (all.foreign > 0)
+    line += fmt::format("; {} of other protocols", counted(all.foreign, "datagram"));
   const peer::FragmentCounts& fragments = report.fragments;
   if (fragments.whole > 0)
     line +=

@@ -32,6 +32,8 @@ template <typename Write>
 void compress_to(const std::string& path, const std::string& method, Write&& write) {
   archive* out = archive_write_new();
   ASSERT_EQ(archive_write_add_filter_by_name(out, method.c_str()), ARCHIVE_OK);
+  // Of lz4, blocks of 64 KiB; other methods have no such option.
+  (void)archive_write_set_filter_option(out, "lz4", "block-size", "4");
   ASSERT_EQ(archive_write_set_format_raw(out), ARCHIVE_OK);
   ASSERT_EQ(archive_write_open_filename(out, path.c_str()), ARCHIVE_OK);
   archive_entry* entry = archive_entry_new();
@@ -49,26 +51,17 @@ void compress(const std::string& from, const std::string& to, const std::string&
               [&](archive* out) { archive_write_data(out, octets.data(), octets.size()); });
 }
 
-/// A capture of some 300 kB whose payloads are drawn, so that it hardly shrinks.
-std::vector<Kept> drawn_samples() {
+/// Datagrams of 1,400 octets that are drawn, so that they hardly shrink.
+std::vector<Kept> drawn_samples(int count) {
   std::mt19937 random(41);
   std::vector<Kept> out;
-  for (int i = 0; i < 200; ++i) out.push_back(make(random, 1400, false, 1'600'000'000s + i * 1s));
+  for (int i = 0; i < count; ++i) out.push_back(make(random, 1400, false, 1'600'000'000s + i * 1s));
   return out;
-}
-
-std::string refusal(const std::string& path) {
-  try {
-    (void)open_capture(path);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(ArchivedCapture, IsReadAsThePlainOne) {
   const ScratchFolder folder;
-  const std::vector<Kept> written = drawn_samples();
+  const std::vector<Kept> written = drawn_samples(200);
   write_all(folder.file("a.pcapng"), written);
   const auto plain = std::filesystem::file_size(folder.file("a.pcapng"));
   for (const std::string& method : kMethods) {
@@ -86,7 +79,7 @@ TEST(ArchivedCapture, IsReadAsThePlainOne) {
 
 TEST(ArchivedCapture, TellsTheMethodWhereItEndsTooEarlyOrIsDamaged) {
   const ScratchFolder folder;
-  const std::vector<Kept> written = drawn_samples();
+  const std::vector<Kept> written = drawn_samples(1000);
   write_all(folder.file("a.pcapng"), written);
   for (const std::string& method : kMethods) {
     compress(folder.file("a.pcapng"), folder.file(method), method);
@@ -95,10 +88,7 @@ TEST(ArchivedCapture, TellsTheMethodWhereItEndsTooEarlyOrIsDamaged) {
         .write(octets.data(), static_cast<std::streamsize>(octets.size() - 100));
     const ReadBack cut = read_all(folder.file("cut"));
     expect_beginning(cut.datagrams, written);
-    // bzip2 has no block before its end.
-    if (method != "bzip2") {
-      EXPECT_GT(cut.datagrams.size(), 10U) << method;
-    }
+    EXPECT_GT(cut.datagrams.size(), 500U) << method;
     EXPECT_LT(cut.datagrams.size(), written.size()) << method;
     EXPECT_THAT(cut.report.problem, HasSubstr("(what " + method + " compressed is damaged: "));
   }
@@ -139,7 +129,7 @@ TEST(ArchivedCapture, StreamsWhatWouldFillTheMemory) {
   const ScratchFolder folder;
   write_all(folder.file("a.pcapng"), small_samples(3));
   std::vector<char> begin = octets_of(folder.file("a.pcapng"));
-  // 2 GiB of blocks of an unknown type, zeros but for their heads.
+  // 1.25 GiB of blocks of an unknown type, zeros but for their heads.
   std::vector<char> block(std::size_t{1} << 24);
   const std::uint32_t type = 0xbad;
   const auto length = static_cast<std::uint32_t>(block.size());
@@ -148,7 +138,7 @@ TEST(ArchivedCapture, StreamsWhatWouldFillTheMemory) {
   std::memcpy(block.data() + block.size() - 4, &length, 4);
   compress_to(folder.file("bomb"), "lz4", [&](archive* out) {
     archive_write_data(out, begin.data(), begin.size());
-    for (int i = 0; i < 128; ++i) archive_write_data(out, block.data(), block.size());
+    for (int i = 0; i < 80; ++i) archive_write_data(out, block.data(), block.size());
     archive_write_data(out, begin.data(), begin.size());
   });
   EXPECT_EQ(status_in_little_memory([&] {

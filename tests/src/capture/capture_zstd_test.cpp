@@ -250,16 +250,6 @@ TEST(CompressedCapture, ReadsOnlyWhatIsThereWhereItIsDamagedAnywhere) {
   }
 }
 
-/// What a refusal says.
-std::string refusal(const std::string& path) {
-  try {
-    (void)open_capture(path);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(CaptureFile, RefusesWhatIsNoCaptureWithTheRemedy) {
   const ScratchFolder folder;
   const std::vector<char> zeros(100);

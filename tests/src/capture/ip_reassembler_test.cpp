@@ -136,10 +136,24 @@ TEST(IpReassembler, IsNotDisturbedByCopies) {
     feed.add(frame);
     feed.add(frame);
   }
+  feed.add(fragment4(datagram, 3, 8, 2 * kPiece), 50ms);  // no copy of a fragment: a new datagram
+  feed.add(frames[3], 90ms);
   feed.finish();
-  ASSERT_EQ(feed.returned().size(), 1U);
+  ASSERT_EQ(feed.returned().size(), 2U);
   EXPECT_EQ(feed.returned()[0].bytes, payload_of(datagram));
   EXPECT_EQ(feed.counts().duplicate, 5U);
+  EXPECT_EQ(feed.counts().lost, 1U);
+}
+
+TEST(IpReassembler, TakesALateCopyForOneAndAMuchLaterOneForANewDatagram) {
+  const std::vector<Bytes> frames = fragments(numbered_udp(7000), 3, fragment4);
+  Feed feed;
+  feed.add(frames);
+  feed.add(frames[1], 100ms);
+  EXPECT_EQ(feed.counts().duplicate, 1U);
+  feed.add(frames, 101ms);
+  EXPECT_EQ(feed.counts().whole, 2U);
+  feed.finish();
   EXPECT_EQ(feed.counts().lost, 0U);
 }
 
@@ -203,7 +217,8 @@ TEST(IpReassembler, GivesUpWhatHasNoBeginningOrNoEnd) {
     ASSERT_EQ(feed.returned().size(), 1U);
     EXPECT_EQ(feed.returned()[0].portion, Portion::later_fragment);
     EXPECT_EQ(feed.returned()[0].bytes, Bytes(datagram.begin() + kPiece, datagram.end()));
-    for (const std::size_t i : {0, 1, 2, 3}) feed.add(frames[i]);
+    const std::vector<Bytes> others = fragments(datagram, 10, fragment);
+    for (const std::size_t i : {0, 1, 2, 3}) feed.add(others[i]);
     feed.finish();
     ASSERT_EQ(feed.returned().size(), 2U);
     EXPECT_EQ(feed.returned()[1].portion, Portion::first_fragment);
@@ -216,9 +231,10 @@ TEST(IpReassembler, RefusesADatagramWhoseFragmentsOverlap) {
   const Bytes other = numbered_udp(7000, 1);
   const std::vector<Bytes> contradictions = {
       fragment4(other, 5, kPiece),                    // other octets in the same place
-      fragment4(datagram, 5, kPiece, 1488),           // into the next one
-      fragment4(datagram, 5, 1472, 1480),             // out of the one before
+      fragment4(other, 5, kPiece, 1488),              // into the next one
+      fragment4(other, 5, 1472, 1480),                // out of the one before
       fragment4(datagram, 5, 8, 8 * 1000),            // over several, and to the end
+      fragment4(datagram, 5, 2 * kPiece, 1488),       // into a gap
       fragment4(numbered_udp(1600), 5, kPiece),       // an end where others have gone on
       fragment4(numbered_udp(9000), 5, 4 * kPiece)};  // beyond the end
   for (const Bytes& contradiction : contradictions) {
@@ -290,11 +306,12 @@ TEST(IpReassembler, ShowsTheBeginningOfWhatTheCaptureCut) {
 
 TEST(IpReassembler, HoldsNoMoreThanItsBounds) {
   std::mt19937 random(5);
+  const Bytes datagram = numbered_udp(65'000);
   Feed feed({.octets = 1 << 20, .datagrams = 300});
   for (std::size_t i = 0; i < 20'000; ++i) {
     const std::size_t offset = random() % 8000 * 8;
     feed.add(ethernet(ipv4(Bytes(64, 1), 17, offset / 8 | 0x2000)), nanoseconds(i));
-    Bytes spread = fragment4(numbered_udp(65'000), random() % 65'536, offset, 8);
+    Bytes spread = fragment4(datagram, random() % 65'536, offset, 8);
     feed.add(spread, nanoseconds(i));
   }
   // The one that passes the bound is added before the oldest goes.

@@ -384,7 +384,7 @@ TEST(FragmentedCapture, GivesTheDatagramsThatTsharkPutsTogether) {
   if (std::system("command -v tshark >/dev/null") != 0)
     GTEST_SKIP() << "tshark is not here to judge";
   EXPECT_EQ(output_of("tshark -r " + folder.file("fragments.pcapng") +
-                      " -d udp.port==3000,data -Y data.data -T fields -e frame.number -e data.data "
+                      " -d udp.port==3000,data -Y udp -T fields -e frame.number -e data.data "
                       "2>/dev/null"),
             text);
 }

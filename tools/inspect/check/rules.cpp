@@ -15,6 +15,7 @@
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/tools/datagrams/foreign.hpp"
 #include "reckon/tools/inspect/check/enumeration_rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
@@ -308,6 +309,8 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "No field table for this PDU type: its octets are kept as they are. Reported once for each "
      "type.",
      "nothing to do: it is stepped over by its length"},
+    {kForeignRule, "A datagram of another protocol: no DIS of any version. Reported once.",
+     "nothing to do; a group or port of the exercise's own keeps others apart"},
     {"I-UNNAMED",
      "A number stands for something that SISO-REF-010 has no name for. Reported at an entity's "
      "first "
