@@ -8,26 +8,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
-#include <string_view>
+#include <utility>
 
 namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 17;
 constexpr std::size_t kLongestMagic = 6;
-
-/// Other compressions with a known remedy.
-struct Foreign {
-  std::string_view magic;
-  std::string_view program;
-};
-constexpr std::array kForeign{Foreign{"\x1f\x8b", "gzip"},
-                              Foreign{std::string_view("\xfd\x37\x7a\x58\x5a\x00", 6), "xz"},
-                              Foreign{"BZh", "bzip2"}, Foreign{"\x04\x22\x4d\x18", "lz4"}};
 
 int open_or_throw(const std::string& path) {
   if (path == "-") return STDIN_FILENO;
@@ -75,14 +65,9 @@ void CaptureStream::look_at_head() {
   if (held == 0)
     throw std::runtime_error(name_ + " is empty; give a pcap or pcapng file with its header");
   if (begins_zstd(input_)) zstd_ = std::make_unique<ZstdDecompressor>();
-  const std::string_view head(reinterpret_cast<const char*>(input_.data()), held);
-  for (const Foreign& foreign : kForeign) {
-    if (head.starts_with(foreign.magic))
-      throw std::runtime_error(
-          fmt::format("{} is compressed by {}, which is not read here; `{} -dc FILE | reckon info "
-                      "-` reads it",
-                      name_, foreign.program, foreign.program));
-  }
+  const std::string_view method = archive_method(input_);
+  if (!method.empty())
+    archive_ = std::make_unique<ArchiveDecompressor>(method, [this] { return read_buffer(); });
 }
 
 std::FILE* CaptureStream::open() {
@@ -97,6 +82,7 @@ std::FILE* CaptureStream::open() {
 
 std::string CaptureStream::problem() const {
   if (error_ != 0) return std::strerror(error_);
+  if (archive_) return archive_->error();
   if (!zstd_) return {};
   const std::uint64_t whole = zstd_->frames();
   if (!zstd_->error().empty())
@@ -107,14 +93,30 @@ std::string CaptureStream::problem() const {
   return {};
 }
 
+std::string_view CaptureStream::compression() const noexcept {
+  if (zstd_) return "zstd";
+  return archive_ ? archive_->method() : std::string_view();
+}
+
 std::uint64_t CaptureStream::zstd_frames() const noexcept { return zstd_ ? zstd_->frames() : 0; }
 
 ssize_t CaptureStream::read_cookie(void* cookie, char* to, std::size_t size) {
   auto& stream = *static_cast<CaptureStream*>(cookie);
   const auto out = std::as_writable_bytes(std::span(to, size));
-  const std::size_t count = stream.zstd_ ? stream.read_zstd(out) : stream.read_as_is(out);
+  const std::size_t count = stream.read_content(out);
   stream.content_ += count;
   return static_cast<ssize_t>(count);
+}
+
+std::size_t CaptureStream::read_content(std::span<std::byte> out) {
+  if (zstd_) return read_zstd(out);
+  return archive_ ? archive_->decompress(out) : read_as_is(out);
+}
+
+// The next octets of the file as they are; none at its end.
+std::span<const std::byte> CaptureStream::read_buffer() {
+  if (input_.empty()) input_ = std::span(buffer_).first(read_file(buffer_));
+  return std::exchange(input_, {});
 }
 
 std::size_t CaptureStream::read_as_is(std::span<std::byte> out) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A capture file as a stream for libpcap: plain or in zstd frames, a file or a pipe. Private to the
-// peer library.
+// A capture file as a stream: plain, in zstd frames or compressed by another method, a file or a
+// pipe. Private to the peer library.
 #pragma once
 
 #include <sys/types.h>
@@ -12,8 +12,10 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "reckon/peer/capture/archive_decompressor.hpp"
 #include "reckon/peer/capture/zstd_codec.hpp"
 
 namespace reckon::peer {
@@ -23,8 +25,8 @@ namespace reckon::peer {
 class CaptureStream {
  public:
   /// Opens a file; "-" is stdin.
-  /// @throws std::runtime_error with the path, the reason and the remedy if it is missing, a
-  /// folder, empty, or compressed by another method.
+  /// @throws std::runtime_error with the path, the reason and the remedy if it is missing, a folder
+  /// or empty.
   explicit CaptureStream(const std::string& path);
   ~CaptureStream();
   CaptureStream(const CaptureStream&) = delete;
@@ -35,10 +37,12 @@ class CaptureStream {
 
   /// The error of the compression at the end of the stream; empty if there is none.
   [[nodiscard]] std::string problem() const;
-  [[nodiscard]] bool is_compressed() const noexcept { return zstd_ != nullptr; }
+  /// "zstd", "gzip", "bzip2", "xz" or "lz4"; empty if it is not compressed.
+  [[nodiscard]] std::string_view compression() const noexcept;
+  [[nodiscard]] bool is_compressed() const noexcept { return !compression().empty(); }
   /// Neither compressed, nor a pipe or a device: the result of open() is seekable.
-  [[nodiscard]] bool is_plain_file() const noexcept { return is_plain_file_ && !zstd_; }
-  /// Whole zstd frames; 0 if the file is not compressed.
+  [[nodiscard]] bool is_plain_file() const noexcept { return is_plain_file_ && !is_compressed(); }
+  /// Whole zstd frames; 0 if the file has none.
   [[nodiscard]] std::uint64_t zstd_frames() const noexcept;
   /// Octets read so far, of the file and of its content.
   [[nodiscard]] std::uint64_t octets() const noexcept { return octets_; }
@@ -48,6 +52,8 @@ class CaptureStream {
   static ssize_t read_cookie(void* cookie, char* to, std::size_t size);
   std::size_t read_as_is(std::span<std::byte> out);
   std::size_t read_zstd(std::span<std::byte> out);
+  std::size_t read_content(std::span<std::byte> out);
+  std::span<const std::byte> read_buffer();
   std::size_t read_file(std::span<std::byte> out);
   void look_at_head();
 
@@ -56,6 +62,7 @@ class CaptureStream {
   int file_;
   bool is_plain_file_{false};  ///< neither a pipe nor a device
   std::unique_ptr<ZstdDecompressor> zstd_;
+  std::unique_ptr<ArchiveDecompressor> archive_;
   std::vector<std::byte> buffer_;
   std::span<const std::byte> input_;  ///< of the buffer: read, not returned
   bool at_end_{false};

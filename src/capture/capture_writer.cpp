@@ -139,7 +139,6 @@ void CaptureWriter::time_words(nanoseconds time) {
   u32(static_cast<std::uint32_t>(count));
 }
 
-// Section header and the one interface; times count in units of 10^-9 s.
 void CaptureWriter::begin_section() {
   constexpr std::uint32_t kSectionLength = 28;
   u32(kSectionHeader);
@@ -149,11 +148,21 @@ void CaptureWriter::begin_section() {
   u16(0);
   u64(~std::uint64_t{0});  // unknown length of the section
   u32(kSectionLength);
+  link_types_.clear();
+  (void)interface_of(options_.link_type);
+}
 
+// The number of the interface with that link type, which is described if it is new; its times count
+// in units of 10^-9 s.
+std::uint32_t CaptureWriter::interface_of(std::uint16_t link_type) {
+  const auto known = std::find(link_types_.begin(), link_types_.end(), link_type);
+  const auto number = static_cast<std::uint32_t>(known - link_types_.begin());
+  if (known != link_types_.end()) return number;
+  link_types_.push_back(link_type);
   constexpr std::uint32_t kInterfaceLength = 32;
   u32(kInterfaceDescription);
   u32(kInterfaceLength);
-  u16(options_.link_type);
+  u16(link_type);
   u16(0);
   u32(kSnapLength);
   u16(9);  // if_tsresol
@@ -161,14 +170,17 @@ void CaptureWriter::begin_section() {
   buffer_.insert(buffer_.end(), {std::byte{9}, std::byte{0}, std::byte{0}, std::byte{0}});
   u32(0);  // end of options
   u32(kInterfaceLength);
+  return number;
 }
 
 void CaptureWriter::append_packet(const SourceDatagram& datagram, std::span<const std::byte> frame,
                                   std::size_t on_wire) {
   const auto length = static_cast<std::uint32_t>(kPacketOverhead + padded(frame.size()));
+  const std::uint32_t interface =
+      interface_of(datagram.captured.empty() ? kLinkTypeRawIp : datagram.link_type);
   u32(kEnhancedPacket);
   u32(length);
-  u32(0);
+  u32(interface);
   time_words(datagram.time);
   u32(static_cast<std::uint32_t>(frame.size()));
   u32(static_cast<std::uint32_t>(on_wire));

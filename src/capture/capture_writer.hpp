@@ -28,8 +28,10 @@ struct CaptureWriteError : std::runtime_error {
 struct CaptureWriterOptions {
   std::string path;
   bool overwrite{false};
-  bool compress{false};                     ///< in zstd frames
-  std::uint16_t link_type{kLinkTypeRawIp};  ///< of the source whose frames are written
+  bool compress{false};  ///< in zstd frames
+  /// Of the first interface, that of the source whose frames are written; frames of other link
+  /// types get interfaces of their own, which not all programs read in one file.
+  std::uint16_t link_type{kLinkTypeRawIp};
   /// A file of this size [octets on the disk] is followed by the next; 0 = one file of any size. A
   /// compressed file may exceed it by up to 64 KiB of blocks.
   std::uint64_t rotate_octets{0};
@@ -73,6 +75,7 @@ class CaptureWriter {
  private:
   void open_next();
   void begin_section();
+  std::uint32_t interface_of(std::uint16_t link_type);
   [[nodiscard]] bool is_full(std::chrono::nanoseconds time) const noexcept;
   void append_packet(const SourceDatagram& datagram, std::span<const std::byte> frame,
                      std::size_t on_wire);
@@ -88,8 +91,9 @@ class CaptureWriter {
   std::vector<std::byte> buffer_;  ///< whole blocks not passed to the kernel yet
   std::vector<std::byte> flushing_;
   std::vector<std::byte> packet_;
-  std::uint64_t earlier_octets_{0};   ///< of the files before this one
-  std::uint64_t earlier_packets_{0};  ///< of the files before this one
+  std::vector<std::uint16_t> link_types_;  ///< of the interfaces in this file
+  std::uint64_t earlier_octets_{0};        ///< of the files before this one
+  std::uint64_t earlier_packets_{0};       ///< of the files before this one
   std::uint64_t in_file_{0};
   std::chrono::nanoseconds file_begin_{};
   std::chrono::nanoseconds last_time_{};

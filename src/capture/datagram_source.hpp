@@ -20,12 +20,23 @@ namespace reckon::peer {
 /// Available part of a UDP datagram.
 enum class Portion : std::uint8_t {
   whole,
-  first_fragment,  ///< IP fragment with the UDP header: bytes are its beginning
-  later_fragment,  ///< IP fragment without UDP header: ports are 0, bytes are its middle or end
-  cut              ///< the capture kept less of the frame than was on the wire
+  first_fragment,  ///< IP fragments with the UDP header: bytes are its beginning
+  later_fragment,  ///< IP fragments without UDP header: ports are 0, bytes are its middle or end
+  overlapping_fragment,  ///< IP fragment that contradicts earlier ones: bytes are its own octets
+  cut                    ///< the capture kept less of the frame than was on the wire
 };
 
-/// One datagram of a source. `bytes` is valid until the next call of next().
+/// True without a UDP header: the octets are no beginning of a datagram, and the ports are 0.
+[[nodiscard]] constexpr bool is_headless(Portion portion) noexcept {
+  return portion == Portion::later_fragment || portion == Portion::overlapping_fragment;
+}
+
+/// LINKTYPE_RAW of pcap files: a frame begins with its IP header.
+inline constexpr std::uint16_t kLinkTypeRawIp = 101;
+
+/// One datagram of a source. `bytes` is valid until the next call of next(). Of a datagram that was
+/// put together from IP fragments, frame and time are those of the fragment that completed it, and
+/// of one that remained incomplete, those of its first fragment to come.
 struct SourceDatagram {
   std::uint64_t frame{0};  ///< 1, 2, ... as in other tools; counts skipped frames too
   /// Since 1970-01-01 UTC; 0 for a raw file. In a damaged capture the year is 1901 to 2160.
@@ -34,13 +45,12 @@ struct SourceDatagram {
   GroupAddress group;  ///< destination, perhaps no group; unspecified for a raw file
   std::span<const std::byte> bytes;
   Portion portion{Portion::whole};
-  /// The captured frame, from its link layer on; empty if the source is no capture.
+  /// The captured frame, from its link layer on; empty if the source is no capture. Of a datagram
+  /// that was put together, the frame that would have carried it whole.
   std::span<const std::byte> captured;
-  std::size_t captured_on_wire{0};  ///< its length before the capture truncated it [octets]
+  std::size_t captured_on_wire{0};          ///< its length before the capture truncated it [octets]
+  std::uint16_t link_type{kLinkTypeRawIp};  ///< its LINKTYPE_... of pcap
 };
-
-/// LINKTYPE_RAW of pcap files: a frame begins with its IP header.
-inline constexpr std::uint16_t kLinkTypeRawIp = 101;
 
 /// Result of next().
 enum class SourceEvent : std::uint8_t {
@@ -49,18 +59,29 @@ enum class SourceEvent : std::uint8_t {
   end           ///< no more will come; report() states whether that was the true end
 };
 
+/// What became of IP fragments.
+struct FragmentCounts {
+  std::uint64_t frames{0};       ///< that were fragments
+  std::uint64_t whole{0};        ///< datagrams put together
+  std::uint64_t lost{0};         ///< datagrams given up, because fragments are missing
+  std::uint64_t overlapping{0};  ///< datagrams refused, because fragments contradict each other
+  std::uint64_t late{0};         ///< fragments that came after their datagram was given up
+  std::uint64_t duplicate{0};    ///< copies of fragments
+};
+
 /// Counts and errors of a source.
 struct SourceReport {
   std::uint64_t frames{0};     ///< all frames read
-  std::uint64_t datagrams{0};  ///< UDP datagrams (and fragments of such) returned
-  std::uint64_t fragments{0};  ///< of these, IP fragments
-  std::uint64_t cut{0};        ///< of these, truncated by the capture
+  std::uint64_t datagrams{0};  ///< UDP datagrams, whole or not, returned
+  FragmentCounts fragments;
+  std::uint64_t cut{0};        ///< of the datagrams, truncated by the capture
   std::uint64_t skipped{0};    ///< frames without UDP
   std::uint64_t malformed{0};  ///< skipped frames with broken IP or UDP headers
   std::uint64_t dropped{0};    ///< lost before they reached us (kernel buffer)
-  /// Of a compressed capture after reading: whole zstd frames, octets of the file and of its
-  /// content.
-  std::uint64_t zstd_frames{0}, zstd_octets{0}, zstd_content{0};
+  /// Of a compressed capture after reading: the method ("zstd", "gzip", "bzip2", "xz", "lz4"),
+  /// octets of the file and of its content, whole zstd frames.
+  std::string_view compression;
+  std::uint64_t compressed_octets{0}, compressed_content{0}, zstd_frames{0};
   std::string problem;  ///< a sentence if the source ended early; else empty
 };
 
@@ -76,7 +97,7 @@ class DatagramSource {
   [[nodiscard]] virtual const SourceReport& report() const noexcept = 0;
   /// True if more may come at any time (groups, interface).
   [[nodiscard]] virtual bool is_live() const noexcept = 0;
-  /// The link type of the captured frames by pcap (LINKTYPE_...).
+  /// The link type of the first captured frames by pcap (LINKTYPE_...).
   [[nodiscard]] virtual std::uint16_t link_type() const noexcept { return kLinkTypeRawIp; }
   /// Makes next() return `end` soon.
   virtual void stop() noexcept = 0;

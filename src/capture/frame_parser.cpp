@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Parses a captured frame down to its UDP payload: link layers, VLAN tags, IPv4 and IPv6 headers.
+#include "reckon/peer/capture/frame_parser.hpp"
+
 #include <algorithm>
 #include <cstring>
-
-#include "reckon/peer/capture/capture_file.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -35,45 +34,45 @@ struct Octets {
   }
 };
 
-// The payload as described by the IP header.
+// The payload as described by the IP headers.
 struct IpPayload {
   Octets octets;
-  bool fragmented{false};
-  bool first_fragment{false};
+  std::optional<IpFragment> fragment;
+
+  [[nodiscard]] bool is_later_fragment() const { return fragment && fragment->offset > 0; }
 };
 
-// Octets before the IP header, 0xffff if it is not IP; false if the frame is too short.
-bool skip_ethernet(const Octets& frame, std::size_t& header) {
-  header = 14;
-  std::size_t type_at = 12;
-  for (int tags = 0; tags < kMaxTags; ++tags) {
-    if (!frame.has(type_at + 2)) return false;
+constexpr std::size_t kNoIp = 0xffff;
+
+bool is_tag(std::uint16_t type) { return type == 0x8100 || type == 0x88a8 || type == 0x9100; }
+
+// Octets before the IP header, kNoIp if it is not IP; false if the frame is too short. The type at
+// `type_at` belongs to what follows the first `header` octets; VLAN tags have two octets and again
+// a type.
+bool skip_tags(const Octets& frame, std::size_t type_at, std::size_t& header) {
+  for (int tags = 0; tags <= kMaxTags; ++tags) {
+    if (!frame.has(std::max(type_at + 2, header))) return false;
     const std::uint16_t type = frame.u16(type_at);
     if (type == kTypeIpv4 || type == kTypeIpv6) return true;
-    if (type != 0x8100 && type != 0x88a8 && type != 0x9100) break;
-    type_at += 4;
+    if (!is_tag(type)) break;
+    type_at = header + 2;
     header += 4;
   }
-  header = 0xffff;
-  return true;
-}
-
-bool skip_cooked(const Octets& frame, std::size_t type_at, std::size_t length,
-                 std::size_t& header) {
-  if (!frame.has(length)) return false;
-  const std::uint16_t type = frame.u16(type_at);
-  header = type == kTypeIpv4 || type == kTypeIpv6 ? length : 0xffff;
+  header = kNoIp;
   return true;
 }
 
 bool skip_link_layer(LinkLayer layer, const Octets& frame, std::size_t& header) {
   switch (layer) {
     case LinkLayer::ethernet:
-      return skip_ethernet(frame, header);
+      header = 14;
+      return skip_tags(frame, 12, header);
     case LinkLayer::linux_cooked:
-      return skip_cooked(frame, 14, 16, header);
+      header = 16;
+      return skip_tags(frame, 14, header);
     case LinkLayer::linux_cooked_2:
-      return skip_cooked(frame, 0, 20, header);
+      header = 20;
+      return skip_tags(frame, 0, header);
     // The family number differs between systems and octet orders; the IP version identifies the
     // family too.
     case LinkLayer::bsd_loopback:
@@ -103,46 +102,73 @@ FrameContent read_ipv4(const Octets& ip, SourceDatagram& out, IpPayload& payload
   if (ip.u8(9) != kProtocolUdp) return FrameContent::not_udp;
   read_address(ip, 12, false, out.source);
   read_address(ip, 16, false, out.group);
-  const std::uint16_t fragment = ip.u16(6);
-  const bool more = (fragment & 0x2000) != 0;
-  const bool first = (fragment & 0x1fff) == 0;
-  payload = {ip.first(total).from(header), more || !first, first};
+  payload = {ip.first(total).from(header), std::nullopt};
+  const std::uint16_t field = ip.u16(6);
+  if ((field & 0x3fff) == 0) return FrameContent::udp;
+  payload.fragment.emplace();
+  payload.fragment->id = ip.u16(4);
+  payload.fragment->offset = std::size_t{8} * (field & 0x1fff);
+  payload.fragment->has_more = (field & 0x2000) != 0;
+  payload.fragment->octets = payload.octets.at_hand;
+  payload.fragment->size = payload.octets.on_wire;
   return FrameContent::udp;
 }
 
-// Walks through the extension headers to UDP.
+// An IPv6 fragment header at the front of `rest`; none if it covers the whole datagram.
+std::optional<IpFragment> read_fragment_header(const Octets& rest) {
+  const std::uint16_t field = rest.u16(2);
+  if ((field & 0xfff9) == 0) return std::nullopt;
+  IpFragment fragment;
+  fragment.id = std::uint32_t{rest.u16(4)} << 16 | rest.u16(6);
+  fragment.offset = field & 0xfff8;
+  fragment.has_more = (field & 1) != 0;
+  fragment.next = rest.at_hand[0];
+  const Octets behind = rest.from(8);
+  fragment.octets = behind.at_hand;
+  fragment.size = behind.on_wire;
+  return fragment;
+}
+
+bool is_extension(std::uint8_t header) {
+  return header == 0 || header == 43 || header == 44 || header == 51 || header == 60;
+}
+
+// Walks through the extension headers to UDP, or to the octets of a later fragment.
 FrameContent read_ipv6(const Octets& ip, SourceDatagram& out, IpPayload& payload) {
   if (!ip.has(40)) return FrameContent::malformed;
   const std::size_t total = std::size_t{40} + ip.u16(4);
   if (total > ip.on_wire) return FrameContent::malformed;
   read_address(ip, 8, true, out.source);
   read_address(ip, 24, true, out.group);
-  std::uint8_t next = ip.u8(6);
   Octets rest = ip.first(total).from(40);
   payload = {};
+  std::size_t next_at = 6;  // octet of the packet that names the next header
+  std::uint8_t next = ip.u8(next_at);
   for (int i = 0; i < kMaxExtensionHeaders && next != kProtocolUdp; ++i) {
-    const bool options = next == 0 || next == 43 || next == 60;
-    if (!options && next != 44 && next != 51) return FrameContent::not_udp;
+    if (!is_extension(next)) return FrameContent::not_udp;
     if (!rest.has(8)) return FrameContent::malformed;
     std::size_t length = 8;
-    if (options) length = std::size_t{8} * (rest.u8(1) + std::size_t{1});
     if (next == 51) length = std::size_t{4} * (rest.u8(1) + std::size_t{2});
-    if (next == 44) {
-      payload.fragmented = (rest.u16(2) & 0xfff9) != 0;
-      payload.first_fragment = (rest.u16(2) & 0xfff8) == 0;
+    if (next != 44 && next != 51) length = std::size_t{8} * (rest.u8(1) + std::size_t{1});
+    if (next == 44 && !payload.fragment) {
+      payload.fragment = read_fragment_header(rest);
+      if (payload.fragment) payload.fragment->next_at = next_at;
     }
     next = rest.u8(0);
     if (!rest.has(length)) return FrameContent::malformed;
+    next_at = total - rest.on_wire;
     rest = rest.from(length);
-    if (payload.fragmented && !payload.first_fragment) break;
+    // What follows the extension headers stands in the first fragment alone.
+    if (payload.is_later_fragment()) break;
   }
   payload.octets = rest;
-  return next == kProtocolUdp ? FrameContent::udp : FrameContent::not_udp;
+  const bool may_be_udp = payload.is_later_fragment() && is_extension(next);
+  return next == kProtocolUdp || may_be_udp ? FrameContent::udp : FrameContent::not_udp;
 }
 
 FrameContent read_udp(const IpPayload& payload, SourceDatagram& out) {
   const Octets& udp = payload.octets;
-  if (payload.fragmented && !payload.first_fragment) {
+  if (payload.is_later_fragment()) {
     out.portion = Portion::later_fragment;
     out.bytes = udp.at_hand;
     return FrameContent::udp;
@@ -151,12 +177,12 @@ FrameContent read_udp(const IpPayload& payload, SourceDatagram& out) {
   out.source.port = udp.u16(0);
   out.group.port = udp.u16(2);
   const std::size_t length = udp.u16(4);
-  if (length < kUdpHeader || (!payload.fragmented && length > udp.on_wire)) {
+  if (length < kUdpHeader || (!payload.fragment && length > udp.on_wire)) {
     return FrameContent::malformed;
   }
   const Octets data = udp.first(length).from(kUdpHeader);
   out.bytes = data.at_hand;
-  out.portion = payload.fragmented                   ? Portion::first_fragment
+  out.portion = payload.fragment                     ? Portion::first_fragment
                 : data.at_hand.size() < data.on_wire ? Portion::cut
                                                      : Portion::whole;
   return FrameContent::udp;
@@ -164,20 +190,25 @@ FrameContent read_udp(const IpPayload& payload, SourceDatagram& out) {
 
 }  // namespace
 
-FrameContent parse_frame(LinkLayer layer, std::span<const std::byte> frame, std::size_t on_wire,
-                         SourceDatagram& out) noexcept {
+ParsedFrame parse_frame(LinkLayer layer, std::span<const std::byte> frame, std::size_t on_wire,
+                        SourceDatagram& out) noexcept {
   const Octets all{frame, std::max(on_wire, frame.size())};
   std::size_t header = 0;
-  if (!skip_link_layer(layer, all, header)) return FrameContent::malformed;
-  if (header == 0xffff) return FrameContent::not_udp;
-  if (!all.has(header + 1)) return FrameContent::malformed;
+  if (!skip_link_layer(layer, all, header)) return {FrameContent::malformed, {}};
+  if (header == kNoIp) return {FrameContent::not_udp, {}};
+  if (!all.has(header + 1)) return {FrameContent::malformed, {}};
   const Octets ip = all.from(header);
   IpPayload payload{};
   const unsigned version = ip.u8(0) >> 4;
-  if (version != 4 && version != 6) return FrameContent::not_udp;
-  const FrameContent content =
-      version == 4 ? read_ipv4(ip, out, payload) : read_ipv6(ip, out, payload);
-  return content == FrameContent::udp ? read_udp(payload, out) : content;
+  if (version != 4 && version != 6) return {FrameContent::not_udp, {}};
+  FrameContent content = version == 4 ? read_ipv4(ip, out, payload) : read_ipv6(ip, out, payload);
+  if (content == FrameContent::udp) content = read_udp(payload, out);
+  if (content != FrameContent::udp || !payload.fragment) return {content, {}};
+  payload.fragment->ip_at = header;
+  payload.fragment->next_at += header;
+  payload.fragment->octets_at =
+      static_cast<std::size_t>(payload.fragment->octets.data() - frame.data());
+  return {content, payload.fragment};
 }
 
 }  // namespace reckon::peer

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "reckon/peer/capture/capture_writer.hpp"
+#include "reckon/peer/capture/internet_checksum.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -13,26 +14,6 @@ namespace {
 constexpr std::size_t kUdpHeader = 8;
 constexpr std::size_t kMaxPacket = 65535;
 constexpr std::uint8_t kProtocolUdp = 17;
-
-/// Sum of 16-bit words in the host's octet order: by RFC 1071 2 (B) the order does not matter.
-std::uint64_t word_sum(std::span<const std::byte> octets) {
-  std::uint64_t sum = 0;
-  std::size_t at = 0;
-  for (; at + 4 <= octets.size(); at += 4) {
-    std::uint32_t word;
-    std::memcpy(&word, octets.data() + at, 4);
-    sum += word;
-  }
-  std::uint32_t rest = 0;
-  std::memcpy(&rest, octets.data() + at, octets.size() - at);
-  return sum + rest;
-}
-
-/// The checksum of RFC 1071, to be stored in the host's octet order.
-std::uint16_t folded(std::uint64_t sum) {
-  while (sum > 0xffff) sum = (sum & 0xffff) + (sum >> 16);
-  return static_cast<std::uint16_t>(~sum);
-}
 
 void put_u16(std::span<std::byte> at, std::size_t value) {
   at[0] = static_cast<std::byte>(value >> 8);

@@ -37,6 +37,7 @@ struct UdpMulticastOptions {
   std::uint16_t unicast_port{0};  ///< own port; 0 = a free one
   int ttl{1};                     ///< hops, 0 to 255; 1 stays on the LAN
   bool broadcast{false};    ///< allow sends to broadcast addresses, and joining 255.255.255.255
+  bool fragments{false};    ///< datagrams above the MTU go out in fragments, instead of not at all
   bool deliver_own{false};  ///< hand over own datagrams looped back (self-test)
   /// SO_RCVBUF requested for each group [octets], see receive_room().
   std::size_t receive_buffer{std::size_t{1} << 20};

@@ -79,12 +79,14 @@ void set_outgoing_interface(udp::socket& socket, const UdpSocketOptions& options
   set_option(socket, IPPROTO_IP, IP_MULTICAST_IF, request, error);
 }
 
-// Makes the kernel refuse datagrams above the MTU instead of fragmenting them.
-void forbid_fragments(udp::socket& socket, bool ipv6, std::error_code& error) {
-  if (ipv6) {
-    set_option(socket, IPPROTO_IPV6, IPV6_MTU_DISCOVER, int{IPV6_PMTUDISC_DO}, error);
+// Whether the kernel fragments datagrams above the MTU or refuses them.
+void set_fragments(udp::socket& socket, const UdpSocketOptions& options, std::error_code& error) {
+  if (options.ipv6) {
+    const int rule = options.fragments ? IPV6_PMTUDISC_DONT : IPV6_PMTUDISC_DO;
+    set_option(socket, IPPROTO_IPV6, IPV6_MTU_DISCOVER, rule, error);
   } else {
-    set_option(socket, IPPROTO_IP, IP_MTU_DISCOVER, int{IP_PMTUDISC_DO}, error);
+    const int rule = options.fragments ? IP_PMTUDISC_DONT : IP_PMTUDISC_DO;
+    set_option(socket, IPPROTO_IP, IP_MTU_DISCOVER, rule, error);
   }
 }
 
@@ -154,7 +156,7 @@ udp::socket open_sender(asio::io_context& context, const UdpSocketOptions& optio
   socket.open(protocol(options.ipv6), error);
   set_receive_options(socket, options, error);
   set_outgoing_interface(socket, options, error);
-  forbid_fragments(socket, options.ipv6, error);
+  set_fragments(socket, options, error);
   if (!error) socket.set_option(asio::ip::multicast::hops(options.ttl), error);
   if (!error) socket.set_option(asio::ip::multicast::enable_loopback(true), error);
   if (options.broadcast) set_option(socket, SOL_SOCKET, SO_BROADCAST, 1, error);

@@ -22,6 +22,7 @@ struct UdpSocketOptions {
   int ttl{1};
   std::size_t receive_buffer{0};  ///< [octets] requested for SO_RCVBUF
   bool broadcast{false};          ///< the sending socket may reach broadcast addresses
+  bool fragments{false};          ///< the sending socket may exceed the MTU
   bool coalesce{false};           ///< runs of datagrams may come as one (UDP_GRO)
 };
 
@@ -35,7 +36,7 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
 [[nodiscard]] std::error_code generic(const std::error_code& error) noexcept;
 
 /// The sending socket, bound to `local` (port 0 = a free one): outgoing interface, TTL, loopback
-/// on, never fragments. Errors in `error`, as returned by generic().
+/// on, fragments only if asked. Errors in `error`, as returned by generic().
 [[nodiscard]] asio::ip::udp::socket open_sender(asio::io_context& context,
                                                 const UdpSocketOptions& options,
                                                 const IpEndpoint& local, std::error_code& error);

@@ -32,7 +32,8 @@ udp::socket open_unicast_or_throw(asio::io_context& context, const UdpSocketOpti
 UdpSocketTable::UdpSocketTable(const Surroundings& link, const NetworkInterface& interface)
     : link_(link), options_{interface.index,        link.options.ipv6,
                             link.options.ttl,       link.options.receive_buffer,
-                            link.options.broadcast, link.options.offload} {
+                            link.options.broadcast, link.options.fragments,
+                            link.options.offload} {
   const UdpMulticastOptions& asked = link.options;
   slots_.reserve(asked.max_groups + 1);
   missing_.reserve(asked.max_groups);

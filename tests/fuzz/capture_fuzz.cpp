@@ -13,6 +13,7 @@
 #include <string>
 
 #include "reckon/peer/capture/capture_file.hpp"
+#include "reckon/peer/capture/frame_parser.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {
@@ -31,8 +32,14 @@ void check_frame(Octets frame) {
                            LinkLayer::linux_cooked_2, LinkLayer::bsd_loopback}) {
     for (const std::size_t on_wire : {frame.size(), frame.size() + 100}) {
       peer::SourceDatagram out;
-      if (parse_frame(layer, frame, on_wire, out) == peer::FrameContent::udp)
-        require(holds(frame, out.bytes), "a datagram lies outside its frame");
+      const peer::ParsedFrame parsed = parse_frame(layer, frame, on_wire, out);
+      if (parsed.content != peer::FrameContent::udp) continue;
+      require(holds(frame, out.bytes), "a datagram lies outside its frame");
+      if (!parsed.fragment) continue;
+      require(holds(frame, parsed.fragment->octets), "a fragment lies outside its frame");
+      require(parsed.fragment->octets_at <= frame.size() && parsed.fragment->ip_at < frame.size() &&
+                  parsed.fragment->next_at < frame.size(),
+              "the headers of a fragment lie outside its frame");
     }
   }
 }
@@ -54,15 +61,21 @@ void read_all(peer::DatagramSource& source, std::size_t octets) {
   std::uint64_t last = 0;
   peer::SourceDatagram datagram;
   while (source.next(datagram, {}) == peer::SourceEvent::datagram) {
-    require(datagram.frame > last, "frames are not counted upwards");
-    last = datagram.frame;
+    // What was given up comes later than what came after it.
+    const bool is_in_order =
+        datagram.portion == peer::Portion::whole || datagram.portion == peer::Portion::cut;
+    require(!is_in_order || datagram.frame > last, "frames are not counted upwards");
+    require(datagram.frame <= source.report().frames, "a frame that was not read");
+    last = std::max(last, datagram.frame);
     require(holds(datagram.captured, datagram.bytes), "a datagram lies outside its frame");
   }
   const peer::SourceReport& report = source.report();
   // What is compressed has room for more.
-  const std::uint64_t room = std::max<std::uint64_t>(octets, report.zstd_content);
+  const std::uint64_t room = std::max<std::uint64_t>(octets, report.compressed_content);
   require(report.frames <= room / 16, "more frames than the file has room for");
-  require(report.datagrams + report.skipped + report.malformed == report.frames,
+  const peer::FragmentCounts& fragments = report.fragments;
+  require(report.datagrams + report.skipped + report.malformed + fragments.frames ==
+              report.frames + fragments.whole + fragments.lost + fragments.overlapping,
           "a frame is in no count");
 }
 

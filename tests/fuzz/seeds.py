@@ -4,7 +4,10 @@
 RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and the dictionaries
 FOLDER/TARGET.dict.
 """
+import bz2
+import gzip
 import hashlib
+import lzma
 import os
 import pathlib
 import re
@@ -28,6 +31,37 @@ def frame_of(payload):
     ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(udp), 0, 0, 1, 17, 0,
                      bytes([10, 0, 0, 1]), bytes([239, 192, 1, 0]))
     return bytes(12) + b"\x08\x00" + ip + udp
+
+
+def fragments_of(payload, number, v6=False, piece=64):
+    """The payload in UDP and several fragments of IPv4 or IPv6, in Ethernet."""
+    udp = struct.pack(">4H", 3000, 3000, 8 + len(payload), 0) + payload
+    for at in range(0, len(udp), piece):
+        octets, more = udp[at:at + piece], at + piece < len(udp)
+        if v6:
+            head = struct.pack(">IHBB32sBBHI", 0x60000000, 8 + len(octets), 44, 1, bytes(range(32)),
+                               17, 0, at | more, number)
+            yield bytes(12) + b"\x86\xdd" + head + octets
+        else:
+            head = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(octets), number,
+                               at // 8 | (0x2000 if more else 0), 1, 17, 0,
+                               bytes([10, 0, 0, 1]), bytes([239, 192, 1, 0]))
+            yield bytes(12) + b"\x08\x00" + head + octets
+
+
+def mixed_pcapng(payloads):
+    """Fragments, on interfaces of several link types."""
+    out = block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1))
+    for link_type, length in ((1, 65535), (101, 262144), (113, 96)):
+        out += block(1, struct.pack("<HHI", link_type, 0, length))
+    for number, payload in enumerate(payloads):
+        for frame in fragments_of(payload, number, number % 2 == 1):
+            out += block(6, struct.pack("<5I", 0, 0, number, len(frame), len(frame)) + frame)
+        frame = frame_of(payload)[14:]
+        out += block(6, struct.pack("<5I", 1, 0, number, len(frame), len(frame)) + frame)
+        frame = bytes(14) + struct.pack(">3H", 0x8100, 7, 0x0800) + frame
+        out += block(6, struct.pack("<5I", 2, 0, number, len(frame), len(frame)) + frame)
+    return out
 
 
 def pcap(payloads):
@@ -165,7 +199,12 @@ def main(folder):
     write(seeds / "force_model", [own["attribute"], *pair])
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
     write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
-    write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
+    write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0), mixed_pcapng(pair),
+                              gzip.compress(pcap(pair), mtime=0), lzma.compress(pcap(pair)),
+                              bz2.compress(pcap(pair))] + [f.read_bytes() for f in files])
+    pieces = [bytes([4, 0, 151, 1, 0]), bytes([4, 19, 151, 1, 0]), bytes([4, 38, 151, 1, 0]), bytes([0, 57, 143, 1, 0])]
+    write(seeds / "fragments", [b"".join(pieces), b"".join(pieces[::-1]), b"".join(pieces[1:]) * 3 + b"".join(pieces),
+                                b"".join(p + p for p in pieces), b"".join(pieces[:3]) + bytes([1, 9, 80, 200, 200]) * 4])
     write(seeds / "envelope", [bytes([i]) for i in range(5)] + [bytes([i, 16, 1]) for i in range(4)] +
           [b"\x04\xe7\x12" + bytes(46), b"\x04" + touch[:200]])
     states = own["compressed_states"][20:]

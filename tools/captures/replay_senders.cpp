@@ -81,7 +81,17 @@ void ReplaySenders::prepare(const peer::IpEndpoint& to) {
 
 bool ReplaySenders::send(const peer::IpEndpoint& to, std::span<const std::byte> bytes) {
   prepare(to);
-  return links_[to.is_v6 ? 1 : 0]->send(to, bytes);
+  peer::UdpMulticast& link = *links_[to.is_v6 ? 1 : 0];
+  const bool is_sent = link.send(to, bytes);
+  if (is_sent && bytes.size() > link.max_payload()) ++fragmented_;
+  return is_sent;
+}
+
+std::size_t ReplaySenders::mtu() const {
+  std::size_t least = 0;
+  for (const auto& link : links_)
+    if (link && (least == 0 || link->mtu() < least)) least = link->mtu();
+  return least;
 }
 
 std::uint64_t ReplaySenders::too_big() const {
@@ -95,6 +105,7 @@ std::unique_ptr<peer::UdpMulticast> ReplaySenders::open(bool ipv6) const {
   options.interface = interface_;
   options.ipv6 = ipv6;
   options.broadcast = broadcast_ && !ipv6;
+  options.fragments = true;
   options.max_groups = 1;
   try {
     return std::make_unique<peer::UdpMulticast>(options, clock_);

@@ -37,7 +37,8 @@ struct LocalNetwork {
 [[nodiscard]] std::optional<std::string> broadcast_interface(
     const peer::IpEndpoint& to, std::span<const LocalNetwork> networks);
 
-/// The sockets of a replay: one for each address family, opened on demand.
+/// The sockets of a replay: one for each address family, opened on demand. The kernel fragments
+/// what is above the MTU.
 class ReplaySenders {
  public:
   ReplaySenders(std::string interface, bool broadcast, const peer::Clock& clock)
@@ -47,8 +48,12 @@ class ReplaySenders {
   void prepare(const peer::IpEndpoint& to);
   /// False if the kernel refused it. @throws EnvironmentError, see prepare().
   bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes);
-  /// Number of refused datagrams above the MTU.
+  /// Number of refused datagrams that were too long even for fragments.
   [[nodiscard]] std::uint64_t too_big() const;
+  /// Number of datagrams above the MTU, which were sent in IP fragments.
+  [[nodiscard]] std::uint64_t fragmented() const noexcept { return fragmented_; }
+  /// The least MTU in use [octets]; 0 before the first datagram.
+  [[nodiscard]] std::size_t mtu() const;
 
  private:
   [[nodiscard]] std::unique_ptr<peer::UdpMulticast> open(bool ipv6) const;
@@ -57,6 +62,7 @@ class ReplaySenders {
   bool broadcast_;
   const peer::Clock& clock_;
   std::array<std::unique_ptr<peer::UdpMulticast>, 2> links_;
+  std::uint64_t fragmented_ = 0;
 };
 
 }  // namespace reckon::tools

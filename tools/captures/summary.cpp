@@ -126,7 +126,8 @@ void add_entities(JsonObject& to, const CaptureSummary& summary) {
 }
 
 double compression(const peer::SourceReport& report) {
-  return static_cast<double>(report.zstd_content) / static_cast<double>(report.zstd_octets);
+  return static_cast<double>(report.compressed_content) /
+         static_cast<double>(report.compressed_octets);
 }
 
 }  // namespace
@@ -139,7 +140,7 @@ void CaptureSummary::add(const peer::SourceDatagram& datagram) {
   first = std::min(first.value_or(datagram.time), datagram.time);
   last = std::max(last.value_or(datagram.time), datagram.time);
   datagrams.add(datagram.bytes.size());
-  if (datagram.portion != peer::Portion::later_fragment) {
+  if (!peer::is_headless(datagram.portion)) {
     senders[datagram.source].add(datagram.bytes.size());
     groups[datagram.group].add(datagram.bytes.size());
   }
@@ -181,10 +182,17 @@ std::string summary_text(const std::string& name, const CaptureSummary& summary,
                          static_cast<double>(summary.datagrams.count) / seconds);
     out += '\n';
   }
-  if (report.zstd_octets > 0)
-    out += fmt::format("compressed: {} hold {}, {:.3g} times less, {}\n",
-                       size_text(report.zstd_octets), size_text(report.zstd_content),
-                       compression(report), counted(report.zstd_frames, "zstd frame"));
+  if (report.compressed_octets > 0)
+    out += fmt::format(
+        "compressed by {}: {} hold {}, {:.3g} times less{}\n", report.compression,
+        size_text(report.compressed_octets), size_text(report.compressed_content),
+        compression(report),
+        report.zstd_frames > 0 ? ", " + counted(report.zstd_frames, "zstd frame") : std::string());
+  if (report.fragments.whole > 0)
+    out += fmt::format("{} put together from IP fragments\n",
+                       counted(report.fragments.whole, "datagram"));
+  if (tally.foreign > 0)
+    out += fmt::format("{} of other protocols, no DIS\n", counted(tally.foreign, "datagram"));
   const std::string damage = damage_text(report);
   if (!damage.empty()) out += fmt::format("damage: {}\n", damage);
   if (report.skipped > 0) out += fmt::format("{} without UDP\n", counted(report.skipped, "frame"));
@@ -213,10 +221,17 @@ std::string summary_json(const std::string& name, const CaptureSummary& summary,
       .value("notes", tally.of(PduStatus::note))
       .value("warnings", tally.of(PduStatus::warning))
       .value("errors", tally.of(PduStatus::error))
+      .value("foreign", tally.foreign)
+      .text("compression", report.compression)
+      .value("compressed_octets", report.compressed_octets)
+      .value("compressed_content", report.compressed_content)
       .value("zstd_frames", report.zstd_frames)
-      .value("zstd_octets", report.zstd_octets)
-      .value("zstd_content", report.zstd_content)
-      .value("fragments", report.fragments)
+      .value("fragments", report.fragments.frames)
+      .value("reassembled", report.fragments.whole)
+      .value("incomplete", report.fragments.lost)
+      .value("overlapping", report.fragments.overlapping)
+      .value("late_fragments", report.fragments.late)
+      .value("duplicate_fragments", report.fragments.duplicate)
       .value("cut", report.cut)
       .value("malformed", report.malformed)
       .value("skipped", report.skipped)

@@ -85,9 +85,10 @@ std::string_view portion_text(peer::Portion portion) {
     case peer::Portion::whole:
       return "";
     case peer::Portion::first_fragment:
-      return "; only the first IP fragment is here";
+      return "; IP fragments behind these octets are missing";
     case peer::Portion::later_fragment:
-      return "; a later IP fragment";
+    case peer::Portion::overlapping_fragment:
+      return "";
     case peer::Portion::cut:
       return "; the capture kept only a part of the frame";
   }
@@ -115,13 +116,13 @@ PduStatus status_of(std::string_view rule) noexcept {
 }
 
 std::string_view PduRow::type() const noexcept {
+  if (rule == kForeignRule) return "foreign";
   return has_header ? pdu::snake_name(header.pdu_type) : "unreadable";
 }
 
 void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
   ++tally_.datagrams;
-  if (datagram.portion == peer::Portion::first_fragment ||
-      datagram.portion == peer::Portion::later_fragment)
+  if (datagram.portion == peer::Portion::first_fragment || peer::is_headless(datagram.portion))
     ++tally_.fragments;
   row_.frame = datagram.frame;
   row_.time = datagram.time;
@@ -168,7 +169,7 @@ DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFa
   });
 }
 
-void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
+void DatagramInspector::fill_whole(const peer::SourceDatagram& datagram) {
   row_.pdu = 1;
   row_.offset = 0;
   row_.header = {};
@@ -177,10 +178,23 @@ void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
   row_.decoded = false;
   row_.id.reset();
   row_.entity_state = nullptr;
-  set_fault(row_, "E-FRAGMENT",
-            {DecodeError::truncated, 0,
-             fmt::format("{} octets of a later IP fragment: its datagram cannot be put together",
-                         datagram.bytes.size())});
+}
+
+void DatagramInspector::fill_foreign(const peer::SourceDatagram& datagram) {
+  ++tally_.foreign;
+  fill_whole(datagram);
+  set_fault(row_, kForeignRule, {DecodeError::none, 0, foreign_reason(datagram)});
+}
+
+void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
+  fill_whole(datagram);
+  set_fault(
+      row_, "E-FRAGMENT",
+      {DecodeError::truncated, 0,
+       fmt::format("{} octets of {}", datagram.bytes.size(),
+                   datagram.portion == peer::Portion::later_fragment
+                       ? "IP fragments whose first one is missing"
+                       : "an IP fragment that overlaps earlier ones: its datagram is refused")});
 }
 
 }  // namespace reckon::tools

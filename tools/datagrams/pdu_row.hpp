@@ -18,6 +18,7 @@
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/peer/capture/datagram_source.hpp"
 #include "reckon/tools/datagrams/fault.hpp"
+#include "reckon/tools/datagrams/foreign.hpp"
 
 namespace reckon::tools {
 
@@ -46,7 +47,8 @@ struct PduRow {
   /// it; null for the others. Valid as long as the row.
   const pdu::EntityState* entity_state = nullptr;
 
-  /// IEEE name in snake case; "unknown_200" without a name; "unreadable" without a header.
+  /// IEEE name in snake case; "unknown_200" without a name; "foreign" for a datagram of another
+  /// protocol; "unreadable" without a header.
   [[nodiscard]] std::string_view type() const noexcept;
 };
 
@@ -54,6 +56,7 @@ struct PduRow {
 struct InspectTally {
   std::uint64_t datagrams = 0;
   std::uint64_t fragments = 0;
+  std::uint64_t foreign = 0;  ///< datagrams of other protocols; each is a note among the PDUs
   std::array<std::uint64_t, 4> pdus{};  ///< by PduStatus
 
   [[nodiscard]] std::uint64_t all_pdus() const { return pdus[0] + pdus[1] + pdus[2] + pdus[3]; }
@@ -70,11 +73,15 @@ class DatagramInspector {
   template <typename Show>
   bool inspect(const peer::SourceDatagram& datagram, Show&& show) {
     begin(datagram);
-    if (datagram.portion == peer::Portion::later_fragment) {
+    if (peer::is_headless(datagram.portion)) {
       fill_fragment(datagram);
       return count_and(show);
     }
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.bytes)) {
+      if (bundled.index == 0 && is_foreign(datagram, bundled)) {
+        fill_foreign(datagram);
+        return count_and(show);
+      }
       fill(datagram, bundled);
       if (!count_and(show)) return false;
     }
@@ -88,6 +95,9 @@ class DatagramInspector {
   /// Decodes, and searches for values that receivers reject; `fault` has their place.
   [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault);
   void fill_fragment(const peer::SourceDatagram& datagram);
+  void fill_foreign(const peer::SourceDatagram& datagram);
+  /// The whole datagram as one row without a header.
+  void fill_whole(const peer::SourceDatagram& datagram);
   template <typename Show>
   bool count_and(Show&& show) {
     ++tally_.pdus[static_cast<std::size_t>(row_.status)];

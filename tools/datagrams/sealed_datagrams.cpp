@@ -96,7 +96,7 @@ SealedDatagrams::Count& SealedDatagrams::count_of(const peer::EnvelopeHeader& he
 }
 
 bool SealedDatagrams::open(peer::SourceDatagram& datagram) {
-  if (datagram.portion == peer::Portion::later_fragment) return true;
+  if (peer::is_headless(datagram.portion)) return true;
   const auto frame = pdu::unicast_frame_of(datagram.bytes);
   const std::size_t front = frame ? frame->header.length : 0;
   const auto header = peer::read_envelope(datagram.bytes.subspan(front));

@@ -161,7 +161,9 @@ std::string damage_text(const peer::SourceReport& report) {
     if (count == 0) return;
     text += fmt::format("{}{}{}", text.empty() ? "" : "; ", counted(count, noun), rest);
   };
-  add(report.fragments, "IP fragment", "");
+  add(report.fragments.lost, "datagram", " with missing IP fragments");
+  add(report.fragments.overlapping, "datagram", " refused, its IP fragments overlap");
+  add(report.fragments.late, "IP fragment", " too late");
   add(report.cut, "frame", " cut by the capture");
   add(report.malformed, "frame", " with a broken IP or UDP header");
   if (!report.problem.empty()) text += (text.empty() ? "" : "; ") + report.problem;

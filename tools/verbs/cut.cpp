@@ -70,7 +70,7 @@ ExitCode cut(const CutOptions& options, const Console& console) {
 int run_cut(Arguments arguments, const Console& console) {
   CutOptions options;
   CommandLine line("cut", kSummary, kExamples);
-  line.word("IN", options.in, true, "pcap or pcapng file, also compressed by zstd; - is stdin");
+  line.word("IN", options.in, true, "pcap or pcapng file, also compressed; - is stdin");
   line.word("OUT", options.out.path, true, "the pcapng file to write");
   line.option("--to", options.selection.to,
               "stop this long after the first datagram, for example 2min");

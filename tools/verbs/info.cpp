@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kSummary =
     "Tells what a capture holds: times, datagrams, PDUs by type, senders, groups, entities, "
     "damage.\n\n"
-    "FILE is pcap or pcapng, also compressed by zstd; - is stdin. Exit status 1 where something in "
+    "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 where something in "
     "it is damaged.";
 constexpr std::string_view kExamples =
     "reckon info exercise.pcapng\n"
@@ -23,6 +23,7 @@ constexpr std::string_view kExamples =
 ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report) {
   const InspectTally& tally = summary.tally();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
+                       report.fragments.lost + report.fragments.overlapping > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty();
   return damaged ? ExitCode::findings : ExitCode::good;
 }

@@ -40,7 +40,7 @@ constexpr std::size_t kWriteSize = std::size_t{1} << 16;
 constexpr std::string_view kSummary =
     "Shows every PDU of every datagram, from a capture or live.\n\n"
     "SOURCE is one of\n"
-    "  FILE                pcap or pcapng, plain or compressed by zstd\n"
+    "  FILE                pcap or pcapng, plain or compressed (zstd, gzip, bzip2, xz, lz4)\n"
     "  -                   the same on stdin\n"
     "  raw:FILE            one bare datagram\n"
     "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
@@ -203,7 +203,15 @@ void Inspection::summarise() const {
                                  counted(tally.datagrams, "datagram"));
   if (!view_->found_faults().has_value()) line += quality(tally);
   if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
-  if (all.fragments > 0) line += fmt::format("; {}", counted(all.fragments, "IP fragment"));
+  if (all.foreign > 0)
+    line += fmt::format("; {} of other protocols", counted(all.foreign, "datagram"));
+  const peer::FragmentCounts& fragments = report.fragments;
+  if (fragments.whole > 0)
+    line +=
+        fmt::format("; {} put together from IP fragments", counted(fragments.whole, "datagram"));
+  if (all.fragments > 0)
+    line += fmt::format("; {} of which IP fragments are missing or overlap",
+                        counted(all.fragments, "datagram"));
   if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
   if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
   if (report.malformed > 0)
@@ -219,6 +227,7 @@ ExitCode Inspection::verdict() const {
   const InspectTally& tally = shown_;
   const peer::SourceReport& report = source_->report();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
+                       report.fragments.lost + report.fragments.overlapping > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty() ||
                        sealed_.unread() > 0;
   return damaged || view_->found_faults().value_or(false) ? ExitCode::findings : ExitCode::good;

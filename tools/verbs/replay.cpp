@@ -45,10 +45,11 @@ constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
 constexpr std::string_view kSummary =
     "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
     "They reach every program of this host that has joined their groups; with --iface also the\n"
-    "network there. FILE is pcap or pcapng, also compressed by zstd. What is sealed goes out as\n"
-    "it is, and members refuse it as a recording; with --key it goes out plain, to the port\n"
-    "below. At the end it tells the speed that it kept. On a terminal, keys: space pauses and\n"
-    "goes on, left and right leap by 10 s, + and - double and halve the speed, q ends.";
+    "network there, in IP fragments where they are above its MTU. FILE is pcap or pcapng, also\n"
+    "compressed. What is sealed goes out as it is, and members refuse it as a recording;\n"
+    "with --key it goes out plain, to the port below. At the end it tells the speed that it kept.\n"
+    "On a terminal, keys: space pauses and goes on, left and right leap by 10 s, + and - double\n"
+    "and halve the speed, q ends.";
 constexpr std::string_view kExamples =
     "reckon replay exercise.pcapng\n"
     "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
@@ -73,7 +74,7 @@ struct ReplayOptions {
 struct ReplayCounts {
   std::uint64_t sent = 0;
   std::uint64_t octets = 0;
-  std::uint64_t incomplete = 0;  ///< fragments and frames that the capture truncated
+  std::uint64_t incomplete = 0;  ///< fragments are missing, or the capture truncated them
   std::uint64_t refused = 0;     ///< by the kernel
   nanoseconds latest{};          ///< greatest lateness
 };
@@ -280,6 +281,7 @@ void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds no
       .value("octets", counts_.octets)
       .value("refused", counts_.refused)
       .value("too_big", std::min(counts_.refused, senders_.too_big()))
+      .value("fragmented", senders_.fragmented())
       .value("incomplete", counts_.incomplete)
       .value("asked", fmt::format("{:.6g}", begun ? schedule_->asked() : options_.rate))
       .value("got", counts_.sent > 1 && schedule_->kept() > 0
@@ -305,8 +307,11 @@ ExitCode Replay::summarise() const {
     fmt::print(console_.err, "; at most {} late", duration_text(counts_.latest));
   fmt::print(console_.err, "\n");
   if (counts_.incomplete > 0)
-    fmt::print(console_.err, "{} left out: fragments, or cut by the capture\n",
+    fmt::print(console_.err, "{} left out: IP fragments are missing, or the capture cut it\n",
                counted(counts_.incomplete, "datagram"));
+  if (senders_.fragmented() > 0)
+    fmt::print(console_.err, "{} sent in IP fragments: above the MTU of {}, {} octets\n",
+               counted(senders_.fragmented(), "datagram"), options_.interface, senders_.mtu());
   if (counts_.refused > 0) tell_refused();
   fmt::print(console_.err, "{}", sealed_.summary());
   const std::string& problem = source_->report().problem;

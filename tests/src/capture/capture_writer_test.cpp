@@ -70,6 +70,7 @@ TEST(CaptureWriter, KeepsCapturedFramesAsTheyWere) {
     SourceDatagram datagram = kept.view();
     datagram.captured = std::span(frame).first(frame.size() - 10);
     datagram.captured_on_wire = frame.size();
+    datagram.link_type = kEthernet;
     writer.write(datagram);
   }
   const auto source = open_capture(folder.file("a.pcapng"));

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Where the UDP datagram lies in a captured frame, and frames that lie.
+#include "reckon/peer/capture/frame_parser.hpp"
+
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "reckon/peer/capture/capture_file.hpp"
 #include "reckon/tests/src/support/made_frames.hpp"
 
 namespace reckon::peer {
@@ -19,11 +21,15 @@ using namespace frames;
 struct Parsed {
   FrameContent content;
   SourceDatagram datagram;
+  std::optional<IpFragment> fragment;
 };
 
 Parsed parse(LinkLayer layer, const Bytes& frame, std::size_t on_wire = 0) {
   Parsed out{};
-  out.content = parse_frame(layer, std::as_bytes(std::span(frame)), on_wire, out.datagram);
+  const ParsedFrame parsed =
+      parse_frame(layer, std::as_bytes(std::span(frame)), on_wire, out.datagram);
+  out.content = parsed.content;
+  out.fragment = parsed.fragment;
   return out;
 }
 
@@ -36,7 +42,9 @@ TEST(ParseFrame, FindsUdpBehindEveryLinkLayer) {
        Bytes(12, 1) + u16(0x88a8) + u16(7) + u16(0x8100) + u16(8) + u16(0x0800) + ip},
       {LinkLayer::raw_ip, ip},
       {LinkLayer::linux_cooked, Bytes(14, 0) + u16(0x0800) + ip},
+      {LinkLayer::linux_cooked, Bytes(14, 0) + u16(0x8100) + u16(7) + u16(0x0800) + ip},
       {LinkLayer::linux_cooked_2, u16(0x0800) + Bytes(18, 0) + ip},
+      {LinkLayer::linux_cooked_2, u16(0x8100) + Bytes(18, 0) + u16(7) + u16(0x0800) + ip},
       {LinkLayer::bsd_loopback, Bytes{2, 0, 0, 0} + ip}};
   for (const auto& [layer, frame] : frames) {
     const Parsed parsed = parse(layer, frame);
@@ -69,6 +77,11 @@ TEST(ParseFrame, TellsFragmentsAsSuch) {
   EXPECT_EQ(later.content, FrameContent::udp);
   EXPECT_EQ(later.datagram.portion, Portion::later_fragment);
   EXPECT_EQ(later.datagram.group.port, 0);
+  ASSERT_TRUE(later.fragment.has_value());
+  EXPECT_EQ(later.fragment->offset, 72u);
+  EXPECT_EQ(later.fragment->size, 64u);
+  EXPECT_EQ(later.fragment->octets_at, 20u);
+  EXPECT_TRUE(later.fragment->has_more);
   const Bytes first6 = Bytes{17, 0, 0, 1, 0, 0, 0, 9} + udp(40, 3000);
   const Bytes later6 = Bytes{17, 0, 0, 0x30, 0, 0, 0, 9} + Bytes(40, 1);
   EXPECT_EQ(parse(LinkLayer::raw_ip, ipv6(first6, 44)).datagram.portion, Portion::first_fragment);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,16 @@ inline ReadBack read_all(const std::string& path) {
     out.datagrams.push_back({datagram, {datagram.bytes.begin(), datagram.bytes.end()}});
   out.report = source->report();
   return out;
+}
+
+/// What a refusal to open says.
+inline std::string refusal(const std::string& path) {
+  try {
+    (void)open_capture(path);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 inline void expect_equal(const Kept& found, const Kept& wanted) {

@@ -7,6 +7,10 @@
 
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "reckon/pdu/live_entity/le_fire.hpp"
@@ -84,6 +88,89 @@ TEST(DatagramInspector, GivesTheBodyOfEachEntityStateThatDecodesAndOfNothingElse
   });
   EXPECT_EQ(statuses, (std::vector{PduStatus::ok, PduStatus::ok, PduStatus::warning,
                                    PduStatus::error, PduStatus::ok}));
+}
+
+Octets octets_of(std::string_view text) {
+  const auto octets = std::as_bytes(std::span(text));
+  return {octets.begin(), octets.end()};
+}
+
+/// A DNS message with that identifier: a question for one name.
+Octets dns(unsigned identifier, bool is_answer) {
+  Octets out{static_cast<std::byte>(identifier >> 8),
+             static_cast<std::byte>(identifier),
+             std::byte{is_answer ? std::uint8_t{0x81} : std::uint8_t{0x01}},
+             std::byte{is_answer ? std::uint8_t{0x80} : std::uint8_t{0}},
+             std::byte{0},
+             std::byte{1},
+             std::byte{0},
+             std::byte{is_answer}};
+  const Octets rest = octets_of(std::string_view("\0\0\0\0\7example\3com\0\0\1\0\1", 21));
+  out.insert(out.end(), rest.begin(), rest.end());
+  return out;
+}
+
+/// The row of a datagram that has one.
+PduRow only_row(const Octets& octets, std::uint16_t port = 3000,
+                peer::Portion portion = peer::Portion::whole) {
+  peer::SourceDatagram datagram;
+  datagram.bytes = octets;
+  datagram.group.port = port;
+  datagram.portion = portion;
+  DatagramInspector inspector;
+  std::vector<PduRow> rows;
+  (void)inspector.inspect(datagram, [&](const PduRow& row) {
+    rows.push_back(row);
+    return true;
+  });
+  EXPECT_EQ(rows.size(), 1U);
+  EXPECT_EQ(inspector.tally().foreign, rows.front().rule == "I-FOREIGN" ? 1U : 0U);
+  return rows.front();
+}
+
+TEST(DatagramInspector, NotesDatagramsOfOtherProtocols) {
+  Octets ntp(48, std::byte{0});
+  ntp[0] = std::byte{0x23};
+  const Octets ssdp = octets_of("M-SEARCH * HTTP/1.1\r\nHOST: 239.255.255.250:1900\r\n\r\n");
+  const std::vector<std::tuple<Octets, std::uint16_t, std::string>> foreign{
+      {dns(0, false), 5353, "no PDU of any version of DIS in 29 octets; port 5353 is that of mDNS"},
+      {ntp, 123, "no PDU of any version of DIS in 48 octets; port 123 is that of NTP"},
+      {ssdp, 1900, "no PDU of any version of DIS in 51 octets; port 1900 is that of SSDP"},
+      {ssdp, 3000, "no PDU of any version of DIS in 51 octets"},
+      {octets_of("ping"), 3000, "no PDU of any version of DIS in 4 octets"}};
+  for (const auto& [octets, port, reason] : foreign) {
+    const PduRow row = only_row(octets, port);
+    EXPECT_EQ(row.rule, "I-FOREIGN");
+    EXPECT_EQ(row.status, PduStatus::note);
+    EXPECT_EQ(row.type(), "foreign");
+    EXPECT_EQ(row.reason, reason);
+  }
+}
+
+TEST(DatagramInspector, TakesDnsWithAnyIdentifierForForeign) {
+  for (unsigned identifier = 0; identifier < 0x10000; ++identifier)
+    for (const bool is_answer : {false, true})
+      ASSERT_EQ(only_row(dns(identifier, is_answer)).rule, "I-FOREIGN") << identifier;
+}
+
+TEST(DatagramInspector, KeepsDamagedPdusApartFromOtherProtocols) {
+  Octets octets;
+  append_pdu(octets, entity(1));
+  Octets cut(octets.begin(), octets.end() - 4);
+  EXPECT_EQ(only_row(cut).rule, "E-TRUNCATED");
+  cut.resize(5);
+  EXPECT_EQ(only_row(cut).rule, "E-TRUNCATED");
+  EXPECT_EQ(only_row({}).rule, "E-TRUNCATED");
+  Octets of_length_0 = octets;
+  of_length_0[8] = of_length_0[9] = std::byte{0};
+  EXPECT_EQ(only_row(of_length_0).rule, "E-LENGTH");
+  Octets newer = octets;
+  newer[0] = std::byte{8};
+  EXPECT_EQ(only_row(newer).rule, "E-VERSION");
+  // Of a part of a datagram nothing is known.
+  const Octets rest(40, std::byte{0x55});
+  EXPECT_EQ(only_row(rest).rule, "I-FOREIGN");
+  EXPECT_EQ(only_row(rest, 3000, peer::Portion::cut).status, PduStatus::error);
 }
 
 TEST(DatagramInspector, TakesNothingFromTheHeapForGoodPdus) {

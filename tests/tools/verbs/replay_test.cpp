@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
 
@@ -120,6 +121,41 @@ TEST(Replay, TellsProgramsWhatItDid) {
   EXPECT_EQ(line["paused"], 0.0);
   EXPECT_EQ(line["laps"], 3);
   EXPECT_EQ(line["problem"], "");
+}
+
+/// What a packet socket on `interface` sees of datagrams to `to`, put together.
+std::vector<Octets> captured_on(peer::DatagramSource& source, const peer::GroupAddress& to) {
+  std::vector<Octets> out;
+  peer::SourceDatagram datagram;
+  while (source.next(datagram, 500ms) == peer::SourceEvent::datagram)
+    if (datagram.group == to && datagram.portion == peer::Portion::whole)
+      out.emplace_back(datagram.bytes.begin(), datagram.bytes.end());
+  return out;
+}
+
+TEST(Replay, SendsWhatIsAboveTheMtuInFragmentsAndTellsIt) {
+  RECKON_IN_OWN_NETWORK([] {
+    test::make_cable();
+    const ScratchFolder folder;
+    std::vector<Octets> sent;
+    peer::CaptureWriter writer({.path = folder.file("big.pcapng")});
+    for (const std::size_t size : {144, 7000, 1472, 1473, 65'507}) {
+      sent.emplace_back(size, static_cast<std::byte>(size));
+      peer::SourceDatagram datagram;
+      datagram.group = group(0);
+      datagram.bytes = sent.back();
+      writer.write(datagram);
+    }
+    writer.finish(sent.size(), 0);
+    const auto source = peer::open_interface_capture("b0");
+    const ProgramResult result = run_reckon({"replay", folder.file("big.pcapng"), "--iface", "a0"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_THAT(result.err, HasSubstr("replayed 5 datagrams"));
+    EXPECT_THAT(result.err,
+                HasSubstr("3 datagrams sent in IP fragments: above the MTU of a0, 1500 octets"));
+    EXPECT_EQ(captured_on(*source, group(0)), sent);
+    EXPECT_EQ(source->report().fragments.whole, 3U);
+  });
 }
 
 /// A plain socket of any other program: bound to a port, in no group.

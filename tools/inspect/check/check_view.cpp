@@ -103,6 +103,7 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
 }
 
 bool CheckView::is_reported_type(const PduRow& row) {
+  if (row.rule == kForeignRule) return std::exchange(reported_foreign_, true);
   if (row.rule != pdu::rule(pdu::DecodeError::unknown_type)) return false;
   return std::exchange(reported_types_[static_cast<std::size_t>(row.header.pdu_type)], true);
 }

@@ -60,7 +60,8 @@ class CheckView final : public View {
   };
 
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
-  /// True for an unknown type after its first PDU, so that each type is reported once.
+  /// True for an unknown type after its first PDU, and for what is no PDU after the first such
+  /// datagram, so that each is reported once.
   [[nodiscard]] bool is_reported_type(const PduRow& row);
   void check_pdu(const CheckedPdu& checked, std::string& out);
   void look_at_attribute(const PduRow& row);
@@ -79,6 +80,7 @@ class CheckView final : public View {
   std::chrono::nanoseconds last_time_{};
   std::unordered_map<std::uint64_t, EntityMemory> entities_;
   bool reported_limit_ = false;
+  bool reported_foreign_ = false;
   std::array<bool, 256> reported_types_{};
   std::map<std::string_view, std::uint64_t> counts_;  // by code
 };

@@ -15,6 +15,7 @@
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/tools/datagrams/foreign.hpp"
 #include "reckon/tools/inspect/check/enumeration_rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
@@ -261,7 +262,7 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "compare the record's type with the PDU it is in"},
     {"E-STRAY", "Octets behind the last PDU are neither padding nor a PDU.",
      "padding is zero octets to the next multiple of 8; else a length field is too small"},
-    {"E-FRAGMENT", "A later IP fragment: its datagram cannot be put together.",
+    {"E-FRAGMENT", "IP fragments that cannot be put together: some are missing, or overlap.",
      "keep datagrams below the MTU, 1400 octets are safe"},
     {"W-NOT-FINITE", "A field holds NaN or infinity; receivers drop such a PDU.",
      "look in the sender for a division by zero or an unset value"},
@@ -308,6 +309,8 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "No field table for this PDU type: its octets are kept as they are. Reported once for each "
      "type.",
      "nothing to do: it is stepped over by its length"},
+    {kForeignRule, "A datagram of another protocol: no DIS of any version. Reported once.",
+     "nothing to do; a group or port of the exercise's own keeps others apart"},
     {"I-UNNAMED",
      "A number stands for something that SISO-REF-010 has no name for. Reported at an entity's "
      "first "

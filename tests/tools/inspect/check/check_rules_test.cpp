@@ -113,6 +113,11 @@ const std::vector<Planted>& planted() {
       {"W-COUPLED",
        in_fields([](auto& pdu) { pdu.header.pdu_status = pdu::kStatusCoupledExtension; })},
       {"I-UNKNOWN-TYPE", in_octets([](Octets& o) { o[2] = std::byte{222}; })},
+      {"I-FOREIGN",
+       [](CaptureBuilder& capture) {
+         for (int i = 0; i < 3; ++i)  // told once
+           capture.add(Octets(40, std::byte{0}), kStart + seconds(4));
+       }},
       {"I-BUNDLE-ORDER",
        [](CaptureBuilder& capture) {
          Octets datagram;

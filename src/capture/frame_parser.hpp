@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Parses a captured frame down to its UDP payload: link layers, VLAN tags, IPv4 and IPv6 headers.
+// Private to the peer library.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "reckon/peer/capture/datagram_source.hpp"
+
+namespace reckon::peer {
+
+/// First layer of a frame.
+enum class LinkLayer : std::uint8_t {
+  ethernet,
+  raw_ip,
+  linux_cooked,
+  linux_cooked_2,
+  bsd_loopback
+};
+
+/// Content of a frame.
+enum class FrameContent : std::uint8_t { udp, not_udp, malformed };
+
+/// An IP fragment and its place in its frame.
+struct IpFragment {
+  std::uint32_t id{0};                ///< what the fragments of one datagram share
+  std::size_t offset{0};              ///< of its first octet in the datagram's IP payload
+  std::size_t size{0};                ///< octets on the wire
+  bool has_more{false};               ///< another fragment follows
+  std::span<const std::byte> octets;  ///< as many of them as the capture kept
+  std::size_t ip_at{0};               ///< octet of the frame at which the IP header begins
+  std::size_t octets_at{0};           ///< octet of the frame at which its octets begin
+  std::size_t next_at{0};  ///< IPv6: octet of the frame that announces the fragment header
+  std::byte next{};        ///< IPv6: what follows the fragment header
+};
+
+/// A frame as it was parsed.
+struct ParsedFrame {
+  FrameContent content{FrameContent::not_udp};
+  std::optional<IpFragment> fragment;  ///< only with content udp
+};
+
+/// Finds the UDP payload of one frame; `on_wire` is its length before the capture truncated it
+/// [octets]. Fills source, group, bytes and portion of `out`. Reads only inside `frame`, whatever
+/// its octets are.
+[[nodiscard]] ParsedFrame parse_frame(LinkLayer layer, std::span<const std::byte> frame,
+                                      std::size_t on_wire, SourceDatagram& out) noexcept;
+
+}  // namespace reckon::peer
