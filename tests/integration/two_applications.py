@@ -34,10 +34,11 @@ class Judge:
                                 socket.inet_aton(GROUP) + socket.inet_aton("127.0.0.1"))
         self._socket.settimeout(0.05)
 
-    def senders(self, seconds):
-        """{ID: set of source ports} of the Entity States that come in this time."""
+    def senders(self, seconds=10, applications=None):
+        """{ID: set of source ports} of the Entity States that come in this time, or until all of these applications are
+        heard."""
         end, senders = time.monotonic() + seconds, {}
-        while time.monotonic() < end:
+        while time.monotonic() < end and not (applications and applications <= {i[1] for i in senders}):
             try:
                 payload, (_, port) = self._socket.recvfrom(65536)
             except socket.timeout:
@@ -75,8 +76,8 @@ def peers(reckon, scene):
     """Programs of an interop scene: the next free number is taken and told, a given one is kept or refused."""
     judge = Judge(EXERCISE)
     run = [reckon, "peer", scene, "--iface", "lo", "--for"]
-    first, second = start(*run, "20s"), start(*run, "20s")
-    senders = judge.senders(2)
+    first, second = start(*run, "2min"), start(*run, "2min")
+    senders = judge.senders(applications={1, 2})
     check(sorted(i[1] for i in senders) == [1, 2], f"two peers at once are {senders}")
 
     third = start(*run, "1s")
@@ -88,15 +89,16 @@ def peers(reckon, scene):
     _, text = refused.communicate(timeout=20)
     check(refused.returncode == 3, f"a number that is taken: exit status {refused.returncode}")
     check("application 2 of site" in text and "is taken on this host by process" in text, f"it says:\n{text}")
-    named = start(*run, "2s", "--application", "9")
-    check(9 in {i[1] for i in judge.senders(1.5)}, "a number that was given is not kept")
+    named = start(*run, "3s", "--application", "9")
+    check(9 in {i[1] for i in judge.senders(applications={9})}, "a number that was given is not kept")
     check("this is application" not in named.communicate(timeout=20)[1], "a number that was given is told as news")
 
     (holder,) = [program for program in (first, second) if program.pid == int(told[1])]  # of number 1
     holder.send_signal(signal.SIGKILL)
     holder.wait()
-    again = start(*run, "2s")
-    check(1 in {i[1] for i in judge.senders(1.5)}, "the number of a peer that was killed is not free again")
+    judge.senders(0.3)  # what it still sent
+    again = start(*run, "3s")
+    check(1 in {i[1] for i in judge.senders(applications={1})}, "the number of a peer that was killed is not free again")
     check("this is application" not in again.communicate(timeout=20)[1], "the first number is told as news")
     for program in {first, second} - {holder}:
         program.send_signal(signal.SIGINT)

@@ -16,6 +16,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRateWindow = std::chrono::seconds(5);
 constexpr std::uint64_t kRateUpdates = 4;
+constexpr double kRateOfGone = 1.0;  // [s] for which the rate of an entity that went is kept
 
 ListenerRules rules_for(std::size_t most_rows) {
   ListenerRules rules = kMonitorRules;
@@ -39,7 +40,7 @@ void set_cause(EntityRow& row, UpdateCause cause) {
 }  // namespace
 
 double EntityRow::rate(const HeardEntity& entity, nanoseconds now) const noexcept {
-  if (entity.gone || entity.is_silent(now)) return 0;
+  if (entity.is_silent(now) || (entity.gone && entity.age(now) > kRateOfGone)) return 0;
   const auto count = static_cast<double>(entity.updates - window_updates[0]);
   const double span = to_seconds(entity.arrival - window_time[0]);
   if (count == 0 || span <= 0) return 0;

@@ -249,6 +249,16 @@ TEST(EntityTable, TakesTheRateOverAWindowThatSlides) {
   EXPECT_EQ(ear.row().rate(ear.entity(), after(60)), 0) << "silent since";
 }
 
+TEST(EntityTable, KeepsTheRateOfAnEntityThatWentForASecond) {
+  Ear ear;
+  for (double time = 0; time < 5; time += 0.1) ear.hear(time, aircraft(time, 0));
+  pdu::EntityState last = aircraft(5, 0);
+  last.appearance |= pdu::kAppearanceDeactivated;
+  ear.hear(5, last);
+  EXPECT_NEAR(ear.row().rate(ear.entity(), after(5.5)), 10, 1.5);
+  EXPECT_EQ(ear.row().rate(ear.entity(), after(6.1)), 0);
+}
+
 TEST(EntityTable, IsStaleAfterTwoPointFourHeartbeatsOfItsKind) {
   Ear ear;
   ear.hear(0, aircraft(0, 0, 10));
