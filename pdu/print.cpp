@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/pdu/print.hpp"
 
+#include <type_traits>
+#include <utility>
+
 namespace reckon::pdu {
 namespace {
 
@@ -25,10 +28,74 @@ RawPdu raw_pdu(std::span<const std::byte> octets) {
   return raw;
 }
 
-template <typename Visitor>
-void raw_fields(Visitor& visitor, const RawPdu& raw) {
-  visitor("header", raw.header);
-  visitor.hex("body", raw.body);
+template <typename Print>
+void raw_fields(Print& print, const RawPdu& raw) {
+  print("header", raw.header);
+  print.hex("body", raw.body);
+}
+
+// Visitor: reads a damaged PDU and prints each field, up to the first that its octets do not hold,
+// or up to its records, among which the fault is. What follows is "rest".
+template <typename Print>
+class FieldsUpToFault {
+ public:
+  FieldsUpToFault(Print& print, std::span<const std::byte> octets) : print_(print), rest_(octets) {}
+
+  template <typename T>
+  void operator()(std::string_view name, T& value) {
+    if (has_ended_ || kWireSize < T >> rest_.size()) {
+      has_ended_ = true;
+      return;
+    }
+    Decoder decoder(rest_.first(kWireSize<T>));
+    decoder(name, value);
+    rest_ = rest_.subspan(kWireSize<T>);
+    print_(name, std::as_const(value));
+  }
+  template <typename Record, typename Count>
+  void count(std::string_view name, std::span<const std::byte>&, Records<Record, Count>) {
+    Count number{};
+    (*this)(name, number);
+  }
+  template <typename Record, typename Count>
+  void records(std::string_view, std::span<const std::byte>&, Records<Record, Count>) {
+    has_ended_ = true;
+  }
+  template <typename View>
+  void walked(std::string_view, View&) {
+    has_ended_ = true;
+  }
+  void finish() { print_.hex("rest", rest_); }
+
+ private:
+  Print& print_;
+  std::span<const std::byte> rest_;
+  bool has_ended_ = false;
+};
+
+// False if the type has no field table.
+template <typename Print, typename... T>
+bool fields_up_to_fault(Print& print, std::span<const std::byte> octets, PduType type,
+                        TypeList<T...>) {
+  const auto attempt = [&]<typename Candidate>(std::type_identity<Candidate>) {
+    if (Candidate::kPduType != type) return false;
+    FieldsUpToFault<Print> visitor(print, octets);
+    Candidate pdu;
+    fields(visitor, pdu);
+    visitor.finish();
+    return true;
+  };
+  return (attempt(std::type_identity<T>{}) || ...);
+}
+
+// A PDU that cannot be decoded: as many fields as can be told, and the rest as octets.
+template <typename Print>
+void damaged_fields(Print& print, std::span<const std::byte> octets, DecodeError error) {
+  const RawPdu raw = raw_pdu(octets);
+  const bool has_fields = octets.size() >= kHeaderSize && error != DecodeError::version &&
+                          is_supported_version(raw.header.protocol_version);
+  if (has_fields && fields_up_to_fault(print, octets, raw.header.pdu_type, PduTypes{})) return;
+  raw_fields(print, raw);
 }
 
 template <typename Print>
@@ -248,7 +315,7 @@ DecodeError print_pdu_json(std::span<const std::byte> pdu, TextSink& sink) {
   if (error != DecodeError::none) {
     sink.text('{');
     JsonFields json(sink);
-    raw_fields(json, raw_pdu(pdu));
+    damaged_fields(json, pdu, error);
     sink.text('}');
   }
   return error;
@@ -258,7 +325,7 @@ DecodeError print_pdu_tree(std::span<const std::byte> pdu, TextSink& sink) {
   const DecodeError error = print_octets(pdu, [&](const auto& typed) { print_tree(typed, sink); });
   if (error != DecodeError::none) {
     TreeFields tree(sink, 0, false);
-    raw_fields(tree, raw_pdu(pdu));
+    damaged_fields(tree, pdu, error);
   }
   return error;
 }

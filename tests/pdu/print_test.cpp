@@ -7,7 +7,9 @@
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
@@ -59,6 +61,30 @@ TEST(PrintJson, GivesTheOctetsOfAnUnknownType) {
   const auto value = nlohmann::json::parse(json(octets));
   EXPECT_EQ(value["header"]["pdu_type"], 200);
   EXPECT_EQ(value["body"], "00ab");
+}
+
+TEST(PrintJson, ShowsTheFieldsOfADamagedPduUpToTheFault) {
+  std::vector<std::byte> octets = test::sample_octets("entity_state");
+  const auto whole = nlohmann::json::parse(json(octets));
+  const auto cut = nlohmann::json::parse(json(std::span(octets).first(50)));  // within the location
+  EXPECT_EQ(cut["header"], whole["header"]);
+  EXPECT_EQ(cut["entity_id"], whole["entity_id"]);
+  EXPECT_EQ(cut["entity_linear_velocity"], whole["entity_linear_velocity"]);
+  EXPECT_FALSE(cut.contains("entity_location"));
+  EXPECT_EQ(cut["rest"].get<std::string>().size(), 2 * (50U - 48U));
+
+  octets[19] = std::byte{200};  // records that are not there
+  const auto lying = nlohmann::json::parse(json(octets));
+  EXPECT_EQ(lying["number_of_variable_parameter_records"], 200);
+  EXPECT_EQ(lying["entity_location"], whole["entity_location"]);
+  EXPECT_EQ(lying["entity_marking"], whole["entity_marking"]);
+  EXPECT_EQ(lying["rest"].get<std::string>().size(), 2 * (octets.size() - 144));
+
+  octets[8] = octets[9] = std::byte{0};
+  const auto of_length_0 = nlohmann::json::parse(json(octets));
+  EXPECT_EQ(of_length_0["header"]["length"], 0);
+  EXPECT_EQ(of_length_0["entity_location"], whole["entity_location"]);
+  EXPECT_NE(tree(octets).find("entity_id site 100 application 7 entity 3\n"), std::string::npos);
 }
 
 TEST(PrintJson, IsValidForEveryCutOfASample) {
