@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "reckon/peer/loops/contact_foci.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -43,9 +44,18 @@ struct FociRow {
 // THE list.
 constexpr FociRow kRows[]{{Recipients::distance, sensed}, {Recipients::touch, touchable}};
 
+constexpr const FociRow* row_of(Recipients to) {
+  return std::ranges::find(kRows, to, &FociRow::to);
+}
+
+static_assert(std::ranges::all_of(kWords<Recipients>,
+                                  [](const auto& word) {
+                                    return row_of(word.value) != std::end(kRows);
+                                  }),
+              "all kinds of recipients have a row");
+
 TierFoci foci_of(const SceneFile& scene, const TierConfig& tier) {
-  const auto* row = std::ranges::find(kRows, tier.to, &FociRow::to);
-  return (row == std::end(kRows) ? sensed : row->make)(scene, tier);
+  return row_of(tier.to)->make(scene, tier);
 }
 
 }  // namespace
