@@ -57,6 +57,14 @@ class Participant {
     }
   }
 
+  /// Subscribes to all tiers, each with foci of its own.
+  /// @param foci_of gets a tier and returns its foci, valid until its next call
+  template <typename FociOf, typename Follow>
+  void listen_by_tier(FociOf&& foci_of, std::chrono::nanoseconds now, Follow&& follow) {
+    for (std::size_t tier = 0; tier < manager_.tiers().count(); ++tier)
+      follow(tier, manager_.listen(tier, foci_of(tier), now));
+  }
+
   /// A step that also sends queued PDUs that are not due. For peers that leave: after stop() it
   /// sends the announcement of the end.
   void drain(std::chrono::nanoseconds now, DatagramSink sink);

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-# reckon_component(name HEADERS .. SOURCES .. ALONE .. APART .. | EACH_ALONE DEPENDS .. PRIVATE ..): one folder = one library = one namespace. HEADERS
-# and SOURCES may stand once for each room of the folder.
+# reckon_component(name PUBLIC .. HEADERS .. SOURCES .. ALONE .. APART .. | EACH_ALONE DEPENDS .. PRIVATE ..): one folder = one library = one
+# namespace. HEADERS and SOURCES may stand once for each room of the folder. Installed are the headers directly in the folder, the
+# PUBLIC ones of its rooms, and what these include.
 
 # Includes carry the project's name, here as where it is installed: "reckon/pdu/..", and "reckon/peer/.." for src. In the
 # build folder these are links to the folders.
@@ -157,7 +158,7 @@ function(reckon_united_unit target unit)
 endfunction()
 
 function(reckon_component name)
-  cmake_parse_arguments(ARG "EACH_ALONE" "" "HEADERS;SOURCES;ALONE;APART;DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "EACH_ALONE" "" "PUBLIC;HEADERS;SOURCES;ALONE;APART;DEPENDS;PRIVATE" ${ARGN})
   set(target reckon_${name})
   if(NOT ARG_SOURCES)
     list(APPEND ARG_SOURCES ${PROJECT_SOURCE_DIR}/cmake/empty.cpp)
@@ -169,9 +170,14 @@ function(reckon_component name)
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON LINKER_LANGUAGE CXX)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  list(TRANSFORM ARG_HEADERS PREPEND ${reckon_include}/reckon/${name}/)
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${reckon_include} FILES ${ARG_HEADERS})
-  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_sources(${target} PRIVATE ${ARG_HEADERS})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${reckon_include}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set(doors ${ARG_HEADERS})
+  list(FILTER doors EXCLUDE REGEX /)
+  list(APPEND doors ${ARG_PUBLIC})
+  list(TRANSFORM doors PREPEND reckon/${name}/)
+  set_property(TARGET ${target} PROPERTY RECKON_PUBLIC_HEADERS ${doors})
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:reckon_warnings> $<BUILD_INTERFACE:reckon_options>)
   reckon_precompile(${target})

@@ -1,16 +1,23 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-# Libraries, headers (under include/reckon), the CMake package and the pkg-config files, each component by itself; tools/
+# Libraries, public headers and what they include (under include/reckon), the CMake package and the pkg-config files, each component by itself; tools/
 # installs the program.
 include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/reckon)
+set(public_headers)
 foreach(component ${RECKON_COMPONENTS})
+  get_target_property(doors reckon_${component} RECKON_PUBLIC_HEADERS)
+  list(APPEND public_headers ${doors})
   install(TARGETS reckon_${component} EXPORT reckon-${component}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT reckon-${component} NAMESPACE reckon:: DESTINATION ${package})
 endforeach()
+
+install(CODE "set(headers \"${public_headers}\")
+set(from \"${reckon_include}\")
+set(to \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
+install(SCRIPT cmake/install_headers.cmake)
 
 configure_package_config_file(cmake/reckonConfig.cmake.in ${PROJECT_BINARY_DIR}/reckonConfig.cmake
   INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)

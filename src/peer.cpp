@@ -6,6 +6,7 @@
 #include <array>
 
 #include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 
@@ -109,6 +110,14 @@ Peer::~Peer() = default;
 // Due within half the shortest period is due now: steps come a little early and late. The next is
 // due a period after this one was, so that the rate is right also where the shortest period is no
 // part of it; after a pause a period from now.
+void Peer::servo_step_of(std::size_t device, std::chrono::nanoseconds now) noexcept {
+  servos_[device]->step(now);
+}
+
+void Peer::trace(haptics::TraceRing* ring, std::size_t device) noexcept {
+  if (device < servos_.size()) servos_[device]->trace(ring);
+}
+
 void Peer::servo_step(std::chrono::nanoseconds now) noexcept {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     ServoDue& due = servo_due_[i];

@@ -15,9 +15,9 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
-#include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/model_loop.hpp"
@@ -27,6 +27,10 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_device.hpp"
 #include "reckon/peer/world/peer_view.hpp"
+
+namespace reckon::haptics {
+class ServoLoop;
+}
 
 namespace reckon::peer {
 
@@ -79,9 +83,7 @@ class Peer {
   [[nodiscard]] std::chrono::nanoseconds servo_period() const noexcept { return servo_period_; }
   /// The force loop of one device, numbered from 0, due or not. For callers that step each device
   /// at its own period, servo_period_of().
-  void servo_step_of(std::size_t device, std::chrono::nanoseconds now) noexcept {
-    servos_[device]->step(now);
-  }
+  void servo_step_of(std::size_t device, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::chrono::nanoseconds servo_period_of(std::size_t device) const noexcept {
     return servo_due_[device].period;
   }
@@ -123,9 +125,7 @@ class Peer {
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
   /// Records every step of the servo of one device, numbered from 0, into `ring`; call while no
   /// loop runs.
-  void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept {
-    if (device < servos_.size()) servos_[device]->trace(ring);
-  }
+  void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept;
   /// Records the contact sets that one servo finds, each that differs from the last, into `ring`;
   /// call while no loop runs. The model loop writes them; the servo does nothing for it.
   void trace_contacts(haptics::ContactRing* ring, std::size_t device = 0) noexcept {

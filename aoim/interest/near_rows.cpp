@@ -21,7 +21,8 @@ Focus near_focus(const ChannelTable& table, std::size_t row, const Focus& focus,
   double end = table.channel(kept + row).farthest / stretch;
   if (kept > 0) end = std::max(end, table.channel(kept - 1).farthest);
   Focus near = focus;
-  near.radius = std::max(0.0, focus.radius - radius) + std::min(radius, end);
+  near.radius = focus.radius < radius ? std::min(focus.radius, end)
+                                      : focus.radius - radius + std::min(radius, end);
   return near;
 }
 

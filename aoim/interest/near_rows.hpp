@@ -22,7 +22,8 @@ inline constexpr double kNearLeave = 1.1;
 /// The focus from which a near row is subscribed to. Updates of kept rows use the groups of the row
 /// after them, which include them at any stretch.
 /// @param row of those of the table that are not kept, 0 being the nearest
-/// @param focus with the sensing radius, or more if it stands for several
+/// @param focus with the sensing radius, or more if it stands for several; with less, it reaches no
+/// farther than that
 /// @param radius of sensing [m]  @param stretch see ChannelTable::fit
 [[nodiscard]] Focus near_focus(const ChannelTable& table, std::size_t row, const Focus& focus,
                                double radius, double stretch) noexcept;

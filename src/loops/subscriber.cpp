@@ -20,7 +20,7 @@ Subscriber::Subscriber(const ModelWiring& wiring, aoim::Participant& participant
       owned_(owned),
       remote_(remote),
       cover_(cells_of(wiring.scene.aoim)),
-      contact_foci_(wiring.scene),
+      tier_foci_(tier_foci(wiring.scene, aoim_.tiers())),
       aoim_watch_(wiring.scene, wiring.counters),
       leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
       beacon_watch_(wiring.scene.aoim.follow) {}
@@ -51,28 +51,16 @@ void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> near,
                            haptics::SpscRing<Notice>& notices) noexcept {
   if (moved_ && scene_.aoim.hand_out) place_beacons(now);
   if (moved_) cover_our_entities();
-  const aoim::TierTable& tiers = aoim_.tiers();
-  participant_.listen(foci_, now, [&](std::size_t tier, const aoim::SubscriptionChange& change) {
+  const FociInputs inputs{owned_, foci_, near, now};
+  const auto foci_of = [&](std::size_t tier) { return tier_foci_[tier](inputs); };
+  const auto follow = [&](std::size_t tier, const aoim::SubscriptionChange& change) {
     command(change);
-    if (tiers.is_near(tier)) remote_.leave_groups(change.leave, now);
+    if (aoim_.tiers().is_near(tier)) remote_.leave_groups(change.leave, now);
     if (tier == aoim::kCellTier) aoim_watch_.look(aoim_, change, now, notices);
-  });
-  if (tiers.has_felt()) listen_near(now, near);
+  };
+  participant_.listen_by_tier(foci_of, now, follow);
   leader_watch_.look(aoim_, now, notices);
   beacon_watch_.look(aoim_, now, notices, leader_watch_.view());
-}
-
-// The contact groups of the places where we can touch and be touched. The search for what our hands
-// could touch also finds large entities whose surface, but not whose origin, is near.
-void Subscriber::listen_near(nanoseconds now, std::span<const NearBodies> near) noexcept {
-  contact_foci_.clear();
-  for (const EntityNumber number : owned_.touchable()) contact_foci_.add(*owned_.find(number));
-  for (const NearBodies& of_hand : near) {
-    for (const NearBody& body : of_hand.bodies()) {
-      if (body.row != nullptr) contact_foci_.add_near(body.row->predicted(now).position);
-    }
-  }
-  command(aoim_.listen(aoim_.tiers().felt(), contact_foci_.foci(), now));
 }
 
 void Subscriber::command(const aoim::SubscriptionChange& change) noexcept {

@@ -13,9 +13,9 @@
 #include "reckon/aoim/participant.hpp"
 #include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/beacon_watch.hpp"
-#include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/loops/leader_watch.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/loops/tier_foci.hpp"
 #include "reckon/peer/world/near_bodies.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -49,7 +49,6 @@ class Subscriber {
  private:
   void cover_our_entities() noexcept;
   void place_beacons(std::chrono::nanoseconds now) noexcept;
-  void listen_near(std::chrono::nanoseconds now, std::span<const NearBodies> near) noexcept;
   void command(const aoim::SubscriptionChange& change) noexcept;
 
   const SceneFile& scene_;
@@ -63,7 +62,7 @@ class Subscriber {
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls
   bool moved_ = true;                  // an entity of ours has moved since they were made
-  ContactFoci contact_foci_;
+  std::vector<TierFoci> tier_foci_;
   std::vector<aoim::PlacedBeacon> beacons_;  // last positions of our beacons
   AoimWatch aoim_watch_;
   LeaderWatch leader_watch_;

@@ -95,8 +95,7 @@ const std::vector<Mechanism> kMechanisms{
      {},
      "to = \"touch\"",
      [](const SceneFile& scene) {
-       return first_tier(scene,
-                         [](const TierConfig& tier) { return tier.to == Recipients::touch; });
+       return first_tier(scene, [](const TierConfig& tier) { return !is_by_distance(tier); });
      }},
     {"aoim",
      "tier",
@@ -105,10 +104,7 @@ const std::vector<Mechanism> kMechanisms{
      {whole_states},
      {},
      "to = \"distance\"",
-     [](const SceneFile& scene) {
-       return first_tier(scene,
-                         [](const TierConfig& tier) { return tier.to == Recipients::distance; });
-     }},
+     [](const SceneFile& scene) { return first_tier(scene, is_by_distance); }},
     {"aoim",
      "tier",
      [](const SceneFile& scene) { return own_group_count(scene.aoim.tiers) > 0; },

@@ -14,8 +14,6 @@
 namespace reckon::peer {
 namespace {
 
-bool is_to_touch(const TierConfig& tier) { return tier.to == Recipients::touch; }
-
 std::string tier_text(const TierConfig& tier) {
   std::string text = "[[aoim.tier]]\n";
   const auto say = [&](std::string_view key, const std::string& value) {
@@ -24,7 +22,7 @@ std::string tier_text(const TierConfig& tier) {
   const auto quantity = [&](std::string_view key, double value, std::string_view unit) {
     say(key, fmt::format("\"{}\"", format_quantity(value, unit)));
   };
-  if (is_to_touch(tier)) {
+  if (!is_by_distance(tier)) {
     say("to", "\"touch\"");
     return text;
   }
@@ -42,16 +40,18 @@ std::string tier_text(const TierConfig& tier) {
 
 }  // namespace
 
-bool has_touch_tier(const Tiers& tiers) noexcept { return std::ranges::any_of(tiers, is_to_touch); }
+bool has_touch_tier(const Tiers& tiers) noexcept {
+  return !std::ranges::all_of(tiers, is_by_distance);
+}
 
 bool has_distance_tiers(const Tiers& tiers) noexcept {
-  return !std::ranges::all_of(tiers, is_to_touch);
+  return std::ranges::any_of(tiers, is_by_distance);
 }
 
 std::vector<aoim::Channel> channels_of(const Tiers& tiers) {
   std::vector<aoim::Channel> rows;
   for (const TierConfig& tier : tiers) {
-    if (!is_to_touch(tier)) rows.push_back(tier.channel);
+    if (is_by_distance(tier)) rows.push_back(tier.channel);
   }
   return rows;
 }

@@ -30,6 +30,10 @@ struct TierConfig {
 /// distance. None: all peers receive everything. For set-up: the functions below may allocate.
 using Tiers = std::vector<TierConfig>;
 
+/// Whether its recipients have a greatest distance, a rate and an accuracy.
+[[nodiscard]] constexpr bool is_by_distance(const TierConfig& tier) noexcept {
+  return tier.to != Recipients::touch;
+}
 [[nodiscard]] bool has_touch_tier(const Tiers& tiers) noexcept;
 [[nodiscard]] bool has_distance_tiers(const Tiers& tiers) noexcept;
 /// The rows by distance, the nearest first.

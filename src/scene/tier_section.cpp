@@ -25,7 +25,7 @@ std::string place_of(std::size_t tier, std::string_view key = {}) {
 }
 
 void check_tier(TomlReader& table, TierConfig& tier) {
-  if (tier.to == Recipients::distance) {
+  if (is_by_distance(tier)) {
     if (!table.has("farthest")) tier.channel.farthest = std::numeric_limits<double>::infinity();
     table.require("active");
     table.require("octets");
@@ -43,7 +43,7 @@ void check_tier(TomlReader& table, TierConfig& tier) {
 void check_touch(TomlReader& aoim, const Tiers& tiers) {
   bool had_one = false;
   for (std::size_t i = 0; i < tiers.size(); ++i) {
-    if (tiers[i].to != Recipients::touch) continue;
+    if (is_by_distance(tiers[i])) continue;
     if (had_one)
       aoim.problem_at(place_of(i, kTo), "there is a tier with to = \"touch\" already: keep one");
     else if (i > 0)
@@ -67,7 +67,7 @@ std::optional<std::string> refusal_of(std::span<const aoim::Channel> pair) {
 void check_distances(TomlReader& aoim, const Tiers& tiers) {
   std::vector<aoim::Channel> pair;
   for (std::size_t i = 0; i < tiers.size(); ++i) {
-    if (tiers[i].to != Recipients::distance) continue;
+    if (!is_by_distance(tiers[i])) continue;
     if (pair.size() == 2) pair.erase(pair.begin());
     pair.push_back(tiers[i].channel);
     const auto why = refusal_of(pair);
@@ -78,7 +78,7 @@ void check_distances(TomlReader& aoim, const Tiers& tiers) {
 void check_own_groups(TomlReader& aoim, const Tiers& tiers) {
   bool is_nearest = true;
   for (std::size_t i = 0; i < tiers.size() && own_group_count(tiers) > 0; ++i) {
-    if (tiers[i].to != Recipients::distance) continue;
+    if (!is_by_distance(tiers[i])) continue;
     const std::string why = own_group_refusal(tiers, i);
     if (!why.empty()) {
       if (tiers[i].own_group)

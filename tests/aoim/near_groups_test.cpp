@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reckon/aoim/interest/near_rows.hpp"
 #include "reckon/tests/aoim/support/world.hpp"
 
 namespace reckon::aoim {
@@ -273,6 +274,17 @@ TEST(NearGroups, AreRefusedWhereThereCanBeNone) {
   AreaOfInterestConfig most = with_rows();
   most.grid.pool = kMaximumPool / 3;
   EXPECT_NO_THROW(AreaOfInterestManager(most, presence_of(1, 11)));
+}
+
+TEST(NearGroups, OfAFocusReachNoFartherThanTheirRowNorTheFocus) {
+  const ChannelTable table(rows());
+  const auto reach = [&](double radius) {
+    return near_focus(table, 1, {{}, 0.0, radius}, kSenses, 1.0).radius;
+  };
+  EXPECT_EQ(reach(kSenses), kMiddle);
+  EXPECT_EQ(reach(kSenses + 5.0), kMiddle + 5.0);  // stands for several, 5 m apart
+  EXPECT_EQ(reach(10.0), 10.0);
+  EXPECT_EQ(reach(100.0), kMiddle);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ std::string awareness_of(const peer::AwarenessConfig& config) {
 
 /// "to 50 m 30 Hz full", "beyond 1 Hz rigid".
 std::string tier_of(const peer::TierConfig& tier, bool own_groups) {
-  if (tier.to == peer::Recipients::touch) return "peers that can touch";
+  if (!is_by_distance(tier)) return "peers that can touch";
   const aoim::Channel& row = tier.channel;
   const bool ends = std::isfinite(row.farthest);
   std::string text =
