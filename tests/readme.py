@@ -18,11 +18,11 @@ import time
 SKIP = {  # by the first two words: why a line is not run here
     "./run test": "would run this test",
 }
-SPEAKS = {"peer", "inspect", "record", "replay"}  # to a network, unless they are given a file to read
+SPEAKS = {"peer", "inspect", "record", "replay"}  # to a network; inspect not where it reads a file
 ENDLESS = {"demo", "peer", "inspect", "record"}   # until they are interrupted; so is `view` without --save
 LISTENS = {"inspect", "record"}                   # to somebody, who is started beside them
 SECONDS = 3                                       # that they are left running
-LONGEST = 240                                     # [s], of what ends by itself
+LONGEST = 900                                     # [s], of what ends by itself: on a busy machine
 # Of this host the doctor may have findings.
 STATUS = {"doctor": {0, 1}}
 
@@ -58,13 +58,13 @@ class Reader:
                 return f"./run has no verb {words[1]}"
             words = ["reckon"] + words[1:]  # it builds the program, and then does this
         verb = words[1]
-        reads = any((self._folder / word).exists() for word in words[1:])
-        if verb in SPEAKS and (verb in ("replay", "peer") or not reads):
+        reads = verb == "inspect" and len(words) > 2
+        if verb in SPEAKS and not reads:
             words = words + ["--iface", "lo"]
         beside = self.start(["reckon", "demo", "--for", f"{SECONDS + 3}s"]) if verb in LISTENS and not reads else None
         before = set(self._folder.iterdir())
         program = self.start(words)
-        if verb in ENDLESS and not reads or verb in ("demo", "peer") or verb == "view" and "--save" not in words:
+        if verb in ENDLESS and not reads or verb == "view" and "--save" not in words:
             time.sleep(SECONDS)
             program.send_signal(signal.SIGINT)
         try:
