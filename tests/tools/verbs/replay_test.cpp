@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reckon/tests/src/support/own_network.hpp"
+#include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
 
@@ -155,6 +156,28 @@ TEST(Replay, SendsWhatIsAboveTheMtuInFragmentsAndTellsIt) {
                 HasSubstr("3 datagrams sent in IP fragments: above the MTU of a0, 1500 octets"));
     EXPECT_EQ(captured_on(*source, group(0)), sent);
     EXPECT_EQ(source->report().fragments.whole, 3U);
+  });
+}
+
+TEST(Replay, SendsARealSessionToALanWithoutLoss) {
+  RECKON_NEED_DATA("dis-captures");
+  const auto file = test::reference_data() / "dis-captures/real-sessions/gaz69-patrol.pcap";
+  RECKON_IN_OWN_NETWORK([&] {
+    test::make_cable();
+    const auto source = peer::open_interface_capture("b0");
+    const ProgramResult result =
+        run_reckon({"replay", file.string(), "--iface", "a0", "--rate", "100", "--json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const json line = json::parse(result.lines().back());
+    EXPECT_EQ(line["datagrams"], 231);
+    EXPECT_EQ(line["refused"], 0);
+    EXPECT_EQ(line["fragmented"], 24);
+    const auto recorded = peer::open_capture(file.string());
+    std::vector<Octets> wanted;
+    peer::SourceDatagram datagram;
+    while (recorded->next(datagram, {}) == peer::SourceEvent::datagram)
+      wanted.emplace_back(datagram.bytes.begin(), datagram.bytes.end());
+    EXPECT_EQ(captured_on(*source, peer::IpEndpoint::v4(0xef010203, 3000)), wanted);
   });
 }
 
