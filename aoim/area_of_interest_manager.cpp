@@ -310,7 +310,7 @@ void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   if (asks) presence_.announce_by(joins_.asks().next_repetition());
   introductions_.step(now);
   aggregator_.flush_due(now, sink);
-  note_said(now);
+  note_last_sent(now);
 }
 
 void AreaOfInterestManager::announce(nanoseconds now) {
@@ -354,7 +354,7 @@ JoinAnnouncer::Send AreaOfInterestManager::to_everybody(nanoseconds now) {
   return [this, now](std::span<const std::byte> pdu) { aggregator_.add(kBaseGroup, pdu, now); };
 }
 
-void AreaOfInterestManager::note_said(nanoseconds now) noexcept {
+void AreaOfInterestManager::note_last_sent(nanoseconds now) noexcept {
   const std::uint64_t datagrams = aggregator_.counts().datagrams;
   if (datagrams != datagrams_said_) said_ = now;
   datagrams_said_ = datagrams;

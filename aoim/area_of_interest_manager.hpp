@@ -178,7 +178,7 @@ class AreaOfInterestManager {
   void announce(std::chrono::nanoseconds now);
   [[nodiscard]] ControlStamp stamp(std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] JoinAnnouncer::Send to_everybody(std::chrono::nanoseconds now);
-  void note_said(std::chrono::nanoseconds now) noexcept;
+  void note_last_sent(std::chrono::nanoseconds now) noexcept;
 
   AreaOfInterestConfig config_;
   CellPartition cells_;
@@ -190,7 +190,7 @@ class AreaOfInterestManager {
   Introductions introductions_;
   SequenceTracker sequences_;
   JoinAnnouncer joins_;
-  HeardAsks heard_asks_;
+  ReceivedAsks heard_asks_;
   std::optional<Leading> leading_;
   std::optional<ReceiverChannels> channels_;
   bool started_ = false;

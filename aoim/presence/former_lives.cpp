@@ -41,7 +41,7 @@ bool FormerLives::is_over(const pdu::Presence& heard, std::chrono::nanoseconds n
 
 void FormerLives::add(const FormerLife& life) {
   const auto worth = [](const FormerLife& one) {
-    const bool returns = one.tip.is_chained() && !one.said_goodbye;
+    const bool returns = one.tip.is_chained() && !one.has_announced_end;
     return returns ? one.last_heard - one.known_since : std::chrono::nanoseconds(0);
   };
   take(life.epoch);

@@ -24,7 +24,7 @@ struct FormerLife {
   SourceAddress source;
   LifeTip tip;
   std::chrono::nanoseconds known_since{}, last_heard{};
-  bool said_goodbye = false;
+  bool has_announced_end = false;
 };
 
 /// The last 64 ended epochs. Those that may return and were received for long are kept longest. One

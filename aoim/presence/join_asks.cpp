@@ -62,7 +62,7 @@ nanoseconds JoinAsks::next_repetition() const noexcept {
   return next;
 }
 
-bool HeardAsks::note(std::uint32_t epoch, std::uint64_t since) noexcept {
+bool ReceivedAsks::note(std::uint32_t epoch, std::uint64_t since) noexcept {
   if (since == 0) return true;
   const std::uint64_t question = since ^ std::uint64_t{epoch} << 32;
   constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15u;  // Fibonacci hashing

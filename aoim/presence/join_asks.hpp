@@ -71,7 +71,7 @@ class JoinAsks {
 };
 
 /// Recently received requests, by requester and time. One thread; no allocation.
-class HeardAsks {
+class ReceivedAsks {
  public:
   /// False if it is known already. A request that was dropped from memory counts as new.
   /// @param since 0: without a time, always new

@@ -60,7 +60,7 @@ bool OwnIdentity::is_established(nanoseconds now) const noexcept {
   return pace_.is_running() && (now - claimed_ >= config_.established || yields_ >= kMostYields);
 }
 
-void OwnIdentity::settle_with(const Claimant& rival, nanoseconds now) noexcept {
+void OwnIdentity::resolve_conflict_with(const Claimant& rival, nanoseconds now) noexcept {
   const bool mine = is_established(now), theirs = announces_established(rival.announced);
   if (mine && theirs) return;  // witnesses are asked later
   if (mine || (!theirs && precedes(own_, rival.announced))) return pace_.insist(now);

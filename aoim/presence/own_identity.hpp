@@ -41,7 +41,7 @@ class OwnIdentity {
   void hold_from(std::chrono::nanoseconds now) noexcept { claimed_ = now; }
   [[nodiscard]] std::chrono::nanoseconds held_since() const noexcept { return claimed_; }
   /// Another peer has announced itself with our ID: we insist, yield, or let witnesses decide.
-  void settle_with(const Claimant& rival, std::chrono::nanoseconds now) noexcept;
+  void resolve_conflict_with(const Claimant& rival, std::chrono::nanoseconds now) noexcept;
   /// Ends a dispute when its time is over, and reports once that all accept our ID. @return whether
   /// we lost it and have another
   [[nodiscard]] bool step(std::chrono::nanoseconds now);

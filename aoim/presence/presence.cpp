@@ -71,7 +71,7 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
   wake(now);
   ++counts_.heard;
   const std::size_t known = peers_.find_epoch(heard.epoch);
-  if (known < peers_.size()) return hear_known(known, heard, now, from);
+  if (known < peers_.size()) return receive_from_known(known, heard, now, from);
   if (takes_back(heard, now, from)) return;
   if (former_.is_over(heard, now, from, proofs_, config_.pin)) {
     ++counts_.former_life;
@@ -82,8 +82,8 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
   if (claimant != nullptr && may_speak(claimant->source, from)) claims_.forget(heard.epoch);
 }
 
-void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
-                          const SourceAddress& from) {
+void Presence::receive_from_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
+                                  const SourceAddress& from) {
   Peer& peer = peers_[index];
   const bool at_home = may_speak(peer.source, from);
   const Opening opening = proofs_.judge(peer.tip, heard, now, at_home);
@@ -172,7 +172,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
   claimant->hear(heard, now, from);
   if (heard.simulation != id()) return;
   ++counts_.conflicts;
-  own_.settle_with(*claimant, now);
+  own_.resolve_conflict_with(*claimant, now);
 }
 
 void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
@@ -214,7 +214,7 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
 // An epoch that was considered ended returns at its old address, and a newcomer has its ID.
 bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   const FormerLife* life = former_.find(heard.epoch);
-  if (life == nullptr || life->said_goodbye || life->id != heard.simulation) return false;
+  if (life == nullptr || life->has_announced_end || life->id != heard.simulation) return false;
   if (from.port == 0 || from != life->source || now - life->last_heard > config_.take_back)
     return false;
   const std::size_t holder = peers_.find(life->id);
@@ -248,9 +248,9 @@ void Presence::append(const Peer& peer) {
   liveness_.watch(peer);
 }
 
-void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
+void Presence::bury(const Peer& peer, nanoseconds now, bool has_announced_end) {
   former_.add({peer.id(), peer.announced.epoch, now, peer.source, peer.tip, peer.known_since,
-               peer.last_heard, said_goodbye});
+               peer.last_heard, has_announced_end});
 }
 
 void Presence::remove(std::size_t index, PresenceEventKind why) {

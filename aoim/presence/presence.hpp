@@ -178,8 +178,8 @@ class Presence {
   using Nanoseconds = std::chrono::nanoseconds;
 
   // Arrivals and departures.
-  void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
-                  const SourceAddress& from);
+  void receive_from_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
+                          const SourceAddress& from);
   void believe(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
                const SourceAddress& from);
   void rename(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
@@ -191,7 +191,7 @@ class Presence {
                                 const SourceAddress& from);
   [[nodiscard]] bool make_room(Nanoseconds now, const SourceAddress& from);
   void append(const Peer& peer);
-  void bury(const Peer& peer, Nanoseconds now, bool said_goodbye);
+  void bury(const Peer& peer, Nanoseconds now, bool has_announced_end);
   void remove(std::size_t index, PresenceEventKind why);
 
   // Time-outs.

@@ -34,8 +34,8 @@ std::size_t store_compact(const pdu::EntityState& state, std::span<std::byte> ou
 StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
                                                 aoim::GroupIndex group, bool plain, nanoseconds now,
                                                 std::span<std::byte, kRoom> out) noexcept {
-  const bool leans = form_ == CompressedForm::residual;
-  if (leans && !plain && !is_key_due(group, now)) {
+  const bool needs_key = form_ == CompressedForm::residual;
+  if (needs_key && !plain && !is_key_due(group, now)) {
     Body body;
     const std::size_t encoded =
         residual_.encode(state, std::span(body).first<deadreckon::kMostResidual>());
@@ -48,8 +48,8 @@ StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
   const bool known = gap_ > 0 && group == group_;  // to the listeners of this group
   if (plain) gap_ = 0;  // a newcomer may miss it: key states follow as closely as after the first
   note_key(state, group, now);
-  if (plain || (leans && !known)) return {0, true};
-  return {store_compact(state, out), leans};
+  if (plain || (needs_key && !known)) return {0, true};
+  return {store_compact(state, out), needs_key};
 }
 
 std::size_t StateCompressor::compress_near(const pdu::EntityState& state,

@@ -29,7 +29,7 @@ class StateCompressor {
   struct Made {
     std::size_t size = 0;  ///< octets as written by pdu::store_compressed(); 0: send it plain
     bool is_key = false;   ///< key state: it may neither wait nor be replaced by one that needs it
-    bool leans = false;    ///< a receiver without the key state cannot read it
+    bool needs_key = false;  ///< a receiver without the key state cannot read it
   };
   static constexpr std::size_t kRoom = pdu::kCompressedHeadSize + pdu::kMostCompressedBody;
 

@@ -28,7 +28,7 @@ void give_back_memory(std::vector<T>& rows) {
 using pdu::CompressedForm;
 
 void StateRestorer::note_plain(const pdu::EntityState& state, const KeySpeaker& speaker) {
-  if (!leans() || !speaker.owns(state.entity_id.simulation())) return;
+  if (!needs_key() || !speaker.owns(state.entity_id.simulation())) return;
   residuals_[place_for(state.entity_id.key(), speaker)].note_plain(state);
 }
 
@@ -114,7 +114,7 @@ RestoreVerdict StateRestorer::lean_on_key(const pdu::CompressedStates& states,
                                           const pdu::CompressedState& state,
                                           const KeySpeaker& speaker,
                                           pdu::EntityState& out) noexcept {
-  if (state.form != form_ || !leans()) return RestoreVerdict::malformed;
+  if (state.form != form_ || !needs_key()) return RestoreVerdict::malformed;
   if (!speaker.owns(states.simulation)) return RestoreVerdict::not_theirs;
   const pdu::EntityId id{states.simulation.site, states.simulation.application, state.entity};
   const std::size_t place = find(id, speaker);

@@ -82,15 +82,15 @@ class StateRestorer {
   void add(std::uint64_t key, const KeySpeaker& speaker);
   void make_room();
   void erase(std::size_t place);
-  [[nodiscard]] bool leans() const noexcept { return form_ == pdu::CompressedForm::residual; }
+  [[nodiscard]] bool needs_key() const noexcept { return form_ == pdu::CompressedForm::residual; }
 
   pdu::CompressedForm form_;
   std::size_t capacity_;
   std::unordered_map<std::uint64_t, std::size_t> places_;  // by the entity's key
   std::vector<Known> known_;
-  std::vector<deadreckon::ResidualDecoder> residuals_;     // beside it
-  std::map<Host, std::size_t> counts_;  // of known_, by the host of `home`
-  std::size_t cursor_ = 0;              // in known_: start of the search for the next to remove
+  std::vector<deadreckon::ResidualDecoder> residuals_;  // beside it
+  std::map<Host, std::size_t> counts_;                  // of known_, by the host of `home`
+  std::size_t cursor_ = 0;  // in known_: start of the search for the next to remove
 };
 
 }  // namespace reckon::peer

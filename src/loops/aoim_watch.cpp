@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
-using Turn = Matter::Turn;
+using Turn = NoticeCondition::Turn;
 
 constexpr nanoseconds kFirstWindow = seconds(10), kWindow = seconds(60);
 
@@ -28,51 +28,51 @@ void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::Subscription
                      nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   now_ = now;
   out_ = &out;
-  tell_cap(change);
-  tell_full(aoim.presence());
-  tell_given_up(aoim.sequences());
+  report_cap(change);
+  report_full(aoim.presence());
+  report_given_up(aoim.sequences());
   updates_refused_.set(aoim.aggregator().counts().refused);
   entities_outside_.set(aoim.sight().interest().counts().outside);
-  if (scene_.network.interop) tell_outside(aoim);
+  if (scene_.network.interop) report_outside(aoim);
   out_ = nullptr;
 }
 
-void AoimWatch::tell_cap(const aoim::SubscriptionChange& change) noexcept {
+void AoimWatch::report_cap(const aoim::SubscriptionChange& change) noexcept {
   const Turn turn = capped_.turn(change.uncovered > 0, now_);
   if (turn == Turn::begins) {
-    tell(
+    report(
         "{} groups within the radius are not joined: [aoim] groups = {} is reached; all is heard "
         "within {:.3g} m of {:.3g} m only",
         change.uncovered, scene_.aoim.groups, change.covered_share * scene_.aoim.radius,
         scene_.aoim.radius);
   }
-  if (turn == Turn::ends) tell("all groups within the radius are joined again");
+  if (turn == Turn::ends) report("all groups within the radius are joined again");
 }
 
-void AoimWatch::tell_full(const aoim::Presence& presence) noexcept {
+void AoimWatch::report_full(const aoim::Presence& presence) noexcept {
   const std::uint64_t count = presence.counts().table_full;
   const Turn turn = full_.turn(count > peers_not_joined_.value(), now_);
   peers_not_joined_.set(count);
   if (turn == Turn::begins) {
-    tell("{} peers are known and there is room for no more: others are not joined",
-         presence.peers().size());
+    report("{} peers are known and there is room for no more: others are not joined",
+           presence.peers().size());
   }
-  if (turn == Turn::ends) tell("no peer is left out for want of room any more");
+  if (turn == Turn::ends) report("no peer is left out for want of room any more");
 }
 
-void AoimWatch::tell_given_up(const aoim::SequenceTracker& sequences) noexcept {
+void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept {
   const std::uint64_t count = sequences.counts().given_up;
   const Turn turn = given_up_.turn(count > given_up_before_, now_);
   given_up_before_ = count;
   if (turn == Turn::begins) {
-    tell("more than {} senders in groups are heard: lost datagrams are not all counted",
-         sequences.size());
+    report("more than {} senders in groups are heard: lost datagrams are not all counted",
+           sequences.size());
   }
-  if (turn == Turn::ends) tell("all lost datagrams are counted again");
+  if (turn == Turn::ends) report("all lost datagrams are counted again");
 }
 
 // If plain DIS comes in one group, only the radius keeps an entity from being shown.
-void AoimWatch::tell_outside(aoim::AreaOfInterestManager& aoim) noexcept {
+void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   if (!begun_) window_end_ = now_ + kFirstWindow;
   begun_ = true;
   if (now_ < window_end_) return;
@@ -86,14 +86,14 @@ void AoimWatch::tell_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   if (inside) all_outside_reported_ = false;
   if (inside || !outside || all_outside_reported_) return;
   all_outside_reported_ = true;
-  tell(
+  report(
       "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
       "{:.4g} m; raise it to see them",
       nearest, scene_.aoim.radius);
 }
 
 template <typename... Arguments>
-void AoimWatch::tell(const char* format, const Arguments&... arguments) noexcept {
+void AoimWatch::report(const char* format, const Arguments&... arguments) noexcept {
   static_cast<void>(out_->push(make_notice(format, arguments...)));
 }
 

@@ -10,8 +10,8 @@
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
-#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_condition.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::peer {
@@ -30,12 +30,12 @@ class AoimWatch {
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  void tell_cap(const aoim::SubscriptionChange& change) noexcept;
-  void tell_full(const aoim::Presence& presence) noexcept;
-  void tell_given_up(const aoim::SequenceTracker& sequences) noexcept;
-  void tell_outside(aoim::AreaOfInterestManager& aoim) noexcept;
+  void report_cap(const aoim::SubscriptionChange& change) noexcept;
+  void report_full(const aoim::Presence& presence) noexcept;
+  void report_given_up(const aoim::SequenceTracker& sequences) noexcept;
+  void report_outside(aoim::AreaOfInterestManager& aoim) noexcept;
   template <typename... Arguments>
-  void tell(const char* format, const Arguments&... arguments) noexcept;
+  void report(const char* format, const Arguments&... arguments) noexcept;
 
   const SceneFile& scene_;
   Counter& updates_refused_;
@@ -44,7 +44,7 @@ class AoimWatch {
 
   Nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  Matter capped_, full_, given_up_;
+  NoticeCondition capped_, full_, given_up_;
   std::uint64_t given_up_before_ = 0;
   bool begun_ = false;
   Nanoseconds window_end_{0};          // end of the window in which entities are counted

@@ -42,13 +42,13 @@ void ChannelKeeper::keep_to_budget(const RemoteEntities& remote, aoim::AreaOfInt
   }
   const aoim::ChannelBudget budget = aoim.receivers()->fit(clients_, config_.budget);
   aoim.set_stretch(budget.stretch);
-  const Matter::Turn turn = stretched_.turn(budget.stretch > 1.0, now);
-  if (turn == Matter::Turn::begins) {
+  const NoticeCondition::Turn turn = stretched_.turn(budget.stretch > 1.0, now);
+  if (turn == NoticeCondition::Turn::begins) {
     static_cast<void>(out.push(make_notice(
         "entities near would send more than {:.4g} B/s: distances count {:.3g} times as long "
         "([aoim] budget)",
         config_.budget, budget.stretch)));
-  } else if (turn == Matter::Turn::ends) {
+  } else if (turn == NoticeCondition::Turn::ends) {
     static_cast<void>(out.push(make_notice("all that is near fits the budget again")));
   }
 }

@@ -9,8 +9,8 @@
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
-#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_condition.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
@@ -42,7 +42,7 @@ class ChannelKeeper {
   const AwarenessConfig& config_;
   Nanoseconds next_places_ = Nanoseconds::min(), next_budget_ = Nanoseconds::min();
   std::vector<aoim::ChannelClient> clients_;
-  Matter stretched_;
+  NoticeCondition stretched_;
 };
 
 }  // namespace reckon::peer

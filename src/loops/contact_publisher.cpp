@@ -12,7 +12,7 @@ namespace {
 using haptics::RemoteHand;
 using std::chrono::nanoseconds;
 
-void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHand& hand) {
+void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, RemoteHand& hand) {
   hand.id = row.id;
   hand.state = row.state;
   hand.state_time = row.state_time;
@@ -60,7 +60,7 @@ void fill_body_accounts(const NearBody& body, const pdu::EntityId& hand,
       sources.bodies.begin(), sources.bodies.end(),
       [&](const PortlessBody& candidate) { return candidate.number() == body.number; });
   if (keeper != sources.bodies.end()) out.version = keeper->version();
-  const HeardAccount* account = sources.books.find(body.number, hand);
+  const ReceivedAccount* account = sources.books.find(body.number, hand);
   if (account != nullptr) out.given_to_us = account->we_gave;
 }
 

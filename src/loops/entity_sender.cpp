@@ -203,17 +203,17 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   const Audiences* audiences = entity.audiences();
   std::size_t octets = 0;
   if (audiences != nullptr && audiences->has_felt() && how.in_company)
-    octets += tell_felt(position, records, pass.now);
+    octets += send_to_touch_tier(position, records, pass.now);
   if (audiences == nullptr || how.audience >= audiences->last()) {
     const Written written =
-        tell_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
+        send_to_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
     octets += written.octets;
     entity.last_group = aoim_.route(position);
     entity.last_sent = pass.now;
-    if (!written.leans && !entity.is_thinned(body)) entity.last_whole = pass.now;
+    if (!written.needs_key && !entity.is_thinned(body)) entity.last_whole = pass.now;
   } else if (how.audience >= inmost_row(audiences)) {
     entity.look_again(pass.now + kLookAgain);  // it may still be due to other tiers
-    octets += tell_row(entity, position, records, terms, how.audience, pass.now);
+    octets += send_to_row(entity, position, records, terms, how.audience, pass.now);
   }
   if (octets == 0) return false;
   counters_.sent(how.reason, octets);
@@ -221,8 +221,9 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   return true;
 }
 
-std::size_t EntitySender::tell_felt(const aoim::Position& position,
-                                    std::span<const std::byte> records, nanoseconds now) noexcept {
+std::size_t EntitySender::send_to_touch_tier(const aoim::Position& position,
+                                             std::span<const std::byte> records,
+                                             nanoseconds now) noexcept {
   static_cast<void>(
       aoim_.send(aoim_.tiers().felt(), aoim::StatePayload{update_.state, records}, position, now));
   counters_.felt.add();
@@ -230,10 +231,10 @@ std::size_t EntitySender::tell_felt(const aoim::Position& position,
 }
 
 // A state without a compact form is not sent now, but to all in the next pass.
-std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& position,
-                                   std::span<const std::byte> records,
-                                   const aoim::BundleTerms& terms, std::size_t audience,
-                                   nanoseconds now) noexcept {
+std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position& position,
+                                      std::span<const std::byte> records,
+                                      const aoim::BundleTerms& terms, std::size_t audience,
+                                      nanoseconds now) noexcept {
   const std::size_t tier = aoim_.tiers().of_row(entity.audiences()->row_of(audience));
   StateCompressor* compressor = entity.compressor();
   if (compressor == nullptr) {
@@ -257,10 +258,10 @@ std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& po
 }
 
 // Octets of the state as sent. After an event, and for newcomers, it is plain.
-EntitySender::Written EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& position,
-                                             std::span<const std::byte> records,
-                                             const aoim::BundleTerms& terms, bool is_event,
-                                             nanoseconds now) noexcept {
+EntitySender::Written EntitySender::send_to_all(OwnedEntity& entity, const aoim::Position& position,
+                                                std::span<const std::byte> records,
+                                                const aoim::BundleTerms& terms, bool is_event,
+                                                nanoseconds now) noexcept {
   StateCompressor* compressor = entity.compressor();
   std::array<std::byte, StateCompressor::kRoom> octets;
   StateCompressor::Made made;
@@ -276,7 +277,7 @@ EntitySender::Written EntitySender::tell_all(OwnedEntity& entity, const aoim::Po
   const aoim::CompressedPayload payload{entity.id(), compressor->form(),
                                         std::span(octets).first(made.size), records};
   static_cast<void>(aoim_.send(aoim::kCellTier, payload, position, due));
-  return {made.size + records.size(), made.leans};
+  return {made.size + records.size(), made.needs_key};
 }
 
 }  // namespace reckon::peer

@@ -72,18 +72,18 @@ class EntitySender {
   [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
                               deadreckon::SendReason reason) noexcept;
   void hold(OwnedEntity& entity, Nanoseconds until) noexcept;
-  std::size_t tell_felt(const aoim::Position& position, std::span<const std::byte> records,
-                        Nanoseconds now) noexcept;
-  std::size_t tell_row(OwnedEntity& entity, const aoim::Position& position,
-                       std::span<const std::byte> records, const aoim::BundleTerms& terms,
-                       std::size_t audience, Nanoseconds now) noexcept;
+  std::size_t send_to_touch_tier(const aoim::Position& position, std::span<const std::byte> records,
+                                 Nanoseconds now) noexcept;
+  std::size_t send_to_row(OwnedEntity& entity, const aoim::Position& position,
+                          std::span<const std::byte> records, const aoim::BundleTerms& terms,
+                          std::size_t audience, Nanoseconds now) noexcept;
   struct Written {
     std::size_t octets;
-    bool leans;  ///< depends on a key state that a newcomer lacks
+    bool needs_key;  ///< depends on a key state that a newcomer lacks
   };
-  Written tell_all(OwnedEntity& entity, const aoim::Position& position,
-                   std::span<const std::byte> records, const aoim::BundleTerms& terms,
-                   bool is_event, Nanoseconds now) noexcept;
+  Written send_to_all(OwnedEntity& entity, const aoim::Position& position,
+                      std::span<const std::byte> records, const aoim::BundleTerms& terms,
+                      bool is_event, Nanoseconds now) noexcept;
 
   const NetworkConfig& network_;
   aoim::AreaOfInterestManager& aoim_;

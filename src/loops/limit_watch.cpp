@@ -21,18 +21,18 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       models_refused_{counters.make("models_refused", "force models with impossible values")},
       sealed_{counters.make("sealed_unread_in", "sealed datagrams received without a key")} {}
 
-Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
+NoticeCondition::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
   const std::uint64_t value = counter.value();
   const bool grew = value > before;
   before = value;
-  return matter.turn(grew, now);
+  return condition.turn(grew, now);
 }
 
 void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
                       const pdu::EntityId& refused, std::chrono::nanoseconds now,
                       haptics::SpscRing<Notice>& out) noexcept {
-  using Turn = Matter::Turn;
-  const auto tell = [&](Turn turn, const char* begins, const char* ends, std::size_t number) {
+  using Turn = NoticeCondition::Turn;
+  const auto report = [&](Turn turn, const char* begins, const char* ends, std::size_t number) {
     if (turn == Turn::none) return;
     static_cast<void>(out.push(make_notice(turn == Turn::begins ? begins : ends, number)));
   };
@@ -45,16 +45,16 @@ void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
         haptics::kMaxRemoteHands, AddressText(crowder).view())));
   if (crowds == Turn::ends)
     static_cast<void>(out.push(make_notice("all that is near a hand is felt again")));
-  tell(table_full_.turn(now),
-       "the table of remote entities is full with {} rows: further ones are not shown",
-       "all entities heard have room in the table again", capacity_);
-  tell(write_overflow_.turn(now), "the ring towards the network is full: updates are dropped",
-       "the ring towards the network has room again", 0);
-  tell(read_waits_.turn(now),
-       "the ring from the network is full: what comes waits in the kernel's buffer",
-       "the ring from the network has room again", 0);
-  tell(sealed_.turn(now), "sealed exercise on this group: give [network] key, or --key FILE",
-       "no sealed datagram has been heard since", 0);
+  report(table_full_.turn(now),
+         "the table of remote entities is full with {} rows: further ones are not shown",
+         "all entities heard have room in the table again", capacity_);
+  report(write_overflow_.turn(now), "the ring towards the network is full: updates are dropped",
+         "the ring towards the network has room again", 0);
+  report(read_waits_.turn(now),
+         "the ring from the network is full: what comes waits in the kernel's buffer",
+         "the ring from the network has room again", 0);
+  report(sealed_.turn(now), "sealed exercise on this group: give [network] key, or --key FILE",
+         "no sealed datagram has been heard since", 0);
   const Turn refuses = models_refused_.turn(now);
   if (refuses == Turn::begins)
     static_cast<void>(out.push(make_notice(

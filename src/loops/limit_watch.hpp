@@ -12,8 +12,8 @@
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/counters/counters.hpp"
-#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_condition.hpp"
 
 namespace reckon::peer {
 
@@ -35,13 +35,13 @@ class LimitWatch {
   struct Growing {
     const Counter& counter;
     std::uint64_t before = 0;
-    Matter matter = {};
-    Matter::Turn turn(std::chrono::nanoseconds now) noexcept;
+    NoticeCondition condition = {};
+    NoticeCondition::Turn turn(std::chrono::nanoseconds now) noexcept;
   };
 
   std::size_t capacity_;
   Counter& most_unfelt_;
-  Matter unfelt_;
+  NoticeCondition unfelt_;
   Growing table_full_, write_overflow_, read_waits_, models_refused_, sealed_;
 };
 

@@ -12,7 +12,7 @@
 namespace reckon::peer {
 namespace {
 
-using Turn = Matter::Turn;
+using Turn = NoticeCondition::Turn;
 
 /// An errno in words and its remedy, without an allocation.
 struct Reason {
@@ -45,45 +45,45 @@ void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& ou
   const std::uint64_t unjoined = groups_unjoined_.value();
   at_ = link_.statistics();
   LinkEvent event;
-  while (link_.take_event(event)) tell("{}", std::string_view(event.text.data()));
-  tell_base(is_deaf);
-  tell_groups(unjoined - std::min<std::uint64_t>(unjoined, is_deaf ? 1 : 0));
-  tell_sends();
-  tell_drops();
+  while (link_.take_event(event)) report("{}", std::string_view(event.text.data()));
+  report_base(is_deaf);
+  report_groups(unjoined - std::min<std::uint64_t>(unjoined, is_deaf ? 1 : 0));
+  report_sends();
+  report_drops();
   before_ = at_;
   out_ = nullptr;
 }
 
-void LinkWatch::tell_base(bool is_deaf) noexcept {
+void LinkWatch::report_base(bool is_deaf) noexcept {
   const Turn turn = deaf_.turn(is_deaf, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
-    tell(
+    report(
         "DEAF: no peer can be heard, for the base group {} cannot be joined: {}{}{}; tried again "
         "each second",
         base_.data(), reason.what, reason.separator, reason.remedy);
   }
-  if (turn == Turn::ends) tell("the base group {} is joined: peers can be heard", base_.data());
+  if (turn == Turn::ends) report("the base group {} is joined: peers can be heard", base_.data());
 }
 
 // Confirmed by a second look: the two counts are written one after the other, and the base group
 // may be in only one of them.
-void LinkWatch::tell_groups(std::uint64_t count) noexcept {
+void LinkWatch::report_groups(std::uint64_t count) noexcept {
   const bool were_any = std::exchange(any_unjoined_, count > 0);
   const Turn turn = unjoined_.turn(were_any && count > 0, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
-    tell(
+    report(
         "{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
         "each second",
         count, reason.what, reason.separator, reason.remedy);
   }
-  if (turn == Turn::ends) tell("all groups could be joined");
+  if (turn == Turn::ends) report("all groups could be joined");
 }
 
 // Whether all sends fail is known only after the look that finds the first failure, which also
 // contains earlier successes.
-void LinkWatch::tell_sends() noexcept {
+void LinkWatch::report_sends() noexcept {
   bool fails = at_.send_errors > before_.send_errors;
   if (fails && !refusal_) {
     refusal_ = Refusal{now_, at_.sent, false};
@@ -94,34 +94,34 @@ void LinkWatch::tell_sends() noexcept {
   const Turn turn = unsent_.turn(fails, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_send_error, send_remedy);
-    tell("{} fails: {}{}{}", at_.sent > refusal_->sent ? "sending some datagrams" : "SENDING",
-         reason.what, reason.separator, reason.remedy);
+    report("{} fails: {}{}{}", at_.sent > refusal_->sent ? "sending some datagrams" : "SENDING",
+           reason.what, reason.separator, reason.remedy);
     refusal_->reported = true;
   }
   if (turn == Turn::ends) refusal_.reset();
-  if (turn == Turn::ends) tell("sending works again; {} datagrams were refused", at_.send_errors);
+  if (turn == Turn::ends) report("sending works again; {} datagrams were refused", at_.send_errors);
   const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
   if (held == Turn::begins) {
-    tell(
+    report(
         "the interface takes less than is sent: states that would wait for more than 50 ms are "
         "left out; wider thresholds in [dead_reckoning] need less");
   }
-  if (held == Turn::ends) tell("the interface takes all again; {} were left out", at_.held_back);
+  if (held == Turn::ends) report("the interface takes all again; {} were left out", at_.held_back);
 }
 
-void LinkWatch::tell_drops() noexcept {
+void LinkWatch::report_drops() noexcept {
   const Turn turn = dropped_.turn(at_.kernel_drops > before_.kernel_drops, now_);
   if (turn == Turn::begins) {
-    tell(
+    report(
         "the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
         "net.core.rmem_max=33554432");
   }
   if (turn == Turn::ends)
-    tell("the kernel drops no more; {} datagrams were lost", at_.kernel_drops);
+    report("the kernel drops no more; {} datagrams were lost", at_.kernel_drops);
 }
 
 template <typename... Arguments>
-void LinkWatch::tell(const char* format, const Arguments&... arguments) noexcept {
+void LinkWatch::report(const char* format, const Arguments&... arguments) noexcept {
   static_cast<void>(out_->push(make_notice(format, arguments...)));
 }
 

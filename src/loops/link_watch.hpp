@@ -11,8 +11,8 @@
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
-#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_condition.hpp"
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::peer {
@@ -30,12 +30,12 @@ class LinkWatch {
   [[nodiscard]] IpEndpoint own_endpoint() const noexcept { return link_.local_endpoint(); }
 
  private:
-  void tell_base(bool is_deaf) noexcept;
-  void tell_groups(std::uint64_t count) noexcept;
-  void tell_sends() noexcept;
-  void tell_drops() noexcept;
+  void report_base(bool is_deaf) noexcept;
+  void report_groups(std::uint64_t count) noexcept;
+  void report_sends() noexcept;
+  void report_drops() noexcept;
   template <typename... Arguments>
-  void tell(const char* format, const Arguments&... arguments) noexcept;
+  void report(const char* format, const Arguments&... arguments) noexcept;
 
   Link& link_;
   std::array<char, 64> base_{};  ///< "239.192.1.0:3000"
@@ -52,7 +52,7 @@ class LinkWatch {
   };
   std::optional<Refusal> refusal_;
   bool any_unjoined_ = false;  ///< at the last look, besides the base group
-  Matter deaf_, unjoined_, unsent_, held_, dropped_;
+  NoticeCondition deaf_, unjoined_, unsent_, held_, dropped_;
 };
 
 }  // namespace reckon::peer

@@ -59,8 +59,8 @@ NoticeGate::Host& NoticeGate::host_of(const Octets& address) noexcept {
   return *oldest;
 }
 
-void NoticeGate::tell(const Notice& notice, const aoim::SourceAddress& cause, bool member,
-                      nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
+void NoticeGate::report(const Notice& notice, const aoim::SourceAddress& cause, bool member,
+                        nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   hosts_.back().last = now;
   Host& host = host_of(cause.octets);
   host.last = now;
@@ -71,19 +71,19 @@ void NoticeGate::tell(const Notice& notice, const aoim::SourceAddress& cause, bo
   host.latest = notice;
 }
 
-void NoticeGate::tell(const aoim::PresenceEvent& event, nanoseconds now,
-                      haptics::SpscRing<Notice>& out) noexcept {
+void NoticeGate::report(const aoim::PresenceEvent& event, nanoseconds now,
+                        haptics::SpscRing<Notice>& out) noexcept {
   const bool own =
       event.kind == PresenceEventKind::identity_changed || event.kind == PresenceEventKind::slept;
   if (own) return static_cast<void>(out.push(notice_of(event)));
   const bool by_another =
       event.kind == PresenceEventKind::disputed || event.kind == PresenceEventKind::impostor;
-  tell(notice_of(event), by_another ? event.other : event.source, is_of_member(event), now, out);
+  report(notice_of(event), by_another ? event.other : event.source, is_of_member(event), now, out);
 }
 
-void NoticeGate::tell(const MutedSender& sender, nanoseconds now,
-                      haptics::SpscRing<Notice>& out) noexcept {
-  tell(notice_of(sender), source_of(sender.who), false, now, out);
+void NoticeGate::report(const MutedSender& sender, nanoseconds now,
+                        haptics::SpscRing<Notice>& out) noexcept {
+  report(notice_of(sender), source_of(sender.who), false, now, out);
 }
 
 void NoticeGate::look(nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {

@@ -32,14 +32,14 @@ class NoticeGate {
   static constexpr std::size_t kHosts = 32;
 
   /// Takes an event of a peer. An event of this peer itself passes.
-  void tell(const aoim::PresenceEvent& event, Nanoseconds now,
-            haptics::SpscRing<Notice>& out) noexcept;
+  void report(const aoim::PresenceEvent& event, Nanoseconds now,
+              haptics::SpscRing<Notice>& out) noexcept;
   /// Takes the begin or end of a host's flood.
-  void tell(const MutedSender& sender, Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
+  void report(const MutedSender& sender, Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
   /// Takes a refusal of something that `cause` sent: a PDU in another's name, an order, a touch.
-  void tell_refused(const Notice& notice, const aoim::SourceAddress& cause, Nanoseconds now,
-                    haptics::SpscRing<Notice>& out) noexcept {
-    tell(notice, cause, false, now, out);
+  void report_refusal(const Notice& notice, const aoim::SourceAddress& cause, Nanoseconds now,
+                      haptics::SpscRing<Notice>& out) noexcept {
+    report(notice, cause, false, now, out);
   }
   /// Reports the number of omitted notices when a line is due; call it some times a second.
   void look(Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
@@ -56,8 +56,8 @@ class NoticeGate {
   };
 
   [[nodiscard]] Host& host_of(const Octets& address) noexcept;
-  void tell(const Notice& notice, const aoim::SourceAddress& cause, bool member, Nanoseconds now,
-            haptics::SpscRing<Notice>& out) noexcept;
+  void report(const Notice& notice, const aoim::SourceAddress& cause, bool member, Nanoseconds now,
+              haptics::SpscRing<Notice>& out) noexcept;
 
   std::array<Host, kHosts> hosts_{};  // the last one: all others
   std::size_t count_ = 0;             // of the others

@@ -10,14 +10,14 @@ PeerWatches::PeerWatches(const ModelWiring& wiring)
 void PeerWatches::report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept {
   // The sender of a discovery request is no peer yet.
   if (event.announced.scene_peer == pdu::kScenePeerWanted) return;
-  notice_gate_.tell(event, now, notices_);
+  notice_gate_.report(event, now, notices_);
 }
 
 void PeerWatches::look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
                        std::size_t unfelt, const aoim::SourceAddress& crowder,
                        Nanoseconds now) noexcept {
   while (const MutedSender* sender = muted_ == nullptr ? nullptr : muted_->front()) {
-    notice_gate_.tell(*sender, now, notices_);
+    notice_gate_.report(*sender, now, notices_);
     muted_->pop();
   }
   notice_gate_.look(now, notices_);

@@ -10,12 +10,12 @@ namespace reckon::peer {
 bool RefusalWatch::Growing::begins(std::uint64_t count, Nanoseconds now) noexcept {
   const bool grows = count > before;
   before = count;
-  return matter.turn(grows, now) == Matter::Turn::begins;
+  return condition.turn(grows, now) == NoticeCondition::Turn::begins;
 }
 
 void RefusalWatch::note_order(const pdu::EntityId& originator, std::string_view order,
                               const aoim::SourceAddress& from, Nanoseconds now) noexcept {
-  if (orders_.turn(true, now) != Matter::Turn::begins) return;
+  if (orders_.turn(true, now) != NoticeCondition::Turn::begins) return;
   report(make_notice("{}:{}:{} at {} orders to {}: refused, see allow_management in the scene",
                      originator.site, originator.application, originator.entity,
                      AddressText(from).view(), order),

@@ -9,8 +9,8 @@
 
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
-#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_condition.hpp"
 #include "reckon/peer/loops/notice_gate.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
@@ -34,17 +34,17 @@ class RefusalWatch {
   /// A count that grows while something is refused.
   struct Growing {
     std::uint64_t before = 0;
-    Matter matter = {};
+    NoticeCondition condition = {};
     [[nodiscard]] bool begins(std::uint64_t count, Nanoseconds now) noexcept;
   };
   void report(const Notice& notice, const aoim::SourceAddress& cause, Nanoseconds now) noexcept {
-    gate_.tell_refused(notice, cause, now, out_);
+    gate_.report_refusal(notice, cause, now, out_);
   }
   void report_dispute(const Dispute& dispute, const aoim::PeerId& own, Nanoseconds now) noexcept;
 
   NoticeGate& gate_;
   haptics::SpscRing<Notice>& out_;
-  Matter orders_;
+  NoticeCondition orders_;
   Growing untouchable_, evicted_, strangers_;
 };
 

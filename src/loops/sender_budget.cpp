@@ -81,7 +81,7 @@ void SenderBudget::know(const KnownSources& known) noexcept {
 
 // It counts as one of its host again, from zero.
 void SenderBudget::forget(Known& known) noexcept {
-  if (known.source.muted) tell(known.source, false);
+  if (known.source.muted) report(known.source, false);
 }
 
 // The entry of a source. A source without one gets that of a source that was silent for a window;
@@ -102,14 +102,14 @@ bool SenderBudget::count(Source* source, nanoseconds received, std::uint32_t mos
   if (source == nullptr) return true;
   if (received - source->window >= kWindow) turn(*source, received);
   ++source->count;
-  if (!source->muted && source->count > most) tell(*source, true);
+  if (!source->muted && source->count > most) report(*source, true);
   if (source->muted) ++source->dropped;
   return !source->muted;
 }
 
 // A window ends.
 void SenderBudget::turn(Source& source, nanoseconds received) noexcept {
-  if (source.muted && source.count < kCalm) tell(source, false);
+  if (source.muted && source.count < kCalm) report(source, false);
   source.window = received;
   source.count = 0;
 }
@@ -117,13 +117,13 @@ void SenderBudget::turn(Source& source, nanoseconds received) noexcept {
 void SenderBudget::look(nanoseconds now) noexcept {
   if (muted_ == 0) return;
   const auto forgive = [&](Source& source) {
-    if (source.muted && now - source.window > 2 * kWindow) tell(source, false);
+    if (source.muted && now - source.window > 2 * kWindow) report(source, false);
   };
   for (auto& set : sources_) std::ranges::for_each(set, forgive);
   for (std::size_t i = 0; i < known_count_; ++i) forgive(known_[i].source);
 }
 
-void SenderBudget::tell(Source& source, bool muted) noexcept {
+void SenderBudget::report(Source& source, bool muted) noexcept {
   source.muted = muted;
   muted_ += muted ? 1 : std::size_t(-1);
   static_cast<void>(out_.push({source.who, muted, source.dropped}));

@@ -91,7 +91,7 @@ class SenderBudget {
   [[nodiscard]] bool count(Source* source, std::chrono::nanoseconds received,
                            std::uint32_t most) noexcept;
   void turn(Source& source, std::chrono::nanoseconds received) noexcept;
-  void tell(Source& source, bool muted) noexcept;
+  void report(Source& source, bool muted) noexcept;
 
   haptics::SpscRing<MutedSender>& out_;
   std::array<std::array<Source, kWays>, kSets> sources_{};

@@ -48,7 +48,7 @@ bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   look.remote.doubt_peer(peer.announced.epoch, look.now);
   const bool felt = std::any_of(look.touched.begin(), look.touched.end(),
                                 [&](const Touched& t) { return t.id.simulation() == peer.id(); });
-  if (felt) tell(peer, now, look);
+  if (felt) report(peer, now, look);
   return false;
 }
 
@@ -75,7 +75,7 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
   Doubt* doubt = find(row->epoch);
   if (doubt == nullptr && doubts_.size() == doubts_.capacity()) return;
   look.remote.doubt(touched.id, look.now);
-  tell(*peer, doubt != nullptr ? *doubt : doubt_of(*peer, look.now), look);
+  report(*peer, doubt != nullptr ? *doubt : doubt_of(*peer, look.now), look);
 }
 
 void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
@@ -88,7 +88,7 @@ void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& loo
   doubts_.erase(doubts_.begin() + (&doubt - doubts_.data()));
 }
 
-void SilenceWatch::tell(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
+void SilenceWatch::report(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
   if (doubt.reported) return;
   doubt.reported = true;
   static_cast<void>(look.out.push(

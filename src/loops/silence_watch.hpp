@@ -71,7 +71,7 @@ class SilenceWatch {
   void look_at_touched(const Touched& touched, const aoim::Presence& presence,
                        const Look& look) noexcept;
   void believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
-  void tell(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
+  void report(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
   [[nodiscard]] Doubt* find(std::uint32_t epoch) noexcept;
   Doubt& doubt_of(const aoim::Peer& peer, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::chrono::nanoseconds heard(const aoim::Peer& peer) const noexcept;

@@ -201,7 +201,7 @@ void TouchStage::note_accounts(const Inbound& update, const Pass& pass) noexcept
     const pdu::EnergyAccountRecord& account = update.accounts[i];
     const OwnedEntity* own = owned_.find(account.counterpart.entity);
     if (own == nullptr || own->touch() == nullptr) continue;
-    HeardAccount& pair = books_.pair(account.counterpart.entity, update.entity, pass.now);
+    ReceivedAccount& pair = books_.pair(account.counterpart.entity, update.entity, pass.now);
     pair.given = account.given;
     pair.need = pdu::from_microjoules(account.need);
     pair.spring_need = pdu::from_microjoules(account.spring_need);

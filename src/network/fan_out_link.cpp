@@ -19,7 +19,7 @@ constexpr std::size_t kSlot = kMaxDatagram + pdu::kUnicastFrameSize;
 
 }  // namespace
 
-SaidInFront said_in_front(std::span<const std::byte> datagram, const GroupPool& pool) noexcept {
+GroupFrame group_frame_of(std::span<const std::byte> datagram, const GroupPool& pool) noexcept {
   const auto frame = pdu::unicast_frame_of(datagram);
   if (!frame) return {0, pool.base(), datagram};
   const std::size_t place = frame->group;
@@ -72,7 +72,7 @@ std::span<const std::byte> FanOutLink::UnicastGroups::framed(
 
 // Removes the frame; false if the datagram is for others. One without a frame is plain DIS.
 bool FanOutLink::UnicastGroups::unwrap(Datagram& datagram) noexcept {
-  const SaidInFront said = said_in_front(datagram.bytes, pool);
+  const GroupFrame said = group_frame_of(datagram.bytes, pool);
   datagram.bytes = said.bytes;
   if (said.place) datagram.group = said.group;
   if (said.place && joined[*said.place].load(std::memory_order_relaxed)) return true;

@@ -18,13 +18,13 @@ namespace reckon::peer {
 class DatagramTap;
 
 /// The frame before a datagram to an address of a list.
-struct SaidInFront {
+struct GroupFrame {
   std::optional<std::size_t> place;  ///< 0: the base group, n: the n-th of the pool; else beyond it
   GroupAddress group;                ///< of that place
   std::span<const std::byte> bytes;  ///< the datagram behind the frame
 };
 /// A datagram without a frame is plain DIS, of the base group. 5 ns.
-[[nodiscard]] SaidInFront said_in_front(std::span<const std::byte> datagram,
+[[nodiscard]] GroupFrame group_frame_of(std::span<const std::byte> datagram,
                                         const GroupPool& pool) noexcept;
 
 /// The list of recipients, and the frame.

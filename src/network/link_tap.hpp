@@ -30,7 +30,7 @@ class LinkTap {
             std::span<const std::byte> bytes) noexcept {
     if (tap_ == nullptr) return;
     if (!framed_) return tap_->note(loop, fate, place, bytes);
-    const SaidInFront said = said_in_front(bytes, *framed_);
+    const GroupFrame said = group_frame_of(bytes, *framed_);
     tap_->note(loop, fate, said.place ? said.group : place, said.bytes);
   }
   /// Reports a group that was joined or left.  @param asked when the kernel was asked

@@ -44,8 +44,8 @@ void Audiences::note_sent(std::size_t audience, const deadreckon::KinematicState
                           double now, deadreckon::SendReason reason, bool whole) noexcept {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const bool is_in_step = felt_ && i == 0;
-    i < audience ? sides_[i].told_all(as_received, now, reason, whole || is_in_step)
-                 : sides_[i].told_those_near();
+    i < audience ? sides_[i].note_sent_to_all(as_received, now, reason, whole || is_in_step)
+                 : sides_[i].note_sent_to_inner();
   }
 }
 

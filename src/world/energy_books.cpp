@@ -12,8 +12,8 @@ std::uint64_t EnergyBooks::key(EntityNumber own, const pdu::EntityId& other) noe
   return std::uint64_t{own} << 48 | other.key();
 }
 
-HeardAccount& EnergyBooks::pair(EntityNumber own, const pdu::EntityId& other,
-                                std::chrono::nanoseconds now) noexcept {
+ReceivedAccount& EnergyBooks::pair(EntityNumber own, const pdu::EntityId& other,
+                                   std::chrono::nanoseconds now) noexcept {
   const std::uint32_t known = index_.find(key(own, other));
   if (known != KeyIndex::kNone) {
     pairs_[known].heard = now;
@@ -26,14 +26,15 @@ HeardAccount& EnergyBooks::pair(EntityNumber own, const pdu::EntityId& other,
     erase(static_cast<std::size_t>(oldest - pairs_.begin()));
   }
   index_.put(key(own, other), pairs_.size());
-  HeardAccount& made = pairs_.emplace_back();
+  ReceivedAccount& made = pairs_.emplace_back();
   made.own = own;
   made.other = other;
   made.heard = now;
   return made;
 }
 
-const HeardAccount* EnergyBooks::find(EntityNumber own, const pdu::EntityId& other) const noexcept {
+const ReceivedAccount* EnergyBooks::find(EntityNumber own,
+                                         const pdu::EntityId& other) const noexcept {
   const std::uint32_t place = index_.find(key(own, other));
   return place == KeyIndex::kNone ? nullptr : &pairs_[place];
 }

@@ -19,7 +19,7 @@
 namespace reckon::peer {
 
 /// One pair: an entity of ours, and one that touches it.
-struct HeardAccount {
+struct ReceivedAccount {
   pdu::EntityId other;
   EntityNumber own = 0;
   double given = 0.0;        ///< [J], running total that the other states to have given to us
@@ -38,20 +38,20 @@ class EnergyBooks {
   EnergyBooks();
 
   /// The pair; it is made empty if it is new.
-  HeardAccount& pair(EntityNumber own, const pdu::EntityId& other,
-                     std::chrono::nanoseconds now) noexcept;
-  [[nodiscard]] const HeardAccount* find(EntityNumber own,
-                                         const pdu::EntityId& other) const noexcept;
+  ReceivedAccount& pair(EntityNumber own, const pdu::EntityId& other,
+                        std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] const ReceivedAccount* find(EntityNumber own,
+                                            const pdu::EntityId& other) const noexcept;
   /// Forgets all pairs of an entity of ours.
   void forget(EntityNumber own) noexcept;
 
-  [[nodiscard]] std::span<HeardAccount> pairs() noexcept { return pairs_; }
+  [[nodiscard]] std::span<ReceivedAccount> pairs() noexcept { return pairs_; }
 
  private:
   [[nodiscard]] static std::uint64_t key(EntityNumber own, const pdu::EntityId& other) noexcept;
   void erase(std::size_t place) noexcept;
 
-  std::vector<HeardAccount> pairs_;  // dense
+  std::vector<ReceivedAccount> pairs_;  // dense
   KeyIndex index_;
 };
 

@@ -112,7 +112,7 @@ void OwnedEntity::compress(pdu::CompressedForm form) {
   compressor_ = std::make_unique<StateCompressor>(form);
 }
 
-void OwnedEntity::tell_apart(bool felt, std::span<const aoim::Channel> rows) {
+void OwnedEntity::set_tiers(bool felt, std::span<const aoim::Channel> rows) {
   const bool is_felt = touch_ != nullptr;
   if (is_felt ? !felt : rows.size() < 2) return;
   audiences_ = std::make_unique<Audiences>(is_felt, rows, policy_, *config_.rule, kFirstRepeat);

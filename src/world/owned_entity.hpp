@@ -157,7 +157,7 @@ class OwnedEntity {
   /// From now on tiers receive different updates: with `felt`, the felt tier by contact groups;
   /// with two or more rows of channels, each row by near groups. A felt entity uses near groups
   /// only if it uses contact groups too.
-  void tell_apart(bool felt, std::span<const aoim::Channel> rows);
+  void set_tiers(bool felt, std::span<const aoim::Channel> rows);
   /// Null if all peers receive the same.
   [[nodiscard]] Audiences* audiences() noexcept { return audiences_.get(); }
   [[nodiscard]] const Audiences* audiences() const noexcept { return audiences_.get(); }

@@ -37,7 +37,7 @@ double PortlessBody::answer(const OwnedEntity& entity, EnergyBooks& books, nanos
   note_motion(entity, now);
   account_count_ = 0;
   double given = 0.0;
-  for (HeardAccount& pair : books.pairs()) {
+  for (ReceivedAccount& pair : books.pairs()) {
     if (pair.own != number_) continue;
     if (pair.unanswered && pair.need > 0.0) {
       const double share = budget_.take(pair.need);
@@ -46,8 +46,7 @@ double PortlessBody::answer(const OwnedEntity& entity, EnergyBooks& books, nanos
       if (share > 0.0) ++version_;
     }
     pair.unanswered = false;
-    if (account_count_ < accounts_.size())
-      accounts_[account_count_++] = {pair.other, pair.we_gave};
+    if (account_count_ < accounts_.size()) accounts_[account_count_++] = {pair.other, pair.we_gave};
   }
   return given;
 }
@@ -62,7 +61,7 @@ void note_own_needs(std::span<const HandPort> hands, const OwnedEntities& owned,
       if (contact.id.simulation() != own.simulation()) continue;
       const OwnedEntity* hand = owned.find(port.hand());
       if (hand == nullptr) continue;
-      HeardAccount& pair = books.pair(contact.id.entity, hand->id(), now);
+      ReceivedAccount& pair = books.pair(contact.id.entity, hand->id(), now);
       pair.given = contact.given;
       pair.need = contact.need;
       pair.unanswered = true;

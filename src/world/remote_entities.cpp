@@ -83,7 +83,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     }
     row = row_for(row, update, arrival, state);
     if (row == nullptr) return false;
-    const HeardState heard{update.state, state, arrival, servo};
+    const ReceivedState heard{update.state, state, arrival, servo};
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
     if (!refresh(*row, heard)) return false;
   } else {
@@ -110,7 +110,7 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
 
 // A repetition shows only that the entity still exists.
 bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
-                                 const HeardState& heard) noexcept {
+                                 const ReceivedState& heard) noexcept {
   counts_.repeats.add();
   row.last_heard = std::max(row.last_heard, heard.at.arrival);
   note_held(row, heard, row.state_time, true);
@@ -120,7 +120,7 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
   return true;
 }
 
-bool RemoteEntities::refresh(RemoteEntity& row, const HeardState& heard) noexcept {
+bool RemoteEntities::refresh(RemoteEntity& row, const ReceivedState& heard) noexcept {
   const RemoteMotion::Outcome outcome = motion_.take(row, table_.place_of(row), heard);
   if (outcome == RemoteMotion::Outcome::stale) {
     const auto newer = pdu::difference(heard.pdu.header.timestamp, row.timestamp);

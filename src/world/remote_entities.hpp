@@ -188,17 +188,17 @@ class RemoteEntities {
   void keep_outside(const RemoteEntity& row) noexcept;
   void note_sight(const RemoteEntity& row, aoim::InterestVerdict verdict,
                   const deadreckon::KinematicState& state, std::chrono::nanoseconds now) noexcept;
-  void note_held(const RemoteEntity& row, const HeardState& heard, std::chrono::nanoseconds time,
+  void note_held(const RemoteEntity& row, const ReceivedState& heard, std::chrono::nanoseconds time,
                  bool newest) noexcept;
   void go_back(std::size_t place, const HeldState& held, std::chrono::nanoseconds now) noexcept;
   void enter(const OutsideEntity& entity, std::chrono::nanoseconds owner_heard) noexcept;
   void note_taken(RemoteEntity& row, const Inbound& update) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
   void keep_outside(const OutsideEntity& entity) noexcept;
-  bool note_repeat(RemoteEntity& row, const Inbound& update, const HeardState& heard) noexcept;
+  bool note_repeat(RemoteEntity& row, const Inbound& update, const ReceivedState& heard) noexcept;
   void take_parts(RemoteEntity& row, const pdu::EntityState& state, std::chrono::nanoseconds now,
                   bool abrupt) noexcept;
-  bool refresh(RemoteEntity& row, const HeardState& heard) noexcept;
+  bool refresh(RemoteEntity& row, const ReceivedState& heard) noexcept;
   void take_model(RemoteEntity& row, const pdu::HapticRecord& model) noexcept;
   void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;

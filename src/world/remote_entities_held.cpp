@@ -80,8 +80,8 @@ void RemoteEntities::keep_outside(const OutsideEntity& entity) noexcept {
   outside_.keep(entity, admission_.has_room_outside());
 }
 
-void RemoteEntities::note_held(const RemoteEntity& row, const HeardState& heard, nanoseconds time,
-                               bool newest) noexcept {
+void RemoteEntities::note_held(const RemoteEntity& row, const ReceivedState& heard,
+                               nanoseconds time, bool newest) noexcept {
   if (!held_.is_on()) return;
   const aoim::TierTable& tiers = aoim_.tiers();
   held_.note(table_.place_of(row), tiers.row_of(tiers.tier_of(heard.at.group)),

@@ -44,7 +44,7 @@ void RemoteMotion::erase(std::size_t place, std::span<RemoteEntity> rows) noexce
 }
 
 RemoteMotion::Outcome RemoteMotion::take(RemoteEntity& row, std::size_t place,
-                                         const HeardState& heard) noexcept {
+                                         const ReceivedState& heard) noexcept {
   const auto& [pdu, state, at, servo] = heard;
   const bool known = row.updates > 0;
   SenderClock& clock = clocks_[place];
@@ -80,7 +80,7 @@ void RemoteMotion::snap(RemoteEntity& row) noexcept {
   counts_.snaps.add();
 }
 
-void RemoteMotion::note_state(RemoteEntity& row, const HeardState& heard,
+void RemoteMotion::note_state(RemoteEntity& row, const ReceivedState& heard,
                               nanoseconds time) noexcept {
   const pdu::EntityState& pdu = heard.pdu;
   row.state = heard.state;

@@ -24,7 +24,7 @@
 namespace reckon::peer {
 
 /// A state that is being taken, with its arrival and our hand at that time.
-struct HeardState {
+struct ReceivedState {
   const pdu::EntityState& pdu;
   const deadreckon::KinematicState& state;  ///< the same, S frame
   const Arrival& at;
@@ -54,7 +54,7 @@ class RemoteMotion {
   void prefetch(std::size_t place) const noexcept { clocks_.prefetch(place); }
 
   /// Applies a state to the row at `place`.
-  Outcome take(RemoteEntity& row, std::size_t place, const HeardState& heard) noexcept;
+  Outcome take(RemoteEntity& row, std::size_t place, const ReceivedState& heard) noexcept;
   /// Returns to a state that was received before, without a jump.
   void go_back(RemoteEntity& row, std::size_t place, const HeldState& held,
                Nanoseconds now) noexcept;
@@ -67,7 +67,7 @@ class RemoteMotion {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
 
  private:
-  static void note_state(RemoteEntity& row, const HeardState& heard, Nanoseconds time) noexcept;
+  static void note_state(RemoteEntity& row, const ReceivedState& heard, Nanoseconds time) noexcept;
   /// @param expected prediction by the last update for this one's instant
   void note_history(RemoteEntity& row, std::size_t place, const deadreckon::Pose& expected,
                     bool abrupt) noexcept;

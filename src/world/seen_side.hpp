@@ -39,14 +39,14 @@ class SeenSide {
   }
   /// Records an update to these peers and the inner ones, see UpdatePolicy::sent().
   /// @param whole whether the update is complete
-  void told_all(const deadreckon::KinematicState& as_received, double now,
-                deadreckon::SendReason reason, bool whole = true) noexcept {
+  void note_sent_to_all(const deadreckon::KinematicState& as_received, double now,
+                        deadreckon::SendReason reason, bool whole = true) noexcept {
     policy_.sent(as_received, now, reason);
     last_sent_ = now;
     if (whole) is_behind_ = false;
   }
   /// Records an update to the inner tiers alone.
-  void told_those_near() noexcept { is_behind_ = true; }
+  void note_sent_to_inner() noexcept { is_behind_ = true; }
   /// Whether inner tiers have an update that these peers lack.
   [[nodiscard]] bool is_behind() const noexcept { return is_behind_; }
   /// Time of the last update to these peers [s].

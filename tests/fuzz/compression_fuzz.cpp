@@ -28,7 +28,7 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
     pdu::EntityState state;
     require(one.form == pdu::CompressedForm::compact ||
                 restorer.restore(states, one, stranger, state) != peer::RestoreVerdict::good,
-            "a state leans on another's key");
+            "a state needs_key on another's key");
     if (restorer.restore(states, one, owner, state) != peer::RestoreVerdict::good) continue;
     std::array<std::byte, 144> plain;
     require(pdu::encode(state, plain) == plain.size(), "a restored state cannot be sent");
@@ -42,7 +42,8 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto octets = reckon::fuzz::octets_of(data, size);
-  for (const auto form : {reckon::pdu::CompressedForm::compact, reckon::pdu::CompressedForm::residual}) {
+  for (const auto form :
+       {reckon::pdu::CompressedForm::compact, reckon::pdu::CompressedForm::residual}) {
     reckon::fuzz::restore(octets, form);
   }
   return 0;

@@ -331,8 +331,8 @@ TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
       EXPECT_EQ(errors.size(), kTrucks * looks) << "one was hidden for a while";
       EXPECT_LE(errors.back(), kMost);
       EXPECT_EQ(country.count(1, "keys_awaited"), 0U);
-      const bool leans = GetParam() != CompressedForm::compact;
-      if (lie == Liar::Lie::leaning && !leans) continue;  // there is nothing that leans
+      const bool needs_key = GetParam() != CompressedForm::compact;
+      if (lie == Liar::Lie::leaning && !needs_key) continue;  // there is nothing that leans
       EXPECT_GE(country.count(1, "disputed_in"), 15U);
       EXPECT_TRUE(country.is_told(1, "speaks in its name (refused)"));
     }

@@ -359,8 +359,8 @@ nanoseconds Exercise::remote_seen() const noexcept {
   return latest;
 }
 
-std::vector<HeardNotice> Exercise::take_notices() {
-  std::vector<HeardNotice> notices;
+std::vector<ReceivedNotice> Exercise::take_notices() {
+  std::vector<ReceivedNotice> notices;
   for (auto& member : members_) {
     const pdu::SimulationAddress own = member->joined->peer().views().read().own.simulation();
     for (const peer::Notice& notice : member->joined->take_sealing_notices())

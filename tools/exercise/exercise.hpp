@@ -100,7 +100,7 @@ class Exercise {
   /// Longest time until a peer had shown a remote entity; negative while one still waits.
   [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
   /// Notices of all peers since the last call.
-  [[nodiscard]] std::vector<HeardNotice> take_notices();
+  [[nodiscard]] std::vector<ReceivedNotice> take_notices();
   /// Updates a second of peers that would send each hand at each step of its servo.
   [[nodiscard]] double raw_rate() const noexcept;
   /// With (peer, device, step), both numbered from 0.

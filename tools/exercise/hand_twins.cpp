@@ -139,7 +139,7 @@ void HandTwins::step(Twin& twin) {
   if (std::exchange(twin.is_changed, false)) show_contacts(twin);
   twin.twin.step(real);
   look_for_lost(twin);
-  tell_others(twin);
+  report_others(twin);
 }
 
 // All at once, for the books of each alone would hold what it had of the others.
@@ -187,7 +187,7 @@ void HandTwins::show_contacts(Twin& twin) const {
   twin.twin.take(set);
 }
 
-void HandTwins::tell_others(Twin& twin) {
+void HandTwins::report_others(Twin& twin) {
   const auto update = twin.teller.tell(twin.twin.motion());
   if (!update) return;
   const auto own = static_cast<std::size_t>(

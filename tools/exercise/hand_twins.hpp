@@ -73,7 +73,7 @@ class HandTwins {
   void step(Twin& twin);
   void take_contacts(Twin& twin, std::chrono::nanoseconds now) const;
   void show_contacts(Twin& twin) const;
-  void tell_others(Twin& twin);
+  void report_others(Twin& twin);
   void look_for_lost(const Twin& twin);
   [[nodiscard]] std::optional<std::size_t> index_of(const pdu::EntityId& id) const noexcept;
 

@@ -30,7 +30,7 @@ LiveDisplay::~LiveDisplay() {
   }
 }
 
-void LiveDisplay::add(const HeardNotice& heard) { digest_.add(heard, clock_.now()); }
+void LiveDisplay::add(const ReceivedNotice& heard) { digest_.add(heard, clock_.now()); }
 
 void LiveDisplay::put_in_head(std::string sentence) {
   if (screen_ == nullptr)

@@ -39,7 +39,7 @@ class LiveDisplay {
 
   /// Whether the table is shown.
   [[nodiscard]] bool is_drawn() const noexcept { return screen_ != nullptr; }
-  void add(const HeardNotice& heard);
+  void add(const ReceivedNotice& heard);
   /// Notices of the program itself, a line each.
   void add(std::vector<std::string> sentences);
   /// A sentence of the program's own: in the table's head from now on; without one on `err` at

@@ -56,7 +56,7 @@ std::string names(const std::set<Numbers>& peers) {
 
 }  // namespace
 
-void NoticeDigest::add(const HeardNotice& heard, nanoseconds now) {
+void NoticeDigest::add(const ReceivedNotice& heard, nanoseconds now) {
   const auto same = [&](const Group& group) {
     const peer::Notice& other = group.members.front().notice;
     if (other.kind != heard.notice.kind) return false;
@@ -86,14 +86,14 @@ std::vector<std::string> NoticeDigest::take_all() {
 }
 
 std::string NoticeDigest::sentence(const Group& group) const {
-  const HeardNotice& first = group.members.front();
+  const ReceivedNotice& first = group.members.front();
   const std::string by =
       several_ ? fmt::format("{}:{}: ", first.by.site, first.by.application) : "";
   if (group.members.size() == 1) return by + first.notice.text.data();
 
   std::map<Numbers, std::size_t> tellers;
   std::set<Numbers> about;
-  for (const HeardNotice& heard : group.members) {
+  for (const ReceivedNotice& heard : group.members) {
     ++tellers[numbers_of(heard.by)];
     about.insert(numbers_of(heard.notice.about));
   }

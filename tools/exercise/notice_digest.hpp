@@ -14,7 +14,7 @@
 namespace reckon::tools {
 
 /// A notice, and which peer of this program had it.
-struct HeardNotice {
+struct ReceivedNotice {
   aoim::PeerId by;
   peer::Notice notice;
 };
@@ -33,7 +33,7 @@ class NoticeDigest {
   /// notice it is.
   explicit NoticeDigest(bool several) : several_(several) {}
 
-  void add(const HeardNotice& heard, std::chrono::nanoseconds now);
+  void add(const ReceivedNotice& heard, std::chrono::nanoseconds now);
   /// The sentences that are ready, in the order in which their first notices came.
   [[nodiscard]] std::vector<std::string> take(std::chrono::nanoseconds now);
   /// All of them.
@@ -42,7 +42,7 @@ class NoticeDigest {
  private:
   struct Group {
     std::chrono::nanoseconds first, last;
-    std::vector<HeardNotice> members;
+    std::vector<ReceivedNotice> members;
   };
   [[nodiscard]] std::string sentence(const Group& group) const;
 

@@ -8,7 +8,7 @@ namespace reckon::tools {
 
 using std::chrono::nanoseconds;
 
-ContactForces::Placed ContactForces::place(const HeardEntity& entity, const HeardModel& model,
+ContactForces::Placed ContactForces::place(const HeardEntity& entity, const ReceivedModel& model,
                                            nanoseconds time) {
   Placed placed{&entity.id,           &model.model,
                 entity.pose_at(time), {},
@@ -37,7 +37,7 @@ std::span<const ContactForce> ContactForces::forces_at(const Listener& heard, na
   placed_.clear();
   forces_.clear();
   for (const HeardEntity& entity : heard.entities())
-    if (const HeardModel* model = heard.model_of(entity))
+    if (const ReceivedModel* model = heard.model_of(entity))
       placed_.push_back(place(entity, *model, time));
   for (const Placed& on : placed_) {
     if (!on.is_probe) continue;

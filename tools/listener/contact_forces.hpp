@@ -60,7 +60,7 @@ class ContactForces {
     double reach;   // [m] of the model about its point; infinite for planes
   };
 
-  [[nodiscard]] static Placed place(const HeardEntity& entity, const HeardModel& model,
+  [[nodiscard]] static Placed place(const HeardEntity& entity, const ReceivedModel& model,
                                     std::chrono::nanoseconds time);
   [[nodiscard]] static bool may_touch(const Placed& on, const Placed& by);
   [[nodiscard]] static ContactForce between(const Placed& on, const Placed& by);

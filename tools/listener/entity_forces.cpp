@@ -37,7 +37,7 @@ double EntityForces::seconds_of(nanoseconds time) const noexcept {
 ForcePredictor EntityForces::predictor_of(const Listener& heard,
                                           const HeardEntity& entity) const noexcept {
   ForcePredictor predictor;
-  if (const HeardModel* model = heard.model_of(entity)) {
+  if (const ReceivedModel* model = heard.model_of(entity)) {
     predictor.update(model->model, entity.state, seconds_of(model->since));
     predictor.update_entity(entity.state, seconds_of(entity.state_time));
   }
@@ -81,7 +81,7 @@ bool EntityForces::note_model(const Listener& heard, const ModelUpdate& update) 
 template <typename Look>
 void EntityForces::for_probes(const Listener& heard, const HeardEntity& entity, nanoseconds now,
                               Look&& look) const {
-  for (const HeardModel& model :
+  for (const ReceivedModel& model :
        heard.models().first(std::min(heard.models().size(), kMostProbes))) {
     const HeardEntity& other = heard.entities()[model.owner];
     if (&other != &entity && model.is_probe()) look(model.probe_at(other.pose_at(now)));

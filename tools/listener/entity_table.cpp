@@ -61,26 +61,26 @@ struct EntityTable::Counting : ListenerObserver {
            Watch* the_watch)
       : table(the_table), pdu(the_pdu), datagram(the_datagram), watch(the_watch) {}
 
-  void hear_state(const StateUpdate& update) {
+  void receive_state(const StateUpdate& update) {
     EntityRow& row = table.row_at(update.place);
     row.octets += update.compressed > 0 ? update.compressed : pdu.bytes.size();
-    if (update.verdict == HeardVerdict::values)
+    if (update.verdict == ReceiveVerdict::values)
       return note_bad(update.place, pdu.rule.empty() ? sentence(update.error) : pdu.rule);
-    if (update.verdict == HeardVerdict::stale) ++row.late;
-    if (update.verdict == HeardVerdict::duplicate) ++row.duplicated;
-    if (update.verdict != HeardVerdict::taken) return;
+    if (update.verdict == ReceiveVerdict::stale) ++row.late;
+    if (update.verdict == ReceiveVerdict::duplicate) ++row.duplicated;
+    if (update.verdict != ReceiveVerdict::taken) return;
     if (watch != nullptr) watch->before_state(update);
     const HeardEntity& last = table.entities()[update.place];
     set_cause(row, update.is_first ? begin_anew(row, last, update) : compare(row, last, update));
     adopt(row, last, update);
   }
 
-  void hear_records(std::size_t place, std::size_t sets) {
+  void receive_records(std::size_t place, std::size_t sets) {
     if (table.entities()[place].has_state && sets == 1)
       table.rows_[place].octets += pdu.bytes.size();
   }
 
-  void hear_model(const ModelUpdate& update) {
+  void receive_model(const ModelUpdate& update) {
     if (watch != nullptr) watch->before_model(table.entities()[update.place], update);
     const bool is_new = table.forces_.note_model(table.heard_, update);
     if (!is_new || table.entities()[update.place].arrival != update.arrival) return;

@@ -30,15 +30,15 @@ pdu::EntityState HeardEntity::entity_state() const noexcept {
   return pdu;
 }
 
-nanoseconds HeardModel::valid_until() const noexcept {
+nanoseconds ReceivedModel::valid_until() const noexcept {
   return since + pdu::from_seconds(model.validity);
 }
 
-bool HeardModel::is_probe() const noexcept {
+bool ReceivedModel::is_probe() const noexcept {
   return model.kind == pdu::ForceModelKind::sphere || model.kind == pdu::ForceModelKind::field;
 }
 
-deadreckon::ProbeState HeardModel::probe_at(const deadreckon::Pose& pose) const noexcept {
+deadreckon::ProbeState ReceivedModel::probe_at(const deadreckon::Pose& pose) const noexcept {
   const bool is_ball = model.kind == pdu::ForceModelKind::sphere;
   return {pose.position + pose.orientation * model.point, pose.velocity,
           is_ball ? model.radius : 0.0};

@@ -50,7 +50,7 @@ struct HeardEntity {
 };
 
 /// The force model of one entity.
-struct HeardModel {
+struct ReceivedModel {
   std::size_t owner = 0;  ///< place among the entities
   deadreckon::ForceModel model;
   std::chrono::nanoseconds since{};  ///< arrival of the state that it came with

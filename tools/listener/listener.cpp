@@ -160,7 +160,7 @@ TouchedEntity& Listener::touch(std::uint8_t exercise, const pdu::EntityId& id) {
   if (place == kNone) return touched;
   touched.known = true;
   touched.before = entities_[place];
-  if (const HeardModel* model = model_of(entities_[place])) touched.model_before = *model;
+  if (const ReceivedModel* model = model_of(entities_[place])) touched.model_before = *model;
   return touched;
 }
 
@@ -231,7 +231,7 @@ bool Listener::place_state(StateUpdate& update) {
   update.place = known != kNone && !rules_.sweeps ? known : admit(header.exercise_id, id);
   if (update.place != kNone) judge(update);
   if (touched != nullptr)
-    touched->refused = update.place == kNone || update.verdict != HeardVerdict::taken;
+    touched->refused = update.place == kNone || update.verdict != ReceiveVerdict::taken;
   return update.place != kNone;
 }
 
@@ -239,7 +239,7 @@ void Listener::judge(StateUpdate& update) {
   const HeardEntity& entity = entities_[update.place];
   update.error = convert(*update.pdu, update.state);
   update.verdict =
-      update.error != ConversionError::none ? HeardVerdict::values : lay_on_time(update);
+      update.error != ConversionError::none ? ReceiveVerdict::values : lay_on_time(update);
   const bool rests = rules_.rests && stands_still(*update.pdu);
   update.heartbeat = entity.is_haptic()
                          ? deadreckon::kHapticHeartbeat
@@ -254,33 +254,33 @@ ConversionError Listener::convert(const pdu::EntityState& pdu, deadreckon::Kinem
   return frame_.has_value() ? from_wire(pdu, *frame_, out) : from_wire(pdu, out);
 }
 
-HeardVerdict Listener::lay_on_time(StateUpdate& update) {
+ReceiveVerdict Listener::lay_on_time(StateUpdate& update) {
   const HeardEntity& entity = entities_[update.place];
   const std::uint32_t timestamp = update.pdu->header.timestamp;
   if (rules_.timing == Timing::pace) {
     update.state_time = update.arrival;
     update.is_first = !entity.has_state || entity.gone || entity.is_silent(update.arrival);
-    if (update.is_first) return HeardVerdict::taken;
+    if (update.is_first) return ReceiveVerdict::taken;
     update.between = entity.pace.interval(entity.octets, update.octets, entity.age(update.arrival));
     update.is_first = update.between.set_back;
-    if (update.between.late) return HeardVerdict::stale;
-    return update.between.duplicate ? HeardVerdict::duplicate : HeardVerdict::taken;
+    if (update.between.late) return ReceiveVerdict::stale;
+    return update.between.duplicate ? ReceiveVerdict::duplicate : ReceiveVerdict::taken;
   }
   const auto stamped = clocks_[update.place].local_time(timestamp, update.arrival, update.arrival);
   const bool any = rules_.timing == Timing::sender_clock_or_arrival;
   const bool runs = !any || entity.updates == 0 ||
                     pdu::difference_units(timestamp, timestamp_of(entity.octets)) > 0;
   update.state_time = runs ? stamped.value_or(update.arrival) : update.arrival;
-  return stamped.has_value() || any ? HeardVerdict::taken : HeardVerdict::stale;
+  return stamped.has_value() || any ? ReceiveVerdict::taken : ReceiveVerdict::stale;
 }
 
 void Listener::settle(const StateUpdate& update) {
   HeardEntity& entity = entities_[update.place];
-  if (update.verdict == HeardVerdict::taken) {
+  if (update.verdict == ReceiveVerdict::taken) {
     return adopt(entity, update);
   }
-  if (update.verdict == HeardVerdict::values) ++refusals_.values;
-  if (update.verdict == HeardVerdict::stale) {
+  if (update.verdict == ReceiveVerdict::values) ++refusals_.values;
+  if (update.verdict == ReceiveVerdict::stale) {
     ++refusals_.stale;
     entity.pace.note_late();
   }

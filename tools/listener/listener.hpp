@@ -87,7 +87,7 @@ inline constexpr ListenerRules kMonitorRules{.most_entities = std::size_t{1} << 
                                              .rests = true};
 
 /// What became of a state or a model.
-enum class HeardVerdict : std::uint8_t {
+enum class ReceiveVerdict : std::uint8_t {
   taken,
   values,     ///< impossible numbers
   stale,      ///< not newer than what was known
@@ -105,7 +105,7 @@ struct ListenerRefusals {
 /// A state on its way into the picture.
 struct StateUpdate {
   std::size_t place = 0;  ///< of its entity, which still is as it was before
-  HeardVerdict verdict = HeardVerdict::taken;
+  ReceiveVerdict verdict = ReceiveVerdict::taken;
   deadreckon::ConversionError error = deadreckon::ConversionError::none;  ///< which impossible one
   bool is_first = true;  ///< nothing before it can be compared (Timing::pace)
   Interval between;      ///< since the state before (Timing::pace)
@@ -132,7 +132,7 @@ struct TouchedEntity {
   bool known = false;    ///< the rest holds what was
   bool refused = false;  ///< its state: the model behind it is not taken either
   HeardEntity before;
-  HeardModel model_before;  ///< where before.is_haptic()
+  ReceivedModel model_before;  ///< where before.is_haptic()
 };
 
 /// What one entity last stated of the energy that it gave to another.
@@ -144,11 +144,11 @@ struct StatedEnergy {
 /// Looks at nothing; the base of what looks at some.
 struct ListenerObserver {
   /// A state that was judged, before it is taken.
-  void hear_state(const StateUpdate&) {}
+  void receive_state(const StateUpdate&) {}
   /// A set of records about the entity at `place`, one of `sets` in its PDU.
-  void hear_records(std::size_t /*place*/, std::size_t /*sets*/) {}
+  void receive_records(std::size_t /*place*/, std::size_t /*sets*/) {}
   /// A model that will be taken.
-  void hear_model(const ModelUpdate&) {}
+  void receive_model(const ModelUpdate&) {}
 };
 
 /// A listener to one stream:
@@ -194,7 +194,7 @@ class Listener {
   void forget_entity(std::size_t place);
 
   [[nodiscard]] std::span<const HeardEntity> entities() const noexcept { return entities_; }
-  [[nodiscard]] std::span<const HeardModel> models() const noexcept { return models_; }
+  [[nodiscard]] std::span<const ReceivedModel> models() const noexcept { return models_; }
   /// An entity; null where it is not known. The exercise counts by the rules.
   [[nodiscard]] const HeardEntity* find_entity(const pdu::EntityId& id,
                                                std::uint8_t exercise = 0) const noexcept {
@@ -206,7 +206,7 @@ class Listener {
   /// The same by HeardEntity::key.
   [[nodiscard]] std::size_t place_of_key(std::uint64_t key) const noexcept;
   /// Its force model; null where it has none.
-  [[nodiscard]] const HeardModel* model_of(const HeardEntity& entity) const noexcept {
+  [[nodiscard]] const ReceivedModel* model_of(const HeardEntity& entity) const noexcept {
     return entity.is_haptic() ? &models_[entity.model] : nullptr;
   }
   /// What the datagram at hand is about, at most 128 of it.
@@ -235,7 +235,7 @@ class Listener {
   void judge(StateUpdate& update);
   [[nodiscard]] deadreckon::ConversionError convert(const pdu::EntityState& pdu,
                                                     deadreckon::KinematicState& out);
-  [[nodiscard]] HeardVerdict lay_on_time(StateUpdate& update);
+  [[nodiscard]] ReceiveVerdict lay_on_time(StateUpdate& update);
   void settle(const StateUpdate& update);
   void adopt(HeardEntity& entity, const StateUpdate& update) const;
   [[nodiscard]] bool read_model(const pdu::PduHeader& header, const pdu::EntityId& id,
@@ -266,7 +266,7 @@ class Listener {
   std::optional<deadreckon::LocalFrame> frame_;
   std::vector<HeardEntity> entities_;
   std::vector<peer::SenderClock> clocks_;  // one an entity, where the timing asks for it
-  std::vector<HeardModel> models_;
+  std::vector<ReceivedModel> models_;
   peer::KeyIndex index_;
   std::map<AccountKey, StatedEnergy> accounts_;
   std::vector<TouchedEntity> touched_;
@@ -300,7 +300,7 @@ void Listener::take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds a
   if (restorer_ && is_whole)
     restorer_->note_plain(*update.pdu, owner_of(update.pdu->entity_id.simulation()));
   if (!place_state(update)) return;
-  observer.hear_state(update);
+  observer.receive_state(update);
   settle(update);
 }
 
@@ -317,7 +317,7 @@ void Listener::take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observe
     update.compressed = pdu::kCompressedHeadSize + one.body.size();
     update.octets = restored_;
     if (!place_state(update)) continue;
-    observer.hear_state(update);
+    observer.receive_state(update);
     settle(update);
   }
 }
@@ -329,7 +329,7 @@ void Listener::take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds
   if (!rules_.models || decode(pdu, attribute) != pdu::DecodeError::none) return;
   for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
     const std::size_t place = place_of(header.exercise_id, set.entity_id);
-    if (place != kNone) observer.hear_records(place, attribute.record_sets.count);
+    if (place != kNone) observer.receive_records(place, attribute.record_sets.count);
     for (const pdu::AttributeRecord& record : set.records()) {
       pdu::HapticRecord model;
       pdu::EnergyAccountRecord account;
@@ -337,7 +337,7 @@ void Listener::take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds
       update.arrival = arrival;
       if (decode(record, model) == pdu::DecodeError::none) {
         if (!read_model(header, set.entity_id, model, update)) continue;
-        observer.hear_model(update);
+        observer.receive_model(update);
         adopt(update);
       } else if (rules_.accounts && decode(record, account) == pdu::DecodeError::none) {
         take_account(set.entity_id, account);

@@ -243,7 +243,7 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
   std::vector<TablePeer> peers(exercise.size());
   while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
     exercise.run(std::min(slice, end - exercise.elapsed()));
-    for (const HeardNotice& heard : exercise.take_notices()) {
+    for (const ReceivedNotice& heard : exercise.take_notices()) {
       display.add(heard);
       if (page != nullptr) page->note(heard);
     }

@@ -83,10 +83,10 @@ void DemoPage::show_twins(const Exercise& exercise) {
       if (twin->feels()) feeling.force = twin->force().norm();
       view_.hands().set_twin(first_[i] + k, feeling);
     }
-  tell_lost(exercise.elapsed());
+  report_lost(exercise.elapsed());
 }
 
-void DemoPage::tell_lost(std::chrono::nanoseconds now) {
+void DemoPage::report_lost(std::chrono::nanoseconds now) {
   if (twins_.resets() == told_resets_ || now - told_at_ < kTellEvery) return;
   told_resets_ = twins_.resets();
   told_at_ = now;

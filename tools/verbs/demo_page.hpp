@@ -44,14 +44,14 @@ class DemoPage {
   }
   /// Shows the hands as they are now.
   void show(const Exercise& exercise);
-  void note(const HeardNotice& heard) { view_.note(heard.notice.text.data()); }
+  void note(const ReceivedNotice& heard) { view_.note(heard.notice.text.data()); }
   [[nodiscard]] const SelfView& view() const noexcept { return view_; }
 
  private:
   [[nodiscard]] std::vector<std::size_t> add_pointers(const Exercise& exercise);
   void mark_pointers(OwnHands& hands) const;
   void show_twins(const Exercise& exercise);
-  void tell_lost(std::chrono::nanoseconds now);
+  void report_lost(std::chrono::nanoseconds now);
   [[nodiscard]] OwnHands hands_of(const Exercise& exercise, const peer::SceneFile& scene) const;
 
   HandTwins& twins_;

@@ -113,7 +113,7 @@ class Replay {
   [[nodiscard]] peer::IpEndpoint destination(const peer::SourceDatagram& datagram) const;
   [[nodiscard]] std::string speed_text() const;
   void add_counts(JsonObject& line, std::string_view event, nanoseconds now) const;
-  void tell_refused() const;
+  void report_refusal() const;
   [[nodiscard]] static int keys_descriptor(const ReplayOptions& options, const Console& console);
 
   const ReplayOptions& options_;
@@ -291,7 +291,7 @@ void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds no
       .decimals("paused", begun ? pdu::to_seconds(schedule_->paused(now)) : 0.0, 3);
 }
 
-void Replay::tell_refused() const {
+void Replay::report_refusal() const {
   const std::uint64_t too_big = std::min(counts_.refused, senders_.too_big());
   fmt::print(console_.err, "{} not sent: {} too big for {}, {} refused by the kernel{}\n",
              counted(counts_.refused, "datagram"), too_big, options_.interface,
@@ -312,7 +312,7 @@ ExitCode Replay::summarise() const {
   if (senders_.fragmented() > 0)
     fmt::print(console_.err, "{} sent in IP fragments: above the MTU of {}, {} octets\n",
                counted(senders_.fragmented(), "datagram"), options_.interface, senders_.mtu());
-  if (counts_.refused > 0) tell_refused();
+  if (counts_.refused > 0) report_refusal();
   fmt::print(console_.err, "{}", sealed_.summary());
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);

@@ -16,8 +16,8 @@ constexpr std::chrono::milliseconds kLookAgain{100};  // who is near, as peers d
 
 using deadreckon::SendReason;
 
-void LightRows::tell_apart(LightEntity& entity, const deadreckon::KinematicState& state,
-                           double told, SendReason reason, double first_heartbeat) const {
+void LightRows::set_tiers(LightEntity& entity, const deadreckon::KinematicState& state, double told,
+                          SendReason reason, double first_heartbeat) const {
   entity.audiences = std::make_unique<peer::Audiences>(
       false, channels_.audiences(), entity.policy, deadreckon::kDefaultSendRule, first_heartbeat);
   const std::size_t all = entity.audiences->last();

@@ -44,8 +44,8 @@ class LightRows {
   }
 
   /// Makes the audiences of an entity, which were told all that its policy was, at `told` [s].
-  void tell_apart(LightEntity& entity, const deadreckon::KinematicState& state, double told,
-                  deadreckon::SendReason reason, double first_heartbeat) const;
+  void set_tiers(LightEntity& entity, const deadreckon::KinematicState& state, double told,
+                 deadreckon::SendReason reason, double first_heartbeat) const;
   /// One that is looked at.
   struct Looked {
     std::uint32_t entity;

@@ -47,7 +47,7 @@ LightStates::Compressed LightStates::compress(std::uint32_t entity, const LightE
     const bool is_event = reason == deadreckon::SendReason::event;
     const auto made = compressor.compress(pdu, to.cell, is_event, now, octets_);
     answer.is_key = made.is_key;
-    answer.leans = made.leans;
+    answer.needs_key = made.needs_key;
     size = made.size;
   }
   answer.octets = std::span<const std::byte>(octets_).first(size);

@@ -47,7 +47,7 @@ class LightStates {
     LightAddress to;                    ///< where it goes: what has no key there, to the cell
     std::span<const std::byte> octets;  ///< none: it is to go plain; good until the next call
     bool is_key = false;                ///< so that it does not wait
-    bool leans = false;                 ///< on a key
+    bool needs_key = false;             ///< on a key
   };
   /// What leans on no key in a near group is a key for all. @param near_rows that have groups
   [[nodiscard]] Compressed compress(std::uint32_t entity, const LightEntity& owned,

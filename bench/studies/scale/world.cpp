@@ -108,7 +108,7 @@ class World {
       while (is_old && owned.policy.silence() < owned.policy.heartbeat());
     owned.told = -since;
     if (rows_.near_rows() > 0)
-      rows_.tell_apart(owned, state, -since, reason, setting_.first_heartbeat);
+      rows_.set_tiers(owned, state, -since, reason, setting_.first_heartbeat);
     owned_.push_back(std::move(owned));
   }
 
@@ -275,8 +275,8 @@ class World {
     if (design_.compression) static_cast<void>(pdu::quantise(pdu, {}));
     const bool decoded = states_.decode(pdu, state);
     LightAddress sent = to;
-    bool leans = false;
-    if (!design_.compression || !add_compressed(member, e, sent, deadline, reason, pdu, leans))
+    bool needs_key = false;
+    if (!design_.compression || !add_compressed(member, e, sent, deadline, reason, pdu, needs_key))
       member.aggregator.add(rows_.group(sent.row, sent.cell), pdu, {},
                             {deadline, design_.bundling ? 0U : 1U});
     owned.told = time_;
@@ -287,17 +287,17 @@ class World {
     if (sent.row < rows_.near_rows()) return;
     owned.last_group = sent.cell;
     owned.last_sent = now_;
-    if (!leans) owned.last_whole = now_;
+    if (!needs_key) owned.last_whole = now_;
     owned.held_until = nanoseconds::min();
   }
 
   /// False where it is to go plain, as a key that does not wait. `leans`: on such a key.
   bool add_compressed(LightPeer& member, std::uint32_t e, LightAddress& to, nanoseconds& deadline,
-                      deadreckon::SendReason reason, const pdu::EntityState& pdu, bool& leans) {
+                      deadreckon::SendReason reason, const pdu::EntityState& pdu, bool& needs_key) {
     const LightStates::Compressed made =
         states_.compress(e, owned_[e], pdu, to, reason, rows_.near_rows(), now_);
     to = made.to;
-    leans = made.leans;
+    needs_key = made.needs_key;
     if (made.is_key) deadline = now_;
     if (made.octets.empty()) return false;
     member.aggregator.add_compressed(rows_.group(to.row, to.cell), pdu.entity_id,

@@ -91,8 +91,8 @@ TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
                            {first, 128}, {first + 1, 128}, {first + 2, 44}}));
 }
 
-TEST(HeardAsks, KnowAQuestionAgainByWhoAskedAndWhen) {
-  HeardAsks heard;
+TEST(ReceivedAsks, KnowAQuestionAgainByWhoAskedAndWhen) {
+  ReceivedAsks heard;
   EXPECT_TRUE(heard.note(11, 5));
   EXPECT_FALSE(heard.note(11, 5));
   EXPECT_TRUE(heard.note(12, 5));

@@ -12,6 +12,7 @@
 #include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/tests/support/alike_states.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -114,7 +115,7 @@ TEST_P(StateCompression, WhatArrivesIsWhatWasSentWhateverIsLost) {
       taken += got.size();
       for (const auto& [entity, state] : got) {
         ASSERT_EQ(pdu::numbers_of(state, {}), pdu::numbers_of(line.expected[entity], {}));
-        ASSERT_TRUE(pdu::is_alike(state, line.expected[entity]));
+        ASSERT_TRUE(test::is_alike(state, line.expected[entity]));
       }
     }
     const double ratio = 144.0 * static_cast<double>(sent) / static_cast<double>(line.sent_octets);
@@ -173,7 +174,7 @@ struct Keys {
     state.entity_id.application = owner.simulation.application;
     std::array<std::byte, StateCompressor::kRoom> octets;
     const auto made = compressors.at(state.entity_id).compress(state, kGroup, false, now, octets);
-    EXPECT_TRUE(made.leans && !made.is_key);
+    EXPECT_TRUE(made.needs_key && !made.is_key);
     pdu::CompressedStates pdu;
     pdu.header.timestamp = state.header.timestamp;
     pdu.simulation = owner.simulation;

@@ -33,7 +33,7 @@ class LinesOfStrangers : public testing::Test {
     event.announced.simulation = {700, static_cast<std::uint16_t>(peer)};
     event.source = event.other = at_host(host);
     event.heard_for = heard_for;
-    gate_.tell(event, now_, ring_);
+    gate_.report(event, now_, ring_);
   }
   // As the model loop does it.
   void pass(nanoseconds length) {
@@ -65,8 +65,8 @@ TEST_P(RatesOfStrangers, StrangersThatComeAndGoCauseOneLineASecondForTheirHost) 
   for (unsigned i = 0; i < kSeconds * 20; ++i) {
     for (unsigned k = 0; k < peers / 20; ++k) {
       happens(PresenceEventKind::newcomer, 1 + k % hosts, i * 1000 + k);
-      happens(k % 3 == 0 ? PresenceEventKind::impostor : PresenceEventKind::departed,
-              1 + k % hosts, i * 1000 + k);
+      happens(k % 3 == 0 ? PresenceEventKind::impostor : PresenceEventKind::departed, 1 + k % hosts,
+              i * 1000 + k);
       caused += 2;
     }
     pass(milliseconds(50));
@@ -120,7 +120,7 @@ TEST_F(LinesOfStrangers, WhatIsAboutThisPeerItselfAlwaysPasses) {
 
 TEST_F(LinesOfStrangers, PortsThatFloodInTurnsAreStrangersOfTheirHost) {
   for (std::uint16_t port = 1; port < 200; ++port)
-    gate_.tell({IpEndpoint::v4(0x0a4d0001u, port), port % 2 == 1, 5}, now_, ring_);
+    gate_.report({IpEndpoint::v4(0x0a4d0001u, port), port % 2 == 1, 5}, now_, ring_);
   EXPECT_THAT(lines(), testing::SizeIs(NoticeGate::kAtOnce));
 }
 

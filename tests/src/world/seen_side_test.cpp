@@ -20,14 +20,14 @@ SeenSide told() {
   deadreckon::Thresholds thresholds;
   thresholds.position = kThreshold;
   SeenSide seen(deadreckon::UpdatePolicy(thresholds, 5.0, 1.0));
-  seen.told_all(last_sent_at(0.0, 1.0), 1.0, SendReason::event);
+  seen.note_sent_to_all(last_sent_at(0.0, 1.0), 1.0, SendReason::event);
   return seen;
 }
 
 TEST(SeenSide, AsksWhereItsOwnPredictionIsOffWhateverThoseNearWereTold) {
   SeenSide seen = told();
   EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::none);
-  seen.told_those_near();
+  seen.note_sent_to_inner();
   EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::none);
   EXPECT_EQ(seen.decide(at(0.1 + 1.1 * kThreshold), 1.1), SendReason::position);
   seen.event();
@@ -37,11 +37,11 @@ TEST(SeenSide, AsksWhereItsOwnPredictionIsOffWhateverThoseNearWereTold) {
 TEST(SeenSide, IsToldWhatThoseNearWereToldHalfASecondLaterAtTheLatest) {
   SeenSide seen = told();
   EXPECT_EQ(seen.next(), 2.0) << "its first repetition";
-  seen.told_those_near();
+  seen.note_sent_to_inner();
   EXPECT_EQ(seen.next(), 1.0 + SeenSide::kBehind);
   EXPECT_EQ(seen.decide(at(0.49), 1.49), SendReason::none);
   EXPECT_EQ(seen.decide(at(0.5), 1.5), SendReason::heartbeat);
-  seen.told_all(last_sent_at(0.0, 1.0), 1.5, SendReason::heartbeat);
+  seen.note_sent_to_all(last_sent_at(0.0, 1.0), 1.5, SendReason::heartbeat);
   EXPECT_EQ(seen.decide(at(1.0), 2.5), SendReason::none) << "nobody knows more than the others";
 }
 

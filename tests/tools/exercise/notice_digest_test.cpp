@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-HeardNotice joined(std::uint16_t by, std::uint16_t who) {
+ReceivedNotice joined(std::uint16_t by, std::uint16_t who) {
   aoim::PresenceEvent event;
   event.kind = aoim::PresenceEventKind::newcomer;
   event.announced.simulation = {1, who};
@@ -25,8 +25,8 @@ HeardNotice joined(std::uint16_t by, std::uint16_t who) {
   return {{1, by}, peer::notice_of(event)};
 }
 
-HeardNotice of(std::uint16_t by, aoim::PresenceEventKind kind, std::uint16_t who) {
-  HeardNotice heard = joined(by, who);
+ReceivedNotice of(std::uint16_t by, aoim::PresenceEventKind kind, std::uint16_t who) {
+  ReceivedNotice heard = joined(by, who);
   aoim::PresenceEvent event;
   event.kind = kind;
   event.announced.simulation = {1, who};
@@ -34,8 +34,8 @@ HeardNotice of(std::uint16_t by, aoim::PresenceEventKind kind, std::uint16_t who
   return heard;
 }
 
-HeardNotice sentence(std::uint16_t by, std::string_view text) {
-  HeardNotice heard;
+ReceivedNotice sentence(std::uint16_t by, std::string_view text) {
+  ReceivedNotice heard;
   heard.by = {1, by};
   text.copy(heard.notice.text.data(), text.size());
   return heard;

@@ -244,10 +244,10 @@ TEST(Listener, TellsOfAStateAndAModelBeforeItTakesThem) {
     std::vector<std::uint64_t> states;
     std::vector<bool> models;
     explicit Order(const Listener& heard) : listener(heard) {}
-    void hear_state(const StateUpdate& update) {
+    void receive_state(const StateUpdate& update) {
       states.push_back(listener.entities()[update.place].updates);
     }
-    void hear_model(const ModelUpdate& update) {
+    void receive_model(const ModelUpdate& update) {
       models.push_back(listener.entities()[update.place].is_haptic());
     }
   };
@@ -295,7 +295,7 @@ TEST(Listener, KeepsPlacesAndModelsTogetherUnderRandomComingAndGoing) {
       ASSERT_EQ(found->is_haptic(), k1 > 0);
       if (k1 == 0) continue;
       ++models;
-      const HeardModel& model = *listener.model_of(*found);
+      const ReceivedModel& model = *listener.model_of(*found);
       ASSERT_EQ(model.model.k1, k1);
       ASSERT_EQ(&listener.entities()[model.owner], found);
     }

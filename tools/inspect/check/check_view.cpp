@@ -182,11 +182,11 @@ void CheckView::csv(const Finding& finding, std::string& out) const {
 }
 
 void CheckView::finish(const InspectTally& tally, std::string& out) {
-  tell_the_silent(out);
+  report_silent(out);
   if (format_ != Format::csv) summary(tally, out);
 }
 
-void CheckView::tell_the_silent(std::string& out) {
+void CheckView::report_silent(std::string& out) {
   std::vector<const EntityMemory*> all;
   for (const auto& [key, memory] : entities_) all.push_back(&memory);
   std::sort(all.begin(), all.end(), [](const EntityMemory* a, const EntityMemory* b) {

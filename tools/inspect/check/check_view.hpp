@@ -69,7 +69,7 @@ class CheckView final : public View {
   void text(const Finding& finding, std::string& out) const;
   void json(const Finding& finding, std::string& out) const;
   void csv(const Finding& finding, std::string& out) const;
-  void tell_the_silent(std::string& out);
+  void report_silent(std::string& out);
   void summary(const InspectTally& tally, std::string& out) const;
 
   Format format_;

@@ -70,7 +70,7 @@ std::string endpoint(const peer::IpEndpoint& endpoint) {
 
 /// "2.31 N  k1 500 N/m  b 4 N s/m  mu 0.3/0.2  r 10 mm".
 void append_force(std::string& out, const Cell& cell) {
-  const HeardModel* heard = cell.table.heard().model_of(cell.entity);
+  const ReceivedModel* heard = cell.table.heard().model_of(cell.entity);
   if (heard == nullptr) return;
   const deadreckon::ForceModel& model = heard->model;
   const auto to = std::back_inserter(out);
@@ -127,7 +127,7 @@ std::string sent(const Cell& cell) {
 }
 template <auto Get>
 std::string of_model(const Cell& cell) {
-  const HeardModel* heard = cell.table.heard().model_of(cell.entity);
+  const ReceivedModel* heard = cell.table.heard().model_of(cell.entity);
   return heard == nullptr ? "" : number(Get(heard->model));
 }
 std::string jump(const Cell& cell, double value) {

@@ -145,7 +145,7 @@ void HapticsView::remember_updated() {
     const pdu::EntityId& id = touched.id;
     const HeardEntity* entity = heard_.find_entity(id);
     if (entity == nullptr || !entity->is_haptic()) continue;
-    const HeardModel& heard = *heard_.model_of(*entity);
+    const ReceivedModel& heard = *heard_.model_of(*entity);
     const std::array<std::uint16_t, 3> key{id.site, id.application, id.entity};
     if (!entities_.contains(key) && entities_.size() == kMostEntities) continue;
     entities_[key] = {id, marking_of(*entity), heard.model, entity->updates, heard.valid_until()};

@@ -82,7 +82,7 @@ std::optional<Eigen::Vector3d> HeardWorld::first_place() const {
 std::size_t HeardWorld::weight() const noexcept {
   constexpr std::size_t kModel = 400;
   return table_.entities().size() * (sizeof(HeardEntity) + sizeof(EntityRow)) +
-         table_.heard().models().size() * (sizeof(HeardModel) + kModel) +
+         table_.heard().models().size() * (sizeof(ReceivedModel) + kModel) +
          errors_.size() * sizeof(deadreckon::ConvergingError) + groups_.weight();
 }
 

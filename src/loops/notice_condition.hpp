@@ -9,7 +9,7 @@
 namespace reckon::peer {
 
 /// Begins at once, and is over after three seconds of absence.
-class Matter {
+class NoticeCondition {
  public:
   enum class Turn : std::uint8_t { none, begins, ends };
 
