@@ -77,11 +77,6 @@ enum class AddResult : std::uint8_t {
   refused_group,  ///< group above the pool
 };
 
-/// True if the update will be sent.
-[[nodiscard]] constexpr bool is_queued(AddResult result) noexcept {
-  return result == AddResult::queued || result == AddResult::replaced;
-}
-
 /// Sums since the start.
 struct AggregatorCounts {
   std::uint64_t updates = 0, replaced = 0, refused = 0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 
 #include "reckon/pdu/seconds.hpp"
@@ -36,16 +35,6 @@ Subscription::Subscription(const CellPartition& cells, const SubscriptionConfig&
   joined_.reserve(entries_.size());
   join_.reserve(entries_.size());
   leave_.reserve(entries_.size());
-}
-
-void Subscription::set_cells(const CellPartition& cells) {
-  if (cells.groups() > entries_.size()) {
-    throw std::invalid_argument("cells of " + std::to_string(cells.groups()) +
-                                " groups: the subscription was made for " +
-                                std::to_string(entries_.size()));
-  }
-  cells_ = cells;
-  name_cells();
 }
 
 // Until a focus comes near, any cell stands for its group.

@@ -60,10 +60,6 @@ class Subscription {
   SubscriptionChange update(std::span<const Focus> foci, std::chrono::nanoseconds now,
                             std::span<const GroupIndex> besides = {});
 
-  /// Changes the partition from the next update on; a group keeps its number. For set-up.
-  /// @throws std::invalid_argument for a partition of more groups than the first one.
-  void set_cells(const CellPartition& cells);
-
   /// Groups joined after the last update, ascending.
   [[nodiscard]] std::span<const GroupIndex> joined() const noexcept { return joined_; }
   [[nodiscard]] bool is_joined(GroupIndex group) const noexcept;

@@ -33,8 +33,6 @@ struct CircleSystem {
 
   /// Angular frequency [rad/s] of an angle: infinite at pi for a continuous system.
   [[nodiscard]] double frequency_of(double angle) const;
-  /// (G + G^H)/2 at e^{j angle}. It includes the constant that a border pole with Hermitian Q adds.
-  [[nodiscard]] Eigen::MatrixXcd hermitian_part(double angle) const;
   /// G with -Q/2 in place of the border poles.
   [[nodiscard]] Eigen::MatrixXcd response(double angle) const;
 };

@@ -234,5 +234,27 @@ TEST(TimestampNear, IsTheOneFromOneAndAHalfSecondsBeforeToAFifthBehind) {
   }
 }
 
+TEST(StateNumbers, AreOfUnlikeStatesWhereAnythingButTheMotionDiffers) {
+  Random random(5);
+  const EntityState state = random_state(random);
+  const auto unlike = [&](auto change) {
+    EntityState other = state;
+    change(other);
+    return !is_alike(state, other) && !is_alike(other, state);
+  };
+  EXPECT_TRUE(unlike([](EntityState& one) { ++one.header.exercise_id; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { ++one.header.pdu_status; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { ++one.entity_id.entity; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { one.appearance ^= 1; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { one.capabilities ^= 1; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { ++one.entity_type.country; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { ++one.alternative_entity_type.extra; }));
+  EXPECT_TRUE(unlike([](EntityState& one) { ++one.marking.text[0]; }));
+  EXPECT_TRUE(unlike([](EntityState& one) {
+    one.force_id = static_cast<ForceId>(static_cast<int>(one.force_id) ^ 1);
+  }));
+  EXPECT_FALSE(unlike([](EntityState& one) { one.linear_velocity.x += 1.0F; }));
+}
+
 }  // namespace
 }  // namespace reckon::pdu

@@ -12,7 +12,6 @@
 #include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
-#include "reckon/tests/support/alike_states.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -115,7 +114,7 @@ TEST_P(StateCompression, WhatArrivesIsWhatWasSentWhateverIsLost) {
       taken += got.size();
       for (const auto& [entity, state] : got) {
         ASSERT_EQ(pdu::numbers_of(state, {}), pdu::numbers_of(line.expected[entity], {}));
-        ASSERT_TRUE(test::is_alike(state, line.expected[entity]));
+        ASSERT_TRUE(pdu::is_alike(state, line.expected[entity]));
       }
     }
     const double ratio = 144.0 * static_cast<double>(sent) / static_cast<double>(line.sent_octets);
