@@ -17,5 +17,16 @@ TEST(EnumerationNames, AreEmptyForValuesWithoutOne) {
   EXPECT_EQ(name(ForceId::opposing), "Opposing");
 }
 
+TEST(EnumerationNames, OfOurEnumerationsEndWithTheLastValue) {
+  EXPECT_EQ(name(ForceModelKind::modal), "Modal");
+  EXPECT_EQ(name(ForceModelKind{6}), "");
+  EXPECT_EQ(name(CellScheme::locales), "Locales");
+  EXPECT_EQ(name(CellScheme{5}), "");
+  EXPECT_EQ(name(CompressedForm::residual), "Residual");
+  EXPECT_EQ(name(CompressedForm{4}), "");
+  EXPECT_EQ(name(MembershipAction::join_near), "Join Near");
+  EXPECT_EQ(name(MembershipAction{6}), "");
+}
+
 }  // namespace
 }  // namespace reckon::pdu
