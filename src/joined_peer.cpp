@@ -25,7 +25,7 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   LanLinkOptions lan;
   lan.udp.interface = options.interface.empty() ? scene.network.iface : options.interface;
   lan.udp.ipv6 = scene.network.group.is_v6;
-  lan.udp.broadcast = scene.network.group.is_broadcast();
+  lan.udp.broadcast = may_be_broadcast(scene.network.group);
   lan.udp.ttl = scene.network.ttl;
   lan.udp.receive_buffer = receive_room(static_cast<double>(scene.network.rate), kLongestStall,
                                         scene.network.bundle_max);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/capture/datagram_source.hpp"
 
+#include <net/if.h>
+
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -11,7 +14,7 @@
 
 #include "reckon/peer/capture/capture_file.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/network/udp_listener.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -58,27 +61,12 @@ class RawSource final : public DatagramSource {
   SourceReport report_;
 };
 
-UdpMulticastOptions link_options(const GroupsOptions& options) {
-  if (options.groups.empty()) throw std::runtime_error("no group to listen to was given");
-  UdpMulticastOptions out;
-  out.interface = options.interface;
-  out.ipv6 = options.groups.front().is_v6;
-  out.receive_buffer = std::size_t{4} << 20;  // a listener's screen may block it for long
-  out.max_datagram = 65535;
-  out.batch = kBatch;
-  out.max_groups = options.groups.size();
-  return out;
-}
-
 // The live groups.
 class GroupsSource final : public DatagramSource {
  public:
-  explicit GroupsSource(const GroupsOptions& options) : link_(link_options(options), clock_) {
-    for (const GroupAddress& group : options.groups) {
-      if (const std::error_code error = link_.join(group)) {
-        throw std::system_error(error, advice(error, group));
-      }
-    }
+  explicit GroupsSource(const GroupsOptions& options)
+      : listener_({options.interface, options.groups, options.skips_failures}, clock_) {
+    count();
   }
 
   SourceEvent next(SourceDatagram& out, nanoseconds patience) override {
@@ -93,6 +81,9 @@ class GroupsSource final : public DatagramSource {
     out.source = datagram.sender;
     out.group = datagram.group;
     out.bytes = datagram.bytes;
+    ListenedInterface& interface = interface_of(listener_.interface_of(datagram));
+    ++interface.datagrams;
+    out.interface = interface.name;
     ++report_.datagrams;
     return SourceEvent::datagram;
   }
@@ -100,20 +91,42 @@ class GroupsSource final : public DatagramSource {
   bool is_live() const noexcept override { return true; }
   void stop() noexcept override {
     stopped_.store(true, std::memory_order_relaxed);
-    link_.wake();
+    listener_.wake();
   }
 
  private:
   void refill(nanoseconds patience) {
-    next_ = 0;
-    count_ = link_.wait(patience) ? link_.receive(batch_) : 0;
-    const LinkStatistics statistics = link_.statistics();
+    next_ = count_ = 0;
+    listener_.wait(patience);
+    if (!stopped_.load(std::memory_order_relaxed)) count_ = listener_.receive(batch_);
+    count();
+  }
+
+  void count() {
+    const LinkStatistics statistics = listener_.statistics();
     report_.dropped = statistics.kernel_drops;
     report_.malformed = statistics.truncated;
+    report_.copies = listener_.copies();
+    if (report_.unheard.size() != listener_.warnings().size())
+      report_.unheard = listener_.warnings();
+    for (const NetworkInterface& interface : listener_.interfaces()) interface_of(interface.index);
+  }
+
+  // A datagram may come over another interface than one that is listened to: an own address is
+  // reached by lo.
+  ListenedInterface& interface_of(unsigned index) {
+    const auto found = std::find(indices_.begin(), indices_.end(), index);
+    const auto place = static_cast<std::size_t>(found - indices_.begin());
+    if (found != indices_.end()) return report_.interfaces[place];
+    std::array<char, IF_NAMESIZE> name{};
+    if (if_indextoname(index, name.data()) == nullptr) name = {'?'};
+    indices_.push_back(index);
+    return report_.interfaces.emplace_back(ListenedInterface{name.data()});
   }
 
   SteadyClock clock_;
-  UdpMulticast link_;
+  UdpListener listener_;
+  std::vector<unsigned> indices_;  // of report_.interfaces
   std::array<Datagram, kBatch> batch_{};
   std::size_t next_{0};
   std::size_t count_{0};

@@ -45,6 +45,7 @@ struct SourceDatagram {
   GroupAddress group;  ///< destination, perhaps no group; unspecified for a raw file
   std::span<const std::byte> bytes;
   Portion portion{Portion::whole};
+  std::string_view interface;  ///< live groups: the one over which it came; else empty
   /// The captured frame, from its link layer on; empty if the source is no capture. Of a datagram
   /// that was put together, the frame that would have carried it whole.
   std::span<const std::byte> captured;
@@ -69,6 +70,12 @@ struct FragmentCounts {
   std::uint64_t duplicate{0};    ///< copies of fragments
 };
 
+/// An interface of this host that live groups are listened to on.
+struct ListenedInterface {
+  std::string name;
+  std::uint64_t datagrams{0};  ///< first heard there
+};
+
 /// Counts and errors of a source.
 struct SourceReport {
   std::uint64_t frames{0};     ///< all frames read
@@ -82,6 +89,11 @@ struct SourceReport {
   /// octets of the file and of its content, whole zstd frames.
   std::string_view compression;
   std::uint64_t compressed_octets{0}, compressed_content{0}, zstd_frames{0};
+  /// Live groups: what came over each interface, copies of a datagram that came over several of
+  /// them and were left out, and sentences about what cannot be heard.
+  std::vector<ListenedInterface> interfaces;
+  std::uint64_t copies{0};
+  std::vector<std::string> unheard;
   std::string problem;  ///< a sentence if the source ended early; else empty
 };
 
@@ -109,11 +121,13 @@ class DatagramSource {
 
 /// Options of open_groups().
 struct GroupsOptions {
-  std::string interface;             ///< name, address or index; empty = chosen by rule
-  std::vector<GroupAddress> groups;  ///< at least one, all of one address family
+  std::string interface;             ///< name, address or index; empty: every interface
+  std::vector<GroupAddress> groups;  ///< or broadcast or own addresses, see UdpListenerOptions
+  bool skips_failures{false};        ///< hears what can be heard
 };
 
-/// The live groups through UdpMulticast.
+/// Live groups, heard on one interface or on all. A datagram that comes over several interfaces is
+/// returned once.
 /// @throws std::system_error or std::runtime_error with the value and the remedy if the interface
 /// or a group cannot be used.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_groups(const GroupsOptions& options);

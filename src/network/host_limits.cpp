@@ -56,7 +56,7 @@ UdpMulticastOptions link_options(const NetworkInterface& interface, const GroupA
   UdpMulticastOptions options;
   options.interface = interface.name;
   options.ipv6 = group.is_v6;
-  options.broadcast = group.is_broadcast();
+  options.broadcast = may_be_broadcast(group);
   options.deliver_own = true;
   return options;
 }
@@ -108,7 +108,7 @@ std::string_view name(FindingLevel level) noexcept {
 }
 
 Finding probe_multicast(const NetworkInterface& interface, const GroupAddress& group) {
-  const std::string where = (group.is_broadcast() ? "broadcast on " : "multicast on ") +
+  const std::string where = (may_be_broadcast(group) ? "broadcast on " : "multicast on ") +
                             interface.name + " to " + group.text();
   const std::string remedy = multicast_remedy(interface, group);
   try {

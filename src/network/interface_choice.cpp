@@ -41,6 +41,19 @@ std::optional<IpEndpoint> to_endpoint(const sockaddr* address) {
   return std::nullopt;
 }
 
+// The broadcast address of the subnet; nothing for IPv6 and where a subnet has none (/31, /32).
+std::optional<IpEndpoint> broadcast_of(const IpEndpoint& address, const sockaddr* netmask) {
+  if (address.is_v6 || netmask == nullptr) return std::nullopt;
+  sockaddr_in mask{};
+  std::memcpy(&mask, netmask, sizeof mask);
+  const std::uint32_t host_bits = ~ntohl(mask.sin_addr.s_addr);
+  if (host_bits < 3) return std::nullopt;
+  IpEndpoint out = address;
+  for (std::size_t i = 0; i < 4; ++i)
+    out.octets[i] = static_cast<std::uint8_t>(out.octets[i] | host_bits >> (24 - 8 * i));
+  return out;
+}
+
 std::string read_line(const fs::path& path) {
   std::string line;
   std::ifstream file(path);
@@ -139,6 +152,13 @@ bool is_link_local(const IpEndpoint& endpoint) noexcept {
   return endpoint.octets[0] == 169 && endpoint.octets[1] == 254;
 }
 
+bool may_be_broadcast(const IpEndpoint& endpoint) noexcept {
+  if (endpoint.is_v6) return false;
+  // At least two bits for the host, all of them 1.
+  const auto& octets = endpoint.octets;
+  return endpoint.is_broadcast() || (octets[0] != 0 && octets[0] < 224 && (octets[3] & 3) == 3);
+}
+
 std::optional<IpEndpoint> NetworkInterface::address(bool ipv6) const {
   std::optional<IpEndpoint> best;
   for (const IpEndpoint& candidate : addresses) {
@@ -158,7 +178,11 @@ std::vector<NetworkInterface> list_interfaces() {
   std::vector<NetworkInterface> all;
   for (const ifaddrs* entry = first; entry != nullptr; entry = entry->ifa_next) {
     NetworkInterface& interface = interface_named(all, *entry);
-    if (const auto address = to_endpoint(entry->ifa_addr)) interface.addresses.push_back(*address);
+    const std::optional<IpEndpoint> address = to_endpoint(entry->ifa_addr);
+    if (!address) continue;
+    interface.addresses.push_back(*address);
+    if (const auto broadcast = broadcast_of(*address, entry->ifa_netmask))
+      interface.broadcasts.push_back(*broadcast);
   }
   return all;
 }

@@ -19,8 +19,9 @@ namespace reckon::peer {
 struct NetworkInterface {
   std::string name;
   unsigned index{0};
-  std::vector<IpEndpoint> addresses;  ///< port 0
-  std::size_t mtu{0};                 ///< [octets]
+  std::vector<IpEndpoint> addresses;   ///< port 0
+  std::vector<IpEndpoint> broadcasts;  ///< broadcast addresses of its IPv4 subnets, port 0
+  std::size_t mtu{0};                  ///< [octets]
   bool up{false};
   bool running{false};  ///< the link is up (cable, association)
   bool multicast{false};
@@ -35,6 +36,10 @@ struct NetworkInterface {
 
 /// True for 169.254.0.0/16 and fe80::/10.
 [[nodiscard]] bool is_link_local(const IpEndpoint& endpoint) noexcept;
+
+/// True for 255.255.255.255 and for an IPv4 address that is the broadcast address of a subnet of
+/// some size, such as 10.9.9.255. Whether it is that of an interface, only the host knows.
+[[nodiscard]] bool may_be_broadcast(const IpEndpoint& endpoint) noexcept;
 
 /// All interfaces with their addresses. @throws std::system_error.
 [[nodiscard]] std::vector<NetworkInterface> list_interfaces();

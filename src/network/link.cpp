@@ -10,6 +10,8 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "reckon/peer/network/interface_choice.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -77,6 +79,8 @@ constexpr std::array kJoinRemedies{
            "the interface does not do multicast: choose another with --iface"},
     Remedy{std::errc::address_in_use,
            "another program holds the port without sharing it: stop it or take another port"},
+    Remedy{std::errc::address_not_available,
+           "it is no broadcast address of the interface: see ip addr, or take 255.255.255.255"},
     Remedy{std::errc::value_too_large,
            "the link has no room for another group: raise its max_groups"},
     Remedy{std::errc::invalid_argument, "it is no multicast group of the link's address family"},
@@ -156,7 +160,7 @@ GroupPool GroupPool::ipv6_default() noexcept {
 }
 
 GroupPool::GroupPool(const GroupAddress& base, std::size_t size) : base_(base), size_(size) {
-  if (base.is_broadcast() && base.port != 0) return;
+  if (may_be_broadcast(base) && base.port != 0) return;
   if (!base.is_multicast() || base.port == 0) {
     throw std::invalid_argument("base group " + base.text() +
                                 " is no multicast group with a port; take one of 239.0.0.0/8 or "
@@ -177,7 +181,7 @@ GroupAddress GroupPool::address(std::size_t index) const noexcept {
 }
 
 std::optional<std::size_t> GroupPool::index(const GroupAddress& group) const noexcept {
-  if (group.is_v6 != base_.is_v6 || base_.is_broadcast()) return std::nullopt;
+  if (group.is_v6 != base_.is_v6 || !base_.is_multicast()) return std::nullopt;
   const std::uint32_t offset = tail(group) - tail(base_);
   if (offset == 0 || offset > size_) return std::nullopt;
   if (with_tail(base_, tail(group)) != group) return std::nullopt;

@@ -90,9 +90,9 @@ void UdpReceiver::accept(UdpSlot& slot, std::size_t buffer, nanoseconds now,
   }
 }
 
-// Reads the arrival time as steady time, the length of the segments, and the number of drops before
-// it. A stamp from before the socket was last seen empty comes from a clock that was set, not from
-// a datagram that waited.
+// Reads the arrival time as steady time, the length of the segments, the interface, and the number
+// of drops before it. A stamp from before the socket was last seen empty comes from a clock that
+// was set, not from a datagram that waited.
 void UdpReceiver::read_control(UdpSlot& slot, const msghdr& header, nanoseconds utc,
                                Arrived& out) noexcept {
   nanoseconds age{0};
@@ -110,6 +110,14 @@ void UdpReceiver::read_control(UdpSlot& slot, const msghdr& header, nanoseconds 
       std::uint32_t drops = 0;
       std::memcpy(&drops, CMSG_DATA(c), sizeof drops);
       count_drops(slot, drops);
+    } else if (c->cmsg_level == IPPROTO_IP && c->cmsg_type == IP_PKTINFO) {
+      in_pktinfo arrival;
+      std::memcpy(&arrival, CMSG_DATA(c), sizeof arrival);
+      out.interface = static_cast<unsigned>(arrival.ipi_ifindex);
+    } else if (c->cmsg_level == IPPROTO_IPV6 && c->cmsg_type == IPV6_PKTINFO) {
+      in6_pktinfo arrival;
+      std::memcpy(&arrival, CMSG_DATA(c), sizeof arrival);
+      out.interface = arrival.ipi6_ifindex;
     }
   }
   const nanoseconds longest = out.received - std::max(slot.empty, ready_.all_empty());
@@ -162,6 +170,11 @@ void UdpReceiver::forget(const GroupAddress& group) noexcept {
   for (std::size_t i = next_arrived_; i < arrived_count_; ++i) {
     if (arrived_[i].group == group) pass_over(arrived_[i], start_of(i), DatagramFate::unread);
   }
+}
+
+unsigned UdpReceiver::interface_of(const Datagram& datagram) const noexcept {
+  const auto place = static_cast<std::size_t>(datagram.bytes.data() - buffers_.get());
+  return arrived_[place / buffer_size_].interface;
 }
 
 void UdpReceiver::settle(UdpSlot& slot) noexcept {

@@ -56,6 +56,10 @@ class UdpReceiver {
   /// Whether there are datagrams that were read and not returned.
   [[nodiscard]] bool has_arrived() const noexcept;
 
+  /// Index of the interface over which a datagram of this receiver came, as long as it is valid; 0
+  /// if its socket does not report it.
+  [[nodiscard]] unsigned interface_of(const Datagram& datagram) const noexcept;
+
   /// Discards the unreturned datagrams of a group that was left.
   void forget(const GroupAddress& group) noexcept;
   /// The last read of a socket: counts the kernel's drops after the last datagram, and for a tap
@@ -72,10 +76,13 @@ class UdpReceiver {
     std::size_t length{0}, segment{0};  // [octets] of all, and of each but the last
     std::size_t taken{0};               // [octets] returned
     std::size_t left{0};                // datagrams still to be returned
+    unsigned interface { 0 };           // its index, if the socket reports it
   };
-  /// Arrival stamp (timespec), drop count (u32) and length of a segment, each with its header.
+  /// Arrival stamp (timespec), drop count (u32), length of a segment and interface (the longer of
+  /// the two forms), each with its header.
   static constexpr std::size_t kControlBytes =
-      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t)) + CMSG_SPACE(sizeof(int));
+      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t)) + CMSG_SPACE(sizeof(int)) +
+      CMSG_SPACE(sizeof(in6_pktinfo));
   struct alignas(cmsghdr) Control {
     std::array<std::byte, kControlBytes> bytes;
   };

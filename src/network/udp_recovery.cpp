@@ -106,7 +106,7 @@ void UdpRecovery::follow(const NetworkInterface& found) {
   }
   const std::string name = used_.name;
   used_ = found;
-  link_.sockets.set_interface(found.index);
+  link_.sockets.set_interface(found);
   link_.sender.set_interface(found.index);
   const std::uint16_t port = link_.local.value().port;
   if (const std::error_code error = reopen_sender(address)) {

@@ -174,7 +174,7 @@ std::error_code set_outgoing_interface(udp::socket& socket, const UdpSocketOptio
 udp::socket open_group(asio::io_context& context, const UdpSocketOptions& options,
                        const GroupAddress& group, std::error_code& error) {
   udp::socket socket(context);
-  const bool everybody = options.broadcast && group.is_broadcast();
+  const bool everybody = options.broadcast && !group.is_v6 && !group.is_multicast();
   if (!(group.is_multicast() || everybody) || group.is_v6 != options.ipv6) {
     error = std::make_error_code(std::errc::invalid_argument);
     return socket;
@@ -193,6 +193,36 @@ udp::socket open_group(asio::io_context& context, const UdpSocketOptions& option
     change_membership(socket, options, group, IP_ADD_MEMBERSHIP, IPV6_JOIN_GROUP, error);
   error = generic(error);
   return socket;
+}
+
+udp::socket open_listener(asio::io_context& context, const UdpSocketOptions& options,
+                          const IpEndpoint& place, std::error_code& error) {
+  udp::socket socket(context);
+  const bool shares = place.is_multicast() || options.broadcast;
+  socket.open(protocol(options.ipv6), error);
+  set_receive_options(socket, options, error);
+  if (options.ipv6)
+    set_option(socket, IPPROTO_IPV6, IPV6_RECVPKTINFO, 1, error);
+  else
+    set_option(socket, IPPROTO_IP, IP_PKTINFO, 1, error);
+  if (!error && shares) socket.set_option(asio::socket_base::reuse_address(true), error);
+  // IPv4 keeps groups of other interfaces away by their memberships; the rest has none.
+  if (options.interface_index != 0 && (options.ipv6 || !place.is_multicast())) {
+    const int index = static_cast<int>(options.interface_index);
+    set_option(socket, SOL_SOCKET, SO_BINDTOIFINDEX, index, error);
+  }
+  if (!error) socket.bind(to_asio(place, options.interface_index), error);
+  // Programs that come later may have what is theirs.
+  if (!error && !shares) socket.set_option(asio::socket_base::reuse_address(true), error);
+  error = generic(error);
+  return socket;
+}
+
+std::error_code join_group(udp::socket& socket, const UdpSocketOptions& options,
+                           const GroupAddress& group) noexcept {
+  std::error_code error;
+  change_membership(socket, options, group, IP_ADD_MEMBERSHIP, IPV6_JOIN_GROUP, error);
+  return generic(error);
 }
 
 void leave_group(udp::socket& socket, const UdpSocketOptions& options,

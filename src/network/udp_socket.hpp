@@ -50,6 +50,20 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
                                                const UdpSocketOptions& options,
                                                const GroupAddress& group, std::error_code& error);
 
+/// A receiving socket of a listener, bound to `place`: a group, a broadcast address, or an address
+/// of this host. It reports the interface of each datagram, and hears all of them unless the
+/// options name one; a group needs join_group() on each. The port is shared with other programs,
+/// except for an address of this host: what is sent to one goes to one program only, and a
+/// listener takes it from nobody.
+[[nodiscard]] asio::ip::udp::socket open_listener(asio::io_context& context,
+                                                  const UdpSocketOptions& options,
+                                                  const IpEndpoint& place, std::error_code& error);
+
+/// Joins the group on the interface of the options.
+[[nodiscard]] std::error_code join_group(asio::ip::udp::socket& socket,
+                                         const UdpSocketOptions& options,
+                                         const GroupAddress& group) noexcept;
+
 /// Ends the membership: nothing more arrives, and pending datagrams can still be read.
 void leave_group(asio::ip::udp::socket& socket, const UdpSocketOptions& options,
                  const GroupAddress& group) noexcept;

@@ -35,6 +35,7 @@ UdpSocketTable::UdpSocketTable(const Surroundings& link, const NetworkInterface&
                             link.options.broadcast, link.options.fragments,
                             link.options.offload} {
   const UdpMulticastOptions& asked = link.options;
+  broadcasts_ = interface.broadcasts;
   slots_.reserve(asked.max_groups + 1);
   missing_.reserve(asked.max_groups);
   slots_.push_back({open_unicast_or_throw(context_, options_, interface, asked.unicast_port),
@@ -102,12 +103,32 @@ std::error_code UdpSocketTable::adopt(udp::socket socket, const GroupAddress& gr
   return error;
 }
 
+// Broadcasts to everybody and to the subnet are one group: who uses one form wants to hear both.
+std::vector<IpEndpoint> UdpSocketTable::addresses_of(const GroupAddress& group) const {
+  std::vector<IpEndpoint> out{group};
+  if (!may_be_broadcast(group)) return out;
+  out.push_back(IpEndpoint::v4(0xffffffffu, group.port));
+  if (group.is_broadcast()) {
+    out.pop_back();
+    for (IpEndpoint address : broadcasts_) {
+      address.port = group.port;
+      out.push_back(address);
+    }
+  }
+  return out;
+}
+
 std::error_code UdpSocketTable::open(const GroupAddress& group) noexcept {
   const nanoseconds asked = link_.clock.now();
   std::error_code error;
   try {
-    udp::socket socket = open_group(context_, options_, group, error);
-    if (!error) error = adopt(std::move(socket), group);
+    for (const IpEndpoint& address : addresses_of(group)) {
+      std::error_code refused;
+      udp::socket socket = open_group(context_, options_, address, refused);
+      if (!refused) refused = adopt(std::move(socket), group);
+      if (address == group) error = refused;  // the other form is heard where it can be
+      if (error) break;
+    }
   } catch (const std::bad_alloc&) {
     error = std::make_error_code(std::errc::not_enough_memory);
   } catch (const std::system_error& failure) {
@@ -151,7 +172,7 @@ void UdpSocketTable::leave(const GroupAddress& group) noexcept {
   link_.receiver.forget(group);
   UdpSlot* slot = find(group);
   if (slot == nullptr) return;
-  close(*slot);
+  for (; slot != nullptr; slot = find(group)) close(*slot);
   link_.counts.leaves.add();
 }
 
@@ -160,7 +181,8 @@ void UdpSocketTable::rejoin() {
   for (std::size_t i = 1; i < slots_.size(); ++i) {
     if (!slots_[i].socket.is_open()) continue;
     close(slots_[i]);
-    missing_.push_back(slots_[i].group);
+    if (std::find(missing_.begin(), missing_.end(), slots_[i].group) == missing_.end())
+      missing_.push_back(slots_[i].group);
   }
   link_.ready.clear();
   join_missing();

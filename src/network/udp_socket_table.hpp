@@ -60,7 +60,10 @@ class UdpSocketTable {
   [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
 
   /// Opens all further sockets on this interface.
-  void set_interface(unsigned index) noexcept { options_.interface_index = index; }
+  void set_interface(const NetworkInterface& interface) {
+    options_.interface_index = interface.index;
+    broadcasts_ = interface.broadcasts;
+  }
   /// Sets the new index of the interface on the unicast socket.
   [[nodiscard]] std::error_code renew_outgoing_interface();
   /// Replaces the unicast socket by one bound to this endpoint, or to another port if that is in
@@ -78,6 +81,7 @@ class UdpSocketTable {
 
  private:
   [[nodiscard]] bool watch(std::size_t number) noexcept;
+  [[nodiscard]] std::vector<IpEndpoint> addresses_of(const GroupAddress& group) const;
   [[nodiscard]] UdpSlot* find(const GroupAddress& group) noexcept;
   std::error_code open(const GroupAddress& group) noexcept;
   std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
@@ -89,7 +93,8 @@ class UdpSocketTable {
   UdpSocketOptions options_;
   asio::io_context context_{1};  // owns the sockets; its own loop never runs, see docs/transport.md
   std::vector<UdpSlot> slots_;
-  std::vector<GroupAddress> missing_;  // lost with the interface and not rejoined yet
+  std::vector<IpEndpoint> broadcasts_;  // of the interface's subnets
+  std::vector<GroupAddress> missing_;   // lost with the interface and not rejoined yet
 };
 
 }  // namespace reckon::peer

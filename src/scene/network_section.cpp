@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
@@ -97,14 +98,15 @@ void check_network(TomlReader& table, NetworkConfig& config) {
   std::uint16_t port = config.group.port;
   table.read("port", port);
   const auto parsed = GroupAddress::parse(text, port);
-  if (!parsed || !(parsed->is_multicast() || parsed->is_broadcast())) {
+  if (!parsed || !(parsed->is_multicast() || may_be_broadcast(*parsed))) {
     return table.problem("group",
                          fmt::format("'group' is \"{}\"; it wants a multicast address such "
                                      "as \"239.192.1.0\" or \"ff15::c0:100\", or "
-                                     "\"255.255.255.255\" with 'interop'",
+                                     "\"255.255.255.255\" or the subnet's broadcast address with "
+                                     "'interop'",
                                      text));
   }
-  if (parsed->is_broadcast() && !config.interop) {
+  if (!parsed->is_multicast() && !config.interop) {
     return table.problem("group",
                          "'group' is broadcast, which has no groups for cells: set 'interop', or "
                          "take a multicast address");
@@ -131,8 +133,8 @@ Section<NetworkConfig> network_section() {
   return {
       {
           {"group", address,
-           "base group, IPv4 or IPv6; with `interop` also 255.255.255.255, where multicast is "
-           "disabled"},
+           "base group, IPv4 or IPv6; with `interop` also 255.255.255.255 or the broadcast address "
+           "of the subnet, where multicast is disabled: either hears both"},
           {"port", port, within("", 1, 65535), "UDP port"},
           {"interop", &NetworkConfig::interop,
            "plain DIS to the base group, for other DIS programs"},

@@ -126,6 +126,7 @@ void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
     ++tally_.fragments;
   row_.frame = datagram.frame;
   row_.time = datagram.time;
+  row_.interface = datagram.interface;
 }
 
 void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled) {

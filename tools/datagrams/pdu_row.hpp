@@ -43,6 +43,7 @@ struct PduRow {
   std::string reason;            ///< empty when ok
   std::size_t fault_offset = 0;  ///< octet of the datagram to which the reason refers
   std::optional<pdu::EntityId> id;
+  std::string_view interface;  ///< over which the datagram came; empty if the source has none
   /// The body of an Entity State that was decoded, because most PDUs are one and every view reads
   /// it; null for the others. Valid as long as the row.
   const pdu::EntityState* entity_state = nullptr;

@@ -4,9 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
+#include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -68,31 +72,45 @@ peer::GroupAddress base_group(const SourceChoice& choice) {
   const std::string_view text = std::string_view(source).substr(kUdp.size());
   const auto group = peer::IpEndpoint::parse(text, peer::GroupPool::kDefaultPort);
   if (!group.has_value())
-    throw UsageError(
-        fmt::format("'{}' is not a group; write udp://239.192.1.0:3000, udp://239.192.1.0 or "
-                    "udp://[ff15::1]:3000",
-                    source));
-  if (!group->is_multicast())
     throw UsageError(fmt::format(
-        "{} is no multicast group (224.0.0.0 to 239.255.255.255, or ff00::/8)", group->text()));
+        "'{}' is not an address; write udp://239.192.1.0:3000, udp://239.192.1.0, "
+        "udp://[ff15::1]:3000, a broadcast address such as udp://255.255.255.255, or an "
+        "address of this host",
+        source));
   return *group;
 }
 
-/// Refuses words that resemble a source but are not one.
+/// A word that is no file but an interface of this host or an address.
+/// @returns what may be meant; empty if it is neither
+std::string meant_by(const std::string& source) {
+  std::error_code ignored;
+  if (std::filesystem::exists(source, ignored)) return "";
+  if (peer::IpEndpoint::parse(source)) return fmt::format("udp://{}", source);
+  const auto all = peer::list_interfaces();
+  const auto is_it = [&](const peer::NetworkInterface& one) { return one.name == source; };
+  if (std::none_of(all.begin(), all.end(), is_it)) return "";
+  return fmt::format(
+      "--iface {} for the groups heard there, or iface:{} for all of its UDP (needs "
+      "CAP_NET_RAW)",
+      source, source);
+}
+
+}  // namespace
+
 void check_form(const std::string& source) {
   if (source == kRaw || source == kInterface)
     throw UsageError(
         fmt::format("'{}' has no name after the colon; write {}", source,
                     source == kRaw ? "raw:FILE" : "iface:NAME, for example iface:eth0"));
+  if (const std::string meant = meant_by(source); !meant.empty())
+    throw UsageError(fmt::format("there is no file '{}'; did you mean {}?", source, meant));
   const std::size_t scheme = source.find("://");
   if (scheme == std::string::npos || source.starts_with(kUdp) || source.find('/') < scheme) return;
   throw UsageError(
-      fmt::format("there is no source '{}'; write udp://GROUP[:PORT], iface:NAME, raw:FILE, a "
+      fmt::format("there is no source '{}'; write udp://ADDRESS[:PORT], iface:NAME, raw:FILE, a "
                   "scene, a capture file, or - for one on stdin",
                   source.substr(0, scheme + 3)));
 }
-
-}  // namespace
 
 bool means_groups(const SourceChoice& choice) {
   return choice.source.empty() || choice.source.starts_with(kUdp) || names_scene(choice.source);

@@ -18,19 +18,24 @@ namespace reckon::tools {
 struct SourceChoice {
   std::string source;  ///< empty: the default groups; else udp://..., iface:..., raw:..., -, or a
                        ///< capture file
-  std::string interface;  ///< --iface for groups: name, address or index; empty: automatic
+  std::string interface;  ///< --iface for groups: name, address or index; empty: every one
   std::optional<std::uint64_t> pool;  ///< --pool: groups joined after the base group
   bool follow = false;                ///< --follow: waits at the end of a growing capture file
   bool sealed = false;                ///< the default groups are those of a sealed exercise
 };
 
 /// The groups of the choice: the base group and the pool after it. The default is 239.192.1.0:3000
-/// with 256 groups. A named `udp://GROUP[:PORT]` has no pool unless one is requested.
+/// with 256 groups. A named `udp://GROUP[:PORT]` has no pool unless one is requested. It may also
+/// be a broadcast address, an address of this host, or 0.0.0.0.
 /// @throws UsageError.
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice);
 
 /// The groups that peers of a scene speak in. @throws UsageError where they speak by unicast
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const peer::SceneFile& scene);
+
+/// Refuses words that resemble a source but are not one, such as `lo` and `239.1.2.3:3000`.
+/// @throws UsageError with what may be meant
+void check_form(const std::string& source);
 
 /// Whether the choice means live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);

@@ -18,6 +18,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/datagrams/filter.hpp"
+#include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/source.hpp"
@@ -44,9 +45,12 @@ constexpr std::string_view kSummary =
     "  -                   the same on stdin\n"
     "  raw:FILE            one bare datagram\n"
     "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
+    "  udp://ADDRESS       live broadcast (10.9.9.255, 255.255.255.255) or unicast (an address of\n"
+    "                      this host); 0.0.0.0: both, on every address\n"
     "  SCENE.toml          the live groups of a scene\n"
     "  iface:NAME          all UDP of an interface (needs CAP_NET_RAW)\n"
-    "Without one: 239.192.1.0:3000 and the 256 groups behind it, live.";
+    "Without one: 239.192.1.0:3000 and the 256 groups behind it, live. Live groups are heard on\n"
+    "every interface; a datagram that comes over two of them is counted once.";
 constexpr std::string_view kExamples =
     "reckon inspect capture.pcapng\n"
     "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
@@ -99,10 +103,14 @@ class Inspection {
         filter_(filter_of(options)),
         sealed_(options.key),
         source_(open_chosen_source(options.source)),
+        silence_(options.source, clock_.now()),
         output_(console.out),
         view_(inspect_view_kind(options.view).make(options, console)) {}
 
   void run() {
+    if (means_groups(options_.source))
+      fmt::print(console_.err, "listening to {}; Ctrl-C ends\n",
+                 listening_text(options_.source, source_->report()));
     std::string& out = output_.text();
     view_->begin(out);
     output_.write();
@@ -120,6 +128,7 @@ class Inspection {
                                          : nanoseconds::max();
   }
   void read();
+  void tell_silence();
   void show(const peer::SourceDatagram& datagram);
   /// Shows one PDU; false after the last requested one.
   bool show(const peer::SourceDatagram& datagram, const PduRow& row);
@@ -130,8 +139,9 @@ class Inspection {
   std::optional<Filter> filter_;
   SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
-  Output output_;
   peer::SteadyClock clock_;
+  SilenceWatch silence_;
+  Output output_;
   DatagramInspector inspector_;
   std::unique_ptr<View> view_;
   InspectTally shown_;  // PDUs that passed the filter
@@ -152,8 +162,18 @@ void Inspection::read() {
     if (event == peer::SourceEvent::end) break;
     if (event == peer::SourceEvent::datagram && sealed_.open(datagram)) show(datagram);
     if (source_->is_live()) view_->tick(clock_.utc_now(), source_->report(), out);
-    if (event == peer::SourceEvent::nothing_yet) output_.write();
+    if (event == peer::SourceEvent::nothing_yet) {
+      output_.write();
+      tell_silence();
+    }
     full_ = full_ || view_->has_ended();
+  }
+}
+
+void Inspection::tell_silence() {
+  if (!means_groups(options_.source)) return;
+  for (const std::string& sentence : silence_.look(source_->report(), clock_.now())) {
+    if (!view_->show_notice(sentence)) fmt::print(console_.err, "{}\n", sentence);
   }
 }
 
@@ -218,7 +238,7 @@ void Inspection::summarise() const {
     line += fmt::format("; {} with a broken IP or UDP header", counted(report.malformed, "frame"));
   if (is_live(options_.source) || report.dropped > 0)
     line += fmt::format("; {} lost before they reached us", report.dropped);
-  fmt::print(console_.err, "{}\n{}", line, sealed_.summary());
+  fmt::print(console_.err, "{}\n{}{}", line, heard_text(report), sealed_.summary());
   if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
 }
 
@@ -231,14 +251,6 @@ ExitCode Inspection::verdict() const {
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty() ||
                        sealed_.unread() > 0;
   return damaged || view_->found_faults().value_or(false) ? ExitCode::findings : ExitCode::good;
-}
-
-void tell_source(const InspectOptions& options, const Console& console) {
-  if (!means_groups(options.source)) return;
-  const auto groups = groups_of(options.source);
-  fmt::print(console.err, "listening to {}", groups.front().text());
-  if (groups.size() > 1) fmt::print(console.err, " and {} groups behind it", groups.size() - 1);
-  fmt::print(console.err, "; Ctrl-C ends\n");
 }
 
 /// "stats, check, bundles".
@@ -324,7 +336,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--count", options.count, "stop after this many PDUs");
   line.option("--iface", options.source.interface,
-              "for groups: interface name, address or index (default: chosen by score)");
+              "for groups: interface name, address or index (default: every one, lo too)");
   line.option("--key", options.key,
               "key file: reads sealed datagrams; groups are then one port above");
   line.option("--pool", options.source.pool,
@@ -335,7 +347,6 @@ int run_inspect(Arguments arguments, const Console& console) {
   options.source.sealed = !options.key.empty();
 
   Inspection inspection(options, console);
-  tell_source(options, console);
   inspection.run();
   inspection.summarise();
   return exit_status(inspection.verdict());

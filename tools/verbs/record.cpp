@@ -15,6 +15,7 @@
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
@@ -31,10 +32,12 @@ constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
 constexpr std::string_view kSummary =
     "Writes live datagrams to a pcapng file, with times in nanoseconds.\n\n"
-    "SOURCE is udp://GROUP[:PORT], SCENE.toml (the groups of a scene) or iface:NAME (all UDP of "
-    "an\n"
-    "interface, needs CAP_NET_RAW).\n"
-    "Without one: 239.192.1.0:3000 and the 256 groups behind it; no right is needed.\n"
+    "SOURCE is udp://GROUP[:PORT], a broadcast address (udp://10.9.9.255, udp://255.255.255.255),\n"
+    "an address of this host, udp://0.0.0.0 for all of both, SCENE.toml (the groups of a scene) "
+    "or\n"
+    "iface:NAME (all UDP of an interface, needs CAP_NET_RAW).\n"
+    "Without one: 239.192.1.0:3000 and the 256 groups behind it; no right is needed. Every\n"
+    "interface is heard; a datagram that comes over two of them is recorded once.\n"
     "Ctrl-C ends it. Killed or on a full disk it leaves a file that can be read.\n"
     "A FILE that ends in .zst is compressed. What is sealed is kept sealed; a filter sees into it\n"
     "with --key alone.";
@@ -66,7 +69,8 @@ class Recording {
         sealed_(options.key),
         source_(open_chosen_source(options.source)),
         writer_(create_recording(writer_options())),
-        status_(console.err, begin_) {}
+        status_(console.err, begin_),
+        silence_(options.source, begin_) {}
 
   /// Records until it is asked to end. Throws EnvironmentError if the file is full. Reports the
   /// recorded datagrams in either case.
@@ -99,6 +103,7 @@ class Recording {
   peer::SteadyClock clock_;
   nanoseconds begin_{clock_.now()};
   StatusLine status_;
+  SilenceWatch silence_;
   nanoseconds flushed_{begin_};
   std::uint64_t datagrams_ = 0;
   std::uint64_t pdus_ = 0;
@@ -107,6 +112,8 @@ class Recording {
 };
 
 void Recording::run() {
+  fmt::print(console_.err, "recording {} to {}; Ctrl-C ends\n",
+             listening_text(options_.source, source_->report()), options_.writer.path);
   try {
     record();
   } catch (const peer::CaptureWriteError& error) {
@@ -159,6 +166,11 @@ void Recording::flush_when_due(nanoseconds now, bool quiet) {
     flushed_ = now;
   }
   if (status_.due(now)) show_status(now);
+  if (!quiet || !means_groups(options_.source)) return;
+  for (const std::string& sentence : silence_.look(source_->report(), now)) {
+    status_.clear();
+    fmt::print(console_.err, "{}\n", sentence);
+  }
 }
 
 void Recording::show_status(nanoseconds now) {
@@ -215,7 +227,7 @@ void Recording::summarise(nanoseconds elapsed) const {
   if (left_out_ > 0)
     fmt::print(console_.err, "{} did not match and are not in it\n",
                counted(left_out_, "datagram"));
-  fmt::print(console_.err, "{}", sealed_.summary());
+  fmt::print(console_.err, "{}{}", heard_text(source_->report()), sealed_.summary());
   if (dropped > 0)
     fmt::print(console_.err,
                "against loss raise the receive buffer: sysctl -w net.core.rmem_max=33554432\n");
@@ -223,17 +235,8 @@ void Recording::summarise(nanoseconds elapsed) const {
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
 }
 
-void tell_source(const RecordOptions& options, const Console& console) {
-  std::string from = options.source.source;
-  if (means_groups(options.source)) {
-    const auto groups = groups_of(options.source);
-    from = groups.front().text();
-    if (groups.size() > 1) from += fmt::format(" and {} groups behind it", groups.size() - 1);
-  }
-  fmt::print(console.err, "recording {} to {}; Ctrl-C ends\n", from, options.writer.path);
-}
-
 void check(RecordOptions& options) {
+  check_form(options.source.source);
   if (!means_groups(options.source) && !options.source.source.starts_with("iface:"))
     throw UsageError(fmt::format(
         "'{}' is not live; write udp://GROUP[:PORT] or iface:NAME, or `reckon cut {} OUT` for a "
@@ -256,7 +259,7 @@ int run_record(Arguments arguments, const Console& console) {
   line.word("SOURCE", options.source.source, false, "what to record, see above");
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--iface", options.source.interface,
-              "for groups: interface name, address or index (default: chosen by score)");
+              "for groups: interface name, address or index (default: every one, lo too)");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   line.option("--rotate-size", options.rotate_size,
@@ -275,7 +278,6 @@ int run_record(Arguments arguments, const Console& console) {
   options.source.sealed = !options.key.empty();
   check(options);
   Recording recording(options, console);
-  tell_source(options, console);
   recording.run();
   return exit_status(ExitCode::good);
 }

@@ -39,7 +39,7 @@ std::string shown_as(const peer::ConvergenceConfig& config) {
 
 /// Multicast, or a list of addresses instead.
 std::string way_of(const peer::NetworkConfig& network) {
-  if (network.group.is_broadcast()) return "broadcast";
+  if (peer::may_be_broadcast(network.group)) return "broadcast";
   if (network.peers.empty()) return "multicast";
   std::string text = "unicast, each datagram to";
   for (const peer::NamedPeer& peer : network.peers)

@@ -16,6 +16,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
+#include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/viewer/page_files.hpp"
@@ -34,8 +35,9 @@ constexpr std::size_t kCaptureRoom = std::size_t{1} << 30;
 
 constexpr std::string_view kSummary =
     "Shows the world in a browser page, live or from a capture.\n\n"
-    "SOURCE is what `reckon inspect` takes: a capture, a scene, udp://GROUP[:PORT], iface:NAME;\n"
-    "without one the default groups, live. With --save nothing is served: the page and the last\n"
+    "SOURCE is what `reckon inspect` takes: a capture, a scene, udp://ADDRESS[:PORT], iface:NAME;\n"
+    "without one the default groups, live, on every interface. With --save nothing is served: the "
+    "page and the last\n"
     "minute of a capture become one HTML file, which plays from disk anywhere.";
 
 struct ViewOptions {
@@ -63,7 +65,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, ViewOption
               "write one HTML file that plays, in the place of a page that is served");
   line.flag("--force", options.overwrite, "overwrite the file of --save");
   line.option("--iface", options.source.interface,
-              "for groups: interface name, address or index (default: chosen by score)");
+              "for groups: interface name, address or index (default: every one, lo too)");
   line.option("--key", options.key, "key file: reads what is sealed");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
@@ -103,12 +105,22 @@ int serve(const ViewOptions& options, const Console& console) {
   StageOptions& stage = viewing_options.stage = stage_options(options);
   stage.scene = scene ? &*scene : nullptr;
   if (stage.is_capture) keep_all(stage);
-  Viewing viewing(viewing_options, open_chosen_source(options.source));
+  auto source = open_chosen_source(options.source);
+  if (means_groups(options.source))
+    fmt::print(console.err, "listening to {}\n", listening_text(options.source, source->report()));
+  Viewing viewing(viewing_options, std::move(source));
   tell_addresses(viewing.server(), options.view, console);
   const peer::SteadyClock clock;
   const nanoseconds begin = clock.now();
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
-  while (!console.stopped() && clock.now() - begin < end) viewing.step();
+  SilenceWatch silence(options.source, begin);
+  while (!console.stopped() && clock.now() - begin < end) {
+    viewing.step();
+    if (!means_groups(options.source)) continue;
+    for (const std::string& sentence : silence.look(viewing.report(), clock.now()))
+      fmt::print(console.err, "{}\n", sentence);
+  }
+  fmt::print(console.err, "{}", heard_text(viewing.report()));
   fmt::print(console.err, "{} looked, {} sent\n", counted(viewing.server().counts().tabs, "tab"),
              counted(viewing.server().counts().pictures, "picture"));
   const std::string& problem = viewing.report().problem;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 
 namespace reckon::tools {
@@ -15,8 +16,11 @@ std::unique_ptr<peer::DatagramSource> heard_source(const peer::SceneFile& scene,
                                                    const std::string& iface) {
   if (!scene.network.peers.empty()) return nullptr;
   try {
+    // The interface of the peer, which is one.
+    const std::string& asked = iface.empty() ? scene.network.iface : iface;
     return peer::open_groups(
-        {.interface = iface.empty() ? scene.network.iface : iface, .groups = groups_of(scene)});
+        {.interface = peer::choose_interface(asked, scene.network.group.is_v6).interface.name,
+         .groups = groups_of(scene)});
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }

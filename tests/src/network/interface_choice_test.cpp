@@ -132,6 +132,14 @@ TEST(InterfaceChoice, PrefersAnIpv6AddressThatIsNotLinkLocal) {
   EXPECT_FALSE(interface.address(false));
 }
 
+TEST(Broadcast, IsAnAddressWhoseHostPartMayBeAllOnes) {
+  for (const char* text :
+       {"255.255.255.255", "10.9.9.255", "10.9.11.255", "10.9.9.127", "10.9.9.3"})
+    EXPECT_TRUE(may_be_broadcast(*IpEndpoint::parse(text))) << text;
+  for (const char* text : {"10.9.9.1", "10.9.9.254", "239.1.2.3", "0.0.0.255", "ff15::ff"})
+    EXPECT_FALSE(may_be_broadcast(*IpEndpoint::parse(text))) << text;
+}
+
 TEST(ListInterfaces, FindsLoopback) {
   bool found = false;
   for (const NetworkInterface& interface : list_interfaces()) {
@@ -141,6 +149,8 @@ TEST(ListInterfaces, FindsLoopback) {
     EXPECT_GT(interface.index, 0u);
     EXPECT_GT(interface.mtu, 1500u);
     EXPECT_TRUE(interface.address(false));
+    ASSERT_FALSE(interface.broadcasts.empty());
+    EXPECT_EQ(interface.broadcasts.front().text(), "127.255.255.255:0");
   }
   EXPECT_TRUE(found);
 }

@@ -92,6 +92,8 @@ TEST(GroupPool, RefusesWhatLeavesTheMulticastRange) {
   EXPECT_THROW(GroupPool(endpoint("239.1.1.1:3000"), 65536), std::invalid_argument);
   EXPECT_THROW(GroupPool(endpoint("239.255.255.250:3000"), 6), std::invalid_argument);
   EXPECT_NO_THROW(GroupPool(endpoint("239.255.255.250:3000"), 5));
+  const GroupPool subnet(endpoint("10.9.9.255:3000"), 4);
+  EXPECT_FALSE(subnet.index(endpoint("10.9.10.0:3000")).has_value()) << "it has no groups";
 }
 
 TEST(Advice, NamesTheLimitThatWasHit) {

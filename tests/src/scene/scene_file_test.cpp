@@ -163,6 +163,9 @@ TEST(SceneFile, NamesPeersWhereThereIsNoMulticast) {
               testing::ElementsAre(NamedPeer{"10.0.0.7", 0}, NamedPeer{"host-b", 3001},
                                    NamedPeer{"2001:db8::8", 3002}));
   EXPECT_EQ(file.hash, parse_scene_file("", "x.toml").hash) << "how a peer speaks, not the world";
+  const SceneFile subnet =
+      parse_scene_file("[network]\ninterop = true\ngroup = \"10.9.9.255\"\n", "x.toml");
+  EXPECT_EQ(subnet.network.group.text(), "10.9.9.255:3000");
   std::string many = "[network]\npeers = [";
   for (int i = 0; i < 257; ++i) many += "\"10.0.0.2\", ";
   EXPECT_THAT(refusal(many + "]\n"), HasSubstr("x.toml:2:9: 'peers': '10.0.0.2' is one of more"));
@@ -221,6 +224,8 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {"[dead_reckoning]\nposition = 0\n", "it must be"},
       {"[network]\ngroup = \"10.0.0.1\"\n", "multicast address"},
       {"[network]\ngroup = \"255.255.255.255\"\n", "set 'interop'"},
+      {"[network]\ngroup = \"10.9.9.255\"\n", "set 'interop'"},
+      {"[network]\ninterop = true\ngroup = \"10.9.9.8\"\n", "the subnet's broadcast address"},
       {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
       {"[network]\ngroup = \"239.255.255.250\"\n", "x.toml: "},
       {"[network]\npeers = \"10.0.0.2\"\n", "it wants texts, any number"},

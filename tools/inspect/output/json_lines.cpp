@@ -105,6 +105,11 @@ void append_json_line(std::string& out, const PduRow& row, bool full) {
   append_member(out, ",\"offset\":", row.offset);
   out += ",\"time\":";
   append_time(out, row.time);
+  if (!row.interface.empty()) {
+    out += ",\"interface\":";
+    pdu::TextSink sink(out);
+    pdu::put_json_string(sink, row.interface);
+  }
   out += ",\"type\":\"";
   out += row.type();
   append_member(out, "\",\"type_number\":", static_cast<unsigned>(row.header.pdu_type));

@@ -49,6 +49,9 @@ class View {
   /// Live sources: after each datagram and every 0.1 s; `now` since 1970-01-01 UTC.
   virtual void tick(std::chrono::nanoseconds /*now*/, const peer::SourceReport& /*report*/,
                     std::string& /*out*/) {}
+  /// A sentence for the user while a live source is silent.
+  /// @returns false if the view has no place for it, and it goes to stderr
+  [[nodiscard]] virtual bool show_notice(const std::string& /*sentence*/) { return false; }
   /// Whether the user ended the view itself, such as by a key.
   [[nodiscard]] virtual bool has_ended() const { return false; }
   /// The end of the source.

@@ -44,11 +44,16 @@ struct Spender {
 }  // namespace
 
 std::string top_head(const TopData& data, const TrafficRates::Rates& rates) {
-  const double elapsed = pdu::to_seconds(std::max(data.now, data.totals.last) - data.totals.first);
+  const double elapsed =
+      data.totals.datagrams == 0
+          ? 0
+          : pdu::to_seconds(std::max(data.now, data.totals.last) - data.totals.first);
   return fmt::format(
-      "{}   ex {}   {}   {:.0f} PDU/s   {:.0f} dgram/s   {:.2f} Mbit/s   {:.1f} PDU/dgram = {:.1f} "
+      "{}{}   ex {}   {}   {:.0f} PDU/s   {:.0f} dgram/s   {:.2f} Mbit/s   {:.1f} PDU/dgram = "
+      "{:.1f} "
       "% payload   lost {}   bad {}",
-      data.source, exercise_text(data.exercises), span_text(elapsed), rates.pdus, rates.datagrams,
+      data.source, data.interfaces.empty() ? "" : "   on " + data.interfaces,
+      exercise_text(data.exercises), span_text(elapsed), rates.pdus, rates.datagrams,
       1e-6 * rates.bits, data.totals.pdus_per_datagram(), 100 * data.totals.efficiency(),
       data.loss.counts().lost + data.dropped, data.totals.errors);
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reckon/tools/datagrams/traffic_totals.hpp"
 #include "reckon/tools/datagrams/trailer_loss.hpp"
@@ -27,12 +28,15 @@ struct TopData {
   std::bitset<256> exercises;
   std::array<std::uint64_t, 17> bundle_sizes{};      ///< by number of PDUs; last: 16 and more
   std::map<std::string_view, std::uint64_t> faults;  ///< PDUs by the rule that they break
+  std::vector<std::string> notices;                  ///< while nothing is heard
+  std::string interfaces;                            ///< that have brought something: "lo, eth0"
   std::uint64_t dropped = 0;                         ///< by the kernel, before reception
   std::chrono::nanoseconds now{};  ///< reference time of ages; in a file that of the last datagram
 };
 
-/// "capture.pcap   ex 1   0:42   1206 PDU/s   134 dgram/s   1.43 Mbit/s   9.0 PDU/dgram = 96.9 %
-/// payload   lost 0   bad 5". `lost` counts gaps of sequence numbers and drops by the kernel.
+/// "capture.pcap   on lo   ex 1   0:42   1206 PDU/s   134 dgram/s   1.43 Mbit/s   9.0 PDU/dgram
+/// = 96.9 % payload   lost 0   bad 5". `lost` counts gaps of sequence numbers and drops by the
+/// kernel.
 [[nodiscard]] std::string top_head(const TopData& data, const TrafficRates::Rates& rates);
 
 /// The simulation that sends most octets, with its jumps. Empty below half of all octets or for few

@@ -62,6 +62,19 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std
   return lines;
 }
 
+/// Breaks a sentence between its words.
+std::vector<std::string> folded(std::string_view text, std::size_t columns) {
+  std::vector<std::string> lines{""};
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    if (lines.back().size() + 1 + word.size() > columns) lines.emplace_back();
+    if (!lines.back().empty()) lines.back() += ' ';
+    lines.back() += word;
+  }
+  return lines;
+}
+
 std::string row_text(const std::vector<std::string>& cells,
                      const std::vector<std::size_t>& widths) {
   const auto columns = top_columns();
@@ -298,8 +311,11 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
     const LineStyle style = i == cursor_ ? LineStyle::selected : style_of(cell);
     out.push_back({window_of(row_text(rows[i - top_ + 1], widths_), shift_, size.columns), style});
   }
-  if (places.empty())
-    out.push_back({filter_.has_value() ? "no entity passes the filter" : "no entity heard yet"});
+  if (!places.empty()) return;
+  out.push_back({filter_.has_value() ? "no entity passes the filter" : "no entity heard yet"});
+  if (data.totals.datagrams > 0) return;
+  for (const std::string& notice : data.notices)
+    for (std::string& line : folded(notice, size.columns)) out.push_back({std::move(line)});
 }
 
 void TopScreen::pane(const TopData& data, ScreenSize size, std::vector<ScreenLine>& out) const {

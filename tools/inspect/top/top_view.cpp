@@ -50,6 +50,9 @@ void TopView::tick(nanoseconds now, const peer::SourceReport& report, std::strin
   next_write_ = now + (terminal_ != nullptr ? kDrawEvery : kWriteEvery);
   data_.now = now;
   data_.dropped = report.dropped;
+  data_.interfaces.clear();
+  for (const peer::ListenedInterface& one : report.interfaces)
+    if (one.datagrams > 0) data_.interfaces += (data_.interfaces.empty() ? "" : ", ") + one.name;
   data_.entities.drop_gone(now);
   const TrafficRates::Rates rates = rates_.at(data_.totals, now);
   if (terminal_ != nullptr) {
@@ -59,6 +62,13 @@ void TopView::tick(nanoseconds now, const peer::SourceReport& report, std::strin
   if (!follow_ || format_ == Format::csv) return;
   write(rates, out);
   if (format_ == Format::text) out += '\n';
+}
+
+bool TopView::show_notice(const std::string& sentence) {
+  if (terminal_ == nullptr) return false;
+  data_.notices.push_back(sentence);
+  next_write_ = {};
+  return true;
 }
 
 // Takes the pressed keys and draws at once if there were any.

@@ -35,6 +35,7 @@ class TopView final : public View {
   void tick(std::chrono::nanoseconds now, const peer::SourceReport& report,
             std::string& out) override;
   /// Whether the user ended it with a key.
+  [[nodiscard]] bool show_notice(const std::string& sentence) override;
   [[nodiscard]] bool has_ended() const override { return screen_.quit(); }
   /// Restores the terminal, or writes the table.
   void finish(const InspectTally& tally, std::string& out) override;

@@ -90,6 +90,22 @@ TEST(TopScreen, SaysHowToQuitInAnyTerminalAndCutsNoKey) {
   EXPECT_THAT(screen.lines(data, {}, {24, 120})[23].text, testing::EndsWith("[space] freeze"));
 }
 
+TEST(TopScreen, TellsOfSilenceInsteadOfATimeThatNobodyMeasured) {
+  TopData data;
+  data.source = "239.192.1.0:3000";
+  data.now = after(1e6);
+  data.notices = {"nothing heard yet at 239.192.1.0:3000 on lo and eth0"};
+  TopScreen screen;
+  const std::string silent = text_of(screen.lines(data, {}, {24, 40}));
+  EXPECT_THAT(silent, HasSubstr("   ex -   0:00 "));
+  EXPECT_THAT(silent, HasSubstr("nothing heard yet at\n239.192.1.0:3000"));
+  data.totals.count(peer::SourceDatagram{.time = after(1e6 - 5)});
+  data.interfaces = "lo, eth0";
+  const std::string heard = text_of(screen.lines(data, {}, {24, 200}));
+  EXPECT_THAT(heard, HasSubstr("239.192.1.0:3000   on lo, eth0   ex -   0:05 "));
+  EXPECT_THAT(heard, Not(HasSubstr("nothing heard yet")));
+}
+
 TEST(TopScreen, ScrollsThroughAllRows) {
   const TopData data = data_of(50);
   TopScreen screen;

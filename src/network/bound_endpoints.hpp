@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The UDP endpoints of the programs of this host, as the kernel lists them for anybody.
+#pragma once
+
+#include <istream>
+#include <vector>
+
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// Reads a table of UDP sockets (/proc/net/udp, /proc/net/udp6): the address and port to which each
+/// is bound, each once, in the order of the table. Lines of another form are left out.
+[[nodiscard]] std::vector<IpEndpoint> read_bound_endpoints(std::istream& table, bool ipv6);
+
+/// Those of this host's network namespace; empty where the kernel does not list them.
+[[nodiscard]] std::vector<IpEndpoint> bound_endpoints(bool ipv6);
+
+}  // namespace reckon::peer

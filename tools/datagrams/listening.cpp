@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/datagrams/listening.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "reckon/pdu/codec/pdu_header.hpp"
+#include "reckon/peer/network/bound_endpoints.hpp"
+#include "reckon/peer/sealing/sealed_link.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::IpEndpoint;
+using Places = std::vector<IpEndpoint>;
+
+/// "lo", "lo and eth0", "lo, eth0 and wlan0".
+std::string listed(const std::vector<peer::ListenedInterface>& interfaces) {
+  std::string text;
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    if (i > 0) text += i + 1 == interfaces.size() ? " and " : ", ";
+    text += interfaces[i].name;
+  }
+  return text.empty() ? "no interface" : text;
+}
+
+bool holds(const Places& places, const IpEndpoint& place) {
+  return std::find(places.begin(), places.end(), place) != places.end();
+}
+
+/// Whether the datagram begins like a PDU: a version of DIS, and a length that fits.
+bool begins_with_pdu(std::span<const std::byte> bytes) {
+  pdu::PduHeader header;
+  return decode_header(bytes, header) == pdu::DecodeError::none && header.length <= bytes.size();
+}
+
+}  // namespace
+
+std::string listening_text(const SourceChoice& choice, const peer::SourceReport& report) {
+  if (!means_groups(choice)) return choice.source;
+  const Places groups = groups_of(choice);
+  std::string text = groups.front().text();
+  if (groups.size() > 1) text += fmt::format(" and {} groups behind it", groups.size() - 1);
+  return text + " on " + listed(report.interfaces);
+}
+
+std::string heard_text(const peer::SourceReport& report) {
+  std::string text;
+  for (const peer::ListenedInterface& interface : report.interfaces) {
+    text +=
+        fmt::format("{}{}: {}", text.empty() ? "heard on " : ", ", interface.name,
+                    interface.datagrams == 0 ? "none" : counted(interface.datagrams, "datagram"));
+  }
+  if (report.copies > 0)
+    text += fmt::format("; {} came over another interface too", counted(report.copies, "datagram"));
+  if (!text.empty()) text += '\n';
+  for (const std::string& sentence : report.unheard) text += sentence + '\n';
+  return text;
+}
+
+Places other_places(const Places& own, bool own_too, const Places& bound, std::size_t most) {
+  Places out;
+  const auto add = [&](const IpEndpoint& place) {
+    const bool is_new = !holds(out, place) && (own_too || !holds(own, place));
+    if (is_new && out.size() < most) out.push_back(place);
+  };
+  const IpEndpoint& first = own.front();
+  if (own_too) add(first);
+  const IpEndpoint base =
+      (first.is_v6 ? peer::GroupPool::ipv6_default() : peer::GroupPool::ipv4_default()).base();
+  add(base);
+  add(peer::sealed_group(base));
+  if (!first.is_v6) {
+    add(IpEndpoint::v4(0xffffffffu, first.port));
+    add(IpEndpoint::v4(0xffffffffu, base.port));
+  }
+  for (const IpEndpoint& place : bound)
+    if ((place.is_multicast() || place.is_broadcast()) && !holds(own, place)) add(place);
+  return out;
+}
+
+std::vector<std::string> SilenceWatch::look(const peer::SourceReport& report, nanoseconds now) {
+  std::vector<std::string> out;
+  if (over_) return out;
+  if (report.datagrams > 0) {
+    over_ = true;
+    elsewhere_.reset();
+    return out;
+  }
+  if (now - start_ < kPatience) return out;
+  if (!begun_) begin(report, out);
+  if (elsewhere_) hear(out);
+  if (now - start_ < kPatience + kTried && stated_.size() < kMostStated) return out;
+  over_ = true;
+  if (stated_.empty() && elsewhere_)
+    out.push_back(fmt::format(
+        "nor is DIS heard at {} other places of this host, which are its broadcast addresses and "
+        "the groups of its programs: does the sender run, and is no firewall between "
+        "(reckon doctor)?",
+        places_.size()));
+  elsewhere_.reset();
+  return out;
+}
+
+void SilenceWatch::begin(const peer::SourceReport& report, std::vector<std::string>& out) {
+  begun_ = true;
+  out.push_back("nothing heard yet at " + listening_text(choice_, report));
+  own_ = groups_of(choice_);
+  const bool leaves_interfaces_out = !choice_.interface.empty() || report.interfaces.size() == 1;
+  places_ = other_places(own_, leaves_interfaces_out, peer::bound_endpoints(own_.front().is_v6),
+                         kMostPlaces);
+  try {
+    elsewhere_ = peer::open_groups({.interface = {}, .groups = places_, .skips_failures = true});
+  } catch (const std::runtime_error&) {
+    over_ = true;  // no interface at all: the source has said so
+  }
+}
+
+void SilenceWatch::hear(std::vector<std::string>& out) {
+  constexpr int kMostAtOnce = 256;
+  peer::SourceDatagram datagram;
+  for (int i = 0; i < kMostAtOnce && stated_.size() < kMostStated; ++i) {
+    if (elsewhere_->next(datagram, nanoseconds::zero()) != peer::SourceEvent::datagram) return;
+    if (!begins_with_pdu(datagram.bytes) || holds(stated_, datagram.group)) continue;
+    stated_.push_back(datagram.group);
+    out.push_back(
+        fmt::format("heard on this host: {} on {}, from {}; {}", datagram.group.text(),
+                    datagram.interface, datagram.source.text(),
+                    holds(own_, datagram.group)
+                        ? fmt::format("take --iface {}, or none", datagram.interface)
+                        : fmt::format("take udp://{} as the source", datagram.group.text())));
+  }
+}
+
+}  // namespace reckon::tools
