@@ -41,7 +41,7 @@ constexpr std::size_t kWriteSize = std::size_t{1} << 16;
 constexpr std::string_view kSummary =
     "Shows every PDU of every datagram, from a capture or live.\n\n"
     "SOURCE is one of\n"
-    "  FILE                pcap or pcapng, plain or compressed (zstd, gzip, bzip2, xz, lz4)\n"
+    "  FILE                pcap or pcapng, plain or by zstd, gzip, bzip2, xz, lz4\n"
     "  -                   the same on stdin\n"
     "  raw:FILE            one bare datagram\n"
     "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"

@@ -365,7 +365,7 @@ TEST(IpReassembler, Takes5000DatagramsOf7000OctetsASecondWithOneFragmentIn100Los
   EXPECT_EQ(feed.counts().whole, good);
   EXPECT_EQ(feed.counts().lost, hurt.size());
   EXPECT_EQ(feed.counts().late + feed.counts().overlapping, 0U);
-  EXPECT_LE(feed.most_octets(), 20U << 20);
+  EXPECT_LE(feed.most_octets(), 16U << 20);
   RecordProperty("most_octets", static_cast<int>(feed.most_octets()));
 }
 
