@@ -133,14 +133,6 @@ TEST(BundleReader, TakesPdusOfAnyLengthWithoutPadding) {
   for (const BundledPdu& pdu : pdus) EXPECT_EQ(pdu.error, DecodeError::none);
 }
 
-TEST(BundleReader, TakesAPduThatIsItsHeaderAlone) {
-  const auto datagram = header_only(PduType::fire);
-  const auto pdus = read(datagram);
-  ASSERT_EQ(pdus.size(), 1U);
-  EXPECT_EQ(pdus[0].error, DecodeError::none);
-  EXPECT_EQ(pdus[0].bytes.size(), kHeaderSize);
-}
-
 TEST(BundleReader, KeepsUnknownTypesAndGoesOnBehindThem) {
   const auto datagram =
       header_only(PduType::fire) + header_only(PduType{222}, 40) + header_only(PduType::data, 40);

@@ -169,6 +169,15 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
   }
 }
 
+TEST(Filter, ShowsLettersThatATerminalWouldObeyAsDots) {
+  try {
+    const Filter filter("kind == \x1b[2J\x7f\xc3");
+    FAIL();
+  } catch (const FilterError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("\n  kind == .[2J..\n"));
+  }
+}
+
 TEST(Filter, BoundsLengthAndNesting) {
   EXPECT_GT(column_of(std::string(65, '(') + "force == 1" + std::string(65, ')')), 0U);
   EXPECT_EQ(column_of(std::string(60, '(') + "force == 1" + std::string(60, ')')), 0U);
