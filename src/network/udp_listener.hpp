@@ -70,7 +70,7 @@ class UdpListener {
   /// An address to which a socket is bound.
   struct Ear {
     IpEndpoint address;
-    unsigned interface { 0 };  ///< the only one it hears; 0: all
+    unsigned interface = 0;  ///< the only one it hears; 0: all
     bool is_broadcast{false};
     bool operator==(const Ear&) const = default;
   };

@@ -76,7 +76,7 @@ class UdpReceiver {
     std::size_t length{0}, segment{0};  // [octets] of all, and of each but the last
     std::size_t taken{0};               // [octets] returned
     std::size_t left{0};                // datagrams still to be returned
-    unsigned interface { 0 };           // its index, if the socket reports it
+    unsigned interface = 0;             // its index, if the socket reports it
   };
   /// Arrival stamp (timespec), drop count (u32), length of a segment and interface (the longer of
   /// the two forms), each with its header.

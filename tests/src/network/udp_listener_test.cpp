@@ -140,12 +140,12 @@ TEST_F(ListenerOnLo, LetsAProgramThatComesLaterHaveThePort) {
 
 TEST_F(ListenerOnLo, RefusesAnAddressOfAnotherHost) {
   try {
-    UdpListener listener({"", {place("192.0.2.1")}}, clock_);
+    UdpListener listener({"", {place("198.51.100.1")}}, clock_);
     ADD_FAILURE() << "it listens";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("neither an address nor a broadcast address"));
   }
-  UdpListener listener({"", {place("192.0.2.1"), place("127.0.0.1")}, true}, clock_);
+  UdpListener listener({"", {place("198.51.100.1"), place("127.0.0.1")}, true}, clock_);
   sender_.send(place("127.0.0.1"), "heard");
   EXPECT_THAT(texts(listener, 1), ElementsAre("heard"));
 }
