@@ -339,9 +339,9 @@ void print_tree(const T& value, TextSink& sink) {
   fields(tree, value);
 }
 
-/// Decodes and prints one PDU of any type; returns the result of decoding. A damaged PDU: its fields
-/// up to the fault, or to its records, and the "rest" in hexadecimal. One without a field table
-/// (unknown_type), or of another version: its header and "body" in hexadecimal.
+/// Decodes and prints one PDU of any type; returns the result of decoding. A damaged PDU: its
+/// fields up to the fault, or to its records, and the "rest" in hexadecimal. One without a field
+/// table (unknown_type), or of another version: its header and "body" in hexadecimal.
 DecodeError print_pdu_json(std::span<const std::byte> pdu, TextSink& sink);
 DecodeError print_pdu_tree(std::span<const std::byte> pdu, TextSink& sink);
 

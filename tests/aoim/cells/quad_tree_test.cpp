@@ -216,8 +216,8 @@ TEST(QuadTree, IsSubscribedToLikeAGrid) {
   const Focus focus{{450.0, 300.0, 0.0}, 0.0, 40.0};
   subscription.update({&focus, 1}, std::chrono::seconds(0));
   std::set<std::uint16_t> expected;
-  tree.for_each_cell_within(
-      focus.position, 40.0, [&](CellId cell, double) { expected.insert(tree.group(cell).value); });
+  tree.for_each_cell_within(focus.position, 40.0,
+                            [&](CellId cell, double) { expected.insert(tree.group(cell).value); });
   std::set<std::uint16_t> joined;
   for (const GroupIndex group : subscription.joined()) joined.insert(group.value);
   EXPECT_EQ(joined, expected);

@@ -326,7 +326,8 @@ TEST(InspectRun, RefusesWhatIsNoGroup) {
   for (const char* wrong : {"udp://", "udp://239.192.1.0:99999", "udp://nowhere"})
     EXPECT_EQ(run_reckon({"inspect", wrong}).status, 2) << wrong;
   EXPECT_EQ(run_reckon({"inspect", "udp://239.255.255.255", "--pool", "2"}).status, 2);
-  EXPECT_EQ(run_reckon({"inspect", "udp://198.51.100.1"}).status, 3) << "an address of no interface";
+  EXPECT_EQ(run_reckon({"inspect", "udp://198.51.100.1"}).status, 3)
+      << "an address of no interface";
   const TemporaryFile file(Octets(12));
   EXPECT_EQ(run_reckon({"inspect", file.raw(), "--iface", "lo"}).status, 2);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr auto kRight = TextTable::Align::right;
+constexpr auto kNumbers = TextTable::Align::right;
 /// Greatest number of rows in a table; --json and --csv have more.
 constexpr std::size_t kMostRows = 20;
 constexpr std::size_t kMostAlone = 5;
@@ -47,11 +47,11 @@ void append_and_more(std::string& out, std::size_t all, std::size_t shown) {
 void append_captures(const DiffFindings& findings, std::string& out) {
   TextTable table({{""},
                    {"CAPTURE"},
-                   {"PDUs", kRight},
-                   {"DATAGRAMS", kRight},
-                   {"OCTETS", kRight},
-                   {"s", kRight},
-                   {"PDU/s", kRight}});
+                   {"PDUs", kNumbers},
+                   {"DATAGRAMS", kNumbers},
+                   {"OCTETS", kNumbers},
+                   {"s", kNumbers},
+                   {"PDU/s", kNumbers}});
   const auto add = [&](std::string_view name, const std::string& path,
                        const CaptureSurvey& survey) {
     const double seconds = survey.seconds();
@@ -115,7 +115,8 @@ void append_differences(const CaptureDifference& found, std::string& out) {
     append_changed(*found.first_changed(), out);
   }
   if (found.changed() > 1) {
-    TextTable table({{"CHANGED FIELD"}, {"PDUs", kRight}, {"FIRST IN A"}, {"IN B"}, {"A"}, {"B"}});
+    TextTable table(
+        {{"CHANGED FIELD"}, {"PDUs", kNumbers}, {"FIRST IN A"}, {"IN B"}, {"A"}, {"B"}});
     std::size_t rows = 0;
     for (const auto& [name, field] : found.fields()) {
       if (++rows > kMostRows) break;
@@ -136,12 +137,12 @@ void append_differences(const CaptureDifference& found, std::string& out) {
 
 void append_types(const CaptureDifference& found, std::string& out) {
   TextTable table({{"BY TYPE"},
-                   {"PDUs A", kRight},
-                   {"B", kRight},
-                   {"OCTETS A", kRight},
-                   {"B", kRight},
-                   {"PDU/s A", kRight},
-                   {"B", kRight}});
+                   {"PDUs A", kNumbers},
+                   {"B", kNumbers},
+                   {"OCTETS A", kNumbers},
+                   {"B", kNumbers},
+                   {"PDU/s A", kNumbers},
+                   {"B", kNumbers}});
   const auto rate = [](std::uint64_t count, double seconds) {
     return seconds > 0 ? fmt::format("{:.1f}", static_cast<double>(count) / seconds)
                        : std::string("-");
@@ -178,7 +179,7 @@ std::string both_text(const EntityInBoth& entity, std::string (*text)(const Enti
 
 void append_entities(const CaptureDifference& found, std::string& out) {
   TextTable table(
-      {{"BY ENTITY"}, {"PDUs A", kRight}, {"B", kRight}, {"MARKING"}, {"SIDE"}, {"DRM"}});
+      {{"BY ENTITY"}, {"PDUs A", kNumbers}, {"B", kNumbers}, {"MARKING"}, {"SIDE"}, {"DRM"}});
   std::size_t rows = 0;
   for (const EntityInBoth& entity : entities_of(found)) {
     if (!entity.differs() || ++rows > kMostRows) continue;
@@ -215,13 +216,13 @@ void append_poses(const DiffFindings& findings, std::string& out) {
   std::ranges::stable_sort(
       rows, [](const Row& a, const Row& b) { return a.second->metres.max > b.second->metres.max; });
   TextTable table({{"POSE OF"},
-                   {"p50 m", kRight},
-                   {"p99 m", kRight},
-                   {"max m", kRight},
-                   {"AT s", kRight},
-                   {"p50 deg", kRight},
-                   {"p99 deg", kRight},
-                   {"max deg", kRight}});
+                   {"p50 m", kNumbers},
+                   {"p99 m", kNumbers},
+                   {"max m", kNumbers},
+                   {"AT s", kNumbers},
+                   {"p50 deg", kNumbers},
+                   {"p99 deg", kNumbers},
+                   {"max deg", kNumbers}});
   for (std::size_t i = 0; i < std::min(rows.size(), kMostRows); ++i) {
     const PoseDifference& pose = *rows[i].second;
     const peer::Spread metres = pose.metres.histogram.spread();
@@ -241,10 +242,10 @@ void append_forces(const DiffFindings& findings, std::string& out) {
   if (forces.empty()) return;
   TextTable table({{"CONTACT FORCE ON"},
                    {"BY MODEL OF"},
-                   {"p50 N", kRight},
-                   {"p99 N", kRight},
-                   {"max N", kRight},
-                   {"AT s", kRight}});
+                   {"p50 N", kNumbers},
+                   {"p99 N", kNumbers},
+                   {"max N", kNumbers},
+                   {"AT s", kNumbers}});
   std::size_t rows = 0;
   for (const auto& [key, force] : forces) {
     if (++rows > kMostRows) break;
