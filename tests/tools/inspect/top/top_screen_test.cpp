@@ -99,7 +99,9 @@ TEST(TopScreen, TellsOfSilenceInsteadOfATimeThatNobodyMeasured) {
   const std::string silent = text_of(screen.lines(data, {}, {24, 40}));
   EXPECT_THAT(silent, HasSubstr("   ex -   0:00 "));
   EXPECT_THAT(silent, HasSubstr("nothing heard yet at\n239.192.1.0:3000"));
-  data.totals.count(peer::SourceDatagram{.time = after(1e6 - 5)});
+  peer::SourceDatagram datagram;
+  datagram.time = after(1e6 - 5);
+  data.totals.count(datagram);
   data.interfaces = "lo, eth0";
   const std::string heard = text_of(screen.lines(data, {}, {24, 200}));
   EXPECT_THAT(heard, HasSubstr("239.192.1.0:3000   on lo, eth0   ex -   0:05 "));
