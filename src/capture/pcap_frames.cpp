@@ -22,6 +22,10 @@ using PcapHandle = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
 
 constexpr int kSnapLength = 65535;
 
+/// The kernel keeps a frame of any length in a slot of kSnapLength: 500 of them, where libpcap's
+/// own choice of 2 MiB has 32, fewer than the fragments of one long datagram [octets].
+constexpr int kInterfaceBuffer = 32 << 20;
+
 int milliseconds_of(nanoseconds patience) {
   return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(patience).count());
 }
@@ -173,6 +177,7 @@ std::unique_ptr<FrameReader> open_interface_frames(const std::string& name) {
   PcapHandle handle(pcap_create(name.c_str(), error.data()), pcap_close);
   if (!handle) throw std::runtime_error(name + ": " + error.data());
   pcap_set_snaplen(handle.get(), kSnapLength);
+  pcap_set_buffer_size(handle.get(), kInterfaceBuffer);
   pcap_set_promisc(handle.get(), 0);
   pcap_set_immediate_mode(handle.get(), 1);
   pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);
