@@ -70,16 +70,23 @@ Places other_places(const Places& own, bool own_too, const Places& bound, std::s
   };
   const IpEndpoint& first = own.front();
   if (own_too) add(first);
-  const IpEndpoint base =
-      (first.is_v6 ? peer::GroupPool::ipv6_default() : peer::GroupPool::ipv4_default()).base();
+  // The groups behind a base carry nothing that its presence does not announce.
+  const peer::GroupPool plain =
+      first.is_v6 ? peer::GroupPool::ipv6_default() : peer::GroupPool::ipv4_default();
+  const peer::GroupPool sealed(peer::sealed_group(plain.base()), plain.size());
+  const auto is_behind = [&](const IpEndpoint& place) {
+    return plain.index(place).has_value() || sealed.index(place).has_value();
+  };
+  const IpEndpoint& base = plain.base();
   add(base);
-  add(peer::sealed_group(base));
+  add(sealed.base());
   if (!first.is_v6) {
     add(IpEndpoint::v4(0xffffffffu, first.port));
     add(IpEndpoint::v4(0xffffffffu, base.port));
   }
   for (const IpEndpoint& place : bound)
-    if ((place.is_multicast() || place.is_broadcast()) && !holds(own, place)) add(place);
+    if ((place.is_multicast() || place.is_broadcast()) && !holds(own, place) && !is_behind(place))
+      add(place);
   return out;
 }
 

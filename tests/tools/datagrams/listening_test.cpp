@@ -42,8 +42,9 @@ TEST(Listening, SaysWhereAndWhatCameOverEachInterface) {
 
 TEST(OtherPlaces, AreBroadcastsDefaultGroupsAndThoseOfOtherPrograms) {
   const std::vector own{endpoint("239.7.7.7:7000"), endpoint("239.7.7.8:7000")};
-  const std::vector bound{endpoint("239.7.7.8:7000"), endpoint("239.9.9.9:6400"),
-                          endpoint("0.0.0.0:68"), endpoint("239.9.9.9:6400")};
+  const std::vector bound{endpoint("239.7.7.8:7000"),   endpoint("239.9.9.9:6400"),
+                          endpoint("0.0.0.0:68"),       endpoint("239.9.9.9:6400"),
+                          endpoint("239.192.1.1:3000"), endpoint("239.192.1.1:3001")};
   const std::vector rest{endpoint("239.192.1.0:3000"), endpoint("239.192.1.0:3001"),
                          endpoint("255.255.255.255:7000"), endpoint("255.255.255.255:3000"),
                          endpoint("239.9.9.9:6400")};
