@@ -288,7 +288,7 @@ TEST(InspectTail, SaysInWordsWhatAnEntityIs) {
   append(datagram, pdu);
   const TemporaryFile file(datagram);
   EXPECT_THAT(run_reckon({"inspect", file.raw()}).out,
-              HasSubstr("  Platform Land United States Tank  force 77  DRM RVW  ("));
+              HasSubstr("  Platform Land United States Tank  side 77  DRM RVW  ("));
   const auto line = run_reckon({"inspect", file.raw(), "--json"}).out;
   EXPECT_THAT(line, ::testing::Not(HasSubstr("_name")));
   EXPECT_LE(line.size(), 250U);
