@@ -39,6 +39,7 @@ class Peers {
         row.marking = {'E', 'N', 'T'};
         row.position.x() = static_cast<double>(view->count - e);  // the last is the nearest
         row.haptic = true;
+        row.rate_hz = 2.5;
       }
       rows_.push_back({view.get(), &counters_});
       views_.push_back(std::move(view));

@@ -40,8 +40,8 @@ TEST_F(GivenFile, IsInspectedIfItIsACapture) {
   EXPECT_EQ(by_name.out,
             run_reckon({"inspect", shipped("exercise.pcapng"), "stats", "--json"}).out);
   // By its octets, whatever it is called.
-  std::filesystem::copy_file(shipped("exercise.pcapng"), folder_.file("recorded.toml"));
-  EXPECT_EQ(run_reckon({folder_.file("recorded.toml"), "stats", "--json"}).status, 0);
+  std::filesystem::copy_file(shipped("exercise.pcapng"), folder_.file("recorded"));
+  EXPECT_EQ(run_reckon({folder_.file("recorded"), "stats", "--json"}).status, 0);
 }
 
 TEST_F(GivenFile, IsTouchedIfItIsASceneOrAMesh) {

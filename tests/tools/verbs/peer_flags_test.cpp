@@ -173,9 +173,9 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   EXPECT_THAT(follower, Contains("follows"));
 
   // Of a flag that is not in this list nobody knows what it does.
-  // The test two_applications shows what --application does.
-  Facts known{"SCENE",    "--help",  "--operator", "--json",
-              "--follow", "--iface", "--seed",     "--application"};
+  // The test two_applications shows what --application does, those of the viewer the page's flags.
+  Facts known{"SCENE",   "--help", "--operator",    "--json",   "--follow",
+              "--iface", "--seed", "--application", "--listen", "--open"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
@@ -187,7 +187,8 @@ TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
       {"--seed", "7"},       // nothing is drawn; that it draws otherwise a simulated demo shows
       {"--iface", "no-such-interface"},
       {"--operator", "0"},
-      {"--application", "2"},  // peers agree on their IDs
+      {"--application", "2"},   // peers agree on their IDs
+      {"--listen", "0.0.0.0"},  // there is no page
   };
   for (const Words& flag : refused) {
     Words words{"peer", scene_, "--for", "10ms"};

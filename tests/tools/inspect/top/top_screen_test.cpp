@@ -98,7 +98,7 @@ TEST(TopScreen, TellsOfSilenceInsteadOfATimeThatNobodyMeasured) {
   TopScreen screen;
   const std::string silent = text_of(screen.lines(data, {}, {24, 40}));
   EXPECT_THAT(silent, HasSubstr("   ex -   0:00 "));
-  EXPECT_THAT(silent, HasSubstr("nothing heard yet at\n239.192.1.0:3000"));
+  EXPECT_THAT(silent, HasSubstr("nothing heard yet at 239.192.1.0:3000 on\nlo and eth0"));
   peer::SourceDatagram datagram;
   datagram.time = after(1e6 - 5);
   data.totals.count(datagram);

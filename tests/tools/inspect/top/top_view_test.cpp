@@ -52,8 +52,8 @@ TEST_F(TopOfCapture, PrintsOneLineAnEntity) {
   const auto lines = result.lines();
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_THAT(lines[0], HasSubstr("ex 1   0:20   1 PDU/s   1 dgram/s"));
-  EXPECT_THAT(lines[1], HasSubstr("ID     MARK    FORCE  KIND  DRM      HZ  WHY"));
-  EXPECT_THAT(lines[2], HasSubstr("1:2:1  MOVER       1  air   2 fpw   1.0  threshold"));
+  EXPECT_THAT(lines[1], HasSubstr("ID     MARK    SIDE  KIND  DRM     HZ  WHY"));
+  EXPECT_THAT(lines[2], HasSubstr("1:2:1  MOVER      1  air   2 fpw  1.0  threshold"));
   EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m   0.0s"));
   EXPECT_THAT(lines[2], HasSubstr("239.1.2.3:3000  10.0.0.7:3000"));
   EXPECT_THAT(lines[3], HasSubstr("1:2:2  SILENT"));
