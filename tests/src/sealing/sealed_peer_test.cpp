@@ -133,7 +133,7 @@ TEST_F(SealedPeer, SaysTheSameOctetsWithoutAKeyAsAPeerThatKnowsNoSealing) {
   const FederateOptions options = options_of(scene, 1);
   PeerOptions own;
   own.name = options.name;
-  own.application = options.application;
+  own.application = options.application.value_or(own.application);
   own.scene_peer = static_cast<std::uint8_t>(options.scene_peer);
   own.epoch = 1;
   own.chain_secret = chain_secret_of(own.epoch);
