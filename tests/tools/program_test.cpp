@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -112,6 +114,23 @@ TEST(Program, TellsWhereItsOutputCouldNotBeWritten) {
   EXPECT_EQ(run_program(words, console), 3);
   EXPECT_THAT(err.text(), HasSubstr("reckon help: writing the output: No space left"));
   std::fclose(full);
+}
+
+TEST(Program, EndsWellWhereItIsAskedToWhileItsOutputHasToWait) {
+  cookie_io_functions_t functions{};
+  functions.write = [](void*, const char*, std::size_t) -> ssize_t { return errno = EINTR, 0; };
+  for (const bool asked : {true, false}) {
+    std::FILE* slow = fopencookie(nullptr, "w", functions);
+    const test::CapturedStream err;
+    const std::atomic<bool> stop = asked;
+    Console console;
+    console.out = slow;
+    console.err = err.file();
+    console.stop = &stop;
+    const std::array<std::string_view, 2> words{"help", "--man"};
+    EXPECT_EQ(run_program(words, console), asked ? 0 : 3) << err.text();
+    std::fclose(slow);
+  }
 }
 
 TEST(Program, NamesTheNearestOfItsOwnFlags) {

@@ -162,6 +162,9 @@ int run_verb_program(const VerbProgram& program, Arguments arguments,
   } catch (const std::system_error& error) {
     // The reader is gone, as after `| head`: this is no error.
     if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
+    // Ctrl-C while a slow reader kept the output waiting.
+    const bool asked = console.stop != nullptr && console.stop->load(std::memory_order_relaxed);
+    if (asked && error.code() == std::errc::interrupted) return exit_status(ExitCode::good);
     if (std::ferror(console.out) != 0)
       return report_error(console, arguments, std::system_error(error.code(), "writing the output"),
                           ExitCode::environment);

@@ -247,7 +247,7 @@ TEST(EntityTable, TakesTheRateOverAWindowThatSlides) {
   for (; time < 40; time += 1) ear.hear(time, aircraft(time, 0));
   EXPECT_NEAR(ear.row().rate(ear.entity(), after(40)), 1, 0.1);
   EXPECT_LT(ear.row().rate(ear.entity(), after(60)), 0.5) << "nothing came since";
-  EXPECT_EQ(ear.row().rate(ear.entity(), after(180)), 0) << "stale";
+  EXPECT_EQ(ear.row().rate(ear.entity(), after(200)), 0) << "stale";
 }
 
 TEST(EntityTable, KeepsTheRateOfAnEntityThatWentForASecond) {
