@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -D BUILD=<Reckon's build folder> -D SOURCE=<this folder> -D CXX=<compiler> -D PKG_CONFIG=<program>
 #   -P consumer.cmake: installs into a stage, then uses it as other projects do.
+cmake_policy(VERSION 3.25)
 set(work ${BUILD}/consumer)
 set(stage ${work}/stage)
 file(REMOVE_RECURSE ${work})
