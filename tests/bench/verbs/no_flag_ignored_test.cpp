@@ -304,8 +304,9 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--no-transfer", {}},      {"--json", {}},
   };
   Words flags = flags_of({"demo"});
-  std::erase_if(flags, [](const std::string& flag) {
-    return flag == "SCENE" || flag == "--help" || flag == "--view";  // which is refused
+  const std::set<std::string> refused{"--view", "--listen", "--open"};
+  std::erase_if(flags, [&](const std::string& flag) {
+    return flag == "SCENE" || flag == "--help" || refused.contains(flag);
   });
   for (const std::string& flag : flags) EXPECT_TRUE(values.contains(flag)) << flag;
   const Words demo{"demo", "--simulated-time", "--for", "3s", "--json"};
@@ -323,6 +324,11 @@ TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {
   const auto iface = run({"demo", "--simulated-time", "--for", "1s", "--iface", "lo"});
   EXPECT_EQ(iface.status, 2);
   EXPECT_THAT(iface.err, HasSubstr("--iface: --simulated-time has no sockets"));
+  for (const Words& page : {Words{"--listen", "0.0.0.0"}, Words{"--open"}}) {
+    const auto pageless = run(Words{"demo", "--simulated-time", "--for", "1s"} + page);
+    EXPECT_EQ(pageless.status, 2);
+    EXPECT_THAT(pageless.err, HasSubstr(page.front()));
+  }
   const auto view = run({"demo", "--simulated-time", "--for", "1s", "--view"});
   EXPECT_EQ(view.status, 2);
   EXPECT_THAT(view.err, HasSubstr("--view: --simulated-time sends nothing"));
