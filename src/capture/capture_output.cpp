@@ -14,11 +14,10 @@
 #include <utility>
 
 #include "reckon/peer/capture/capture_writer.hpp"
+#include "reckon/peer/capture/pcapng_blocks.hpp"
 
 namespace reckon::peer {
 namespace {
-
-constexpr std::uint32_t kEnhancedPacket = 6;
 
 /// A frame ends at this size [octets]; larger ones hardly reduce the file.
 constexpr std::size_t kFrameSize = std::size_t{1} << 20;

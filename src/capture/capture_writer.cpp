@@ -9,18 +9,13 @@
 #include <utility>
 
 #include "reckon/peer/capture/capture_output.hpp"
+#include "reckon/peer/capture/pcapng_blocks.hpp"
 
 namespace reckon::peer {
 namespace {
 
 using std::chrono::nanoseconds;
 
-/// Block types and numbers of draft-ietf-opsawg-pcapng.
-constexpr std::uint32_t kSectionHeader = 0x0a0d0d0a;
-constexpr std::uint32_t kInterfaceDescription = 1;
-constexpr std::uint32_t kInterfaceStatistics = 5;
-constexpr std::uint32_t kEnhancedPacket = 6;
-constexpr std::uint32_t kByteOrderMagic = 0x1a2b3c4d;
 constexpr std::uint32_t kSnapLength = 262144;
 constexpr std::uint32_t kPacketOverhead = 32;
 

@@ -12,18 +12,12 @@
 #include <vector>
 
 #include "reckon/peer/capture/frame_reader.hpp"
+#include "reckon/peer/capture/pcapng_blocks.hpp"
 
 namespace reckon::peer {
 namespace {
 
 using std::chrono::nanoseconds;
-
-constexpr std::uint32_t kSectionHeader = 0x0a0d0d0a;
-constexpr std::uint32_t kInterfaceDescription = 1;
-constexpr std::uint32_t kObsoletePacket = 2;
-constexpr std::uint32_t kSimplePacket = 3;
-constexpr std::uint32_t kEnhancedPacket = 6;
-constexpr std::uint32_t kByteOrderMagic = 0x1a2b3c4d;
 
 constexpr std::size_t kBlockOverhead = 12;
 constexpr std::size_t kMaxBlock = std::size_t{16} << 20;  // as libpcap has it
