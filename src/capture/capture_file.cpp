@@ -12,6 +12,7 @@
 #include "reckon/peer/capture/capture_stream.hpp"
 #include "reckon/peer/capture/frame_reader.hpp"
 #include "reckon/peer/capture/ip_reassembler.hpp"
+#include "reckon/peer/clocks/clock.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -37,6 +38,7 @@ class CaptureSource final : public DatagramSource {
 
  private:
   void finish(FrameEvent event);
+  void wait_no_longer();
   void tell_compression();
   [[nodiscard]] std::string unread_frames() const;
   bool take(const CapturedFrame& frame, SourceDatagram& out);
@@ -46,6 +48,7 @@ class CaptureSource final : public DatagramSource {
   std::unique_ptr<FrameReader> frames_;
   std::string name_;
   bool is_live_;
+  SteadyClock clock_;
   std::atomic<bool> stopped_{false};
   bool ended_{false};
   IpReassembler reassembler_;
@@ -66,6 +69,8 @@ SourceEvent CaptureSource::next(SourceDatagram& out, nanoseconds patience) {
     if (event == FrameEvent::frame) {
       if (take(frame, out)) return SourceEvent::datagram;
     } else if (event == FrameEvent::nothing_yet) {
+      wait_no_longer();
+      if (reassembler_.has_lost()) continue;
       report_.dropped = frames_->dropped();
       if (waited || !frames_->wait(patience)) return SourceEvent::nothing_yet;
       waited = true;
@@ -74,6 +79,13 @@ SourceEvent CaptureSource::next(SourceDatagram& out, nanoseconds patience) {
     }
   }
   return SourceEvent::end;
+}
+
+// On a quiet interface no frame's time says that a datagram's other fragments are overdue.
+void CaptureSource::wait_no_longer() {
+  if (!is_live_) return;
+  reassembler_.advance(clock_.utc_now());
+  report_.fragments = reassembler_.counts();
 }
 
 // The true end of a file, or a damaged place: what came before it remains valid.

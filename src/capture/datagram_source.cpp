@@ -115,18 +115,27 @@ class GroupsSource final : public DatagramSource {
   // A datagram may come over another interface than one that is listened to: an own address is
   // reached by lo.
   ListenedInterface& interface_of(unsigned index) {
-    const auto found = std::find(indices_.begin(), indices_.end(), index);
-    const auto place = static_cast<std::size_t>(found - indices_.begin());
-    if (found != indices_.end()) return report_.interfaces[place];
+    const auto found = std::find_if(rows_.begin(), rows_.end(),
+                                    [&](const Row& one) { return one.index == index; });
+    if (found != rows_.end()) return report_.interfaces[found->place];
     std::array<char, IF_NAMESIZE> name{};
     if (if_indextoname(index, name.data()) == nullptr) name = {'?'};
-    indices_.push_back(index);
-    return report_.interfaces.emplace_back(ListenedInterface{name.data()});
+    // An interface that went and came back has a new index and its old row.
+    auto& rows = report_.interfaces;
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const auto& one) { return one.name == name.data(); });
+    rows_.push_back({index, static_cast<std::size_t>(row - rows.begin())});
+    if (row != rows.end()) return *row;
+    return rows.emplace_back(ListenedInterface{name.data()});
   }
 
   SteadyClock clock_;
   UdpListener listener_;
-  std::vector<unsigned> indices_;  // of report_.interfaces
+  struct Row {
+    unsigned index;     // of an interface
+    std::size_t place;  // in report_.interfaces
+  };
+  std::vector<Row> rows_;
   std::array<Datagram, kBatch> batch_{};
   std::size_t next_{0};
   std::size_t count_{0};

@@ -65,6 +65,7 @@ struct FragmentCounts {
   std::uint64_t frames{0};       ///< that were fragments
   std::uint64_t whole{0};        ///< datagrams put together
   std::uint64_t lost{0};         ///< datagrams given up, because fragments are missing
+  std::uint64_t waiting{0};      ///< datagrams that still wait for fragments
   std::uint64_t overlapping{0};  ///< datagrams refused, because fragments contradict each other
   std::uint64_t late{0};         ///< fragments that came after their datagram was given up
   std::uint64_t duplicate{0};    ///< copies of fragments

@@ -51,10 +51,15 @@ class IpReassembler {
   /// The oldest datagram that was given up and not yet returned: its octets up to the first gap.
   /// False if there is none. To be emptied before the next take().
   bool take_lost(SourceDatagram& out);
+  [[nodiscard]] bool has_lost() const noexcept { return !lost_.empty(); }
   /// Gives up what is incomplete: nothing more will come.
   void give_up_all();
 
-  [[nodiscard]] const FragmentCounts& counts() const noexcept { return counts_; }
+  [[nodiscard]] FragmentCounts counts() const noexcept {
+    FragmentCounts out = counts_;
+    out.waiting = incomplete_.size();
+    return out;
+  }
   /// Octets held for incomplete datagrams.
   [[nodiscard]] std::size_t octets() const noexcept { return octets_; }
 
@@ -107,7 +112,7 @@ class IpReassembler {
   bool build_part(const Incomplete& from);
 
   ReassemblyLimits limits_;
-  FragmentCounts counts_;
+  FragmentCounts counts_;             ///< all but those that wait
   std::list<Incomplete> incomplete_;  ///< the oldest first
   std::list<Incomplete> lost_;        ///< given up, not yet returned
   std::list<Finished> finished_;      ///< the oldest first

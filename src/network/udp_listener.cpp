@@ -119,7 +119,7 @@ std::vector<UdpListener::Ear> UdpListener::ears_of(
   const bool all = place.is_unspecified();
   if (place.is_broadcast() || (all && !place.is_v6)) out.push_back({everybody, only, true});
   for (const NetworkInterface& interface : interfaces) {
-    if (place.is_broadcast() || all) {
+    if (place.is_broadcast() || (all && !place.is_v6)) {
       for (const IpEndpoint& address : interface.broadcasts)
         out.push_back({at_port(address, place.port), only, true});
     } else if (has_broadcast(interface, place)) {

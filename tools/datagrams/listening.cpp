@@ -41,7 +41,10 @@ bool begins_with_pdu(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::string listening_text(const SourceChoice& choice, const peer::SourceReport& report) {
-  if (!means_groups(choice)) return choice.source;
+  if (!means_groups(choice)) {
+    return is_live(choice) ? "all UDP of " + choice.source.substr(choice.source.find(':') + 1)
+                           : choice.source;
+  }
   const Places groups = groups_of(choice);
   std::string text = groups.front().text();
   if (groups.size() > 1) text += fmt::format(" and {} groups behind it", groups.size() - 1);

@@ -108,7 +108,7 @@ class Inspection {
         view_(inspect_view_kind(options.view).make(options, console)) {}
 
   void run() {
-    if (means_groups(options_.source))
+    if (is_live(options_.source))
       fmt::print(console_.err, "listening to {}; Ctrl-C ends\n",
                  listening_text(options_.source, source_->report()));
     std::string& out = output_.text();
@@ -202,6 +202,7 @@ bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
   view_->look(row);
   if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
   ++shown_.pdus[static_cast<std::size_t>(row.status)];
+  if (row.rule == kForeignRule) ++shown_.foreign;
   view_->pdu(datagram, row, start_, out);
   return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
 }
@@ -212,15 +213,15 @@ std::string quality(const InspectTally& tally) {
                                  counted(tally.of(PduStatus::error), "error"));
   if (tally.of(PduStatus::warning) > 0)
     text += fmt::format(", {}", counted(tally.of(PduStatus::warning), "warning"));
-  return text + fmt::format(", {}", counted(tally.of(PduStatus::note), "note"));
+  return text + fmt::format(", {}", counted(tally.of(PduStatus::note) - tally.foreign, "note"));
 }
 
 void Inspection::summarise() const {
   const InspectTally& tally = shown_;
   const InspectTally& all = inspector_.tally();
   const peer::SourceReport& report = source_->report();
-  std::string line = fmt::format("{} in {}", counted(tally.all_pdus(), "PDU"),
-                                 counted(tally.datagrams, "datagram"));
+  std::string line = fmt::format("{} in {}", counted(tally.all_pdus() - tally.foreign, "PDU"),
+                                 counted(tally.datagrams - tally.foreign, "datagram"));
   if (!view_->found_faults().has_value()) line += quality(tally);
   if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
   if (all.foreign > 0)
@@ -232,6 +233,9 @@ void Inspection::summarise() const {
   if (all.fragments > 0)
     line += fmt::format("; {} of which IP fragments are missing or overlap",
                         counted(all.fragments, "datagram"));
+  if (fragments.waiting > 0)
+    line += fmt::format("; {} still waited for IP fragments at the end",
+                        counted(fragments.waiting, "datagram"));
   if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
   if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
   if (report.malformed > 0)

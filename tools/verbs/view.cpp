@@ -106,7 +106,7 @@ int serve(const ViewOptions& options, const Console& console) {
   stage.scene = scene ? &*scene : nullptr;
   if (stage.is_capture) keep_all(stage);
   auto source = open_chosen_source(options.source);
-  if (means_groups(options.source))
+  if (is_live(options.source))
     fmt::print(console.err, "listening to {}\n", listening_text(options.source, source->report()));
   Viewing viewing(viewing_options, std::move(source));
   tell_addresses(viewing.server(), options.view, console);

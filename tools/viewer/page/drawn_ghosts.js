@@ -6,6 +6,7 @@ import { Bodies, leastScale, shapeOf } from './bodies.js';
 import { colour } from './colours.js';
 
 const TIMES = 4;
+const MOST_BY_SOFTWARE = 250;
 
 export const drawnGhosts = {
   name: 'predicted', view: 'world', large: true, says: `predicted, error × ${TIMES}`, mark: 'ghost',
@@ -46,7 +47,7 @@ class Ghosts {
     this.write(moment, off);
   }
 
-  // Those whose error would be seen: a pixel and more.
+  // Those whose error would be seen: a pixel and more; where software draws, the worst of them.
   off({ shown, predicted, count }) {
     const { position } = this.view.orbit.camera;
     const pixel = 0.65 / Math.max(200, this.view.rectangle.height);
@@ -55,9 +56,10 @@ class Ghosts {
       const o = 3 * i;
       const error = Math.hypot(shown[o] - predicted[o], shown[o + 1] - predicted[o + 1], shown[o + 2] - predicted[o + 2]);
       const depth = Math.hypot(shown[o] - position.x, shown[o + 1] - position.y, shown[o + 2] - position.z);
-      if (TIMES * error > 2 * pixel * depth) list.push(i);
+      if (TIMES * error > 2 * pixel * depth) list.push([i, error / depth]);
     }
-    return list;
+    if (this.view.software && list.length > MOST_BY_SOFTWARE) list.sort(([, a], [, b]) => b - a).length = MOST_BY_SOFTWARE;
+    return list.map(([i]) => i);
   }
 
   write({ shown, predicted, turns }, off) {

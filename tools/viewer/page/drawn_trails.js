@@ -7,8 +7,9 @@ import { NONE } from './picture.js';
 
 const TRAIL_SECONDS = 10;
 const FINE = 20; // pieces of a trail
-const COARSE = 6; // of one among many
-const MOST_LINES = 8000; // about so many in all: they are what software GL is slow at
+const COARSE = 3; // of one among many
+const MOST_LINES = 40000; // about so many in all
+const MOST_LINES_BY_SOFTWARE = 3000; // they are what it is slow at: 6 us each
 const MANY = 400;
 const MOST_TRAILS = 4096; // entities with a trail
 
@@ -44,7 +45,7 @@ class Trails {
 
   // One piece more than is full: the last one follows the entity.
   room(count) {
-    this.pieces = Math.min(FINE, Math.max(COARSE, Math.round(MOST_LINES / Math.max(1, count))));
+    this.pieces = Math.min(FINE, Math.max(COARSE, Math.round((this.view.software ? MOST_LINES_BY_SOFTWARE : MOST_LINES) / Math.max(1, count))));
     const corners = 2 * count * (this.pieces + 1);
     this.at = new Float32Array(3 * corners);
     this.born = new Float32Array(corners).fill(-1e9);

@@ -70,10 +70,11 @@ export class EntityTable {
     }
     this.rows.forEach((row, k) => {
       const i = k < this.order.length ? picture.indexOf(this.order[k]) : -1;
-      row.hidden = i < 0;
+      if (row.hidden !== (i < 0)) row.hidden = i < 0;
       if (i < 0) return;
       this.slots[k] = this.order[k];
-      row.className = this.slots[k] === moment.followed ? 'followed' : '';
+      const name = this.slots[k] === moment.followed ? 'followed' : '';
+      if (row.className !== name) row.className = name;
       COLUMNS.forEach((column, c) => {
         const text = column.text(column.key(moment, i));
         if (row.cells[c].textContent !== text) row.cells[c].textContent = text;

@@ -83,6 +83,7 @@ class Picture {
 
   // Index of the entity in a slot, or -1.
   indexOf(slot) {
+    if (slot === NONE) return -1;
     if (!this.indices) {
       this.indices = new Map();
       for (let i = 0; i < this.entities; ++i) this.indices.set(this.slot(i), i);

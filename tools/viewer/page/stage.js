@@ -8,6 +8,8 @@ import { Labels } from './labels.js';
 import { OrbitCamera } from './orbit_camera.js';
 import { worldExtent, touchExtent } from './extents.js';
 
+const MANY = 100; // entities
+
 function drawnBySoftware() {
   const context = document.createElement('canvas').getContext('webgl2');
   const names = context?.getExtension('WEBGL_debug_renderer_info');
@@ -17,8 +19,9 @@ function drawnBySoftware() {
 }
 
 class View {
-  constructor(name, yaw, tilt, extent) {
+  constructor(name, yaw, tilt, extent, software) {
     this.name = name;
+    this.software = software; // no graphics card draws
     this.scene = new Scene();
     this.orbit = new OrbitCamera(yaw, tilt);
     this.extentOf = extent;
@@ -28,6 +31,14 @@ class View {
     const sun = new DirectionalLight(0xffffff, 2.2);
     sun.position.set(-3, -5, 8);
     this.scene.add(sun, new HemisphereLight(0xffffff, 0xc4cad1, 2.3));
+  }
+
+  // What the camera should hold; where it holds many, they are gone through 4 times a second.
+  measure(moment) {
+    const { count, time } = moment;
+    if (this.measured && count > MANY && count === this.measured.count && Math.abs(time - this.measured.time) < 0.25) return this.extent;
+    this.measured = { count, time };
+    return this.extentOf(moment);
   }
 
   // Length of an arrow for one newton [m]: the strongest of late is a third of the scene.
@@ -59,12 +70,16 @@ export class Stage {
     this.host = host;
     this.canvas = host.querySelector('canvas');
     this.inset = host.querySelector('#inset');
-    const soft = drawnBySoftware();
-    this.ratio = soft && !fine ? 1 : Math.min(2, devicePixelRatio);
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !soft || fine, preserveDrawingBuffer: false });
+    const software = drawnBySoftware() && !fine;
+    this.ratio = software ? 1 : Math.min(2, devicePixelRatio);
+    // Opaque: software GL lays a canvas that could be seen through over the page at the cost of 1,500 triangles.
+    const context = this.canvas.getContext('webgl2', { alpha: false, stencil: false, antialias: !software });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
     this.renderer.autoClear = false;
     this.renderer.setPixelRatio(this.ratio);
-    this.views = { world: new View('world', -1.1, 0.68, worldExtent), touch: new View('touch', -1.15, 0.36, touchExtent) };
+    this.views = {
+      world: new View('world', -1.1, 0.68, worldExtent, software), touch: new View('touch', -1.15, 0.36, touchExtent, software),
+    };
     this.labels = new Labels(host.querySelector('#labels'));
     this.large = 'world';
     this.hidden = new Set();
@@ -141,7 +156,7 @@ export class Stage {
     this.views.touch.weigh(Math.max(strongest(moment.hands), strongest(moment.contacts)), seconds);
     this.views.world.weigh(strongest(moment.contacts), seconds);
     for (const view of Object.values(this.views)) {
-      const extent = view.extentOf(moment);
+      const extent = view.measure(moment);
       if (!extent) continue;
       view.extent = extent;
       if (!view.fitted || (view.outgrown() && !view.orbit.touched)) {

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers and names as a reader wants them.
 
+const WHOLE = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
+
 export function digits(x, count = 3) {
   if (x === null || x === undefined || !Number.isFinite(x)) return '–';
   const size = Math.abs(x);
-  if (size >= 10 ** count) return Math.round(x).toLocaleString('en');
+  if (size >= 10 ** count) return WHOLE.format(x);
   const whole = size < 1 ? 1 : Math.floor(Math.log10(size)) + 1;
   return x.toFixed(Math.max(0, count - whole));
 }
