@@ -10,6 +10,9 @@ namespace {
 // A shown entity stays shown within this share of a cell beyond the followed cell. When the beacon
 // crosses a border, it is received in the next cell before the map has it there.
 constexpr double kLingers = 0.5;
+// An entity on a border is in one of its cells for its owner, and perhaps in the other one as it is
+// predicted: by the rounding of the wire, and within the threshold of its owner.
+constexpr double kBorder = 0.05;
 
 }  // namespace
 
@@ -25,10 +28,11 @@ bool Sight::is_in_followed_cell(const Position& position, bool shown) const noex
     return std::find(besides_.begin(), besides_.end(), number) != besides_.end();
   };
   if (!is_finite(position)) return false;
-  if (is_besides(cells_.group(position)) || !shown) return is_besides(cells_.group(position));
+  if (is_besides(cells_.group(position))) return true;
+  const double beyond = (shown ? kLingers : kBorder) * finest_;
   bool near = false;
   cells_.visit([&](const auto& scheme) {
-    scheme.for_each_cell_within(position, kLingers * finest_, [&](CellId cell, double) {
+    scheme.for_each_cell_within(position, beyond, [&](CellId cell, double) {
       near = near || is_besides(scheme.group(cell));
     });
   });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -58,6 +59,12 @@ double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept {
   return nominal * (1.0 + kJitter * (2.0 * step / (kSteps - 1) - 1.0));
 }
 
+HeartbeatGrid heartbeat_grid(double nominal, const pdu::SimulationAddress& owner) noexcept {
+  const pdu::EntityId of_peer{owner.site, owner.application, 0};
+  const double step = kJitter * nominal;
+  return {step, step * (jittered_heartbeat(1.0, of_peer) - (1.0 - kJitter)) / (2.0 * kJitter)};
+}
+
 SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_error,
                                 double true_force) const noexcept {
   if (!is_finite(truth)) return SendReason::none;
@@ -80,10 +87,19 @@ void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReaso
   const double next = 2.0 * std::max(wait_, first_heartbeat_);
   wait_ = is_event ? event_repeat_ : first_heartbeat_;
   if (reason == SendReason::heartbeat) wait_ = std::min(next, heartbeat_);
+  if (step_ > 0 && wait_ >= heartbeat_) wait_ = aligned(now);
   sent_ = as_received;
   sent_time_ = now;
   has_sent_ = true;
   event_ = false;
+}
+
+// Silence from now on until the last common moment before the heartbeat is due, less what rounding
+// may add.
+double UpdatePolicy::aligned(double now) const noexcept {
+  constexpr double kRounding = 1e-6;  // [s]
+  const double moment = std::floor((now + heartbeat_ - phase_) / step_) * step_ + phase_;
+  return std::clamp(moment - now, heartbeat_ - step_, heartbeat_) - kRounding;
 }
 
 Pose UpdatePolicy::predicted(double now) const noexcept {

@@ -49,6 +49,14 @@ inline constexpr double kTimeoutMultiplier = 2.4;
 /// together do not send together.
 [[nodiscard]] double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept;
 
+/// For UpdatePolicy::align_heartbeats(): a tenth of a heartbeat, the tolerance of IEEE 1278.1, and
+/// a moment within it that the entities of a peer share and other peers' do not.
+struct HeartbeatGrid {
+  double step, phase;  ///< [s]
+};
+[[nodiscard]] HeartbeatGrid heartbeat_grid(double nominal,
+                                           const pdu::SimulationAddress& owner) noexcept;
+
 /// Seconds of silence after which an entity of this nominal heartbeat is removed.
 [[nodiscard]] constexpr double timeout(double nominal) noexcept {
   return kTimeoutMultiplier * nominal;
@@ -76,6 +84,15 @@ class UpdatePolicy {
   UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
       : UpdatePolicy(thresholds, heartbeat, heartbeat) {}
 
+  /// Times of regular heartbeats, once the repetitions after a change are over: each is earlier by
+  /// up to `step` than it would be, at a multiple of `step` after `phase` [s, of the same clock].
+  /// So the heartbeats of many entities fit into few datagrams. 0: each at its own time.
+  /// @param step [s], at most half of the heartbeat
+  void align_heartbeats(double step, double phase) noexcept {
+    step_ = step;
+    phase_ = phase;
+  }
+
   /// An abrupt event (collision, new surface, appearance): the next decide() returns it.
   void event() noexcept { event_ = true; }
 
@@ -98,7 +115,12 @@ class UpdatePolicy {
   /// Silence [s] after the last sent() at which decide() returns `heartbeat`.
   [[nodiscard]] double silence() const noexcept { return has_sent_ ? wait_ : 0.0; }
 
+  /// Step and phase [s] of align_heartbeats().
+  [[nodiscard]] double step() const noexcept { return step_; }
+  [[nodiscard]] double phase() const noexcept { return phase_; }
+
  private:
+  [[nodiscard]] double aligned(double now) const noexcept;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   Thresholds thresholds_;
@@ -106,7 +128,8 @@ class UpdatePolicy {
   double heartbeat_;
   double first_heartbeat_;
   double event_repeat_;
-  double wait_;  // silence until the next repetition
+  double wait_;                  // silence until the next repetition
+  double step_ = 0, phase_ = 0;  // [s], see align_heartbeats
   KinematicState sent_;
   double sent_time_ = 0;
   bool has_sent_ = false;

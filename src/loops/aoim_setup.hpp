@@ -51,9 +51,11 @@ struct ModelIdentity {
 
 /// Cells, bundles and time-outs as the scene states them.
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene);
-/// The same for a receiver of states.  @param frame outlives what is made of it
+/// The same for a receiver of states, with bundles that its link sends unfragmented.
+/// @param frame outlives what is made of it
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
-                                                     const deadreckon::LocalFrame& frame);
+                                                     const deadreckon::LocalFrame& frame,
+                                                     const Link& link);
 
 /// The groups of a scene: the base group, those of the cells, and if there are any, those of near
 /// rows and contact groups.

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/aoim_watch.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
@@ -33,7 +36,7 @@ void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::Subscription
   report_given_up(aoim.sequences());
   updates_refused_.set(aoim.aggregator().counts().refused);
   entities_outside_.set(aoim.sight().interest().counts().outside);
-  if (scene_.network.interop) report_outside(aoim);
+  report_outside(aoim);
   out_ = nullptr;
 }
 
@@ -71,25 +74,36 @@ void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept
   if (turn == Turn::ends) report("all lost datagrams are counted again");
 }
 
-// If plain DIS comes in one group, only the radius keeps an entity from being shown.
+// If plain DIS comes in one group, only the radius keeps an entity from being shown. Else what is
+// outside is not even received, and its distance is unknown.
 void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   if (!begun_) window_end_ = now_ + kFirstWindow;
   begun_ = true;
   if (now_ < window_end_) return;
   window_end_ = now_ + kWindow;
   const aoim::InterestCounts counts = aoim.sight().interest().counts();
+  const std::size_t peers = aoim.presence().peers().size();
   const double nearest = aoim.sight().take_nearest_outside();
   const bool inside =
       counts.accepted > at_begin_.accepted || counts.lingering > at_begin_.lingering;
-  const bool outside = counts.outside > at_begin_.outside;
+  const bool outside = scene_.network.interop ? counts.outside > at_begin_.outside
+                                              : std::min(peers, peers_at_begin_) > 0;
   at_begin_ = counts;
+  peers_at_begin_ = peers;
   if (inside) all_outside_reported_ = false;
   if (inside || !outside || all_outside_reported_) return;
   all_outside_reported_ = true;
-  report(
-      "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
-      "{:.4g} m; raise it to see them",
-      nearest, scene_.aoim.radius);
+  if (scene_.network.interop) {
+    report(
+        "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
+        "{:.4g} m; raise it to see them",
+        nearest, scene_.aoim.radius);
+  } else {
+    report(
+        "{} other peers are there and nothing of theirs is within [aoim] radius = {:.4g} m; raise "
+        "it to see farther",
+        peers, scene_.aoim.radius);
+  }
 }
 
 template <typename... Arguments>

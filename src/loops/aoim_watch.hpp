@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -49,6 +50,7 @@ class AoimWatch {
   bool begun_ = false;
   Nanoseconds window_end_{0};          // end of the window in which entities are counted
   aoim::InterestCounts at_begin_;      // of that window
+  std::size_t peers_at_begin_ = 0;     // of it
   bool all_outside_reported_ = false;  // and none came inside since
 };
 

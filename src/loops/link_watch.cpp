@@ -30,8 +30,10 @@ constexpr std::chrono::nanoseconds kLoneRefusal = std::chrono::milliseconds(500)
 
 }  // namespace
 
-LinkWatch::LinkWatch(Link& link, const GroupAddress& base, Counters& counters)
+LinkWatch::LinkWatch(Link& link, const GroupAddress& base, std::size_t longest_bundle,
+                     Counters& counters)
     : link_(link),
+      longest_bundle_(longest_bundle),
       base_unjoined_(counters.make("base_unjoined", "1 while the base group is not joined")),
       groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {
   base.text().copy(base_.data(), base_.size() - 1);
@@ -46,12 +48,20 @@ void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& ou
   at_ = link_.statistics();
   LinkEvent event;
   while (link_.take_event(event)) report("{}", std::string_view(event.text.data()));
+  report_payload();
   report_base(is_deaf);
   report_groups(unjoined - std::min<std::uint64_t>(unjoined, is_deaf ? 1 : 0));
   report_sends();
   report_drops();
   before_ = at_;
   out_ = nullptr;
+}
+
+void LinkWatch::report_payload() noexcept {
+  const std::size_t asked = std::exchange(longest_bundle_, 0), most = link_.max_payload();
+  if (asked > most)
+    report("bundles are of at most {} octets, for the MTU takes no more: [network.bundle] max = {}",
+           most, asked);
 }
 
 void LinkWatch::report_base(bool is_deaf) noexcept {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -21,7 +22,8 @@ namespace reckon::peer {
 class LinkWatch {
  public:
   /// `link` and `counters` outlive it; it watches base_unjoined and groups_unjoined.
-  LinkWatch(Link& link, const GroupAddress& base, Counters& counters);
+  /// @param longest_bundle that the scene asks for [octets]
+  LinkWatch(Link& link, const GroupAddress& base, std::size_t longest_bundle, Counters& counters);
 
   /// Call it some times a second. Each problem is reported with its remedy when it begins, and
   /// again when it is over. Notices go to `out`.
@@ -30,6 +32,7 @@ class LinkWatch {
   [[nodiscard]] IpEndpoint own_endpoint() const noexcept { return link_.local_endpoint(); }
 
  private:
+  void report_payload() noexcept;
   void report_base(bool is_deaf) noexcept;
   void report_groups(std::uint64_t count) noexcept;
   void report_sends() noexcept;
@@ -39,6 +42,7 @@ class LinkWatch {
 
   Link& link_;
   std::array<char, 64> base_{};  ///< "239.192.1.0:3000"
+  std::size_t longest_bundle_;   ///< until it was compared, then 0
   const Counter& base_unjoined_;
   const Counter& groups_unjoined_;
   LinkStatistics before_, at_;  ///< at the last look, and during this one

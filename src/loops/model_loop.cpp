@@ -38,8 +38,9 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
       counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
-      participant_(with_secret(aoim_config(wiring.scene, wiring.frame), identity.secret),
-                   presence(wiring.scene, wiring.frame, wiring.pool, identity), *this),
+      participant_(
+          with_secret(aoim_config(wiring.scene, wiring.frame, wiring.link), identity.secret),
+          presence(wiring.scene, wiring.frame, wiring.pool, identity), *this),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),

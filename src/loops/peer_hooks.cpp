@@ -36,7 +36,8 @@ PeerHooks limits(const ModelWiring& wiring) {
 }
 
 PeerHooks link(const ModelWiring& wiring) {
-  const auto watch = std::make_shared<LinkWatch>(wiring.link, wiring.pool.base(), wiring.counters);
+  const auto watch = std::make_shared<LinkWatch>(wiring.link, wiring.pool.base(),
+                                                 wiring.scene.network.bundle_max, wiring.counters);
   return {.look = [watch](const WatchedPeer& peer) {
     watch->look(peer.now, peer.notices);
     peer.aoim.note_own_source(source_of(watch->own_endpoint(), 0), peer.now);

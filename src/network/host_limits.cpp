@@ -30,6 +30,8 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kDefaultPayload = 1352;  // of a bundle, over IPv6 with an MTU of 1400
 constexpr std::size_t kIpv6AndUdp = 48;
+constexpr std::size_t kAroundBundle = 64 + kIpv6AndUdp;  // an authentication tag's room first
+constexpr std::size_t kUsualMtu = 1500;
 constexpr nanoseconds kEchoLimit = std::chrono::milliseconds(100);
 
 std::optional<long> read_number(const std::string& path) {
@@ -228,19 +230,24 @@ Finding probe_reverse_path_filter(const NetworkInterface& interface) {
               ".rp_filter=0, or give the peers addresses of one subnet"};
 }
 
-Finding probe_mtu(const NetworkInterface& interface) {
+Finding probe_mtu(const NetworkInterface& interface, std::size_t longest_bundle) {
   const std::string what = "MTU of " + interface.name + " = " + std::to_string(interface.mtu);
-  if (interface.mtu >= 1500) return ok(what);
-  if (interface.mtu >= kDefaultPayload + kIpv6AndUdp) {
-    return {FindingLevel::note,
-            what +
-                ", less than 1500; Reckon's datagrams fit, those of other DIS programs may be "
-                "fragmented",
-            {}};
+  const std::size_t needed = longest_bundle + kAroundBundle;
+  if (interface.mtu < needed) {
+    const bool fits_default = interface.mtu >= kDefaultPayload + kIpv6AndUdp;
+    const std::string bundle = std::to_string(longest_bundle);
+    return {fits_default ? FindingLevel::warning : FindingLevel::problem,
+            what + ": bundles of " + bundle + " octets do not fit, and are sent shorter",
+            "ip link set " + interface.name + " mtu " +
+                std::to_string(std::max(needed, kUsualMtu)) +
+                ", or a smaller [network.bundle] max"};
   }
-  return {FindingLevel::problem,
-          what + ": datagrams of " + std::to_string(kDefaultPayload) + " octets do not fit",
-          "ip link set " + interface.name + " mtu 1500, or a smaller payload in the scene"};
+  if (interface.mtu >= kUsualMtu) return ok(what);
+  return {FindingLevel::note,
+          what +
+              ", less than 1500; Reckon's datagrams fit, those of other DIS programs may be "
+              "fragmented",
+          {}};
 }
 
 Finding probe_interface_kind(const NetworkInterface& interface) {
@@ -369,7 +376,7 @@ std::vector<Finding> examine_host(const NetworkInterface& interface, const HostN
   const std::size_t groups = needs.peers.empty() ? needs.groups : 0;
   for (Finding& finding : std::vector<Finding>{
            probe_receive_buffer(needs.receive_buffer), probe_offload(interface, needs.pool.base()),
-           probe_reverse_path_filter(interface), probe_mtu(interface),
+           probe_reverse_path_filter(interface), probe_mtu(interface, needs.longest_bundle),
            probe_interface_kind(interface), probe_real_time(), probe_memory_lock(), probe_timer(),
            probe_open_files(groups)})
     findings.push_back(std::move(finding));

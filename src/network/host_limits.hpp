@@ -36,7 +36,8 @@ struct HostNeeds {
   GroupPool pool{GroupPool::ipv4_default()};  ///< address, port and family of its groups
   std::size_t groups{256};                    ///< of them, joined at the same time
   std::size_t receive_buffer{std::size_t{1} << 20};
-  std::vector<NamedPeer> peers;  ///< instead of groups, if there is no multicast
+  std::size_t longest_bundle{1288};  ///< [octets]
+  std::vector<NamedPeer> peers;      ///< instead of groups, if there is no multicast
 };
 
 // A probe takes the stated time or less than 1 ms, has no lasting effect, throws only
@@ -62,8 +63,9 @@ struct HostNeeds {
 [[nodiscard]] Finding probe_offload(const NetworkInterface& interface, const GroupAddress& group);
 /// net.ipv4.conf.*.rp_filter: drops datagrams from an unrouted subnet.
 [[nodiscard]] Finding probe_reverse_path_filter(const NetworkInterface& interface);
-/// Whether the MTU is large enough for the default payload, and for 1500.
-[[nodiscard]] Finding probe_mtu(const NetworkInterface& interface);
+/// Whether the MTU is large enough for bundles of a length, with what lies around them, and for
+/// datagrams of 1500 octets.
+[[nodiscard]] Finding probe_mtu(const NetworkInterface& interface, std::size_t longest_bundle);
 /// Wireless, virtual and loopback interfaces.
 [[nodiscard]] Finding probe_interface_kind(const NetworkInterface& interface);
 /// Whether a thread may take SCHED_FIFO (tried in a thread that ends at once).

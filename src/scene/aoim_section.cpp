@@ -54,8 +54,13 @@ Section<AoimConfig> aoim_section() {
            "how space is divided into cells: equal squares, equal hexagons, a quad-tree that is "
            "finer in crowds, or locales such as rooms"},
           {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
-           "side of a square, corner radius of a hexagon"},
-          {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
+           "side of a square, corner radius of a hexagon; when absent in a scene whose entities "
+           "are farther "
+           "apart than 2 m, half of the power of ten that holds them"},
+          {"radius", &AoimConfig::radius, within("m", 0.01, kWorld),
+           "how far this peer senses; when absent in a scene whose entities are farther apart than "
+           "2 m, "
+           "the power of ten that holds them"},
           {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
            "multicast groups after the base group; not 2 or 3"},
           {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),

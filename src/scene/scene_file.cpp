@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "reckon/peer/scene/scene_extent.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
@@ -110,6 +111,7 @@ void check_file(TomlReader& file, SceneFile& out) {
   }
   read_devices(file, out);
   read_entities(file, out);
+  set_reach_by_extent(out, {file.has("aoim", "cell"), file.has("aoim", "radius")});
   check_aoim_of(file, out);
 }
 

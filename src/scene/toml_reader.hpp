@@ -34,6 +34,11 @@ class TomlReader {
              std::vector<SceneProblem>& problems);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  /// Whether there is a table under `key` that has `inner`.
+  [[nodiscard]] bool has(std::string_view key, std::string_view inner) const {
+    const toml::node* const node = table_->get(key);
+    return node != nullptr && node->is_table() && node->as_table()->contains(inner);
+  }
 
   void number(std::string_view key, double& target);
   void read(std::string_view key, double& target) { number(key, target); }

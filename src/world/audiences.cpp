@@ -27,10 +27,10 @@ Audiences::Audiences(bool felt, std::span<const aoim::Channel> rows,
   for (std::size_t row = felt ? 0 : 1; row < rows.size(); ++row) {
     const double times = rows[row].coarser;
     const double behind = felt && row == 0 ? SeenSide::kBehind : SeenSide::kNever;
-    sides_.emplace_back(
-        deadreckon::UpdatePolicy(coarser(inmost.thresholds(), times), inmost.heartbeat(),
-                                 times * first_repeat, rule, deadreckon::kEventRepeat),
-        behind);
+    deadreckon::UpdatePolicy policy(coarser(inmost.thresholds(), times), inmost.heartbeat(),
+                                    times * first_repeat, rule, deadreckon::kEventRepeat);
+    policy.align_heartbeats(inmost.step(), inmost.phase());
+    sides_.emplace_back(policy, behind);
     slack_ = times * inmost.thresholds().position;
     if (rows[row].body != aoim::Body::rigid) receive_parts_ = sides_.size();
   }

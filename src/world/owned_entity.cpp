@@ -39,6 +39,9 @@ constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbe
 
 constexpr std::uint32_t kOwnBits = pdu::kAppearanceFrozen | pdu::kAppearanceDeactivated;
 
+// Shorter heartbeats come one by one: they would wait for one another's moment too often.
+constexpr double kLeastAligned = 5.0;  // [s]
+
 // As it is sent: an entity without repetitions is believed at least that long.
 deadreckon::ForceModel believed(deadreckon::ForceModel model) {
   model.validity = std::max(model.validity, kLeastValidity);
@@ -58,10 +61,15 @@ double heartbeat_of(const EntityDescription& description) {
 }
 
 deadreckon::UpdatePolicy policy_of(const EntityDescription& description, const pdu::EntityId& id) {
-  return {description.dead_reckoning.thresholds,
-          deadreckon::jittered_heartbeat(heartbeat_of(description), id),
-          description.model ? kFirstRepeatFelt : kFirstRepeat, *description.dead_reckoning.rule,
-          deadreckon::kEventRepeat};
+  const double heartbeat = heartbeat_of(description);
+  deadreckon::UpdatePolicy policy(description.dead_reckoning.thresholds,
+                                  deadreckon::jittered_heartbeat(heartbeat, id),
+                                  description.model ? kFirstRepeatFelt : kFirstRepeat,
+                                  *description.dead_reckoning.rule, deadreckon::kEventRepeat);
+  if (description.model || heartbeat < kLeastAligned) return policy;
+  const deadreckon::HeartbeatGrid grid = deadreckon::heartbeat_grid(heartbeat, id.simulation());
+  policy.align_heartbeats(grid.step, grid.phase);
+  return policy;
 }
 
 bool is_finite(const EntityTruth& truth) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/pdu/reckon/cell_roles.hpp"
@@ -101,6 +102,21 @@ TEST_F(FollowedTruck, IsSeenFromTenKilometresAway) {
   const auto& view = field_.world_.view(kFollower);
   EXPECT_THAT(tools::leaders_json(view.leaders),
               testing::HasSubstr(R"("followed":[{"beacon":"gate","cell":"0,0","group":)"));
+}
+
+TEST_F(FollowedTruck, IsSeenOnABorderOrACornerOfCells) {
+  const double edge = 50.0;  // [m] from the middle of a cell
+  for (const auto& [east, north] : {std::pair{edge, 0.0}, {edge, edge}, {edge + 9900, -edge}}) {
+    SCOPED_TRACE(testing::Message() << east << " m, " << north << " m");
+    field_.world_.start(kOwner, field_.scene_);
+    field_.world_.peer(kOwner).model().add(1, post("gate"), field_.truth({east, north, 0}));
+    const auto is_seen = [&] { return seen(kFollower) != nullptr; };
+    EXPECT_LT(field_.world_.run_until(is_seen, 8000), 8000U);
+    field_.world_.run(3000);
+    EXPECT_TRUE(is_seen());
+    field_.world_.kill(kOwner);
+    field_.world_.run(30'000);
+  }
 }
 
 TEST_F(FollowedTruck, IsSeenInEachCellThatItComesTo) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iostream>
 #include <string>
 
 #include "reckon/pdu/management/stop_freeze.hpp"
@@ -12,6 +14,7 @@
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/integration/field_of_peers.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
@@ -299,6 +302,25 @@ TEST(OwnedEntities, TenThousandAreShownByAnotherWithinTwoSeconds) {
   const auto updates = many.peer().counters().find("updates_out")->value() - before;
   EXPECT_LE(updates, 40'000U);  // repeated after 1, 2, 4 and 8 s
   EXPECT_EQ(one.size(), 10'000U);
+}
+
+// 200 posts of a heartbeat of 60 s: 3.3 updates a second. One by one they would be as many
+// datagrams; together they are one for each tenth of the heartbeat and bundle.
+TEST(Posts, AtRestRepeatThemselvesTogether) {
+  Field field(2);
+  field.start(0, 200);
+  field.start(1, 1);
+  field.world_.run(130'000);
+  const std::uint64_t datagrams = field.world_.count(0, "datagrams_out");
+  const std::uint64_t updates = field.world_.count(0, "updates_out");
+  field.world_.run(60'000);
+  const std::uint64_t sent = field.world_.count(0, "updates_out") - updates;
+  const std::uint64_t in = field.world_.count(0, "datagrams_out") - datagrams;
+  std::cout << sent << " updates in " << in << " datagrams of 60 s, presence included\n";
+  EXPECT_GE(sent, 190U);
+  EXPECT_LE(sent, 240U);
+  EXPECT_LE(in, 110U);  // 60 of presence
+  EXPECT_EQ(field.world_.view(1).entities, 200U);
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
   needs.peers = scene.network.peers;
   needs.receive_buffer = peer::receive_room(static_cast<double>(scene.network.rate),
                                             peer::kLongestStall, scene.network.bundle_max);
+  needs.longest_bundle = scene.network.bundle_max;
   return needs;
 }
 

@@ -8,6 +8,7 @@
 
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/peer/scene/scene_extent.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 
@@ -44,6 +45,7 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
         format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
         format_quantity(peer::cells_of(file.aoim).finest(), "m")));
   }
+  if (std::string note = peer::unsensed_note(file); !note.empty()) notes.push_back(std::move(note));
   for (const peer::TierConfig& tier : file.aoim.tiers) {
     if (!tier.own_group || tier.channel.farthest < file.aoim.radius) continue;
     notes.push_back(fmt::format(

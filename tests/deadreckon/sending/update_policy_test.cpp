@@ -308,6 +308,46 @@ TEST(Heartbeat, IsSpreadByTenPercentTheSameWayForTheSameEntity) {
   EXPECT_NEAR(sum / kCount, 5.0, 0.03);
 }
 
+TEST(Heartbeat, OfManyEntitiesOfAPeerComeAtFewMomentsAndWithinATenth) {
+  constexpr double kNominal = 60.0;
+  const HeartbeatGrid grid = heartbeat_grid(kNominal, {7, 3});
+  EXPECT_DOUBLE_EQ(grid.step, 6.0);
+  std::set<long> moments;
+  for (std::uint16_t number = 1; number <= 200; ++number) {
+    const double heartbeat = jittered_heartbeat(kNominal, {7, 3, number});
+    UpdatePolicy policy({}, heartbeat, 1.0);
+    policy.align_heartbeats(grid.step, grid.phase);
+    double sent = 0.3 * number;  // they began one after another
+    policy.sent({}, sent, SendReason::event);
+    for (int i = 0; i < 12; ++i) {
+      const double due = sent + policy.silence();
+      EXPECT_EQ(policy.decide({}, due - 1e-3), SendReason::none);
+      ASSERT_EQ(policy.decide({}, due + 1e-9), SendReason::heartbeat);
+      if (i > 7) {  // the doubled repetitions are over
+        EXPECT_GE(due - sent, heartbeat - grid.step - 1e-5);
+        EXPECT_LE(due - sent, heartbeat + 1e-5);
+        const double beats = (due - grid.phase) / grid.step;
+        EXPECT_NEAR(beats, std::round(beats), 1e-5);
+        if (due > 500 && due < 560) moments.insert(std::lround(beats));
+      }
+      sent = due;
+      policy.sent({}, sent, SendReason::heartbeat);
+    }
+  }
+  EXPECT_LE(moments.size(), 11U);
+}
+
+TEST(Heartbeat, OfTwoPeersComeAtDifferentMoments) {
+  std::set<double> phases;
+  for (std::uint16_t application = 1; application <= 50; ++application) {
+    const HeartbeatGrid grid = heartbeat_grid(60.0, {7, application});
+    EXPECT_GE(grid.phase, 0.0);
+    EXPECT_LE(grid.phase, grid.step);
+    phases.insert(grid.phase);
+  }
+  EXPECT_GT(phases.size(), 45U);
+}
+
 TEST(Heartbeat, TimesOutAfterTwoPointFourAndThusSurvivesALostOne) {
   EXPECT_DOUBLE_EQ(timeout(5.0), 12.0);
   EXPECT_DOUBLE_EQ(timeout(55.0), 132.0);

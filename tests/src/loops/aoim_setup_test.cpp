@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
@@ -245,6 +248,21 @@ TEST(AoimSetup, RefusesATierToTouchWhereThereCanBeNone) {
   EXPECT_NE(refusal("pool = 501\n").find("4 to 500"), std::string::npos);
   EXPECT_NE(refusal("leaders = true\nhand_out = true\n").find("'hand_out'"), std::string::npos);
   EXPECT_NE(refusal("[network]\ninterop = true\n").find("'interop'"), std::string::npos);
+}
+
+TEST(AoimSetup, BundlesAreNoLongerThanWhatTheLinkSendsUnfragmented) {
+  const SceneFile scene =
+      parse_scene_file("[scene]\nname = \"b\"\n[network.bundle]\nmax = \"9000 B\"\n", "b.toml");
+  const deadreckon::LocalFrame frame{deadreckon::Geodetic{}};
+  ManualClock clock;
+  for (const auto& [payload, longest] : {std::pair{1372U, 1372U}, {9100U, 9000U}, {100U, 280U}}) {
+    SimulatedNetworkOptions options;
+    options.max_payload = payload;
+    SimulatedNetwork network(clock, options);
+    const auto link = network.attach();
+    const aoim::AggregatorConfig bundles = aoim_config(scene, frame, *link).aggregator;
+    EXPECT_EQ(bundles.payload_limit, longest + bundles.reserved) << payload;
+  }
 }
 
 }  // namespace

@@ -49,6 +49,16 @@ class AoimWatchTest : public testing::Test {
     }
     return told;
   }
+  /// So many other peers announce themselves.
+  void announce(std::uint16_t peers) {
+    for (std::uint16_t i = 2; i < 2 + peers; ++i) {
+      std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
+      pdu::Presence heard = presence_of(i);
+      heard.cell_scheme = scene_.aoim.scheme;
+      ASSERT_EQ(pdu::encode(heard, octets), octets.size());
+      manager_->receive(aoim::kBaseGroup, octets, now_);
+    }
+  }
   std::uint64_t count(std::string_view name) { return counters_.find(name)->value(); }
 
   SceneFile scene_;
@@ -77,15 +87,6 @@ TEST_F(AoimWatchTest, TellsOnceThatTheCapLeavesGroupsOutAndOnceThatItIsOver) {
 
 TEST_F(AoimWatchTest, TellsThatPeersFindNoRoom) {
   begin({});
-  const auto announce = [&](std::uint16_t peers) {
-    for (std::uint16_t i = 2; i < 2 + peers; ++i) {
-      std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
-      pdu::Presence heard = presence_of(i);
-      heard.cell_scheme = scene_.aoim.scheme;
-      ASSERT_EQ(pdu::encode(heard, octets), octets.size());
-      manager_->receive(aoim::kBaseGroup, octets, now_);
-    }
-  };
   announce(1024);
   EXPECT_THAT(run(seconds(1)), IsEmpty());
   announce(1027);
@@ -128,6 +129,22 @@ TEST_F(AoimWatchTest, LooksForTheFirstTimeAfterTenSecondsAndNeverWhereCellsDecid
   begin({});
   static_cast<void>(manager_->sight().judge({3000, 0, 0}, 0.0, 1, false));
   EXPECT_THAT(run(seconds(100)), IsEmpty());
+}
+
+TEST_F(AoimWatchTest, TellsOnceThatPeersAreThereAndNothingOfThemIsNear) {
+  begin({});
+  announce(2);
+  EXPECT_THAT(run(seconds(9)), IsEmpty());
+  run(seconds(2));  // nobody was there when the first time span began
+  announce(2);
+  EXPECT_THAT(run(seconds(65)), ElementsAre(HasSubstr("2 other peers are there")));
+  announce(2);
+  EXPECT_THAT(run(seconds(120)), IsEmpty()) << "told already";
+  begin({});
+  announce(1);
+  run(seconds(11));
+  static_cast<void>(manager_->sight().judge({1, 0, 0}, 0.0, 1, false));
+  EXPECT_THAT(run(seconds(65)), IsEmpty()) << "one is shown";
 }
 
 TEST_F(AoimWatchTest, CountsOwnUpdatesThatWereRefused) {

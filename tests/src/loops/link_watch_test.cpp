@@ -73,9 +73,19 @@ class LinkWatchTest : public testing::Test {
   Counter& unjoined_ = counters_.make("groups_unjoined", "");
   Counter& base_ = counters_.make("base_unjoined", "");
   haptics::SpscRing<Notice> notices_{64};
-  LinkWatch watch_{link_, GroupPool::ipv4_default().base(), counters_};
+  LinkWatch watch_{link_, GroupPool::ipv4_default().base(), 1372, counters_};
   nanoseconds now_ = seconds(100);
 };
+
+TEST_F(LinkWatchTest, SaysOnceThatLongerBundlesDoNotFit) {
+  LinkWatch watch(link_, GroupPool::ipv4_default().base(), 9216, counters_);
+  for (int i = 0; i < 3; ++i) watch.look(now_, notices_);
+  ASSERT_NE(notices_.front(), nullptr);
+  EXPECT_THAT(notices_.front()->text.data(),
+              testing::StartsWith("bundles are of at most 1372 octets"));
+  notices_.pop();
+  EXPECT_EQ(notices_.front(), nullptr);
+}
 
 TEST_F(LinkWatchTest, SaysNothingOfALinkThatFaresWell) {
   EXPECT_THAT(run(seconds(60), [&] { ++link_.counts.sent; }), IsEmpty());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/network/host_limits.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/resource.h>
@@ -157,11 +158,16 @@ TEST(HostLimits, JudgeTheMtu) {
   NetworkInterface interface;
   interface.name = "eth0";
   interface.mtu = 1500;
-  EXPECT_EQ(probe_mtu(interface).level, FindingLevel::ok);
+  EXPECT_EQ(probe_mtu(interface, 1288).level, FindingLevel::ok);
+  const Finding of_long_bundles = probe_mtu(interface, 8888);
+  EXPECT_EQ(of_long_bundles.level, FindingLevel::warning);
+  EXPECT_THAT(of_long_bundles.remedy, testing::HasSubstr("mtu 9000"));
+  interface.mtu = 9000;
+  EXPECT_EQ(probe_mtu(interface, 8888).level, FindingLevel::ok);
   interface.mtu = 1400;
-  EXPECT_EQ(probe_mtu(interface).level, FindingLevel::note);
+  EXPECT_EQ(probe_mtu(interface, 1288).level, FindingLevel::note);
   interface.mtu = 1280;
-  EXPECT_EQ(probe_mtu(interface).level, FindingLevel::problem);
+  EXPECT_EQ(probe_mtu(interface, 1288).level, FindingLevel::problem);
 }
 
 TEST(HostLimits, JudgeTheKindOfInterface) {
