@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <ctime>
 #include <system_error>
+#include <utility>
 
 namespace reckon::peer {
 namespace {
@@ -47,8 +48,10 @@ void UdpReadiness::poll(nanoseconds timeout) noexcept {
   if (ready < 0) woken_ = true;
   next_event_ = 0;
   first_ready_ = false;
-  // The wake-up stays unread here: wait() takes it, receive() leaves it to the next wait().
+  // The wake-up stays unread here: wait() takes it, receive() leaves it to the next wait(). Without
+  // one there is nothing to read, which saves the system call.
   const auto is_no_socket = [this](const epoll_event& event) {
+    if (event.data.u32 == kWakeTag) wake_waits_ = true;
     if (event.data.u32 == kHostTag) host_changed_ = host_.take_changes() || host_changed_;
     if (event.data.u32 == kFirstTag) first_ready_ = true;
     return event.data.u32 >= kFirstTag;
@@ -77,10 +80,10 @@ void UdpReadiness::wake() noexcept {
 }
 
 bool UdpReadiness::take_wake() noexcept {
+  const bool by_signal = std::exchange(woken_, false);
+  if (!std::exchange(wake_waits_, false)) return by_signal;
   std::uint64_t times = 0;
-  const bool was = ::read(wake_.get(), &times, sizeof times) == sizeof times || woken_;
-  woken_ = false;
-  return was;
+  return ::read(wake_.get(), &times, sizeof times) == sizeof times || by_signal;
 }
 
 }  // namespace reckon::peer

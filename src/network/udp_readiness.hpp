@@ -54,7 +54,7 @@ class UdpReadiness {
 
   /// Ends the present poll(), or the next one. Any thread; safe in a signal handler.
   void wake() noexcept;
-  /// Whether it was woken since the last call.
+  /// Whether poll() has found that it was woken, since the last call.
   bool take_wake() noexcept;
 
   /// Whether the kernel sends notices of changed interfaces; else the caller has to examine the
@@ -77,6 +77,7 @@ class UdpReadiness {
   std::size_t event_count_ = 0, next_event_ = 0;
   bool first_ready_ = false;  // at the last poll of `epoll_`
   bool woken_ = false;        // by a signal
+  bool wake_waits_ = false;   // poll() has found it, take_wake() has not read it
   nanoseconds all_empty_{0};
 };
 

@@ -218,7 +218,7 @@ std::string any_rub(const Choice<7>& c) {
          text(within(c[5], 150, 600), "N/m") + "\n";
 }
 
-// Not met: climbs find 80 packets/s, and so fail: stiff hands that bounce off each
+// Not met: climbs find 85 packets/s, and so fail: stiff hands that bounce off each
 // other 4 to 8 times a second. docs/haptic_stability.md says what takes so many.
 TEST(Rubbing, NoClimbFindsTwoHandsThatSendMoreThanSixtyPackets) {
   const auto climbed = climb<7>([](const Choice<7>& choice) {

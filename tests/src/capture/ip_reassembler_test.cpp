@@ -59,7 +59,7 @@ class Feed {
 
   [[nodiscard]] const std::vector<Returned>& returned() const { return returned_; }
   [[nodiscard]] std::vector<Returned> take_returned() { return std::exchange(returned_, {}); }
-  [[nodiscard]] const FragmentCounts& counts() const { return reassembler_.counts(); }
+  [[nodiscard]] FragmentCounts counts() const { return reassembler_.counts(); }
   [[nodiscard]] std::size_t most_octets() const { return most_octets_; }
 
  private:

@@ -253,14 +253,13 @@ TEST(AoimSetup, RefusesATierToTouchWhereThereCanBeNone) {
 TEST(AoimSetup, BundlesAreNoLongerThanWhatTheLinkSendsUnfragmented) {
   const SceneFile scene =
       parse_scene_file("[scene]\nname = \"b\"\n[network.bundle]\nmax = \"9000 B\"\n", "b.toml");
-  const deadreckon::LocalFrame frame{deadreckon::Geodetic{}};
+  const deadreckon::LocalFrame frame(0.82, 0.145, 430.0);
   ManualClock clock;
   for (const auto& [payload, longest] : {std::pair{1372U, 1372U}, {9100U, 9000U}, {100U, 280U}}) {
     SimulatedNetworkOptions options;
     options.max_payload = payload;
-    SimulatedNetwork network(clock, options);
-    const auto link = network.attach();
-    const aoim::AggregatorConfig bundles = aoim_config(scene, frame, *link).aggregator;
+    SimulatedNetwork network(options, clock);
+    const aoim::AggregatorConfig bundles = aoim_config(scene, frame, network.link(0)).aggregator;
     EXPECT_EQ(bundles.payload_limit, longest + bundles.reserved) << payload;
   }
 }
