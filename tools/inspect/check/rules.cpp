@@ -29,7 +29,6 @@ using Fault = std::optional<RuleFault>;
 constexpr std::size_t kStatusAt = 10;
 constexpr std::size_t kIdAt = 12;
 constexpr std::size_t kVelocityAt = 36;
-constexpr std::size_t kLocationAt = 48;
 constexpr std::size_t kAccelerationAt = 104;
 constexpr std::size_t kAngularVelocityAt = 116;
 
@@ -294,11 +293,16 @@ constexpr auto kRules = std::to_array<CheckRule>({
      out_of_tolerance},
     {kHeartbeatRule, "An entity was silent for more than 2.4 heartbeats of its kind and domain.",
      "send Entity States at the heartbeat, and a deactivated one at the end", missed_heartbeat},
-    {"W-DUPLICATE-ID", "One entity ID comes from two senders. Reported once.",
+    {kDuplicateRule, "One entity ID comes from two senders. Reported once.",
      "give each simulation its own site and application", duplicate_id},
     {"W-VELOCITY", "Velocity and positions of an entity contradict each other grossly.",
      "check units (m/s), sign, and axes: geocentric for DRM 1 to 5, body for 6 to 9",
      velocity_contradicts},
+    {kTeleportRule,
+     "An entity's place is farther from where its last update led than its motion can explain.",
+     "placed by hand, or lost updates; else look for what the sender did at that time"},
+    {kSpikeRule, "The same for a single update: the next one is back on the way.",
+     "look in the sender for a value that is set before the rest, or of another frame"},
     {"W-ATTRIBUTE-ORDER", "An Attribute PDU stands before the Entity State that it extends.",
      "put Entity States first in the datagram", attribute_first},
     {"W-COUPLED",
