@@ -12,6 +12,7 @@
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/entity/entity_state_update.hpp"
 #include "reckon/tools/captures/number_list.hpp"
+#include "reckon/tools/datagrams/zero_length.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -38,7 +39,8 @@ void ExerciseMapOptions::declare(CommandLine& line) {
               "degrees and metres; without FROM= its first place goes there");
 }
 
-ExerciseMap::ExerciseMap(const ExerciseMapOptions& options) : ids_(options.ids) {
+ExerciseMap::ExerciseMap(const ExerciseMapOptions& options, bool lenient)
+    : lenient_(lenient), ids_(options.ids) {
   std::iota(exercise_.begin(), exercise_.end(), std::uint8_t{0});
   for (const std::string& text : options.exercises) parse_exercise(text);
   if (options.place.empty()) return;
@@ -61,6 +63,15 @@ void ExerciseMap::parse_exercise(const std::string& text) {
 }
 
 void ExerciseMap::apply(std::span<std::byte> datagram) {
+  const auto without_length = lenient_ ? find_zero_length(datagram) : std::nullopt;
+  if (!without_length.has_value()) return apply_to_all(datagram);
+  set_length(datagram, *without_length,
+             static_cast<std::uint16_t>(datagram.size() - *without_length));
+  apply_to_all(datagram);
+  set_length(datagram, *without_length, 0);
+}
+
+void ExerciseMap::apply_to_all(std::span<std::byte> datagram) {
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
     const auto octets = datagram.subspan(bundled.offset, bundled.bytes.size());
     if (bundled.error == pdu::DecodeError::none)

@@ -43,8 +43,9 @@ struct ExerciseMapCounts {
 /// Updates.
 class ExerciseMap {
  public:
+  /// @param lenient maps a PDU whose length field is 0, which stays 0, as the rest of its datagram
   /// @throws UsageError with the word and the remedy.
-  explicit ExerciseMap(const ExerciseMapOptions& options);
+  explicit ExerciseMap(const ExerciseMapOptions& options, bool lenient = false);
 
   [[nodiscard]] bool is_active() const {
     return maps_exercise_ || !ids_.empty() || request_.has_value();
@@ -56,12 +57,14 @@ class ExerciseMap {
   [[nodiscard]] std::string summary() const;
 
  private:
+  void apply_to_all(std::span<std::byte> datagram);
   void parse_exercise(const std::string& text);
   void apply_to_pdu(std::span<std::byte> octets, const pdu::PduHeader& header);
   void count(const MappedPdu& done);
   [[nodiscard]] bool has_body_axes(std::span<const std::byte> octets, const pdu::PduHeader& header);
 
   std::array<std::uint8_t, 256> exercise_;
+  bool lenient_;
   bool maps_exercise_ = false;
   IdMap ids_;
   std::optional<ShiftRequest> request_;

@@ -97,7 +97,7 @@ class Replay {
         console_(console),
         selection_(options.selection),
         sealed_(options.key),
-        map_(options.map),
+        map_(options.map, options.selection.lenient),
         source_(open_recording(options.file)),
         senders_(options.interface, options.broadcast, clock_),
         status_(console.err, clock_.now()),

@@ -83,7 +83,7 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
     tell({rule_of(row.rule), row.frame, row.pdu, row.offset, row.fault_offset, row.time, row.id,
           row.reason},
          out);
-  if (row.decoded && row.status == PduStatus::ok) {
+  if (row.decoded && row.status <= PduStatus::note) {
     CheckedPdu checked{row, datagram, survey_, highest_rank_, row.entity_state, nullptr};
     EntityMemory* memory = nullptr;
     if (row.entity_state != nullptr) {

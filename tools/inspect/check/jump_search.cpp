@@ -13,7 +13,7 @@ namespace {
 
 using deadreckon::KinematicState;
 
-constexpr double kLeastExplained = 5.0;            // thresholds of senders lie below it [m]
+constexpr double kLeastExplained = 5.0;       // thresholds of senders lie below it [m]
 constexpr double kTimeError = 0.1;            // of a place against its timestamp [s]
 constexpr double kHiddenAcceleration = 10.0;  // [m/s^2] that updates do not show,
 constexpr double kLongestHidden = 5.0;        // and for how long [s]

@@ -313,6 +313,10 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "No field table for this PDU type: its octets are kept as they are. Reported once for each "
      "type.",
      "nothing to do: it is stepped over by its length"},
+    {kNoLengthRule, "The length field is 0: taken as the rest of the datagram. With --lenient.",
+     "the sender must write the octets of the whole PDU into it"},
+    {kTrailingRule, "Octets behind the last PDU or behind its last field are kept. With --lenient.",
+     "nothing to do, if they are a product's own; else a length field or a count is wrong"},
     {kForeignRule, "A datagram of another protocol: no DIS of any version. Reported once.",
      "nothing to do; a group or port of the exercise's own keeps others apart"},
     {"I-UNNAMED",

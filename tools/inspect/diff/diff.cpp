@@ -27,6 +27,7 @@ struct DiffOptions {
   std::string path_b;
   std::string where;
   std::string align = "rate";
+  bool lenient = false;
   bool ignore_time = false;
   bool json = false;
   bool csv = false;
@@ -44,6 +45,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DiffOption
   line.word("A", options.path_a, true, "a capture, pcap or pcapng");
   line.word("B", options.path_b, true, "another one");
   line.option("--where", options.where, "only PDUs that match, of both; see reckon inspect --help");
+  line.flag("--lenient", options.lenient, "as with reckon inspect");
   line.flag("--ignore-time", options.ignore_time,
             "times inside PDUs do not count: header, trailer, presence");
   line.choice("--align", options.align, {"rate", "first", "none"},
@@ -73,8 +75,8 @@ bool DiffFindings::is_same() const {
 int run_inspect_diff(Arguments arguments, const Console& console) {
   DiffOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
-  const PduStreamOptions of_a{options.path_a, options.where, options.ignore_time};
-  const PduStreamOptions of_b{options.path_b, options.where, options.ignore_time};
+  const PduStreamOptions of_a{options.path_a, options.where, options.lenient, options.ignore_time};
+  const PduStreamOptions of_b{options.path_b, options.where, options.lenient, options.ignore_time};
   const auto stopped = [&] { return console.stopped(); };
   const bool as_they_are = options.align == "none";
   const auto align = [&](PduStream& a, PduStream& b, CaptureDifference& difference) {
