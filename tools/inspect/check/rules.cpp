@@ -38,7 +38,7 @@ constexpr double kShortestInterval = 0.05;   // [s], positions round too much be
 constexpr double kLongestInterval = 5.0;     // [s], the motion may have changed unseen beyond it
 constexpr double kLeastContradiction = 2.0;  // [m]
 constexpr double kGrossly = 0.5;             // of the displacement
-constexpr std::uint8_t kContradictions = 2;  // in a row: a jump or a sharp turn causes one
+constexpr std::uint8_t kContradictions = 3;  // in a row: a sharp turn causes one, a spike two
 
 bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
@@ -211,7 +211,7 @@ Fault velocity_contradicts(const CheckedPdu& checked) {
   return RuleFault{
       kVelocityAt,
       fmt::format("entity_linear_velocity is {:.3g} m/s, the positions went {:.3g} m/s: "
-                  "{:.3g} m apart in {:.3g} s, the second time in a row",
+                  "{:.3g} m apart in {:.3g} s, the third time in a row",
                   velocity_of(*checked.entity_state).norm(), went, error, interval)};
 }
 

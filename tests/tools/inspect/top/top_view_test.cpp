@@ -62,6 +62,22 @@ TEST_F(TopOfCapture, PrintsOneLineAnEntity) {
   EXPECT_EQ(result.status, 0);
 }
 
+TEST(Top, NamesTimeAndFrameOfTheGreatestJump) {
+  CaptureBuilder capture;
+  for (int i = 0; i <= 20; ++i) {
+    Octets datagram;
+    append_pdu(datagram, entity_at(i, i < 12 ? 0.0 : 500.0));
+    capture.add(datagram, after(i));
+  }
+  const auto text = run_reckon({"inspect", capture.path(), "top"}).lines();
+  EXPECT_THAT(text.at(1), HasSubstr("max     AT"));
+  EXPECT_THAT(text.at(2), HasSubstr("500 m  12.0s"));
+  const json row = json::parse(run_reckon({"inspect", capture.path(), "top", "--json"}).lines()[0]);
+  EXPECT_NEAR(row["jump_max_m"], 500, 0.1);
+  EXPECT_EQ(row["jump_max_at_s"], 12);
+  EXPECT_EQ(row["jump_max_frame"], 13);
+}
+
 TEST_F(TopOfCapture, GivesJsonWithTheDocumentedKeys) {
   const auto lines = run_reckon({"inspect", capture_.path(), "top", "--json"}).lines();
   ASSERT_EQ(lines.size(), 3U);
