@@ -90,7 +90,9 @@ class EntityTable {
   [[nodiscard]] std::span<const HeardEntity> entities() const noexcept { return heard_.entities(); }
   [[nodiscard]] std::span<const EntityRow> rows() const noexcept { return rows_; }
   /// Arrival of the first datagram; 0 before it.
-  [[nodiscard]] std::chrono::nanoseconds start() const noexcept { return start_.value_or({}); }
+  [[nodiscard]] std::chrono::nanoseconds start() const noexcept {
+    return start_.value_or(std::chrono::nanoseconds{});
+  }
   /// PDUs of entities for which there was no room.
   [[nodiscard]] std::uint64_t others() const noexcept { return heard_.refusals().crowded; }
   /// How the force of its model jumped [N]; null where it has none.

@@ -153,9 +153,10 @@ void CheckView::tell_jump(const Jump& jump, std::string& out) {
                          jump.kind == Jump::Kind::spike ? ", back with the next update" : "",
                          distance_text(jump.explained), jump.interval);
   }
+  const bool has_size = jump.kind != Jump::Kind::by_turns;
   const std::size_t field = jump.is_entity_state ? kLocationAt : 0;
   tell({rule_of(code), jump.frame, jump.pdu, jump.offset, jump.offset + field, jump.time, jump.id,
-        reason, jump.metres},
+        reason, has_size ? std::optional(jump.metres) : std::nullopt},
        out);
 }
 

@@ -115,7 +115,8 @@ JumpSearch::Fit JumpSearch::fit(const KinematicState& before, const KinematicSta
     const double off =
         std::min(extrapolated, (now.position - before.position - interval * mean).norm());
     const Fit one{off,
-                  explained(before, now, interval) + kUnstatedMargin * unstated_speed * interval};
+                  explained(before, now, interval) + kUnstatedMargin * unstated_speed * interval,
+                  extrapolated};
     if (first || one.off - one.allowed < best.off - best.allowed) best = one;
     first = false;
   }
@@ -140,7 +141,7 @@ void JumpSearch::compare(Row& row, const StateUpdate& update, const Jump& here, 
 void JumpSearch::suspect(Row& row, const KinematicState& before, const Intervals& passed,
                          const Fit& fit, const Jump& here) {
   row.suspect = std::make_unique<Suspect>(Suspect{before, passed, here});
-  row.suspect->jump.metres = fit.off;
+  row.suspect->jump.metres = fit.metres;
   row.suspect->jump.explained = fit.allowed;
   row.suspect->jump.interval = passed[0];
 }
@@ -157,8 +158,8 @@ void JumpSearch::decide(Row& row, const StateUpdate& update, const Intervals& pa
   if (from.algorithm == doubted.before.algorithm && is_wild(doubted.before, from, doubted.since[0]))
     from.velocity = doubted.before.velocity;
 
-  const Fit stayed = fit(from, update.state, passed);
-  const Fit returned = fit(doubted.before, update.state, both);
+  const Fit stayed = fit(from, update.state, passed, row.unstated_speed);
+  const Fit returned = fit(doubted.before, update.state, both, row.unstated_speed);
   if (returned.is_explained() && (!stayed.is_explained() || returned.off < stayed.off))
     return tell_spike(row, there, passed, tell);
   if (stayed.is_explained()) return drop_suspect(row, tell);

@@ -85,8 +85,9 @@ class JumpSearch {
   };
   /// How well an update follows another.
   struct Fit {
-    double off = 0;      ///< [m] of the better interval
+    double off = 0;      ///< [m] by the better interval, from the nearer of both predictions
     double allowed = 0;  ///< [m]
+    double metres = 0;   ///< from the extrapolation
     [[nodiscard]] bool is_explained() const { return off <= allowed; }
   };
   struct Observer;

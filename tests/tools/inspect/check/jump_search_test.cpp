@@ -192,7 +192,7 @@ TEST(JumpSearch, SaysTwoPlacesByTurnsOfOneSenderOnce) {
   EXPECT_EQ(found[0]["rule"], "W-SPIKE");
   EXPECT_EQ(found[1]["rule"], "W-DUPLICATE-ID");
   EXPECT_THAT(found[1]["reason"].get<std::string>(),
-              HasSubstr("at two places by turns, 5.0 km apart"));
+              HasSubstr("at two places by turns, 5000 m apart"));
 }
 
 TEST(JumpSearch, TakesAProgramThatBeganAnewForNone) {
