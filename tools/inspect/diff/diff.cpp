@@ -79,23 +79,24 @@ int run_inspect_diff(Arguments arguments, const Console& console) {
   const PduStreamOptions of_b{options.path_b, options.where, options.lenient, options.ignore_time};
   const auto stopped = [&] { return console.stopped(); };
   const bool as_they_are = options.align == "none";
-  const auto align = [&](PduStream& a, PduStream& b, CaptureDifference& difference) {
+  std::optional<CaptureDifference> difference;
+  const auto align = [&](PduStream& a, PduStream& b) {
     PduAlignment alignment(a, b, options.ignore_time);
-    for (AlignedPdus step; !stopped() && alignment.next(step);) difference.add(step);
+    for (AlignedPdus step; !stopped() && alignment.next(step);) difference->add(step);
   };
   PduStream a(of_a);
   PduStream b(of_b);
-  CaptureDifference difference(as_they_are ? std::optional(nanoseconds::zero()) : std::nullopt);
-  align(a, b, difference);
+  difference.emplace(as_they_are ? std::optional(nanoseconds::zero()) : std::nullopt);
+  align(a, b);
 
-  MotionDifference motion(difference.shift().value_or(nanoseconds::zero()), options.step);
-  const auto other_rate = options.align == "rate" ? difference.other_rate() : std::nullopt;
+  MotionDifference motion(difference->shift().value_or(nanoseconds::zero()), options.step);
+  const auto other_rate = options.align == "rate" ? difference->other_rate() : std::nullopt;
   PduStream again_a(of_a);
   PduStream again_b(of_b);
   if (other_rate.has_value()) {
     // The rate is known at the end only.
-    difference = CaptureDifference(std::nullopt, other_rate);
-    align(again_a, again_b, difference);
+    difference.emplace(std::nullopt, other_rate);
+    align(again_a, again_b);
     PduStream last_a(of_a);
     PduStream last_b(of_b);
     PduAlignment alignment(last_a, last_b, options.ignore_time);
@@ -105,7 +106,7 @@ int run_inspect_diff(Arguments arguments, const Console& console) {
   }
 
   const DiffFindings findings{options.path_a,     options.path_b, a.report().problem,
-                              b.report().problem, difference,     motion,
+                              b.report().problem, *difference,    motion,
                               options.step,       options.within};
   std::string out;
   append_diff(findings, options.format(), out);
