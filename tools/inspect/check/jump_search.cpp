@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -30,6 +32,15 @@ Eigen::Vector3d velocity_of(const KinematicState& state) {
 bool is_wild(const KinematicState& before, const KinematicState& now, double interval) {
   const double change = (velocity_of(now) - velocity_of(before)).norm();
   return change > kMostAcceleration * std::max(interval, 1.0);
+}
+
+/// By the timestamps, however fast they run against the arrivals (a replay without pauses).
+std::optional<double> stated_interval(const HeardEntity& last, const StateUpdate& update) {
+  const std::uint32_t before = timestamp_of(last.octets);
+  const std::uint32_t now = timestamp_of(update.octets);
+  if (pdu::is_absolute(before) != pdu::is_absolute(now)) return std::nullopt;
+  const double stated = pdu::to_seconds(pdu::difference(now, before));
+  return stated > 0 ? std::optional(stated) : std::nullopt;
 }
 
 }  // namespace
@@ -125,8 +136,8 @@ JumpSearch::Fit JumpSearch::fit(const KinematicState& before, const KinematicSta
 
 void JumpSearch::compare(Row& row, const StateUpdate& update, const Jump& here, const Tell& tell) {
   const HeardEntity& last = heard_.entities()[update.place];
-  const Intervals passed{std::max(update.between.seconds, 0.0),
-                         std::max(last.age(update.arrival), 0.0)};
+  const double arrived = std::max(last.age(update.arrival), 0.0);
+  const Intervals passed{stated_interval(last, update).value_or(arrived), arrived};
   if (row.suspect != nullptr) return decide(row, update, passed, here, tell);
   if (row.spike != nullptr) {
     for (std::size_t i = 0; i < passed.size(); ++i) row.spike->ago[i] += passed[i];

@@ -212,6 +212,15 @@ TEST(JumpSearch, TakesTimestampsThatJumpForNone) {
   EXPECT_EQ(rules_of(updates), kNone);
 }
 
+TEST(JumpSearch, TakesAReplayWithoutPausesForNone) {
+  Updates updates = trucks(20);
+  for (std::size_t i = 0; i < updates.size(); ++i)
+    updates[i].arrival = kStart + nanoseconds(1000 * i);
+  EXPECT_EQ(rules_of(updates), kNone);
+  shift_from(updates, 12, 500);
+  EXPECT_EQ(rules_of(updates), Rules{"W-TELEPORT"});
+}
+
 TEST(JumpSearch, TakesCapturesThatAreSortedBadlyForNone) {
   Updates updates = trucks(40);
   for (std::size_t i = 3; i + 2 < updates.size(); i += 4) std::swap(updates[i], updates[i + 2]);
