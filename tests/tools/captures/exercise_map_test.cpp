@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <numbers>
 #include <set>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
@@ -93,28 +95,29 @@ Collector collected(const Octets& octets) {
   return all;
 }
 
-TEST(ExerciseMap, ReadsThePlaceOfEachFieldInEverySample) {
-  // A visitor that counts wrongly writes to the wrong place: each record is read again where it
-  // is said to be.
-  struct Reader {
-    template <typename T>
-    void operator()(std::string_view name, const T& value, std::size_t at) {
-      if constexpr (pdu::Scalar<T>) {
-        ASSERT_LE(at + sizeof(T), octets_.size()) << name;
-        T again = pdu::load_big_endian<T>(octets_.data() + at);
-        EXPECT_EQ(std::memcmp(&again, &value, sizeof(T)), 0) << name << " at " << at;
-      }
+/// Reads each number again where it is said to stand.
+struct SecondReader {
+  template <typename T>
+  void operator()(std::string_view name, const T& value, std::size_t at) {
+    if constexpr (pdu::Scalar<T>) {
+      ASSERT_LE(at + sizeof(T), pdu.size()) << name;
+      const T again = pdu::load_big_endian<T>(pdu.data() + at);
+      EXPECT_EQ(std::memcmp(&again, &value, sizeof(T)), 0) << name << " at " << at;
     }
-    void octets(std::string_view, std::span<const std::byte>) {}
-    std::span<const std::byte> octets_;
-  };
+  }
+  void octets(std::string_view, std::span<const std::byte>) {}
+
+  std::span<const std::byte> pdu;
+};
+
+TEST(ExerciseMap, ReadsThePlaceOfEachFieldInEverySample) {
   for (const std::string& name : samples()) {
     SCOPED_TRACE(name);
     const Octets octets = test::sample_octets(name);
     pdu::PduHeader header;
     ASSERT_EQ(pdu::decode_header(octets, header), pdu::DecodeError::none);
     const auto error = pdu::visit(octets, header, [&](const auto& pdu) {
-      Reader reader{octets};
+      SecondReader reader{octets};
       PlacedFields placed(octets, reader);
       fields(placed, pdu);
     });
