@@ -100,14 +100,14 @@ struct SecondReader {
   template <typename T>
   void operator()(std::string_view name, const T& value, std::size_t at) {
     if constexpr (pdu::Scalar<T>) {
-      ASSERT_LE(at + sizeof(T), pdu.size()) << name;
-      const T again = pdu::load_big_endian<T>(pdu.data() + at);
+      ASSERT_LE(at + sizeof(T), whole.size()) << name;
+      const T again = pdu::load_big_endian<T>(whole.data() + at);
       EXPECT_EQ(std::memcmp(&again, &value, sizeof(T)), 0) << name << " at " << at;
     }
   }
   void octets(std::string_view, std::span<const std::byte>) {}
 
-  std::span<const std::byte> pdu;
+  std::span<const std::byte> whole;
 };
 
 TEST(ExerciseMap, ReadsThePlaceOfEachFieldInEverySample) {
