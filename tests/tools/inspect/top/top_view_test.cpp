@@ -54,7 +54,7 @@ TEST_F(TopOfCapture, PrintsOneLineAnEntity) {
   EXPECT_THAT(lines[0], HasSubstr("ex 1   0:20   1 PDU/s   1 dgram/s"));
   EXPECT_THAT(lines[1], HasSubstr("ID     MARK    SIDE  KIND  DRM     HZ  WHY"));
   EXPECT_THAT(lines[2], HasSubstr("1:2:1  MOVER      1  air   2 fpw  1.0  threshold"));
-  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m   0.0s"));
+  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m  0.50 m  1.0s   0.0s"));
   EXPECT_THAT(lines[2], HasSubstr("239.1.2.3:3000  10.0.0.7:3000"));
   EXPECT_THAT(lines[3], HasSubstr("1:2:2  SILENT"));
   EXPECT_THAT(lines[3], HasSubstr("15.0s"));
@@ -66,7 +66,7 @@ TEST(Top, NamesTimeAndFrameOfTheGreatestJump) {
   CaptureBuilder capture;
   for (int i = 0; i <= 20; ++i) {
     Octets datagram;
-    append_pdu(datagram, entity_at(i, i < 12 ? 0.0 : 500.0));
+    append_pdu(datagram, entity_at(i, i < 12 ? 0.0 : 500.0, 1, "MOVER"));
     capture.add(datagram, after(i));
   }
   const auto text = run_reckon({"inspect", capture.path(), "top"}).lines();
