@@ -185,7 +185,7 @@ Capture two_flying_balls() {
   Capture capture;
   for (int i = 0; i < 50; ++i) {
     const double t = 0.02 * i;
-    Ball ball{.entity = static_cast<std::uint16_t>(1 + i % 2), .up = 5 * t};
+    Ball ball{.entity = static_cast<std::uint16_t>(1 + i % 2), .up = 5 * t, .rising = 5};
     ball.time = kStart + milliseconds(20 * i);
     capture.push_back({test::datagram_of(ball), ball.time});
   }
@@ -215,7 +215,7 @@ TEST(InspectDiff, PairsACaptureOfAnotherRateByItsPdus) {
 TEST(InspectDiff, FindsWhatDiffersInACaptureOfAnotherRate) {
   const File a(two_flying_balls());
   Capture changed = played(two_flying_balls(), 2);
-  Ball moved{.entity = 1, .up = 5 * 0.02 * 20 + 3};
+  Ball moved{.entity = 1, .up = 5 * 0.02 * 20 + 3, .rising = 5};
   moved.time = kStart + milliseconds(20 * 20);
   changed[20].octets = test::datagram_of(moved);
   changed.erase(changed.begin() + 30);
