@@ -13,6 +13,7 @@
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 #include "reckon/tests/fuzz/json_check.hpp"
 #include "reckon/tests/fuzz/wire_mutator.hpp"
+#include "reckon/tools/captures/pdu_map.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 #include "reckon/tools/inspect/output/json_lines.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
@@ -55,9 +56,9 @@ void check_row(const PduRow& row, std::size_t size) {
 }
 
 /// Every row of the datagram, without text: what it takes of heap is bounded.
-void check_rows(const peer::SourceDatagram& datagram) {
+void check_rows(const peer::SourceDatagram& datagram, bool lenient) {
   const HeapMeter heap;
-  tools::DatagramInspector inspector;
+  tools::DatagramInspector inspector(lenient);
   inspector.inspect(datagram, [&](const PduRow& row) {
     check_row(row, datagram.bytes.size());
     return true;
@@ -146,17 +147,34 @@ void check_views(const peer::SourceDatagram& datagram) {
   check_view(haptics, datagram);
 }
 
+/// Other IDs and another place: no octet is added or lost, and what was whole is whole.
+void check_map(Octets octets) {
+  static const tools::IdMap ids({"*:*:*=300:2:*"});
+  static const tools::PlaceShift shift(deadreckon::LocalFrame(0.8, 0.2, 500),
+                                       deadreckon::LocalFrame(-0.6, 2.9, 0));
+  std::vector<std::byte> copy(octets.begin(), octets.end());
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(copy)) {
+    if (pdu.error != pdu::DecodeError::none) continue;
+    const std::span<std::byte> whole = std::span(copy).subspan(pdu.offset, pdu.bytes.size());
+    const tools::MappedPdu done = tools::map_pdu(whole, pdu.header, ids, &shift, false);
+    require(pdu::visit(whole, pdu.header, [](const auto&) {}) == done.error,
+            "a mapped PDU is no longer what it was");
+  }
+}
+
 void check(Octets octets) {
   check_reader(octets);
+  check_map(octets);
   peer::SourceDatagram datagram;
   datagram.frame = 1;
   datagram.bytes = octets;
   for (const auto portion : {Portion::first_fragment, Portion::later_fragment, Portion::cut}) {
     datagram.portion = portion;
-    check_rows(datagram);
+    check_rows(datagram, false);
   }
   datagram.portion = Portion::whole;
-  check_rows(datagram);
+  check_rows(datagram, false);
+  check_rows(datagram, true);
   check_text(datagram);
   check_views(datagram);
 }

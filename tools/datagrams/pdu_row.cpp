@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <concepts>
 
 #include "reckon/pdu/finite.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/type_names.hpp"
+#include "reckon/tools/datagrams/zero_length.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -95,6 +97,24 @@ std::string_view portion_text(peer::Portion portion) {
   return "";
 }
 
+constexpr std::size_t kLengthAt = 8;  // in the header
+
+/// Octets behind the last PDU that are none themselves.
+bool is_trailing(const pdu::BundledPdu& bundled) {
+  const bool is_cut_header =
+      bundled.error == DecodeError::truncated && bundled.bytes.size() < pdu::kHeaderSize;
+  return bundled.index > 0 && (bundled.error == DecodeError::stray || is_cut_header);
+}
+
+/// The first 16 of them.
+std::string start_in_hex(std::span<const std::byte> octets) {
+  constexpr std::size_t kMost = 16;
+  std::string text;
+  for (const std::byte octet : octets.first(std::min(octets.size(), kMost)))
+    text += fmt::format("{:02x}", std::to_integer<unsigned>(octet));
+  return octets.size() > kMost ? text + "..." : text;
+}
+
 void set_fault(PduRow& row, std::string_view rule, const PduFault& fault) {
   row.rule = rule;
   row.status = status_of(rule);
@@ -117,6 +137,7 @@ PduStatus status_of(std::string_view rule) noexcept {
 
 std::string_view PduRow::type() const noexcept {
   if (rule == kForeignRule) return "foreign";
+  if (rule == kTrailingRule && !has_header) return "trailing";
   return has_header ? pdu::snake_name(header.pdu_type) : "unreadable";
 }
 
@@ -127,6 +148,15 @@ void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
   row_.frame = datagram.frame;
   row_.time = datagram.time;
   row_.interface = datagram.interface;
+  bytes_ = datagram.bytes;
+  without_length_.reset();
+  if (!lenient_ || peer::is_headless(datagram.portion)) return;
+  without_length_ = find_zero_length(bytes_);
+  if (!without_length_.has_value()) return;
+  mended_.assign(bytes_.begin(), bytes_.end());
+  set_length(mended_, *without_length_,
+             static_cast<std::uint16_t>(mended_.size() - *without_length_));
+  bytes_ = mended_;
 }
 
 void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled) {
@@ -145,9 +175,12 @@ void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::Bu
 
   PduFault fault;
   DecodeError error = bundled.error;
-  if (error == DecodeError::none) error = decode_body(bundled, fault);
+  std::size_t behind = 0;
+  if (error == DecodeError::none) error = decode_body(bundled, fault, behind);
   row_.decoded = error == DecodeError::none;
   if (!row_.decoded) fault = explain_fault(bundled.bytes, bundled.header, error);
+  if (lenient_ && (fault.error == DecodeError::none || is_trailing(bundled)))
+    return excuse(bundled, behind);
   if (fault.error == DecodeError::none) return;
   if (!row_.decoded && row_.has_header && fault.error != DecodeError::version)
     row_.id = id_behind_header(row_.bytes, row_.header.pdu_type, pdu::PduTypes{});
@@ -155,9 +188,32 @@ void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::Bu
   if (fault.error == DecodeError::truncated) row_.reason += portion_text(datagram.portion);
 }
 
-DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFault& fault) {
+void DatagramInspector::excuse(const pdu::BundledPdu& bundled, std::size_t behind) {
+  const std::size_t size = bundled.bytes.size();
+  if (!row_.decoded && row_.rule.empty() && is_trailing(bundled))
+    return set_fault(row_, kTrailingRule,
+                     {DecodeError::stray, 0,
+                      fmt::format("{} octets behind the last PDU are kept: {}", size,
+                                  start_in_hex(bundled.bytes))});
+  std::string kept;
+  if (behind > 0)
+    kept = fmt::format("{} octets behind the last field are kept: {}", behind,
+                       start_in_hex(bundled.bytes.last(behind)));
+  if (without_length_ == bundled.offset) {
+    kept = fmt::format(
+        "the length field is 0, the {} octets up to the end of the datagram are "
+        "taken{}{}",
+        size, kept.empty() ? "" : "; ", kept);
+    return set_fault(row_, kNoLengthRule, {DecodeError::length, kLengthAt, kept});
+  }
+  if (behind > 0) set_fault(row_, kTrailingRule, {DecodeError::stray, size - behind, kept});
+}
+
+DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFault& fault,
+                                           std::size_t& behind) {
   return pdu::visit(bundled.bytes, bundled.header, [&]<typename Pdu>(const Pdu& pdu) {
     row_.id = id_of(pdu);
+    if (lenient_) behind = bundled.bytes.size() - std::min(bundled.bytes.size(), wire_size(pdu));
     const std::string_view field = pdu::first_not_finite(pdu);
     if (!field.empty()) fault = explain_not_finite(bundled.bytes, bundled.header, field);
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {

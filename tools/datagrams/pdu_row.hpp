@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/codec/records.hpp"
@@ -49,7 +50,7 @@ struct PduRow {
   const pdu::EntityState* entity_state = nullptr;
 
   /// IEEE name in snake case; "unknown_200" without a name; "foreign" for a datagram of another
-  /// protocol; "unreadable" without a header.
+  /// protocol; "trailing" for octets that a lenient reader keeps; "unreadable" without a header.
   [[nodiscard]] std::string_view type() const noexcept;
 };
 
@@ -66,10 +67,19 @@ struct InspectTally {
   }
 };
 
+/// Rules that only a lenient reader notes.
+inline constexpr std::string_view kNoLengthRule = "I-NO-LENGTH";
+inline constexpr std::string_view kTrailingRule = "I-TRAILING";
+
 /// Iterates over the PDUs of one datagram and decodes each once. The row is reused, and valid until
 /// the next PDU. A good PDU needs no heap.
 class DatagramInspector {
  public:
+  /// @param lenient takes a length field of 0 as the rest of the datagram, and octets behind the
+  /// last PDU or behind the last field of one as kept: a note each instead of an error or of
+  /// silence
+  explicit DatagramInspector(bool lenient = false) : lenient_(lenient) {}
+
   /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all shown PDUs.
   template <typename Show>
   bool inspect(const peer::SourceDatagram& datagram, Show&& show) {
@@ -78,7 +88,7 @@ class DatagramInspector {
       fill_fragment(datagram);
       return count_and(show);
     }
-    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.bytes)) {
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(bytes_)) {
       if (bundled.index == 0 && is_foreign(datagram, bundled)) {
         fill_foreign(datagram);
         return count_and(show);
@@ -94,7 +104,11 @@ class DatagramInspector {
   void begin(const peer::SourceDatagram& datagram);
   void fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled);
   /// Decodes, and searches for values that receivers reject; `fault` has their place.
-  [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault);
+  /// @param behind set to the octets after the last field
+  [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault,
+                                             std::size_t& behind);
+  /// What a lenient reader makes of the PDU at hand. @param behind octets after its last field
+  void excuse(const pdu::BundledPdu& bundled, std::size_t behind);
   void fill_fragment(const peer::SourceDatagram& datagram);
   void fill_foreign(const peer::SourceDatagram& datagram);
   /// The whole datagram as one row without a header.
@@ -105,6 +119,10 @@ class DatagramInspector {
     return show(static_cast<const PduRow&>(row_));
   }
 
+  bool lenient_;
+  std::span<const std::byte> bytes_;           // of the datagram, or mended_
+  std::vector<std::byte> mended_;              // the datagram with a length in place of 0
+  std::optional<std::size_t> without_length_;  // offset of the PDU with a length of 0
   PduRow row_;
   pdu::EntityState entity_state_;  // referenced by row_
   InspectTally tally_;

@@ -58,7 +58,8 @@ bool same_octets(const HeldPdu& a, const HeldPdu& b, bool ignore_time) {
   return ignore_time ? without_time(a) == without_time(b) : a.octets == b.octets;
 }
 
-PduStream::PduStream(const PduStreamOptions& options) : ignore_time_(options.ignore_time) {
+PduStream::PduStream(const PduStreamOptions& options)
+    : ignore_time_(options.ignore_time), inspector_(options.lenient) {
   if (!options.where.empty()) filter_.emplace(options.where);
   SourceChoice choice;
   choice.source = options.path;

@@ -40,6 +40,7 @@ struct HeldPdu {
 struct PduStreamOptions {
   std::string path;
   std::string where;         ///< filter; empty: all PDUs
+  bool lenient = false;      ///< as DatagramInspector
   bool ignore_time = false;  ///< ignores times inside PDUs: header, trailer, Presence
 };
 

@@ -61,10 +61,13 @@ void SelectionOptions::declare_filter(CommandLine& line) {
   line.option("--where", where,
               "only datagrams with a PDU that matches, for example 'kind == platform and force == "
               "opposing'; `reckon inspect --help` lists the fields");
+  line.flag("--lenient", lenient,
+            "read a PDU whose length field is 0 as the rest of its datagram; what is written or "
+            "sent stays as it is");
 }
 
 CaptureSelection::CaptureSelection(const SelectionOptions& options)
-    : from_(options.from), to_(options.to) {
+    : from_(options.from), to_(options.to), inspector_(options.lenient) {
   if (to_.has_value() && *to_ <= from_)
     throw UsageError("the range is empty: it ends before it begins; give a later end than --from");
   for (const std::string& text : options.groups) groups_.push_back(parse_group(text));

@@ -27,6 +27,7 @@ struct SelectionOptions {
   std::vector<std::string> types;     ///< names of inspect --json
   std::vector<std::string> entities;  ///< site:application:entity, each a number or *
   std::string where;                  ///< a filter of inspect
+  bool lenient = false;               ///< PDUs are read as inspect --lenient does
 
   /// Declares the flags except the one for the end of the range.
   void declare(CommandLine& line);

@@ -111,9 +111,13 @@ struct EntityTable::Counting : ListenerObserver {
     return UpdateCause::first;
   }
 
-  static UpdateCause compare(EntityRow& row, const HeardEntity& last, const StateUpdate& update) {
+  UpdateCause compare(EntityRow& row, const HeardEntity& last, const StateUpdate& update) const {
     const Innovation found = innovation(last.state, update.state, update.between);
     row.jump = found.jump;
+    if (row.worst_frame == 0 || static_cast<float>(found.jump) > row.jumps.max()) {
+      row.worst_time = update.arrival;
+      row.worst_frame = pdu.frame;
+    }
     row.recent[row.jumps.count() % row.recent.size()] = static_cast<float>(found.jump);
     row.jumps.add(found.jump);
     const UpdateCause cause =
@@ -147,6 +151,7 @@ EntityRow& EntityTable::row_at(std::size_t place) {
 }
 
 void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Watch* watch) {
+  if (!start_.has_value()) start_ = datagram.time;
   Counting counting(*this, row, datagram, watch);
   if (row.decoded)
     return heard_.take_pdu(row.bytes, row.header, datagram.time, counting, row.entity_state);

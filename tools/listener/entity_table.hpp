@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,8 @@ struct EntityRow {
   double jump = 0;                 ///< the last one [m]
   std::array<float, 64> recent{};  ///< the last ones, a ring: the next goes to jumps.count() % 64
   JumpHistogram jumps;             ///< of the position, at each update [m]
+  std::chrono::nanoseconds worst_time{};  ///< arrival of the update with the greatest jump
+  std::uint64_t worst_frame = 0;          ///< of that update; 0: no jump yet
 
   // Ends of the sliding window over which the rate is taken.
   std::array<std::chrono::nanoseconds, 2> window_time{};
@@ -86,6 +89,10 @@ class EntityTable {
   /// The picture's entities, and the row of each at the same place.
   [[nodiscard]] std::span<const HeardEntity> entities() const noexcept { return heard_.entities(); }
   [[nodiscard]] std::span<const EntityRow> rows() const noexcept { return rows_; }
+  /// Arrival of the first datagram; 0 before it.
+  [[nodiscard]] std::chrono::nanoseconds start() const noexcept {
+    return start_.value_or(std::chrono::nanoseconds{});
+  }
   /// PDUs of entities for which there was no room.
   [[nodiscard]] std::uint64_t others() const noexcept { return heard_.refusals().crowded; }
   /// How the force of its model jumped [N]; null where it has none.
@@ -106,6 +113,7 @@ class EntityTable {
   Listener heard_;
   std::vector<EntityRow> rows_;
   EntityForces forces_;
+  std::optional<std::chrono::nanoseconds> start_;
 };
 
 }  // namespace reckon::tools

@@ -105,6 +105,7 @@ class Inspection {
         source_(open_chosen_source(options.source)),
         silence_(options.source, clock_.now()),
         output_(console.out),
+        inspector_(options.lenient),
         view_(inspect_view_kind(options.view).make(options, console)) {}
 
   void run() {
@@ -336,6 +337,9 @@ int run_inspect(Arguments arguments, const Console& console) {
               "only PDUs that match, for example 'entity.id == 1:*:* and kind == platform'");
   line.option("--svg", options.svg, "haptics: draw the forces into this file");
   line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
+  line.flag("--lenient", options.lenient,
+            "take a length field of 0 as the rest of the datagram; keep and note what stands "
+            "behind the last PDU or its last field");
   line.flag("--rules", options.rules, "list the rules of check with remedies, and exit");
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--count", options.count, "stop after this many PDUs");

@@ -17,6 +17,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/tools/captures/exercise_map.hpp"
 #include "reckon/tools/captures/replay_keys.hpp"
 #include "reckon/tools/captures/replay_schedule.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
@@ -55,7 +56,9 @@ constexpr std::string_view kExamples =
     "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
     "reckon replay exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
     "reckon replay exercise.pcapng --to udp://192.168.1.255:3000\n"
-    "reckon replay exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'";
+    "reckon replay exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'\n"
+    "reckon replay exercise.pcapng --map-exercise 1=7 --map-id 1:2:*=9:2:* --map-place "
+    "34.05,-118.24";
 
 struct ReplayOptions {
   std::string file;
@@ -69,6 +72,7 @@ struct ReplayOptions {
   bool json = false;
   std::string key;  ///< file; empty: none
   SelectionOptions selection;
+  ExerciseMapOptions map;
 };
 
 struct ReplayCounts {
@@ -93,6 +97,7 @@ class Replay {
         console_(console),
         selection_(options.selection),
         sealed_(options.key),
+        map_(options.map, options.selection.lenient),
         source_(open_recording(options.file)),
         senders_(options.interface, options.broadcast, clock_),
         status_(console.err, clock_.now()),
@@ -120,6 +125,7 @@ class Replay {
   const Console& console_;
   CaptureSelection selection_;
   SealedDatagrams sealed_;
+  ExerciseMap map_;
   std::unique_ptr<peer::DatagramSource> source_;
   peer::SteadyClock clock_;
   ReplaySenders senders_;
@@ -241,9 +247,10 @@ void Replay::show_status(nanoseconds now) {
 
 void Replay::send(const peer::SourceDatagram& datagram) {
   std::span<const std::byte> bytes = datagram.bytes;
-  if (options_.rewrite_time) {
+  if (options_.rewrite_time || map_.is_active()) {
     buffer_.assign(bytes.begin(), bytes.end());
-    rewrite_timestamps(buffer_, clock_.utc_now());
+    if (options_.rewrite_time) rewrite_timestamps(buffer_, clock_.utc_now());
+    map_.apply(buffer_);
     bytes = buffer_;
   }
   if (!senders_.send(destination(datagram), bytes)) {
@@ -283,6 +290,7 @@ void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds no
       .value("too_big", std::min(counts_.refused, senders_.too_big()))
       .value("fragmented", senders_.fragmented())
       .value("incomplete", counts_.incomplete)
+      .value("mapped", map_.counts().mapped)
       .value("asked", fmt::format("{:.6g}", begun ? schedule_->asked() : options_.rate))
       .value("got", counts_.sent > 1 && schedule_->kept() > 0
                         ? fmt::format("{:.6g}", schedule_->kept())
@@ -313,7 +321,7 @@ ExitCode Replay::summarise() const {
     fmt::print(console_.err, "{} sent in IP fragments: above the MTU of {}, {} octets\n",
                counted(senders_.fragmented(), "datagram"), options_.interface, senders_.mtu());
   if (counts_.refused > 0) report_refusal();
-  fmt::print(console_.err, "{}", sealed_.summary());
+  fmt::print(console_.err, "{}{}", map_.summary(), sealed_.summary());
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
   if (options_.json) {
@@ -383,6 +391,7 @@ int run_replay(Arguments arguments, const Console& console) {
   line.option("--key", options.key, "key file: what is sealed is sent plain, to the port below");
   line.flag("--rewrite-time", options.rewrite_time,
             "set the PDUs' timestamps to the time of sending");
+  options.map.declare(line);
   line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
   if (const auto status = line.parse(arguments, console)) return *status;
   check(options);

@@ -46,6 +46,72 @@ Octets mixed_bundle() {
   return octets;
 }
 
+/// What a reader makes of a datagram: type, rule and reason of each row.
+using Row = std::tuple<std::string, std::string, std::string>;
+std::vector<Row> rows_of(const Octets& octets, bool lenient) {
+  peer::SourceDatagram datagram;
+  datagram.bytes = octets;
+  std::vector<Row> rows;
+  DatagramInspector inspector(lenient);
+  (void)inspector.inspect(datagram, [&](const PduRow& row) {
+    rows.emplace_back(row.type(), row.rule, row.reason);
+    return true;
+  });
+  return rows;
+}
+
+TEST(DatagramInspector, TakesALengthOf0AsTheRestIfLenient) {
+  Octets octets;
+  append_pdu(octets, entity(1));
+  append_pdu(octets, entity(2));
+  octets[144 + 8] = octets[144 + 9] = std::byte{0};
+  EXPECT_EQ(std::get<1>(rows_of(octets, false).at(1)), "E-LENGTH");
+  const Octets before = octets;
+  const auto rows = rows_of(octets, true);
+  EXPECT_EQ(octets, before);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0], Row("entity_state", "", ""));
+  EXPECT_EQ(rows[1], Row("entity_state", "I-NO-LENGTH",
+                         "the length field is 0, the 144 octets up to the end of the datagram are "
+                         "taken"));
+  octets.resize(288 + 5, std::byte{0xAB});
+  EXPECT_EQ(std::get<2>(rows_of(octets, true).at(1)),
+            "the length field is 0, the 149 octets up to the end of the datagram are taken; 5 "
+            "octets behind the last field are kept: ababababab");
+  octets.resize(144 + 20);  // too few for its fields, whatever its length says
+  EXPECT_EQ(std::get<1>(rows_of(octets, true).at(1)), "E-LENGTH");
+}
+
+TEST(DatagramInspector, KeepsAndNotesTrailingOctetsOfAnyTypeIfLenient) {
+  const auto expect_trailing = [](const Octets& trailing, std::string_view in_hex) {
+    Octets octets;
+    append_pdu(octets, pdu::Fire{});
+    octets.insert(octets.end(), trailing.begin(), trailing.end());
+    EXPECT_EQ(std::get<1>(rows_of(octets, false).at(1)).substr(0, 2), "E-");
+    const auto rows = rows_of(octets, true);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0], Row("fire", "", ""));
+    EXPECT_EQ(rows[1], Row("trailing", "I-TRAILING",
+                           std::to_string(trailing.size()) +
+                               " octets behind the last PDU are kept: " + std::string(in_hex)));
+  };
+  expect_trailing(Octets(3, std::byte{0x55}), "555555");
+  expect_trailing(Octets(40, std::byte{0xFF}), "ffffffffffffffffffffffffffffffff...");
+  expect_trailing(Octets(11, std::byte{7}), "0707070707070707070707");  // begins like a PDU
+  expect_trailing(Octets(12, std::byte{0}), "000000000000000000000000");
+}
+
+TEST(DatagramInspector, NotesOctetsBehindTheLastFieldIfLenient) {
+  Octets octets;
+  append_pdu(octets, entity(1));
+  octets.resize(152, std::byte{0x11});
+  octets[9] = std::byte{152};
+  EXPECT_EQ(rows_of(octets, false), std::vector<Row>({Row("entity_state", "", "")}));
+  EXPECT_EQ(rows_of(octets, true),
+            std::vector<Row>({Row("entity_state", "I-TRAILING",
+                                  "8 octets behind the last field are kept: 1111111111111111")}));
+}
+
 TEST(DatagramInspector, NamesLiveEntitiesByTheirShorterIds) {
   pdu::LeFire fire;
   fire.firing_live_entity_id = {7, 8, 900};

@@ -92,6 +92,26 @@ TEST(Replay, SendsElsewhereChosenAndOften) {
   EXPECT_EQ(receiver.take().size(), 20U);
 }
 
+TEST(Replay, SendsAnotherExerciseOtherIdsAndAnotherPlace) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 8, 1ms);
+  Receiver receiver({group(7)});
+  const ProgramResult result =
+      run_reckon({"replay", in, "--rate", "0", "--to", "udp://" + group(7).text(), "--entity",
+                  "1:2:2", "--map-exercise", "1=7", "--map-id", "1:2:*=9:2:*", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("4 PDUs mapped\n"));
+  EXPECT_EQ(json::parse(result.lines().back())["mapped"], 4);
+  Octets expected = entity_state(2);
+  expected[1] = std::byte{7};
+  expected[13] = std::byte{9};
+  EXPECT_EQ(receiver.take(), std::vector<Octets>(4, expected));
+
+  const ProgramResult nowhere = run_reckon({"replay", in, "--rate", "0", "--map-place", "10,20"});
+  EXPECT_THAT(nowhere.err, HasSubstr("no PDU has a place: none was moved"));
+  EXPECT_EQ(run_reckon({"replay", in, "--map-id", "1:2"}).status, 2);
+}
+
 TEST(Replay, ReadsCompressedCapturesAndFilters) {
   const ScratchFolder folder;
   Receiver receiver({group(1)});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
@@ -72,6 +73,7 @@ void CheckView::begin(std::string& out) {
 void CheckView::expect(const peer::SourceDatagram& datagram) {
   survey_.look_at(datagram.bytes);
   highest_rank_ = 0;
+  if (!first_time_.has_value()) first_time_ = datagram.time;
   last_time_ = std::max(last_time_, datagram.time);
 }
 
@@ -81,7 +83,7 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
     tell({rule_of(row.rule), row.frame, row.pdu, row.offset, row.fault_offset, row.time, row.id,
           row.reason},
          out);
-  if (row.decoded && row.status == PduStatus::ok) {
+  if (row.decoded && row.status <= PduStatus::note) {
     CheckedPdu checked{row, datagram, survey_, highest_rank_, row.entity_state, nullptr};
     EntityMemory* memory = nullptr;
     if (row.entity_state != nullptr) {
@@ -97,6 +99,7 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
     check_pdu(checked, out);
     if (memory != nullptr) remember(*memory, checked);
     if (row.header.pdu_type == pdu::PduType::attribute) look_at_attribute(row);
+    jumps_.take_pdu(row, datagram, [&](const Jump& jump) { tell_jump(jump, out); });
   }
   if (row.has_header)
     highest_rank_ = std::max(highest_rank_, pdu::bundle_rank(row.header.pdu_type));
@@ -136,6 +139,27 @@ void CheckView::look_at_attribute(const PduRow& row) {
   }
 }
 
+void CheckView::tell_jump(const Jump& jump, std::string& out) {
+  const double at = pdu::to_seconds(jump.time - first_time_.value_or(jump.time));
+  std::string_view code = jump.kind == Jump::Kind::spike ? kSpikeRule : kTeleportRule;
+  std::string reason;
+  if (jump.kind == Jump::Kind::by_turns) {
+    code = kDuplicateRule;
+    reason = fmt::format("{} is at two places by turns, {} apart, from one sender",
+                         id_text(jump.id), distance_text(jump.metres));
+  } else {
+    reason = fmt::format("{} at {:.3f} s{}; its motion explains {} in {:.3g} s",
+                         distance_text(jump.metres), at,
+                         jump.kind == Jump::Kind::spike ? ", back with the next update" : "",
+                         distance_text(jump.explained), jump.interval);
+  }
+  const bool has_size = jump.kind != Jump::Kind::by_turns;
+  const std::size_t field = jump.is_entity_state ? kLocationAt : 0;
+  tell({rule_of(code), jump.frame, jump.pdu, jump.offset, jump.offset + field, jump.time, jump.id,
+        reason, has_size ? std::optional(jump.metres) : std::nullopt},
+       out);
+}
+
 void CheckView::tell(const Finding& finding, std::string& out) {
   ++counts_[finding.rule.code];
   if (format_ == Format::text) text(finding, out);
@@ -164,6 +188,7 @@ void CheckView::json(const Finding& finding, std::string& out) const {
       .value("at", finding.at);
   append_time(line.member("time"), finding.time);
   if (finding.id.has_value()) line.text("id", id_text(*finding.id));
+  if (finding.metres.has_value()) line.decimals("metres", *finding.metres, 3);
   line.text("reason", finding.reason)
       .text("sentence", finding.rule.sentence)
       .text("remedy", finding.rule.remedy)
@@ -182,6 +207,7 @@ void CheckView::csv(const Finding& finding, std::string& out) const {
 }
 
 void CheckView::finish(const InspectTally& tally, std::string& out) {
+  jumps_.finish([&](const Jump& jump) { tell_jump(jump, out); });
   report_silent(out);
   if (format_ != Format::csv) summary(tally, out);
 }

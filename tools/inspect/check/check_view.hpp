@@ -14,6 +14,7 @@
 #include <unordered_map>
 
 #include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/check/jump_search.hpp"
 #include "reckon/tools/inspect/check/rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/inspect/output/view.hpp"
@@ -23,14 +24,14 @@ namespace reckon::tools {
 /// Prints THE rules: a table, JSON Lines or CSV.
 void append_check_rules(Format format, std::string& out);
 
-/// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some 250
-/// octets each. PDUs of further entities are checked individually, which is reported.
+/// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some
+/// 1.1 kB each. PDUs of further entities are checked individually, which is reported.
 class CheckView final : public View {
  public:
   static constexpr std::size_t kMostEntities = std::size_t{1} << 16;
 
   explicit CheckView(Format format, bool colour = false, std::size_t most_entities = kMostEntities)
-      : format_(format), colour_(colour), most_entities_(most_entities) {}
+      : format_(format), colour_(colour), most_entities_(most_entities), jumps_(most_entities) {}
 
   /// Titles, if the format has them.
   void begin(std::string& out) override;
@@ -57,6 +58,7 @@ class CheckView final : public View {
     std::chrono::nanoseconds time;
     std::optional<pdu::EntityId> id;
     std::string_view reason;
+    std::optional<double> metres = {};  // size of a jump
   };
 
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
@@ -65,6 +67,7 @@ class CheckView final : public View {
   [[nodiscard]] bool is_reported_type(const PduRow& row);
   void check_pdu(const CheckedPdu& checked, std::string& out);
   void look_at_attribute(const PduRow& row);
+  void tell_jump(const Jump& jump, std::string& out);
   void tell(const Finding& finding, std::string& out);
   void text(const Finding& finding, std::string& out) const;
   void json(const Finding& finding, std::string& out) const;
@@ -77,8 +80,10 @@ class CheckView final : public View {
   std::size_t most_entities_;
   DatagramSurvey survey_;
   std::uint8_t highest_rank_ = 0;
+  std::optional<std::chrono::nanoseconds> first_time_;
   std::chrono::nanoseconds last_time_{};
   std::unordered_map<std::uint64_t, EntityMemory> entities_;
+  JumpSearch jumps_;
   bool reported_limit_ = false;
   bool reported_foreign_ = false;
   std::array<bool, 256> reported_types_{};

@@ -29,7 +29,6 @@ using Fault = std::optional<RuleFault>;
 constexpr std::size_t kStatusAt = 10;
 constexpr std::size_t kIdAt = 12;
 constexpr std::size_t kVelocityAt = 36;
-constexpr std::size_t kLocationAt = 48;
 constexpr std::size_t kAccelerationAt = 104;
 constexpr std::size_t kAngularVelocityAt = 116;
 
@@ -39,7 +38,7 @@ constexpr double kShortestInterval = 0.05;   // [s], positions round too much be
 constexpr double kLongestInterval = 5.0;     // [s], the motion may have changed unseen beyond it
 constexpr double kLeastContradiction = 2.0;  // [m]
 constexpr double kGrossly = 0.5;             // of the displacement
-constexpr std::uint8_t kContradictions = 2;  // in a row: a jump or a sharp turn causes one
+constexpr std::uint8_t kContradictions = 3;  // in a row: a sharp turn causes one, a spike two
 
 bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
@@ -212,7 +211,7 @@ Fault velocity_contradicts(const CheckedPdu& checked) {
   return RuleFault{
       kVelocityAt,
       fmt::format("entity_linear_velocity is {:.3g} m/s, the positions went {:.3g} m/s: "
-                  "{:.3g} m apart in {:.3g} s, the second time in a row",
+                  "{:.3g} m apart in {:.3g} s, the third time in a row",
                   velocity_of(*checked.entity_state).norm(), went, error, interval)};
 }
 
@@ -294,11 +293,16 @@ constexpr auto kRules = std::to_array<CheckRule>({
      out_of_tolerance},
     {kHeartbeatRule, "An entity was silent for more than 2.4 heartbeats of its kind and domain.",
      "send Entity States at the heartbeat, and a deactivated one at the end", missed_heartbeat},
-    {"W-DUPLICATE-ID", "One entity ID comes from two senders. Reported once.",
+    {kDuplicateRule, "One entity ID comes from two senders. Reported once.",
      "give each simulation its own site and application", duplicate_id},
     {"W-VELOCITY", "Velocity and positions of an entity contradict each other grossly.",
      "check units (m/s), sign, and axes: geocentric for DRM 1 to 5, body for 6 to 9",
      velocity_contradicts},
+    {kTeleportRule,
+     "An entity's place is farther from where its last update led than its motion can explain.",
+     "placed by hand, or lost updates; else look for what the sender did at that time"},
+    {kSpikeRule, "The same for a single update: the next one is back on the way.",
+     "look in the sender for a value that is set before the rest, or of another frame"},
     {"W-ATTRIBUTE-ORDER", "An Attribute PDU stands before the Entity State that it extends.",
      "put Entity States first in the datagram", attribute_first},
     {"W-COUPLED",
@@ -309,6 +313,10 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "No field table for this PDU type: its octets are kept as they are. Reported once for each "
      "type.",
      "nothing to do: it is stepped over by its length"},
+    {kNoLengthRule, "The length field is 0: taken as the rest of the datagram. With --lenient.",
+     "the sender must write the octets of the whole PDU into it"},
+    {kTrailingRule, "Octets behind the last PDU or behind its last field are kept. With --lenient.",
+     "nothing to do, if they are a product's own; else a length field or a count is wrong"},
     {kForeignRule, "A datagram of another protocol: no DIS of any version. Reported once.",
      "nothing to do; a group or port of the exercise's own keeps others apart"},
     {"I-UNNAMED",

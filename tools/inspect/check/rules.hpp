@@ -75,6 +75,11 @@ struct CheckRule {
 
 inline constexpr std::string_view kHeartbeatRule = "W-HEARTBEAT";
 inline constexpr std::string_view kMemoryRule = "I-ENTITY-LIMIT";
+inline constexpr std::string_view kDuplicateRule = "W-DUPLICATE-ID";
+inline constexpr std::string_view kTeleportRule = "W-TELEPORT";
+inline constexpr std::string_view kSpikeRule = "W-SPIKE";
+
+inline constexpr std::size_t kLocationAt = 48;  ///< of the location in an Entity State [octet]
 
 /// Greatest accepted error of timestamps.
 inline constexpr double kTimestampTolerance = 5.0;  // [s]

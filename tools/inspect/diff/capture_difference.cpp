@@ -8,6 +8,8 @@
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
+using std::chrono::nanoseconds;
+
 namespace {
 
 /// "variable_parameters[2].value" is counted as "variable_parameters[].value".
@@ -34,6 +36,22 @@ void note_state(EntityTraits& traits, const HeldPdu& held) {
 }
 
 }  // namespace
+
+nanoseconds PairedTimes::in_a(nanoseconds time_b) const {
+  return a + nanoseconds(std::llround(rate * static_cast<double>((time_b - b).count())));
+}
+
+std::optional<PairedTimes> CaptureDifference::other_rate() const {
+  constexpr double kOtherRate = 0.01;
+  constexpr double kLeastChange = 0.05;  // [s]
+  const std::uint64_t pairs = same_ + changed_;
+  if (pairs < 2 || 2 * pairs < std::max(a_.all.pdus, b_.all.pdus)) return std::nullopt;
+  const double in_a = pdu::to_seconds(last_pair_->a - first_pair_->a);
+  const double in_b = pdu::to_seconds(last_pair_->b - first_pair_->b);
+  if (in_a <= 0 || in_b <= 0 || std::abs(in_a - in_b) < kLeastChange) return std::nullopt;
+  if (std::abs(in_a / in_b - 1) < kOtherRate) return std::nullopt;
+  return PairedTimes{first_pair_->a, first_pair_->b, in_a / in_b};
+}
 
 void CaptureSurvey::add(const HeldPdu& pdu) {
   if (all.pdus == 0) first = last = pdu.time;
@@ -85,7 +103,10 @@ void CaptureDifference::add(const AlignedPdus& step) {
 
 void CaptureDifference::compare_times(const HeldPdu& a, const HeldPdu& b) {
   if (!shift_.has_value()) shift_ = b.time - a.time;
-  const double apart = std::abs(pdu::to_seconds(b.time - a.time - *shift_));
+  if (!first_pair_.has_value()) first_pair_ = {a.time, b.time};
+  last_pair_ = {a.time, b.time};
+  const nanoseconds in_a = paired_.has_value() ? paired_->in_a(b.time) : b.time - *shift_;
+  const double apart = std::abs(pdu::to_seconds(in_a - a.time));
   times_.add(apart);
   greatest_time_ = std::max(greatest_time_, apart);
 }

@@ -79,6 +79,16 @@ struct ChangedField {
   FieldDifference first;
 };
 
+/// How the times of B follow those of A where it was played at another rate.
+struct PairedTimes {
+  std::chrono::nanoseconds a{};  ///< of the first PDU in both
+  std::chrono::nanoseconds b{};
+  double rate = 1;  ///< of B; 2: twice as fast as A
+
+  /// The time in A of an arrival in B.
+  [[nodiscard]] std::chrono::nanoseconds in_a(std::chrono::nanoseconds time_b) const;
+};
+
 class CaptureDifference {
  public:
   /// Greatest number of PDUs of one capture, for each, that are pending until their counterpart is
@@ -88,7 +98,10 @@ class CaptureDifference {
   static constexpr std::size_t kMostFields = 1024;
 
   /// @param shift subtracted from B's times; no value: that of the first PDU in both
-  explicit CaptureDifference(std::optional<std::chrono::nanoseconds> shift) : shift_(shift) {}
+  /// @param times takes another rate off too
+  explicit CaptureDifference(std::optional<std::chrono::nanoseconds> shift,
+                             std::optional<PairedTimes> times = std::nullopt)
+      : shift_(shift), paired_(times) {}
 
   void add(const AlignedPdus& step);
 
@@ -108,7 +121,12 @@ class CaptureDifference {
 
   /// Shift of B's times against A's; no value if no PDU is in both.
   [[nodiscard]] const std::optional<std::chrono::nanoseconds>& shift() const { return shift_; }
-  /// Differences between the arrivals of the same PDU, less the shift [s].
+  /// The times of a B that has at least half of the PDUs and lasts for more than 1 % and 50 ms
+  /// longer or shorter with them; no value: it was played at the rate of A.
+  [[nodiscard]] std::optional<PairedTimes> other_rate() const;
+  /// The rate that was taken off.
+  [[nodiscard]] double rate() const { return paired_.has_value() ? paired_->rate : 1; }
+  /// Differences between the arrivals of the same PDU, less the shift and at A's rate [s].
   [[nodiscard]] const peer::ErrorHistogram& times() const { return times_; }
   [[nodiscard]] double greatest_time() const { return greatest_time_; }
   /// Whether all PDUs are the same and in the same order.
@@ -128,6 +146,9 @@ class CaptureDifference {
   CaptureSurvey a_;
   CaptureSurvey b_;
   std::optional<std::chrono::nanoseconds> shift_;
+  std::optional<PairedTimes> paired_;
+  std::optional<PairedTimes> first_pair_;
+  std::optional<PairedTimes> last_pair_;
   std::uint64_t order_ = 0;
   std::uint64_t same_ = 0;
   std::uint64_t changed_ = 0;

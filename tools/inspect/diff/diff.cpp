@@ -19,13 +19,15 @@ constexpr std::string_view kSummary =
 constexpr std::string_view kExamples =
     "reckon inspect diff before.pcapng after.pcapng\n"
     "reckon inspect diff recorded.pcapng replayed.pcapng --ignore-time --within 5ms\n"
+    "reckon inspect diff recorded.pcapng twice_as_fast.pcapng\n"
     "reckon inspect diff a.pcapng b.pcapng --where 'type == entity_state' --json";
 
 struct DiffOptions {
   std::string path_a;
   std::string path_b;
   std::string where;
-  std::string align = "first";
+  std::string align = "rate";
+  bool lenient = false;
   bool ignore_time = false;
   bool json = false;
   bool csv = false;
@@ -43,10 +45,13 @@ std::optional<int> parse(Arguments arguments, const Console& console, DiffOption
   line.word("A", options.path_a, true, "a capture, pcap or pcapng");
   line.word("B", options.path_b, true, "another one");
   line.option("--where", options.where, "only PDUs that match, of both; see reckon inspect --help");
+  line.flag("--lenient", options.lenient, "as with reckon inspect");
   line.flag("--ignore-time", options.ignore_time,
             "times inside PDUs do not count: header, trailer, presence");
-  line.choice("--align", options.align, {"first", "none"},
-              "first: B's times less the difference of the first PDU in both; none: as they are");
+  line.choice("--align", options.align, {"rate", "first", "none"},
+              "rate: B's times less the difference of the first PDU in both and, where it was "
+              "played at another rate, on those that its PDUs have in A; first: without the rate; "
+              "none: as they are");
   line.option("--within", options.within,
               "arrivals farther apart than this count as different (default: none does)");
   line.option("--step", options.step, "time between the instants of poses and forces");
@@ -70,22 +75,38 @@ bool DiffFindings::is_same() const {
 int run_inspect_diff(Arguments arguments, const Console& console) {
   DiffOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
-  const PduStreamOptions of_a{options.path_a, options.where, options.ignore_time};
-  const PduStreamOptions of_b{options.path_b, options.where, options.ignore_time};
+  const PduStreamOptions of_a{options.path_a, options.where, options.lenient, options.ignore_time};
+  const PduStreamOptions of_b{options.path_b, options.where, options.lenient, options.ignore_time};
+  const auto stopped = [&] { return console.stopped(); };
+  const bool as_they_are = options.align == "none";
+  std::optional<CaptureDifference> difference;
+  const auto align = [&](PduStream& a, PduStream& b) {
+    PduAlignment alignment(a, b, options.ignore_time);
+    for (AlignedPdus step; !stopped() && alignment.next(step);) difference->add(step);
+  };
   PduStream a(of_a);
   PduStream b(of_b);
-  CaptureDifference difference(options.align == "none" ? std::optional(nanoseconds::zero())
-                                                       : std::nullopt);
-  PduAlignment alignment(a, b, options.ignore_time);
-  for (AlignedPdus step; !console.stopped() && alignment.next(step);) difference.add(step);
+  difference.emplace(as_they_are ? std::optional(nanoseconds::zero()) : std::nullopt);
+  align(a, b);
 
-  MotionDifference motion(difference.shift().value_or(nanoseconds::zero()), options.step);
+  MotionDifference motion(difference->shift().value_or(nanoseconds::zero()), options.step);
+  const auto other_rate = options.align == "rate" ? difference->other_rate() : std::nullopt;
   PduStream again_a(of_a);
   PduStream again_b(of_b);
-  motion.run(again_a, again_b, [&] { return console.stopped(); });
+  if (other_rate.has_value()) {
+    // The rate is known at the end only.
+    difference.emplace(std::nullopt, other_rate);
+    align(again_a, again_b);
+    PduStream last_a(of_a);
+    PduStream last_b(of_b);
+    PduAlignment alignment(last_a, last_b, options.ignore_time);
+    motion.run_paired(alignment, *other_rate, stopped);
+  } else {
+    motion.run(again_a, again_b, stopped);
+  }
 
   const DiffFindings findings{options.path_a,     options.path_b, a.report().problem,
-                              b.report().problem, difference,     motion,
+                              b.report().problem, *difference,    motion,
                               options.step,       options.within};
   std::string out;
   append_diff(findings, options.format(), out);

@@ -153,8 +153,8 @@ void json_all(const DiffFindings& findings, std::string& out) {
     append_time(out, *found.shift());
   else
     out += "null";
-  fmt::format_to(end_of(out), ",\"time_p50\":{},\"time_p99\":{},\"time_max\":{}}}\n",
-                 json_number(times.p50), json_number(times.p99),
+  fmt::format_to(end_of(out), ",\"rate\":{},\"time_p50\":{},\"time_p99\":{},\"time_max\":{}}}\n",
+                 json_number(found.rate()), json_number(times.p50), json_number(times.p99),
                  json_number(found.greatest_time()));
 }
 

@@ -79,8 +79,12 @@ void append_verdict(const DiffFindings& findings, std::string& out) {
                    found.count_only_b(), found.moved());
   if (!found.shift().has_value()) return;
   const peer::Spread times = found.times().spread();
-  fmt::format_to(end_of(out), "B is {:+.9f} s against A; with that taken off, arrivals are ",
-                 pdu::to_seconds(*found.shift()));
+  fmt::format_to(end_of(out), "B is {:+.9f} s against A", pdu::to_seconds(*found.shift()));
+  if (found.rate() != 1)
+    fmt::format_to(end_of(out),
+                   " and was played {:.4g} times as fast: its PDUs are laid on A's times",
+                   found.rate());
+  out += "; with that taken off, arrivals are ";
   if (found.greatest_time() == 0)
     out += "the same\n";
   else

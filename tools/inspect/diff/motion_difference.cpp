@@ -13,6 +13,13 @@ using std::chrono::nanoseconds;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
+void copy_timestamp(const std::vector<std::byte>& from, std::vector<std::byte>& to) {
+  constexpr std::size_t kAt = 4;
+  constexpr std::size_t kSize = 4;
+  if (from.size() < kAt + kSize || to.size() < kAt + kSize) return;
+  std::copy_n(from.begin() + kAt, kSize, to.begin() + kAt);
+}
+
 }  // namespace
 
 void ReckonedCapture::take_pdu(const HeldPdu& pdu) {
@@ -55,15 +62,49 @@ bool MotionDifference::advance() {
   b_.feed(now_);
   compare_poses();
   compare_forces();
-  now_ += step_;
-  if (!a_.capture.poses().entities().empty() && !b_.capture.poses().entities().empty()) return true;
-  // There is nothing to compare before the next arrival.
   nanoseconds arrival = nanoseconds::max();
   for (const Side* side : {&a_, &b_})
     if (side->has_next) arrival = std::min(arrival, side->due());
+  step_on(arrival);
+  return true;
+}
+
+void MotionDifference::step_on(nanoseconds arrival) {
+  now_ += step_;
+  if (!a_.capture.poses().entities().empty() && !b_.capture.poses().entities().empty()) return;
   if (arrival != nanoseconds::max() && arrival > now_)
     now_ += (arrival - now_ + step_ - nanoseconds(1)) / step_ * step_;
-  return true;
+}
+
+void MotionDifference::take_step(AlignedPdus& step) {
+  const bool in_a = step.kind != AlignedPdus::Kind::only_b;
+  const bool in_b = step.kind != AlignedPdus::Kind::only_a;
+  const nanoseconds time = in_a ? step.a.time : pairs_.in_a(step.b.time);
+  if (in_a && in_b) {
+    pairs_.a = step.a.time;
+    pairs_.b = step.b.time;
+    copy_timestamp(step.a.octets, step.b.octets);
+  }
+  if (!has_begun_) start_ = now_ = time;
+  has_begun_ = true;
+  while (now_ < time) {
+    compare_now();
+    step_on(time);
+  }
+  step.a.time = step.b.time = time;
+  if (in_a) a_.capture.take_pdu(step.a);
+  if (in_b) b_.capture.take_pdu(step.b);
+}
+
+void MotionDifference::compare_to_end() {
+  if (has_begun_) compare_now();
+}
+
+void MotionDifference::compare_now() {
+  a_.capture.forget_silent(now_);
+  b_.capture.forget_silent(now_);
+  compare_poses();
+  compare_forces();
 }
 
 void MotionDifference::compare_poses() {

@@ -12,6 +12,8 @@
 
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/tools/datagrams/pdu_stream.hpp"
+#include "reckon/tools/inspect/diff/capture_difference.hpp"
+#include "reckon/tools/inspect/diff/pdu_alignment.hpp"
 #include "reckon/tools/listener/contact_forces.hpp"
 #include "reckon/tools/listener/listener.hpp"
 
@@ -53,7 +55,7 @@ class ReckonedCapture {
   ContactForces forces_;
 };
 
-/// The comparison. One thread; run() once.
+/// The comparison. One thread; run() or run_paired() once.
 class MotionDifference {
  public:
   /// Greatest number of entities and pairs with a row; the first ones are used.
@@ -71,6 +73,15 @@ class MotionDifference {
     begin(a, b);
     while (advance() && !stopped()) {
     }
+  }
+
+  /// For a B of another rate: lays its PDUs on the times that their counterparts have in A,
+  /// arrivals and timestamps, and those that are in B alone between them.
+  template <typename Stopped>
+  void run_paired(PduAlignment& alignment, const PairedTimes& times, Stopped&& stopped) {
+    pairs_ = times;
+    for (AlignedPdus step; !stopped() && alignment.next(step);) take_step(step);
+    compare_to_end();
   }
 
   [[nodiscard]] const std::map<EntityKey, PoseDifference>& poses() const { return poses_; }
@@ -91,6 +102,11 @@ class MotionDifference {
   void begin(PduStream& a, PduStream& b);
   /// One time step; false after the end of both captures.
   [[nodiscard]] bool advance();
+  void take_step(AlignedPdus& step);
+  void compare_to_end();
+  void compare_now();
+  /// The next instant; where there is nothing to compare, the one at `arrival`.
+  void step_on(std::chrono::nanoseconds arrival);
   void compare_poses();
   void compare_forces();
 
@@ -98,6 +114,8 @@ class MotionDifference {
   std::chrono::nanoseconds step_;
   std::chrono::nanoseconds start_{};
   std::chrono::nanoseconds now_{};
+  PairedTimes pairs_;  // of the last pair
+  bool has_begun_ = false;
   Side a_;
   Side b_;
   std::map<EntityKey, PoseDifference> poses_;

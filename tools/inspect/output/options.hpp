@@ -20,6 +20,7 @@ struct InspectOptions {
   std::string where;  ///< filter; empty: all PDUs
   std::string key;    ///< key file; empty: sealed datagrams are only counted
   std::string svg;    ///< haptics: file for a plot; empty: none
+  bool lenient = false;
   bool json = false;
   bool csv = false;
   bool rules = false;

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
 namespace reckon::tools {
@@ -55,6 +56,11 @@ std::string drm(const Cell& cell) {
 std::string percentile(const Cell& cell, double share) {
   if (cell.row.jumps.count() == 0) return "-";
   return distance_text(cell.row.jumps.percentile(share));
+}
+
+/// Seconds from the first datagram to the greatest jump.
+double worst_at(const Cell& cell) {
+  return pdu::to_seconds(cell.row.worst_time - cell.table.start());
 }
 
 std::string age(const Cell& cell) {
@@ -169,6 +175,16 @@ constexpr auto kColumns = std::to_array<TopColumn>({
      [](const Cell& c) { return c.row.jumps.percentile(kMedian); }},
     {"p99", kRight, [](const Cell& c) { return percentile(c, kTail); },
      [](const Cell& c) { return c.row.jumps.percentile(kTail); }},
+    {"max", kRight,
+     [](const Cell& c) {
+       return c.row.worst_frame == 0 ? std::string("-") : distance_text(c.row.jumps.max());
+     },
+     [](const Cell& c) { return static_cast<double>(c.row.jumps.max()); }},
+    {"AT", kRight,
+     [](const Cell& c) {
+       return c.row.worst_frame == 0 ? std::string("-") : fmt::format("{:.1f}s", worst_at(c));
+     },
+     nullptr},
     {"AGE", kRight, age, [](const Cell& c) { return c.entity.age(c.now); }},
     {"OCTETS", kRight, [](const Cell& c) { return fmt::format("{}", c.row.octets); },
      [](const Cell& c) { return static_cast<double>(c.row.octets); }},
@@ -208,6 +224,12 @@ constexpr auto kMembers = std::to_array<TopMember>({
     {"jump_p50_m", false, [](const Cell& c) { return jump(c, c.row.jumps.percentile(kMedian)); }},
     {"jump_p99_m", false, [](const Cell& c) { return jump(c, c.row.jumps.percentile(kTail)); }},
     {"jump_max_m", false, [](const Cell& c) { return jump(c, c.row.jumps.max()); }},
+    {"jump_max_at_s", false,
+     [](const Cell& c) { return c.row.worst_frame == 0 ? std::string() : number(worst_at(c)); }},
+    {"jump_max_frame", false,
+     [](const Cell& c) {
+       return c.row.worst_frame == 0 ? std::string() : fmt::format("{}", c.row.worst_frame);
+     }},
     {"age_s", false, [](const Cell& c) { return number(c.entity.age(c.now)); }},
     {"heartbeat_s", false,
      [](const Cell& c) { return c.entity.has_state ? number(c.entity.heartbeat) : std::string(); }},

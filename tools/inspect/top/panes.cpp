@@ -41,10 +41,10 @@ std::string causes_text(const EntityRow& row) {
 
 std::string jumps_text(const EntityRow& row) {
   if (row.jumps.count() == 0) return "none yet";
-  return fmt::format("last {}  p50 {}  p99 {}  max {}  of {}", distance_text(row.jump),
+  return fmt::format("last {}  p50 {}  p99 {}  max {} in frame {}  of {}", distance_text(row.jump),
                      distance_text(row.jumps.percentile(0.5)),
                      distance_text(row.jumps.percentile(0.99)), distance_text(row.jumps.max()),
-                     row.jumps.count());
+                     row.worst_frame, row.jumps.count());
 }
 
 void add_plot(const EntityRow& row, std::size_t columns, std::vector<ScreenLine>& out) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
+#include "reckon/tools/captures/timestamp_rewrite.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -167,6 +169,72 @@ TEST(InspectDiff, TakesAShiftOfAllTimesOffAndTellsIt) {
   for (const json& pose : rows(result, "pose")) EXPECT_EQ(pose["max_m"], 0);
   for (const json& force : rows(result, "contact_force")) EXPECT_EQ(force["max"], 0);
   EXPECT_EQ(diff(a, b, {"--align", "none", "--within", "1s"}).status, 1);
+}
+
+/// The same datagrams, `rate` times as fast.
+Capture played(Capture capture, double rate) {
+  for (Datagram& datagram : capture) {
+    const auto since = static_cast<double>((datagram.time - kStart).count());
+    datagram.time = kStart + seconds(100) + nanoseconds(std::llround(since / rate));
+  }
+  return capture;
+}
+
+/// Two balls that fly apart at 5 m/s: a second is 5 m.
+Capture two_flying_balls() {
+  Capture capture;
+  for (int i = 0; i < 50; ++i) {
+    const double t = 0.02 * i;
+    Ball ball{.entity = static_cast<std::uint16_t>(1 + i % 2), .up = 5 * t, .rising = 5};
+    ball.time = kStart + milliseconds(20 * i);
+    capture.push_back({test::datagram_of(ball), ball.time});
+  }
+  return capture;
+}
+
+TEST(InspectDiff, PairsACaptureOfAnotherRateByItsPdus) {
+  const File a(two_flying_balls());
+  for (const double rate : {0.25, 2.0, 8.0}) {
+    SCOPED_TRACE(rate);
+    const File b(played(two_flying_balls(), rate));
+    const auto result = diff(a, b, {"--json"});
+    EXPECT_EQ(result.status, 0);
+    const json all = rows(result, "all").at(0);
+    EXPECT_NEAR(all["rate"], rate, 1e-6);
+    EXPECT_NEAR(all["time_max"], 0, 1e-8);
+    EXPECT_EQ(rows(result, "pose").size(), 2U);
+    for (const json& pose : rows(result, "pose")) EXPECT_EQ(pose["max_m"], 0);
+    for (const json& force : rows(result, "contact_force")) EXPECT_EQ(force["max"], 0);
+    // By the clock they are far apart.
+    EXPECT_GT(rows(diff(a, b, {"--json", "--align", "first"}), "pose").at(0)["max_m"], 0.1);
+  }
+  EXPECT_THAT(diff(a, File(played(two_flying_balls(), 2))).out,
+              HasSubstr("was played 2 times as fast: its PDUs are laid on A's times"));
+}
+
+TEST(InspectDiff, FindsWhatDiffersInACaptureOfAnotherRate) {
+  const File a(two_flying_balls());
+  Capture changed = played(two_flying_balls(), 2);
+  Ball moved{.entity = 1, .up = 5 * 0.02 * 20 + 3, .rising = 5};
+  moved.time = kStart + milliseconds(20 * 20);
+  changed[20].octets = test::datagram_of(moved);
+  changed.erase(changed.begin() + 30);
+  const auto result = diff(a, File(changed), {"--json"});
+  EXPECT_EQ(result.status, 1);
+  const json all = rows(result, "all").at(0);
+  EXPECT_EQ(all["pdus_changed"], 1);
+  EXPECT_EQ(all["only_a"], 2);
+  const auto poses = rows(result, "pose");
+  EXPECT_NEAR(poses.at(0)["max_m"], 3, 0.01);
+  EXPECT_NEAR(poses.at(0)["max_m_at"], 0.4, 0.021);
+}
+
+TEST(InspectDiff, PairsAReplayWithOtherTimestampsToo) {
+  Capture restamped = played(two_flying_balls(), 2);
+  for (Datagram& datagram : restamped) rewrite_timestamps(datagram.octets, datagram.time);
+  const auto result = diff(File(two_flying_balls()), File(restamped), {"--json", "--ignore-time"});
+  EXPECT_EQ(result.status, 0);
+  for (const json& pose : rows(result, "pose")) EXPECT_EQ(pose["max_m"], 0);
 }
 
 TEST(InspectDiff, HoldsArrivalsAgainstATolerance) {

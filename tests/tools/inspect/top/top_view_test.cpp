@@ -54,12 +54,28 @@ TEST_F(TopOfCapture, PrintsOneLineAnEntity) {
   EXPECT_THAT(lines[0], HasSubstr("ex 1   0:20   1 PDU/s   1 dgram/s"));
   EXPECT_THAT(lines[1], HasSubstr("ID     MARK    SIDE  KIND  DRM     HZ  WHY"));
   EXPECT_THAT(lines[2], HasSubstr("1:2:1  MOVER      1  air   2 fpw  1.0  threshold"));
-  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m   0.0s"));
+  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m  0.50 m  1.0s   0.0s"));
   EXPECT_THAT(lines[2], HasSubstr("239.1.2.3:3000  10.0.0.7:3000"));
   EXPECT_THAT(lines[3], HasSubstr("1:2:2  SILENT"));
   EXPECT_THAT(lines[3], HasSubstr("15.0s"));
   EXPECT_THAT(lines[3], HasSubstr("STALE"));
   EXPECT_EQ(result.status, 0);
+}
+
+TEST(Top, NamesTimeAndFrameOfTheGreatestJump) {
+  CaptureBuilder capture;
+  for (int i = 0; i <= 20; ++i) {
+    Octets datagram;
+    append_pdu(datagram, entity_at(i, i < 12 ? 0.0 : 500.0, 1, "MOVER"));
+    capture.add(datagram, after(i));
+  }
+  const auto text = run_reckon({"inspect", capture.path(), "top"}).lines();
+  EXPECT_THAT(text.at(1), HasSubstr("max     AT"));
+  EXPECT_THAT(text.at(2), HasSubstr("500 m  12.0s"));
+  const json row = json::parse(run_reckon({"inspect", capture.path(), "top", "--json"}).lines()[0]);
+  EXPECT_NEAR(row["jump_max_m"], 500, 0.1);
+  EXPECT_EQ(row["jump_max_at_s"], 12);
+  EXPECT_EQ(row["jump_max_frame"], 13);
 }
 
 TEST_F(TopOfCapture, GivesJsonWithTheDocumentedKeys) {

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// PDUs whose sender left the length field at 0: taken as the rest of their datagram.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace reckon::tools {
+
+/// The offset of the PDU with a length field of 0, if the datagram has one; it is the last then. A
+/// PDU has a header of a supported version, and at most 65,535 octets.
+[[nodiscard]] std::optional<std::size_t> find_zero_length(
+    std::span<const std::byte> datagram) noexcept;
+
+/// Writes the length field of the PDU at `offset`, which has a header.
+void set_length(std::span<std::byte> datagram, std::size_t offset, std::uint16_t length) noexcept;
+
+}  // namespace reckon::tools
