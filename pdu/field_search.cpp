@@ -16,6 +16,9 @@ namespace {
 using Part = FieldPath::Part;
 using Target = FieldPath::Target;
 
+/// Stored for a part of a path without an index.
+constexpr std::uint32_t kAnyIndex = static_cast<std::uint32_t>(-1);
+
 /// The records around the field that is visited, from the PDU on.
 class Place {
  public:
@@ -303,7 +306,8 @@ class FieldPathParts {
       : target_(target), count_(path.count_) {
     for (std::size_t i = 0; i < count_; ++i) {
       const FieldPath::StoredPart& part = path.parts_[i];
-      parts_[i] = {std::string_view(path.text_).substr(part.begin, part.size), part.index};
+      parts_[i] = {std::string_view(path.text_).substr(part.begin, part.size),
+                   part.index == kAnyIndex ? kNoIndex : part.index};
     }
     if (target == FieldPath::Target::name) drop_ending(parts_[count_ - 1].name, "_name");
     if (target != FieldPath::Target::bit) return;
@@ -370,7 +374,7 @@ std::optional<FieldPath> FieldPath::find(std::string_view text, bool whole) {
     const std::size_t end = std::min(text.find('.', at), text.size());
     std::string_view name = text.substr(at, end - at);
     StoredPart& part = path.parts_[path.count_++];
-    part = {static_cast<std::uint16_t>(at), static_cast<std::uint16_t>(name.size()), kNoIndex};
+    part = {static_cast<std::uint16_t>(at), static_cast<std::uint16_t>(name.size()), kAnyIndex};
     at = end + 1;
     const std::size_t bracket = name.find('[');
     if (bracket != std::string_view::npos) {

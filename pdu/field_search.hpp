@@ -82,7 +82,7 @@ class FieldPath {
   /// One part of a path.
   struct Part {
     std::string_view name;
-    std::size_t index;  ///< kNoIndex: any
+    std::size_t index;  ///< static_cast<std::size_t>(-1): any
   };
   /// What the last part names: a field, the name of its value, or a bit field.
   enum class Target : std::uint8_t { field, name, bit };
@@ -97,7 +97,7 @@ class FieldPath {
   struct StoredPart {
     std::uint16_t begin = 0;
     std::uint16_t size = 0;
-    std::size_t index = 0;
+    std::uint32_t index = 0;
   };
   std::string text_;
   std::array<StoredPart, kDeepest> parts_{};

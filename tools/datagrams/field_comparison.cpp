@@ -36,7 +36,7 @@ std::string hex_of(std::span<const std::byte> octets) {
 }  // namespace
 
 FieldComparison::FieldComparison(pdu::FieldPath path, FilterOperator op, std::string_view value)
-    : path_(std::move(path)), op_(op), text_(lower(value)), word_(word_of(value)) {
+    : path_(std::move(path)), op_(op), text_(lower(value)) {
   if (const auto positive = number_in<std::uint64_t>(value))
     number_ = *positive;
   else if (const auto negative = number_in<std::int64_t>(value))
@@ -93,7 +93,8 @@ bool FieldComparison::holds(const pdu::FieldValue& value) const {
 
 bool FieldComparison::holds_for_number(const pdu::FieldValue& value) const {
   if (!number_.has_value())
-    return !value.name.empty() && (word_of(value.name) == word_) == (op_ == FilterOperator::equal);
+    return !value.name.empty() &&
+           (word_of(value.name) == word_of(text_)) == (op_ == FilterOperator::equal);
   if (value.kind == pdu::FieldValue::Kind::single)
     return tools::holds(static_cast<float>(value.number), op_, single_);
   if (value.kind == pdu::FieldValue::Kind::real)

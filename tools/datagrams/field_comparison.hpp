@@ -35,8 +35,7 @@ class FieldComparison {
 
   pdu::FieldPath path_;
   FilterOperator op_;
-  std::string text_;  // in lower case
-  std::string word_;
+  std::string text_;                   // in lower case
   std::optional<long double> number_;  // exact where it is whole
   double real_ = 0;
   float single_ = 0;

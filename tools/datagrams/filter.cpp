@@ -188,7 +188,8 @@ class FilterParser {
       advance();
       comparison = with_row(*row);
     } else {
-      comparison.table = with_table();
+      comparison.field = with_table();
+      comparison.of_table = true;
     }
     filter_.comparisons_.push_back(std::move(comparison));
     return add(Kind::comparison, filter_.comparisons_.size() - 1);
@@ -355,7 +356,7 @@ bool Filter::matches(const PduRow& row, const peer::SourceDatagram& datagram) co
 }
 
 bool Filter::holds(const Comparison& comparison, const FilterSubject& subject) const {
-  if (comparison.table.has_value()) return tables_[*comparison.table].holds(subject.row);
+  if (comparison.of_table) return tables_[comparison.field].holds(subject.row);
   const FilterField& field = filter_fields()[comparison.field];
   const bool wanted = comparison.op == Operator::equal;
   if (field.kind == ValueKind::id)

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -54,8 +55,8 @@ class Filter {
     std::optional<std::uint16_t> entity;
   };
   struct Comparison {
-    std::size_t field = 0;             ///< row of the list of fields
-    std::optional<std::size_t> table;  ///< instead: a comparison with a field of the field tables
+    std::size_t field = 0;  ///< row of the list of fields, or index of a comparison of_table
+    bool of_table = false;  ///< with a field of the field tables
     Operator op = Operator::equal;
     double number = 0;
     IdPattern id;
@@ -76,8 +77,8 @@ class Filter {
   [[nodiscard]] bool holds(const Comparison& comparison, const FilterSubject& subject) const;
 
   std::vector<Node> nodes_;  // the last one is the root
-  std::vector<Comparison> comparisons_;
-  std::vector<FieldComparison> tables_;
+  std::deque<Comparison> comparisons_;
+  std::deque<FieldComparison> tables_;
 };
 
 /// Names and descriptions of the fields of the list, for help: "kind  kind of the entity: platform,

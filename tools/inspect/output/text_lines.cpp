@@ -5,11 +5,14 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <concepts>
 
+#include "reckon/pdu/geodetic.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
@@ -41,6 +44,21 @@ void append_name(std::string& out, std::string_view what, Enumeration value) {
   append_number(out, static_cast<unsigned>(value));
 }
 
+/// "47.1234567 N 8.1234567 E 412.3 m".
+void append_place(std::string& out, const pdu::Geodetic& place) {
+  fmt::format_to(end_of(out), FMT_COMPILE("{:.7f} {} {:.7f} {} {:.1f} m"),
+                 std::abs(place.latitude_deg), place.latitude_deg < 0 ? 'S' : 'N',
+                 std::abs(place.longitude_deg), place.longitude_deg < 0 ? 'W' : 'E', place.height);
+}
+
+/// "sent 41:15.999999 absolute": the timestamp, past the hour.
+void append_timestamp(std::string& out, const pdu::PduHeader& header) {
+  out += "  sent ";
+  pdu::TextSink sink(out);
+  pdu::put_past_the_hour(sink, header.timestamp);
+  out += pdu::is_absolute(header.timestamp) ? " absolute" : " relative";
+}
+
 void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   append_printable(out, pdu.marking.view());
   out += "  ";
@@ -57,6 +75,10 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
     before = ", ";
   }
   out += ") m";
+  if (const auto place = pdu::geodetic_from(pdu.location)) {
+    out += "  ";
+    append_place(out, *place);
+  }
   if (!pdu.variable_parameters.empty())
     fmt::format_to(end_of(out), "  {} variable parameters",
                    pdu.variable_parameters.size() / pdu::kVariableParameterSize);
@@ -109,14 +131,23 @@ class BriefFields {
       named_first_ = true;  // the first one has its own column
     } else if constexpr (std::same_as<T, pdu::SimulationAddress>) {
       item(name, fmt::format("{}:{}", value.site, value.application));
+    } else if constexpr (std::same_as<T, pdu::WorldCoordinates>) {
+      const auto place = pdu::geodetic_from(value);
+      std::string text;
+      if (place.has_value()) append_place(text, *place);
+      if (place.has_value()) item(name, text);
     } else if constexpr (pdu::Scalar<T>) {
       std::string text;
       pdu::TextSink sink(text);
-      pdu::put_json_number(sink, value);
+      if constexpr (std::is_integral_v<T>)
+        sink.number(value);
+      else
+        pdu::put_json_number(sink, value);
       if constexpr (pdu::kMayHaveNames<T>) {
         const std::string_view named = pdu::name_in(meanings_.of(name), value);
         if (!named.empty()) text = named;
       }
+      if (meanings_.has_readings()) append_reading(text, name);
       item(name, text);
     }
   }
@@ -126,10 +157,32 @@ class BriefFields {
   }
   template <typename... Any>
   void records(Any&&...) {}
+  void walked(std::string_view, const pdu::VariableDatums& datums) {
+    for (const pdu::VariableDatum& datum : datums.records()) {
+      const std::string_view text = pdu::text_in(datum.value);
+      if (text.empty()) continue;
+      std::string quoted;
+      pdu::TextSink sink(quoted);
+      pdu::put_json_string(sink, text);
+      item("text", quoted);
+    }
+  }
   template <typename... Any>
   void walked(Any&&...) {}
 
  private:
+  /// " (mode_3a 4721, state on)".
+  void append_reading(std::string& text, std::string_view name) const {
+    pdu::FieldReadings readings;
+    meanings_.read(name, readings);
+    std::string_view before = " (";
+    for (const pdu::FieldReading& part : readings.parts()) {
+      text.append(before).append(part.key).append(" ").append(part.view());
+      if (!part.unit.empty()) text.append(" ").append(part.unit);
+      before = ", ";
+    }
+    if (!readings.parts().empty()) text += ')';
+  }
   void item(std::string_view name, std::string_view text) {
     fmt::format_to(end_of(out_), FMT_COMPILE("{}{} {}"), first_ ? "" : ", ", name, text);
     first_ = false;
@@ -206,6 +259,7 @@ void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseco
   if (row.status != PduStatus::ok) append_fault(out, row, colour);
   if (row.status != PduStatus::ok && row.decoded) out += "; ";
   if (row.decoded) append_brief(out, row);
+  if (row.has_header) append_timestamp(out, row.header);
   out += '\n';
 }
 
