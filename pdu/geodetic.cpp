@@ -9,7 +9,7 @@
 namespace reckon::pdu {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kRadian = 180.0 / std::numbers::pi;  // degrees
 
 // WGS84.
 constexpr double kSemiMajor = 6378137.0;  // m
@@ -46,7 +46,7 @@ std::optional<Geodetic> geodetic_from(const WorldCoordinates& location) noexcept
   const double sine = std::sin(latitude);
   const double height = p * std::cos(latitude) + z * sine -
                         kSemiMajor * std::sqrt(1.0 - kEccentricity2 * sine * sine);
-  return Geodetic{latitude * kDegrees, std::atan2(y, x) * kDegrees, height};
+  return Geodetic{latitude * kRadian, std::atan2(y, x) * kRadian, height};
 }
 
 std::optional<Attitude> attitude_from(const EulerAngles& orientation,
@@ -65,18 +65,18 @@ std::optional<Attitude> attitude_from(const EulerAngles& orientation,
   const Vector down{std::cos(phi) * std::sin(theta) * std::cos(psi) + std::sin(phi) * std::sin(psi),
                     std::cos(phi) * std::sin(theta) * std::sin(psi) - std::sin(phi) * std::cos(psi),
                     std::cos(phi) * std::cos(theta)};
-  const double latitude = place.latitude_deg / kDegrees;
-  const double longitude = place.longitude_deg / kDegrees;
+  const double latitude = place.latitude_deg / kRadian;
+  const double longitude = place.longitude_deg / kRadian;
   const Vector north{-std::sin(latitude) * std::cos(longitude),
                      -std::sin(latitude) * std::sin(longitude), std::cos(latitude)};
   const Vector east{-std::sin(longitude), std::cos(longitude), 0.0};
   const Vector up{std::cos(latitude) * std::cos(longitude),
                   std::cos(latitude) * std::sin(longitude), std::sin(latitude)};
 
-  double heading = std::atan2(dot(forward, east), dot(forward, north)) * kDegrees;
+  double heading = std::atan2(dot(forward, east), dot(forward, north)) * kRadian;
   if (heading < 0.0) heading += 360.0;
-  return Attitude{heading, std::asin(std::clamp(dot(forward, up), -1.0, 1.0)) * kDegrees,
-                  std::atan2(-dot(right, up), -dot(down, up)) * kDegrees};
+  return Attitude{heading, std::asin(std::clamp(dot(forward, up), -1.0, 1.0)) * kRadian,
+                  std::atan2(-dot(right, up), -dot(down, up)) * kRadian};
 }
 
 }  // namespace reckon::pdu

@@ -96,6 +96,8 @@ bool passes(const Filter& filter, const HeardEntity& entity, const EntityRow& co
   row.bytes = entity.octets;
   row.has_header = row.decoded = entity.has_state;
   if (entity.has_state) (void)decode_header(entity.octets, row.header);
+  const pdu::EntityState state = entity.entity_state();
+  if (entity.has_state) row.entity_state = &state;
   row.header.length = counts.length;
   row.id = entity.id;
   if (counts.last_is_bad) {
