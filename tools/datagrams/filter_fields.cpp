@@ -207,6 +207,10 @@ constexpr auto kFields = std::to_array<FilterField>({
      nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.source); }},
     {"group", "address:port that it was sent to; * stands for any letters", ValueKind::text,
      nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.group); }},
+    {"port", "UDP port that it was sent to", ValueKind::number,
+     [](const FilterSubject& s) { return port_of(s.datagram.group); }},
+    {"sender_port", "UDP port that it was sent from", ValueKind::number,
+     [](const FilterSubject& s) { return port_of(s.datagram.source); }},
 });
 
 }  // namespace
