@@ -5,6 +5,7 @@ and on PDUs made for it. tshark without the plug-in is the judge: its own dissec
   where_fields.py CASE --plugin reckon.lua --reckon PROGRAM --samples FOLDER"""
 import argparse
 import json
+import re
 import struct
 import subprocess
 import sys
@@ -31,26 +32,6 @@ SAME = (
 )
 
 
-def values_of(fields, path):
-    """All values at a path in nested objects and lists."""
-    if isinstance(fields, list):
-        return [value for element in fields for value in values_of(element, path)]
-    if not path:
-        return [fields]
-    if not isinstance(fields, dict) or path[0] not in fields:
-        return []
-    return values_of(fields[path[0]], path[1:])
-
-
-def ending_in(fields, path):
-    """The same where the path is the end of a longer one."""
-    found = values_of(fields, path)
-    inside = fields.values() if isinstance(fields, dict) else fields if isinstance(fields, list) else ()
-    for value in inside:
-        found += ending_in(value, path)
-    return found
-
-
 def by_tshark(capture, show):
     """Frames that a display filter takes."""
     result = subprocess.run(["tshark", "-n", "-r", str(capture), "-Y", show, "-T", "fields", "-e", "frame.number"],
@@ -59,20 +40,36 @@ def by_tshark(capture, show):
     return [int(line) for line in result.stdout.split()]
 
 
+def number(text):
+    """A value as tshark prints it."""
+    if text.startswith("0x"):
+        return int(text, 16)
+    return int(text) if text.lstrip("-").isdigit() else float(text)
+
+
 def fields(tools):
-    """Each of the fields selects the frames that tshark selects, for each value in the samples."""
+    """Each of the fields selects the frames in which tshark has that value, for each value in the samples."""
     capture = tools.capture(list(tools.samples().values()))
-    rows = [row for rows in tools.inspect(capture, "--full").values() for row in rows]
+    command = ["tshark", "-n", "-r", str(capture), "-T", "fields", "-E", "aggregator=|"]
+    command += [word for theirs, _ in SAME for word in ("-e", theirs)]
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    shown = [[cell.split("|") if cell else [] for cell in line.split("\t")] for line in text.split("\n")]
     compared = 0
-    for theirs, ours in SAME:
-        path = ours.removeprefix("fields.").split(".")
-        told = {value for row in rows for value in ending_in(row["fields"], path)}
-        check(told, f"no sample has {ours}")
-        for value in sorted(told):
-            for sign in ("==", ">"):
-                shown = by_tshark(capture, f"{theirs} {sign} {value}")
-                found = sorted(tools.inspect(capture, "--json", "--where", f"{ours} {sign} {value}"))
-                check(found == shown, f"{ours} {sign} {value}: frames {found}, tshark's {theirs} has {shown}")
+    for column, (theirs, ours) in enumerate(SAME):
+        values = {frame: [number(value) for value in cells[column]]
+                  for frame, cells in enumerate(shown, 1) if len(cells) > column and cells[column]}
+        ours_too = tools.inspect(capture, "--json", "--where", f"{ours} == 0 or {ours} != 0")
+        values = {frame: many for frame, many in values.items() if frame in ours_too}
+        check(values, f"{theirs} and {ours} are in no sample together")
+        for value in sorted({value for many in values.values() for value in many}):
+            if round(value * 1024) != value * 1024:
+                continue  # printed with 6 digits
+            for sign, holds in (("==", lambda many: value in many), (">", lambda many: max(many) > value)):
+                expected = [frame for frame, many in values.items() if holds(many)]
+                found = [frame for frame in sorted(tools.inspect(capture, "--json", "--where",
+                                                                 f"{ours} {sign} {value}")) if frame in values]
+                check(found == expected,
+                      f"{ours} {sign} {value}: frames {found}, tshark has {theirs} in {expected}")
                 compared += 1
     print(f"  {len(SAME)} fields, {compared} comparisons")
 
@@ -92,16 +89,18 @@ def readings(tools):
     parameters = (0x2000 | 0o35, 0o7321, 0x2000 | 0o1274, 0x4123, 0x2000 | 90, 0)
     state = bytearray(samples["entity_state"])
     stamped = []
-    for timestamp in (0, 1, 305419897, 2**32 - 2, 2**31):
+    for timestamp in (0, 1, 305419897, 2**32 - 4, 2**31):
         struct.pack_into(">I", state, 4, timestamp)
         stamped.append(bytes(state))
     capture = tools.capture([iff_pdu(samples["iff"], parameters, 1), *stamped])
     told = [rows[0]["fields"] for rows in tools.inspect(capture, "--full").values()]
     elements = [f"dis.iff.mode_code.element_{number}" for number in (1, 2, 3, 4)]
-    shown = tools.fields(capture, "dis.timestamp", "dis.iff.mode_c.altitude", "dis.iff.mode_4", *elements)
-    for fields_told, frame in zip(told[1:], shown[1:]):
-        read = fields_told["header"]["timestamp_read"]
-        check(frame["dis.timestamp"] == [f"{read['past_the_hour']} ({read['clock']})"], f"{frame}, is {read}")
+    shown = tools.fields(capture, "dis.iff.mode_c.altitude", "dis.iff.mode_4", *elements)
+    tree = subprocess.run(["tshark", "-n", "-V", "-r", str(capture)], capture_output=True, text=True, check=True).stdout
+    stamps = re.findall(r"^ *Timestamp: (.*)$", tree, re.M)
+    reads = [one["header"]["timestamp_read"] for one in told]
+    ours = [f"{read['past_the_hour']} ({read['clock']})" for read in reads]
+    check(ours == stamps, f"{ours}, tshark has {stamps}")
     # Parameters 1, 2 and 3 have elements 1 and 2; the latter two have 3 and 4 as well.
     first, second, third, fourth = ([int(digit, 8) for digit in shown[0][name]] for name in elements)
     codes = [f"{first[0]}{second[0]}"] + [f"{first[n]}{second[n]}{third[n - 1]}{fourth[n - 1]}" for n in (1, 2)]

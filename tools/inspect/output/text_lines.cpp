@@ -131,6 +131,13 @@ class BriefFields {
       named_first_ = true;  // the first one has its own column
     } else if constexpr (std::same_as<T, pdu::SimulationAddress>) {
       item(name, fmt::format("{}:{}", value.site, value.application));
+    } else if constexpr (std::same_as<T, pdu::MunitionDescriptor>) {
+      type("munition", value.munition_type);
+    } else if constexpr (std::same_as<T, pdu::ExpendableDescriptor>) {
+      type("expendable", value.expendable_type);
+    } else if constexpr (std::same_as<T, pdu::ExplosionDescriptor>) {
+      type("explosion of", value.exploding_object_type);
+      item("explosive_force", fmt::format("{} kg", value.explosive_force));
     } else if constexpr (std::same_as<T, pdu::WorldCoordinates>) {
       const auto place = pdu::geodetic_from(value);
       std::string text;
@@ -167,8 +174,8 @@ class BriefFields {
       item("text", quoted);
     }
   }
-  template <typename... Any>
-  void walked(Any&&...) {}
+  template <typename View>
+  void walked(std::string_view, const View&) {}
 
  private:
   /// " (mode_3a 4721, state on)".
@@ -182,6 +189,12 @@ class BriefFields {
       before = ", ";
     }
     if (!readings.parts().empty()) text += ')';
+  }
+  void type(std::string_view name, const pdu::EntityType& value) {
+    std::string words;
+    pdu::TextSink sink(words);
+    pdu::put_type_in_words(sink, value);
+    item(name, words);
   }
   void item(std::string_view name, std::string_view text) {
     fmt::format_to(end_of(out_), FMT_COMPILE("{}{} {}"), first_ ? "" : ", ", name, text);
