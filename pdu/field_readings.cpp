@@ -87,8 +87,9 @@ void read_altitude(unsigned parameter, FieldReadings& out) {
 FieldReading& FieldReadings::add(std::string_view key) noexcept {
   FieldReading& part = parts_[std::min(size_, parts_.size() - 1)];
   size_ = std::min(size_ + 1, parts_.size());
-  part = {};
   part.key = key;
+  part.unit = {};
+  part.size = 0;
   return part;
 }
 

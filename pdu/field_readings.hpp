@@ -17,9 +17,9 @@ namespace reckon::pdu {
 
 /// One part of a reading: a number with a unit, or a short text.
 struct FieldReading {
-  std::string_view key;   ///< "latitude"
-  std::string_view unit;  ///< "deg"; empty for a text
-  std::array<char, 32> text{};
+  std::string_view key;       ///< "latitude"
+  std::string_view unit;      ///< "deg"; empty for a text
+  std::array<char, 32> text;  ///< so many of these octets as size says
   std::size_t size = 0;
 
   [[nodiscard]] std::string_view view() const noexcept { return {text.data(), size}; }
@@ -38,13 +38,11 @@ class FieldReadings {
 
  private:
   FieldReading& add(std::string_view key) noexcept;
-  std::array<FieldReading, 4> parts_{};
+  std::array<FieldReading, 4> parts_;
   std::size_t size_ = 0;
 };
 
-/// Readings of a record by itself; none for most.
-template <typename Record>
-void read_value(const Record&, FieldReadings&) noexcept {}
+/// Readings of a record by itself; most have none.
 void read_value(const WorldCoordinates& value, FieldReadings& out) noexcept;
 void read_value(const EulerAngles& value, FieldReadings& out) noexcept;
 void read_value(const ClockTime& value, FieldReadings& out) noexcept;

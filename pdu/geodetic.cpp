@@ -23,55 +23,68 @@ constexpr double kLeastRadius = 1e6;  // m
 struct Vector {
   double x = 0, y = 0, z = 0;
 };
+
+/// An angle's sine and cosine; NaN for an angle that is not finite.
+struct Turn {
+  explicit Turn(double angle) : sine(std::sin(angle)), cosine(std::cos(angle)) {}
+  double sine, cosine;
+};
+
 double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 }  // namespace
 
 std::optional<Geodetic> geodetic_from(const WorldCoordinates& location) noexcept {
   const auto [x, y, z] = location;
-  const double radius = std::hypot(x, y, z);
+  const double radius = std::sqrt(x * x + y * y + z * z);
   if (!std::isfinite(radius) || radius < kLeastRadius) return std::nullopt;
 
-  // Bowring's formula, begun with the parametric latitude and repeated twice.
-  const double p = std::hypot(x, y);
-  double parametric = std::atan2(kSemiMajor * z, kSemiMinor * p);
-  double latitude = 0.0;
+  // Bowring's formula, begun with the parametric latitude and repeated twice. Sines and cosines are
+  // those of the triangle that the formula gives.
+  const double p = std::sqrt(x * x + y * y);
+  double opposite = kSemiMajor * z;
+  double adjacent = kSemiMinor * p;
+  double latitude_opposite = 0.0;
+  double latitude_adjacent = 0.0;
   for (int i = 0; i < 3; ++i) {
-    const double sine = std::sin(parametric);
-    const double cosine = std::cos(parametric);
-    latitude = std::atan2(z + kSecondEccentricity2 * kSemiMinor * sine * sine * sine,
-                          p - kEccentricity2 * kSemiMajor * cosine * cosine * cosine);
-    parametric = std::atan2((1.0 - kFlattening) * std::sin(latitude), std::cos(latitude));
+    const double side = std::sqrt(opposite * opposite + adjacent * adjacent);
+    const double sine = opposite / side;
+    const double cosine = adjacent / side;
+    latitude_opposite = z + kSecondEccentricity2 * kSemiMinor * sine * sine * sine;
+    latitude_adjacent = p - kEccentricity2 * kSemiMajor * cosine * cosine * cosine;
+    opposite = (1.0 - kFlattening) * latitude_opposite;
+    adjacent = latitude_adjacent;
   }
-  const double sine = std::sin(latitude);
-  const double height = p * std::cos(latitude) + z * sine -
+  const double latitude = std::atan2(latitude_opposite, latitude_adjacent);
+  const double side =
+      std::sqrt(latitude_opposite * latitude_opposite + latitude_adjacent * latitude_adjacent);
+  const double sine = latitude_opposite / side;
+  const double height = p * latitude_adjacent / side + z * sine -
                         kSemiMajor * std::sqrt(1.0 - kEccentricity2 * sine * sine);
   return Geodetic{latitude * kRadian, std::atan2(y, x) * kRadian, height};
 }
 
 std::optional<Attitude> attitude_from(const EulerAngles& orientation,
                                       const Geodetic& place) noexcept {
-  const double psi = orientation.psi;
-  const double theta = orientation.theta;
-  const double phi = orientation.phi;
-  if (!std::isfinite(psi + theta + phi)) return std::nullopt;
+  const Turn psi(orientation.psi);
+  const Turn theta(orientation.theta);
+  const Turn phi(orientation.phi);
+  if (!std::isfinite(psi.sine + theta.sine + phi.sine)) return std::nullopt;
   // Body axes in W: x forward, y right, z down.
-  const Vector forward{std::cos(theta) * std::cos(psi), std::cos(theta) * std::sin(psi),
-                       -std::sin(theta)};
-  const Vector right{
-      std::sin(phi) * std::sin(theta) * std::cos(psi) - std::cos(phi) * std::sin(psi),
-      std::sin(phi) * std::sin(theta) * std::sin(psi) + std::cos(phi) * std::cos(psi),
-      std::sin(phi) * std::cos(theta)};
-  const Vector down{std::cos(phi) * std::sin(theta) * std::cos(psi) + std::sin(phi) * std::sin(psi),
-                    std::cos(phi) * std::sin(theta) * std::sin(psi) - std::sin(phi) * std::cos(psi),
-                    std::cos(phi) * std::cos(theta)};
-  const double latitude = place.latitude_deg / kRadian;
-  const double longitude = place.longitude_deg / kRadian;
-  const Vector north{-std::sin(latitude) * std::cos(longitude),
-                     -std::sin(latitude) * std::sin(longitude), std::cos(latitude)};
-  const Vector east{-std::sin(longitude), std::cos(longitude), 0.0};
-  const Vector up{std::cos(latitude) * std::cos(longitude),
-                  std::cos(latitude) * std::sin(longitude), std::sin(latitude)};
+  const Vector forward{theta.cosine * psi.cosine, theta.cosine * psi.sine, -theta.sine};
+  const Vector right{phi.sine * theta.sine * psi.cosine - phi.cosine * psi.sine,
+                     phi.sine * theta.sine * psi.sine + phi.cosine * psi.cosine,
+                     phi.sine * theta.cosine};
+  const Vector down{phi.cosine * theta.sine * psi.cosine + phi.sine * psi.sine,
+                    phi.cosine * theta.sine * psi.sine - phi.sine * psi.cosine,
+                    phi.cosine * theta.cosine};
+  const Turn latitude(place.latitude_deg / kRadian);
+  const Turn longitude(place.longitude_deg / kRadian);
+  const Vector north{-latitude.sine * longitude.cosine, -latitude.sine * longitude.sine,
+                     latitude.cosine};
+  const Vector east{-longitude.sine, longitude.cosine, 0.0};
+  const Vector up{latitude.cosine * longitude.cosine, latitude.cosine * longitude.sine,
+                  latitude.sine};
 
   double heading = std::atan2(dot(forward, east), dot(forward, north)) * kRadian;
   if (heading < 0.0) heading += 360.0;

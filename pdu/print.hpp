@@ -71,11 +71,17 @@ void put_json_array(TextSink& sink, const std::array<T, n>& value) {
 /// if they have no name. A country or category of 0 (other) is left out.
 void put_type_in_words(TextSink& sink, const EntityType& type);
 
+/// Whether people read more in a record of this type.
+template <typename T>
+inline constexpr bool kIsRead = requires(const T& value, FieldReadings& out) {
+  read_value(value, out);
+};
+
 /// What people read in a record by itself.
 template <typename T>
 [[nodiscard]] FieldReadings reading_of(const T& value) noexcept {
   FieldReadings readings;
-  read_value(value, readings);
+  if constexpr (kIsRead<T>) read_value(value, readings);
   return readings;
 }
 
@@ -100,7 +106,7 @@ class JsonFields {
       put_json_array(sink_, value);
     } else {
       object(value);
-      if (named_) readings(name, reading_of(value));
+      if (named_ && (kIsRead<T> || meanings_.has_readings())) readings(name, reading_of(value));
     }
   }
   template <typename Record, typename Count>
@@ -257,7 +263,7 @@ class TreeFields {
       if (!is_flat<T>()) sink_.text('\n');
       fields(inner, value);
       if (!is_flat<T>()) return;
-      readings(name, reading_of(value));
+      if (kIsRead<T> || meanings_.has_readings()) readings(name, reading_of(value));
     }
     if (!inline_) sink_.text('\n');
   }

@@ -105,7 +105,7 @@ class FilterParser {
 
   [[nodiscard]] static bool is_word_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-           std::string_view("_.:*-[]").find(letter) != std::string_view::npos;
+           std::string_view("_.:*-+[]").find(letter) != std::string_view::npos;
   }
 
   void advance() {
