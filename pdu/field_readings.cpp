@@ -97,6 +97,7 @@ void FieldReadings::number(std::string_view key, std::string_view unit, double v
                            int decimals) noexcept {
   FieldReading& part = add(key);
   part.unit = unit;
+  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;  // never "-0.000"
   char* begin = part.text.data();
   // A number too long for its place is written by its magnitude.
   auto end =

@@ -120,7 +120,8 @@ void add_endpoints(JsonObject& to, std::string_view key, std::string_view member
 void add_entities(JsonObject& to, const CaptureSummary& summary) {
   add_objects(to, "entities", summary.entities,
               [](JsonObject& row, pdu::EntityId id, const EntityShare& e) {
-                add_share(row.text("id", entity_text(id)).text("marking", e.marking), "pdus", e.pdus);
+                add_share(row.text("id", entity_text(id)).text("marking", e.marking), "pdus",
+                          e.pdus);
                 row.value("first", seconds_text(e.first)).value("last", seconds_text(e.last));
               });
 }
