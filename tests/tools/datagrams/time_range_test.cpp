@@ -82,7 +82,7 @@ TEST(InspectRange, ShowsThatPartOfARecordingInEveryView) {
     pdu.entity_id = {1, 1, static_cast<std::uint16_t>(i + 1)};
     pdu.location = {6378137, 0, 0};
     test::Octets datagram;
-    append_pdu(datagram, pdu);
+    test::append_pdu(datagram, pdu);
     capture.add(datagram, kStart + std::chrono::seconds(i));
   }
   const std::string file = capture.path();
