@@ -88,6 +88,8 @@ FieldValue value_of(T value, const FieldMeaning& meaning) {
   if constexpr (std::same_as<T, double>) found.kind = FieldValue::Kind::real;
   if constexpr (kMayHaveNames<T>) {
     if (meaning.bits == SisoBits::none) found.name = name_in(meaning, value);
+    if (meaning.values == SisoTable::country)
+      found.code = siso_name(SisoTable::country_code, static_cast<std::uint32_t>(value));
   }
   return found;
 }

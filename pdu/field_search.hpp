@@ -27,6 +27,7 @@ struct FieldValue {
   std::string_view text;              ///< text: the characters before the first NUL
   std::span<const std::byte> octets;  ///< octets
   std::string_view name;              ///< whole: what the number is called; empty without a name
+  std::string_view code;              ///< whole: the code of a country, "USA"; empty without one
   std::array<std::uint16_t, 3> id{};  ///< id: site, application and number
   std::size_t id_parts = 0;           ///< id: how many of these it has, 2 or 3
 };

@@ -92,9 +92,11 @@ bool FieldComparison::holds(const pdu::FieldValue& value) const {
 }
 
 bool FieldComparison::holds_for_number(const pdu::FieldValue& value) const {
-  if (!number_.has_value())
-    return !value.name.empty() &&
-           (word_of(value.name) == word_of(text_)) == (op_ == FilterOperator::equal);
+  if (!number_.has_value()) {
+    const std::string word = word_of(text_);
+    const bool is_called = word_of(value.name) == word || word_of(value.code) == word;
+    return !value.name.empty() && is_called == (op_ == FilterOperator::equal);
+  }
   if (value.kind == pdu::FieldValue::Kind::single)
     return tools::holds(static_cast<float>(value.number), op_, single_);
   if (value.kind == pdu::FieldValue::Kind::real)
