@@ -44,11 +44,24 @@ void append_name(std::string& out, std::string_view what, Enumeration value) {
   append_number(out, static_cast<unsigned>(value));
 }
 
-/// "47.1234567 N 8.1234567 E 412.3 m".
+/// |value| with 7 decimals, for |value| of at most 360; faster than fmt.
+void append_degrees(std::string& out, double value) {
+  constexpr std::uint64_t kUnits = 10'000'000;
+  const auto units = static_cast<std::uint64_t>(std::abs(value) * double{kUnits} + 0.5);
+  append_number(out, units / kUnits);
+  const fmt::format_int decimals(units % kUnits + kUnits);  // a leading 1 keeps the zeros
+  out += '.';
+  out.append(decimals.data() + 1, decimals.size() - 1);
+}
+
+/// "47.1234567 N 8.1234567 E 412.345 m".
 void append_place(std::string& out, const pdu::Geodetic& place) {
-  fmt::format_to(end_of(out), FMT_COMPILE("{:.7f} {} {:.7f} {} {:.1f} m"),
-                 std::abs(place.latitude_deg), place.latitude_deg < 0 ? 'S' : 'N',
-                 std::abs(place.longitude_deg), place.longitude_deg < 0 ? 'W' : 'E', place.height);
+  append_degrees(out, place.latitude_deg);
+  out += place.latitude_deg < 0 ? " S " : " N ";
+  append_degrees(out, place.longitude_deg);
+  out += place.longitude_deg < 0 ? " W " : " E ";
+  append_thousandths(out, place.height);
+  out += " m";
 }
 
 /// "sent 41:15.999999 absolute": the timestamp, past the hour.
