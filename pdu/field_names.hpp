@@ -6,10 +6,14 @@
 // fields.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
+#include <type_traits>
 
 #include "reckon/pdu/codec/siso_names.hpp"
+#include "reckon/pdu/field_readings.hpp"
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::pdu {
 
@@ -50,6 +54,20 @@ template <typename Record>
 [[nodiscard]] FieldMeaning meaning_in(const RecordR& record, std::string_view field) noexcept;
 [[nodiscard]] FieldMeaning meaning_in(const RecordQueryR& record, std::string_view field) noexcept;
 
+/// Whether values of this type may have names: enumerations and whole numbers of up to 32 bits.
+template <typename T>
+inline constexpr bool kMayHaveNames = std::is_enum_v<T> ||
+                                      (std::is_integral_v<T> && sizeof(T) <= sizeof(std::uint32_t));
+
+/// The name of a value by the meaning of its field, else by its own type; "" if it has none.
+template <Scalar T>
+std::string_view name_in(const FieldMeaning& meaning, T value) {
+  if (meaning.values != SisoTable::none)
+    return siso_name(meaning.values, static_cast<std::uint32_t>(value));
+  if constexpr (std::is_enum_v<T>) return pdu::name(value);
+  return {};
+}
+
 /// The meanings of the fields of one record, which must outlive it; without a record, by the names
 /// of the fields alone.
 class FieldMeanings {
@@ -59,15 +77,26 @@ class FieldMeanings {
   explicit FieldMeanings(const Record& record) noexcept
       : record_(&record), in_record_([](const void* any, std::string_view field) {
           return meaning_in(*static_cast<const Record*>(any), field);
-        }) {}
+        }) {
+    if constexpr (requires(FieldReadings & out) { read_field(record, "", out); })
+      read_in_record_ = [](const void* any, std::string_view field, FieldReadings& out) {
+        read_field(*static_cast<const Record*>(any), field, out);
+      };
+  }
 
   [[nodiscard]] FieldMeaning of(std::string_view field) const noexcept {
     return record_ == nullptr ? field_meaning(field) : in_record_(record_, field);
+  }
+  /// Whether fields of the record may have readings that depend on it.
+  [[nodiscard]] bool has_readings() const noexcept { return read_in_record_ != nullptr; }
+  void read(std::string_view field, FieldReadings& out) const noexcept {
+    if (has_readings()) read_in_record_(record_, field, out);
   }
 
  private:
   const void* record_ = nullptr;
   FieldMeaning (*in_record_)(const void*, std::string_view) = nullptr;
+  void (*read_in_record_)(const void*, std::string_view, FieldReadings&) = nullptr;
 };
 
 }  // namespace reckon::pdu

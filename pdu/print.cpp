@@ -176,6 +176,25 @@ void JsonFields::member(std::string_view field, std::string_view ending, std::st
   put_json_string(sink_, text);
 }
 
+void JsonFields::readings(std::string_view field, const FieldReadings& of_value) {
+  FieldReadings of_field;
+  meanings_.read(field, of_field);
+  const auto parts = of_field.parts().empty() ? of_value.parts() : of_field.parts();
+  if (parts.empty()) return;
+  sink_.text(",\"");
+  sink_.text(field);
+  sink_.text("_read\":{");
+  for (const FieldReading& part : parts) {
+    sink_.text(&part == parts.data() ? "\"" : ",\"");
+    sink_.text(part.key);
+    if (!part.unit.empty()) sink_.text('_');
+    sink_.text(part.unit);
+    sink_.text("\":");
+    part.unit.empty() ? put_json_string(sink_, part.view()) : sink_.text(part.view());
+  }
+  sink_.text('}');
+}
+
 void JsonFields::bits(std::string_view field, SisoBits set, std::uint32_t word) {
   bool first = true;
   each_bit_field(set, word, [&](const SisoBitField& part, std::uint32_t value) {
@@ -203,6 +222,8 @@ void JsonFields::walked(std::string_view name, const VariableDatums& datums) {
     members("variable_datum_id", datum.datum_id);
     members("variable_datum_length", datum.length_bits);
     members.hex("variable_datum_value", datum.value);
+    const std::string_view text = named_ ? text_in(datum.value) : std::string_view();
+    if (!text.empty()) members.member("variable_datum", "_text", text);
     sink_.text('}');
   });
 }
@@ -238,6 +259,21 @@ void TreeFields::in_parentheses(std::string_view text) {
   sink_.text(" (");
   sink_.text(text);
   sink_.text(')');
+}
+
+void TreeFields::readings(std::string_view field, const FieldReadings& of_value) {
+  FieldReadings of_field;
+  meanings_.read(field, of_field);
+  const auto parts = of_field.parts().empty() ? of_value.parts() : of_field.parts();
+  for (const FieldReading& part : parts) {
+    sink_.text(&part == parts.data() ? " (" : ", ");
+    sink_.text(part.key);
+    sink_.text(' ');
+    sink_.text(part.view());
+    if (!part.unit.empty()) sink_.text(' ');
+    sink_.text(part.unit);
+  }
+  if (!parts.empty()) sink_.text(')');
 }
 
 void TreeFields::bits(SisoBits set, std::uint32_t word) {
@@ -285,6 +321,11 @@ void TreeFields::walked(std::string_view name, const VariableDatums& datums) {
     inner("variable_datum_id", datum.datum_id);
     inner("variable_datum_length", datum.length_bits);
     inner.hex("variable_datum_value", datum.value);
+    if (const std::string_view text = text_in(datum.value); !text.empty()) {
+      sink_.text(" (text ");
+      put_json_string(sink_, text);
+      sink_.text(')');
+    }
     sink_.text('\n');
   }
 }

@@ -13,6 +13,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/codec/decode_error.hpp"
@@ -30,10 +31,21 @@ void put_json_string(TextSink& sink, std::string_view text);
 /// Two hexadecimal digits an octet, no spaces.
 void put_hex(TextSink& sink, std::span<const std::byte> octets);
 
-/// One scalar as JSON: NaN and infinity, which JSON lacks, become null.
+/// Whole numbers up to this magnitude are exact for every reader of JSON, whose numbers are
+/// doubles.
+inline constexpr std::uint64_t kMostExact = std::uint64_t{1} << 53;
+
+/// One scalar as JSON: NaN and infinity, which JSON lacks, become null. A whole number beyond
+/// kMostExact is text: "10428333160412253831".
 template <Scalar T>
 void put_json_number(TextSink& sink, T value) {
-  if constexpr (std::is_enum_v<T>) {
+  if constexpr (std::is_integral_v<T> && sizeof(T) == sizeof(std::uint64_t)) {
+    const bool exact = std::cmp_less_equal(value, kMostExact) &&
+                       std::cmp_greater_equal(value, -static_cast<std::int64_t>(kMostExact));
+    if (!exact) sink.text('"');
+    sink.number(value);
+    if (!exact) sink.text('"');
+  } else if constexpr (std::is_enum_v<T>) {
     sink.number(static_cast<unsigned>(value));
   } else if constexpr (std::is_floating_point_v<T>) {
     std::isfinite(value) ? sink.number(value) : sink.text("null");
@@ -55,23 +67,23 @@ void put_json_array(TextSink& sink, const std::array<T, n>& value) {
   }
 }
 
-/// Whether values of this type may have names: enumerations and whole numbers of up to 32 bits.
-template <typename T>
-inline constexpr bool kMayHaveNames = std::is_enum_v<T> ||
-                                      (std::is_integral_v<T> && sizeof(T) <= sizeof(std::uint32_t));
-
-/// The name of a value by the meaning of its field, else by its own type; "" if it has none.
-template <Scalar T>
-std::string_view name_in(const FieldMeaning& meaning, T value) {
-  if (meaning.values != SisoTable::none)
-    return siso_name(meaning.values, static_cast<std::uint32_t>(value));
-  if constexpr (std::is_enum_v<T>) return pdu::name(value);
-  return {};
-}
-
 /// "Platform Land United States Tank": kind, domain, country and category as words, or as numbers
 /// if they have no name. A country or category of 0 (other) is left out.
 void put_type_in_words(TextSink& sink, const EntityType& type);
+
+/// Whether people read more in a record of this type.
+template <typename T>
+inline constexpr bool kIsRead = requires(const T& value, FieldReadings& out) {
+  read_value(value, out);
+};
+
+/// What people read in a record by itself.
+template <typename T>
+[[nodiscard]] FieldReadings reading_of(const T& value) noexcept {
+  FieldReadings readings;
+  if constexpr (kIsRead<T>) read_value(value, readings);
+  return readings;
+}
 
 /// Visitor: the members of one JSON object, without its braces. With the meanings of the fields,
 /// each named value is followed by its name.
@@ -89,10 +101,12 @@ class JsonFields {
       if constexpr (kMayHaveNames<T>) {
         if (named_) names(name, value);
       }
+      if (named_ && meanings_.has_readings()) readings(name, {});
     } else if constexpr (kIsStdArray<T>) {
       put_json_array(sink_, value);
     } else {
       object(value);
+      if (named_ && (kIsRead<T> || meanings_.has_readings())) readings(name, reading_of(value));
     }
   }
   template <typename Record, typename Count>
@@ -151,6 +165,8 @@ class JsonFields {
   }
   void bits(std::string_view field, SisoBits set, std::uint32_t word);
   void member(std::string_view field, std::string_view ending, std::string_view text);
+  /// What people read in the field, from its record or else from the value alone.
+  void readings(std::string_view field, const FieldReadings& of_value);
   template <typename Range, typename Print>
   void list(const Range& range, Print&& print) {
     sink_.text('[');
@@ -238,6 +254,7 @@ class TreeFields {
     start(name);
     if constexpr (Scalar<T>) {
       scalar(name, value);
+      if (meanings_.has_readings()) readings(name, {});
     } else if constexpr (kIsStdArray<T>) {
       sink_.text(' ');
       put_json_array(sink_, value);
@@ -246,6 +263,7 @@ class TreeFields {
       if (!is_flat<T>()) sink_.text('\n');
       fields(inner, value);
       if (!is_flat<T>()) return;
+      if (kIsRead<T> || meanings_.has_readings()) readings(name, reading_of(value));
     }
     if (!inline_) sink_.text('\n');
   }
@@ -301,6 +319,8 @@ class TreeFields {
     }
   }
   void in_parentheses(std::string_view text);
+  /// What people read in the field, from its record or else from the value alone.
+  void readings(std::string_view field, const FieldReadings& of_value);
   /// Each bit field on its own line, or all in parentheses on this line.
   void bits(SisoBits set, std::uint32_t word);
   template <typename Record>
@@ -326,7 +346,9 @@ void print_json(const T& value, TextSink& sink) {
 
 /// The same with names. A value with a name is followed by it,
 /// `"country":225,"country_name":"United States"`. A word of bit fields is followed by their names,
-/// `"entity_appearance":8,"entity_appearance_bits": {"damage":"Slight Damage"}`.
+/// `"entity_appearance":8,"entity_appearance_bits": {"damage":"Slight Damage"}`. A field in which
+/// people read more is followed by that, with units:
+/// `"entity_location_read":{"latitude_deg":47.1,...}`.
 template <typename T>
 void print_named_json(const T& value, TextSink& sink) {
   JsonFields(sink, FieldMeanings(value)).object(value);

@@ -42,7 +42,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("event_id", pdu.event_id);
   visitor("velocity", pdu.velocity);
   visitor("location_in_world_coordinates", pdu.location_in_world_coordinates);
-  visitor("descriptor", pdu.descriptor);
+  descriptor_field(visitor, pdu);
   visitor("location_in_entity_coordinates", pdu.location_in_entity_coordinates);
   visitor("detonation_result", pdu.detonation_result);
   visitor.count("number_of_variable_parameter_records", pdu.variable_parameters,

@@ -36,7 +36,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("event_id", pdu.event_id);
   visitor("fire_mission_index", pdu.fire_mission_index);
   visitor("location_in_world_coordinates", pdu.location_in_world_coordinates);
-  visitor("descriptor", pdu.descriptor);
+  descriptor_field(visitor, pdu);
   visitor("velocity", pdu.velocity);
   visitor("range", pdu.range);
 }

@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The munition or expendable of Fire and Detonation PDUs.
+// What a Fire or Detonation PDU is about: a munition, an expendable, or an explosion of something
+// else.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::pdu {
 
-/// The same 16 octets for munitions and expendables (padding in place of warhead to rate).
+/// The 16 octets of every kind. Programs that look at a PDU are shown the kind that it has.
 struct MunitionDescriptor {
   EntityType munition_type;
   std::uint16_t warhead = 0;
@@ -28,5 +33,66 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("rate", record.rate);
 }
 static_assert(kFixedSize<MunitionDescriptor> == 16);
+
+/// Chaff, flares and the like.
+struct ExpendableDescriptor {
+  EntityType expendable_type;
+  std::uint64_t padding = 0;
+};
+
+template <typename Visitor, Is<ExpendableDescriptor> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("expendable_type", record.expendable_type);
+  visitor("padding", record.padding);
+}
+static_assert(kFixedSize<ExpendableDescriptor> == kFixedSize<MunitionDescriptor>);
+
+/// Something that explodes and is no munition.
+struct ExplosionDescriptor {
+  EntityType exploding_object_type;
+  std::uint16_t explosive_material = 0;
+  std::uint16_t padding = 0;
+  float explosive_force = 0.0F;  ///< of so much TNT [kg]
+};
+
+template <typename Visitor, Is<ExplosionDescriptor> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("exploding_object_type", record.exploding_object_type);
+  visitor("explosive_material", record.explosive_material);
+  visitor("padding", record.padding);
+  visitor("explosive_force", record.explosive_force);
+}
+static_assert(kFixedSize<ExplosionDescriptor> == kFixedSize<MunitionDescriptor>);
+
+/// The kind of a descriptor, as the PDU status of DIS 7 says it; before DIS 7 it is a munition.
+enum class DescriptorKind : std::uint8_t { munition = 0, expendable = 1, explosion = 2 };
+
+[[nodiscard]] constexpr DescriptorKind descriptor_kind(const PduHeader& header) noexcept {
+  if (is_before_dis7(header)) return DescriptorKind::munition;
+  const unsigned mask = header.pdu_type == PduType::fire ? 1U : 3U;
+  return static_cast<DescriptorKind>((header.pdu_status >> 4U) & mask);
+}
+
+/// Shows the octets of a descriptor as another record of the same size.
+template <typename Record, typename Visitor>
+void show_descriptor_as(Visitor& visitor, const MunitionDescriptor& descriptor) {
+  std::array<std::byte, kFixedSize<MunitionDescriptor>> octets{};
+  Record record;
+  if (store_record(descriptor, octets) == 0 || !load_record(std::span(octets), record)) return;
+  visitor("descriptor", std::as_const(record));
+}
+
+/// The descriptor of a Fire or Detonation PDU, to visitors that look at it by its kind.
+template <typename Visitor, typename Pdu>
+constexpr void descriptor_field(Visitor& visitor, Pdu& pdu) {
+  if constexpr (Looks<Visitor, Pdu>) {
+    const DescriptorKind kind = descriptor_kind(pdu.header);
+    if (kind == DescriptorKind::expendable)
+      return show_descriptor_as<ExpendableDescriptor>(visitor, pdu.descriptor);
+    if (kind == DescriptorKind::explosion)
+      return show_descriptor_as<ExplosionDescriptor>(visitor, pdu.descriptor);
+  }
+  visitor("descriptor", pdu.descriptor);
+}
 
 }  // namespace reckon::pdu

@@ -146,10 +146,10 @@ TEST(NamesInATree, DependOnOtherFieldsOfTheirRecord) {
   signal.encoding_scheme = 0x4004;
   EXPECT_HOLDS(tree(signal), "  class 1 (Raw Binary Data)\n  messages 4\n");
   Detonation detonation;
-  detonation.header.pdu_status = 0x10;
   detonation.descriptor.warhead = 1000;
-  EXPECT_HOLDS(tree(detonation), "pdu_status 16 (detonation_type Expendable)");
   EXPECT_HOLDS(tree(detonation), "warhead 1000 (High Explosive (HE))\n");
+  detonation.header.pdu_status = 0x10;
+  EXPECT_HOLDS(tree(detonation), "pdu_status 16 (detonation_type Expendable)");
   detonation.header.protocol_version = 6;
   EXPECT_HOLDS(tree(detonation), "pdu_status 16 padding");
   AggregateState unit;

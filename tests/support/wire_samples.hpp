@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -48,8 +49,19 @@ inline std::vector<std::byte> sample_octets(std::string_view name) {
   return octets_from_hex(hex);
 }
 
+/// Whole numbers that a double cannot hold as the text that JSON of ours has.
+inline void write_large_numbers_as_text(nlohmann::json& values) {
+  constexpr std::uint64_t kMostExact = std::uint64_t{1} << 53;
+  if (values.is_number_unsigned() && values.get<std::uint64_t>() > kMostExact)
+    values = std::to_string(values.get<std::uint64_t>());
+  if (values.is_structured())
+    for (auto& item : values) write_large_numbers_as_text(item);
+}
+
 inline nlohmann::json sample_values(std::string_view name) {
-  return nlohmann::json::parse(open_sample(sample_path(name, ".json")));
+  nlohmann::json values = nlohmann::json::parse(open_sample(sample_path(name, ".json")));
+  write_large_numbers_as_text(values);
+  return values;
 }
 
 }  // namespace reckon::test

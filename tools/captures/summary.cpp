@@ -27,7 +27,7 @@ using Align = TextTable::Align;
 constexpr std::size_t kMaxRows = 20;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-std::string id_text(pdu::EntityId id) {
+std::string entity_text(pdu::EntityId id) {
   return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
 }
 
@@ -79,7 +79,7 @@ void append_entities(std::string& out, const CaptureSummary& summary) {
       by_count(summary.entities, [](const EntityShare& share) { return share.pdus.count; });
   for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i) {
     const EntityShare& entity = rows[i]->second;
-    table.add({id_text(rows[i]->first), entity.marking, fmt::format("{}", entity.pdus.count),
+    table.add({entity_text(rows[i]->first), entity.marking, fmt::format("{}", entity.pdus.count),
                fmt::format("{:.3f}", pdu::to_seconds(entity.first)),
                fmt::format("{:.3f}", pdu::to_seconds(entity.last))});
   }
@@ -120,7 +120,8 @@ void add_endpoints(JsonObject& to, std::string_view key, std::string_view member
 void add_entities(JsonObject& to, const CaptureSummary& summary) {
   add_objects(to, "entities", summary.entities,
               [](JsonObject& row, pdu::EntityId id, const EntityShare& e) {
-                add_share(row.text("id", id_text(id)).text("marking", e.marking), "pdus", e.pdus);
+                add_share(row.text("id", entity_text(id)).text("marking", e.marking), "pdus",
+                          e.pdus);
                 row.value("first", seconds_text(e.first)).value("last", seconds_text(e.last));
               });
 }

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <span>
 
+#include "reckon/pdu/field_search.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/datagrams/filter_fields.hpp"
@@ -18,50 +20,10 @@
 namespace reckon::tools {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result)
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return result;
-}
-
-/// A name as one word: "Life form" is life_form, "DRM FPW" fpw.
-std::string word_of(std::string_view name) {
-  std::string word = lower(name);
-  for (char& letter : word) {
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
-  }
-  return word.starts_with("drm_") ? word.substr(4) : word;
-}
-
 /// Entity fields can be named by their last word too: kind for entity.kind.
 std::string_view short_name(std::string_view name) {
-  const std::size_t dot = name.find('.');
-  return dot == std::string_view::npos ? name : name.substr(dot + 1);
-}
-
-/// Whether `text` matches `pattern`, in which * stands for any letters. Linear, except for the
-/// stars.
-bool is_like(std::string_view text, std::string_view pattern) {
-  std::size_t at = 0;
-  std::size_t in = 0;
-  std::size_t star = std::string_view::npos;
-  std::size_t after_star = 0;
-  while (at < text.size()) {
-    if (in < pattern.size() && pattern[in] == '*') {
-      star = in++;
-      after_star = at;
-    } else if (in < pattern.size() && pattern[in] == text[at]) {
-      ++in;
-      ++at;
-    } else if (star != std::string_view::npos) {
-      in = star + 1;
-      at = ++after_star;
-    } else {
-      return false;
-    }
-  }
-  return pattern.find_first_not_of('*', in) == std::string_view::npos;
+  constexpr std::string_view kEntity = "entity.";
+  return name.starts_with(kEntity) ? name.substr(kEntity.size()) : name;
 }
 
 bool is_like(pdu::EntityId id, const Filter::IdPattern& pattern) {
@@ -70,35 +32,34 @@ bool is_like(pdu::EntityId id, const Filter::IdPattern& pattern) {
          pattern.entity.value_or(id.entity) == id.entity;
 }
 
-bool holds(double value, Filter::Operator op, double number) {
-  switch (op) {
-    case Filter::Operator::equal:
-      return value == number;
-    case Filter::Operator::unequal:
-      return value != number;
-    case Filter::Operator::less:
-      return value < number;
-    case Filter::Operator::at_most:
-      return value <= number;
-    case Filter::Operator::greater:
-      return value > number;
-    case Filter::Operator::at_least:
-      return value >= number;
-  }
-  return false;
+/// Replaces the nearest word so far if `word` is nearer to the typed one.
+void keep_nearer(std::string_view typed, std::string_view word, std::string& nearest) {
+  const std::array<std::string_view, 2> both{nearest, word};
+  const auto candidates = std::span(both).subspan(nearest.empty() ? 1 : 0);
+  if (peer::nearest_word(typed, candidates) == word) nearest = word;
 }
 
-bool holds(const Filter::Comparison& comparison, const FilterSubject& subject) {
-  const FilterField& field = filter_fields()[comparison.field];
-  const bool wanted = comparison.op == Filter::Operator::equal;
-  if (field.kind == ValueKind::id)
-    return subject.row.id.has_value() && is_like(*subject.row.id, comparison.id) == wanted;
-  if (field.kind == ValueKind::text) {
-    const auto text = field.text(subject);
-    return text.has_value() && is_like(lower(*text), comparison.text) == wanted;
+/// The last parts of a path, as many as `typed` has.
+std::string_view end_of_path(std::string_view path, std::string_view typed) {
+  std::size_t at = path.size();
+  for (auto dots = std::count(typed.begin(), typed.end(), '.'); dots >= 0 && at != path.npos;
+       --dots)
+    at = at == 0 ? path.npos : path.rfind('.', at - 1);
+  return at == path.npos ? path : path.substr(at + 1);
+}
+
+/// The field of the field tables that is nearest to a mistyped one; empty if none is near.
+std::string nearest_table_field(std::string_view typed) {
+  std::string nearest;
+  for (unsigned number = 0; number < 256; ++number) {
+    const auto type = static_cast<pdu::PduType>(number);
+    if (!pdu::is_listed(type)) continue;
+    pdu::each_field_path(type, [&](std::string_view path) {
+      const std::string_view end = end_of_path(path, typed);
+      if (end != nearest) keep_nearer(typed, end, nearest);
+    });
   }
-  const auto number = field.number(subject);
-  return number.has_value() && holds(*number, comparison.op, comparison.number);
+  return nearest;
 }
 
 std::string text_with_mark(std::string_view text, std::size_t column, std::string_view why) {
@@ -144,7 +105,7 @@ class FilterParser {
 
   [[nodiscard]] static bool is_word_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-           std::string_view("_.:*-[]").find(letter) != std::string_view::npos;
+           std::string_view("_.:*-+[]").find(letter) != std::string_view::npos;
   }
 
   void advance() {
@@ -219,35 +180,76 @@ class FilterParser {
   }
 
   std::size_t comparison() {
+    if (token_.kind != TokenKind::word)
+      fail(token_.at, "expected a field, for example kind == platform");
+    const auto row = row_named(lower(token_.text));
     Filter::Comparison comparison;
-    comparison.field = field();
-    const FilterField& of = filter_fields()[comparison.field];
+    if (row.has_value()) {
+      advance();
+      comparison = with_row(*row);
+    } else {
+      comparison.field = with_table();
+      comparison.of_table = true;
+    }
+    filter_.comparisons_.push_back(std::move(comparison));
+    return add(Kind::comparison, filter_.comparisons_.size() - 1);
+  }
+  /// The row of the list with this name.
+  [[nodiscard]] static std::optional<std::size_t> row_named(std::string_view typed) {
+    for (std::size_t i = 0; i < filter_fields().size(); ++i) {
+      const std::string_view name = filter_fields()[i].name;
+      if (typed == name || typed == short_name(name)) return i;
+    }
+    return std::nullopt;
+  }
+  Filter::Comparison with_row(std::size_t row) {
+    Filter::Comparison comparison;
+    comparison.field = row;
+    const FilterField& of = filter_fields()[row];
     const std::size_t at = token_.at;
     comparison.op = operation();
     const bool ordered = of.kind == ValueKind::number || of.kind == ValueKind::name;
     if (!ordered && comparison.op > Filter::Operator::unequal)
       fail(at, fmt::format("{} takes == and != only", of.name));
     value(of, comparison);
-    filter_.comparisons_.push_back(std::move(comparison));
-    return add(Kind::comparison, filter_.comparisons_.size() - 1);
+    return comparison;
   }
-
-  std::size_t field() {
-    if (token_.kind != TokenKind::word)
-      fail(token_.at, "expected a field, for example kind == platform");
-    const std::string typed = lower(token_.text);
+  /// A field of the field tables; returns its index among these.
+  std::size_t with_table() {
+    constexpr std::string_view kFields = "fields.";  // as in JSON, the whole path
+    const std::string_view written = token_.text;
+    const std::string typed = lower(written);
+    const bool whole = typed.starts_with(kFields);
+    auto path =
+        pdu::FieldPath::find(std::string_view(typed).substr(whole ? kFields.size() : 0), whole);
+    if (!path.has_value()) fail_unknown(typed);
+    advance();
+    const std::size_t at = token_.at;
+    const Filter::Operator op = operation();
+    if (op > Filter::Operator::unequal && !path->has_numbers())
+      fail(at, fmt::format("{} takes == and != only", written));
+    if (token_.kind == TokenKind::end || token_.kind == TokenKind::sign)
+      fail(token_.at, fmt::format("expected a value of {}", written));
+    FieldComparison comparison(std::move(*path), op, token_.text);
+    if (const std::string why = comparison.misfit(); !why.empty()) fail(token_.at, why);
+    advance();
+    filter_.tables_.push_back(std::move(comparison));
+    return filter_.tables_.size() - 1;
+  }
+  [[noreturn]] void fail_unknown(const std::string& typed) const {
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < filter_fields().size(); ++i) {
-      const std::string_view name = filter_fields()[i].name;
-      if (typed == name || typed == short_name(name)) {
-        advance();
-        return i;
-      }
-      names.push_back(name);
-      names.push_back(short_name(name));
+    for (const FilterField& field : filter_fields()) {
+      names.push_back(field.name);
+      names.push_back(short_name(field.name));
     }
-    fail(token_.at, fmt::format("there is no field '{}'{}", token_.text,
-                                suggestion(typed, names, "; `reckon help inspect` lists them")));
+    const std::string of_table = nearest_table_field(typed);
+    names.push_back(of_table);
+    fail(token_.at,
+         fmt::format(
+             "there is no field '{}'{}", token_.text,
+             suggestion(typed, names,
+                        "; `reckon inspect --help` lists those of every PDU, `reckon inspect "
+                        "--fields TYPE` those of a PDU type")));
   }
 
   [[nodiscard]] static std::string suggestion(std::string_view typed,
@@ -308,19 +310,13 @@ class FilterParser {
         if (name.empty()) continue;
         std::string word = word_of(name);
         if (word == typed) return value;
-        keep_nearer(typed, std::move(word), nearest);
+        keep_nearer(typed, word, nearest);
       }
     }
     const std::array<std::string_view, 1> known{nearest};
     fail(token_.at, fmt::format("{} has no value '{}'{}", field.name, token_.text,
                                 suggestion(typed, std::span(known).first(nearest.empty() ? 0 : 1),
                                            fmt::format("; it is {}", field.meaning))));
-  }
-  /// Replaces the nearest word so far if `word` is nearer to the typed one.
-  static void keep_nearer(std::string_view typed, std::string word, std::string& nearest) {
-    const std::array<std::string_view, 2> both{nearest, word};
-    const auto candidates = std::span(both).subspan(nearest.empty() ? 1 : 0);
-    if (peer::nearest_word(typed, candidates) == word) nearest = std::move(word);
   }
 
   /// One part of an ID; `at` is its offset in the token.
@@ -357,6 +353,20 @@ Filter::Filter(std::string_view text) { FilterParser(text, *this).parse(); }
 
 bool Filter::matches(const PduRow& row, const peer::SourceDatagram& datagram) const {
   return evaluate(nodes_.size() - 1, {row, datagram, row.entity_state});
+}
+
+bool Filter::holds(const Comparison& comparison, const FilterSubject& subject) const {
+  if (comparison.of_table) return tables_[comparison.field].holds(subject.row);
+  const FilterField& field = filter_fields()[comparison.field];
+  const bool wanted = comparison.op == Operator::equal;
+  if (field.kind == ValueKind::id)
+    return subject.row.id.has_value() && is_like(*subject.row.id, comparison.id) == wanted;
+  if (field.kind == ValueKind::text) {
+    const auto text = field.text(subject);
+    return text.has_value() && is_like(lower(*text), comparison.text) == wanted;
+  }
+  const auto number = field.number(subject);
+  return number.has_value() && tools::holds(*number, comparison.op, comparison.number);
 }
 
 bool Filter::evaluate(std::size_t index, const FilterSubject& subject) const {

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then evaluated
-// for each PDU. The fields are THE list in filter_fields.cpp; a new one is one row there.
+// for each PDU. Its fields are THE list in filter_fields.cpp, where a new one is one row, and then
+// all fields of the field tables: "frequency > 2e8", "systems.beams.beam_function == search".
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +15,8 @@
 
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/datagrams/field_comparison.hpp"
+#include "reckon/tools/datagrams/filter_words.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 
 namespace reckon::tools {
@@ -31,7 +35,7 @@ struct FilterSubject {
 };
 
 /// A compiled filter. A comparison with a field that the PDU lacks is false for every operator. Any
-/// thread; a match allocates only for text fields.
+/// thread; a match allocates only for text and octets.
 class Filter {
  public:
   /// Longest text [octets] and deepest nesting of parentheses and `not`.
@@ -43,7 +47,7 @@ class Filter {
 
   [[nodiscard]] bool matches(const PduRow& row, const peer::SourceDatagram& datagram) const;
 
-  enum class Operator : std::uint8_t { equal, unequal, less, at_most, greater, at_least };
+  using Operator = FilterOperator;
   /// An entity ID with optional wildcards as parts.
   struct IdPattern {
     std::optional<std::uint16_t> site;
@@ -51,7 +55,8 @@ class Filter {
     std::optional<std::uint16_t> entity;
   };
   struct Comparison {
-    std::size_t field = 0;  ///< row of the list of fields
+    std::size_t field = 0;  ///< row of the list of fields, or index of a comparison of_table
+    bool of_table = false;  ///< with a field of the field tables
     Operator op = Operator::equal;
     double number = 0;
     IdPattern id;
@@ -69,12 +74,19 @@ class Filter {
   };
 
   [[nodiscard]] bool evaluate(std::size_t node, const FilterSubject& subject) const;
+  [[nodiscard]] bool holds(const Comparison& comparison, const FilterSubject& subject) const;
 
   std::vector<Node> nodes_;  // the last one is the root
-  std::vector<Comparison> comparisons_;
+  std::deque<Comparison> comparisons_;
+  std::deque<FieldComparison> tables_;
 };
 
-/// Names and descriptions of all fields, for help: "kind  kind of the entity: platform, ...".
+/// Names and descriptions of the fields of the list, for help: "kind  kind of the entity: platform,
+/// ...".
 [[nodiscard]] std::string filter_fields_text();
+
+/// The fields of the field tables, a line each, of one PDU type: as --full has them.
+/// @throws UsageError for a word that is no PDU type.
+[[nodiscard]] std::string table_fields_text(std::string_view type);
 
 }  // namespace reckon::tools

@@ -6,10 +6,18 @@
 
 #include <array>
 #include <cmath>
+#include <concepts>
+#include <functional>
 #include <iterator>
+#include <set>
+#include <vector>
 
+#include "reckon/pdu/field_search.hpp"
+#include "reckon/pdu/geodetic.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/type_names.hpp"
+#include "reckon/peer/scene/nearest_word.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -63,6 +71,64 @@ Text endpoint(const peer::IpEndpoint& endpoint) {
   return endpoint.text();
 }
 
+/// Visitor: the first position in W among the fields of a PDU.
+class FirstLocation {
+ public:
+  template <typename T>
+  void operator()(std::string_view, const T& value) {
+    if constexpr (std::same_as<T, pdu::WorldCoordinates>) {
+      if (!location_.has_value()) location_ = value;
+    }
+  }
+  template <typename... Any>
+  void count(Any&&...) {}
+  template <typename... Any>
+  void records(Any&&...) {}
+  template <typename... Any>
+  void walked(Any&&...) {}
+
+  [[nodiscard]] const std::optional<pdu::WorldCoordinates>& location() const { return location_; }
+
+ private:
+  std::optional<pdu::WorldCoordinates> location_;
+};
+
+std::optional<pdu::WorldCoordinates> location_of(const FilterSubject& subject) {
+  if (subject.entity_state != nullptr) return subject.entity_state->location;
+  if (!subject.row.decoded) return std::nullopt;
+  FirstLocation first;
+  (void)pdu::visit(subject.row.bytes, subject.row.header,
+                   [&](const auto& pdu) { fields(first, pdu); });
+  return first.location();
+}
+/// A coordinate of the PDU's location, in W or on WGS84.
+template <auto Member>
+Number from_location(const FilterSubject& subject) {
+  const auto location = location_of(subject);
+  if (!location.has_value()) return std::nullopt;
+  return *location.*Member;
+}
+template <auto Member>
+Number from_place(const FilterSubject& subject) {
+  const auto location = location_of(subject);
+  const auto place = location.has_value() ? pdu::geodetic_from(*location) : std::nullopt;
+  if (!place.has_value()) return std::nullopt;
+  return *place.*Member;
+}
+template <auto Member>
+Number from_attitude(const FilterSubject& subject) {
+  if (subject.entity_state == nullptr) return std::nullopt;
+  const auto place = pdu::geodetic_from(subject.entity_state->location);
+  if (!place.has_value()) return std::nullopt;
+  const auto attitude = pdu::attitude_from(subject.entity_state->orientation, *place);
+  if (!attitude.has_value()) return std::nullopt;
+  return *attitude.*Member;
+}
+Number port_of(const peer::IpEndpoint& endpoint) {
+  if (endpoint.is_unspecified()) return std::nullopt;
+  return endpoint.port;
+}
+
 using Header = pdu::PduHeader;
 using State = pdu::EntityState;
 
@@ -99,6 +165,22 @@ constexpr auto kFields = std::to_array<FilterField>({
        if (s.entity_state == nullptr) return std::nullopt;
        return std::string(s.entity_state->marking.view());
      }},
+    {"entity.heading", "where its x axis points, degrees from north by east", ValueKind::number,
+     from_attitude<&pdu::Attitude::heading_deg>},
+    {"entity.pitch", "its x axis above the horizon in degrees", ValueKind::number,
+     from_attitude<&pdu::Attitude::pitch_deg>},
+    {"entity.roll", "its right side down in degrees", ValueKind::number,
+     from_attitude<&pdu::Attitude::roll_deg>},
+    {"latitude", "of the PDU's first position, degrees north (WGS84)", ValueKind::number,
+     from_place<&pdu::Geodetic::latitude_deg>},
+    {"longitude", "of the same, degrees east", ValueKind::number,
+     from_place<&pdu::Geodetic::longitude_deg>},
+    {"height", "of the same, metres above the ellipsoid", ValueKind::number,
+     from_place<&pdu::Geodetic::height>},
+    {"location.x", "of the same, geocentric in metres", ValueKind::number,
+     from_location<&pdu::WorldCoordinates::x>},
+    {"location.y", "of the same", ValueKind::number, from_location<&pdu::WorldCoordinates::y>},
+    {"location.z", "of the same", ValueKind::number, from_location<&pdu::WorldCoordinates::z>},
     {"type", "PDU type: entity_state, attribute, ..., or a number", ValueKind::name,
      from_header<[](const Header& h) { return h.pdu_type; }>, type_name},
     {"exercise", "exercise ID", ValueKind::number,
@@ -107,6 +189,8 @@ constexpr auto kFields = std::to_array<FilterField>({
      from_header<[](const Header& h) { return h.protocol_version; }>},
     {"length", "octets by the header", ValueKind::number,
      from_header<[](const Header& h) { return h.length; }>},
+    {"time", "arrival in seconds since the first datagram of the source", ValueKind::number,
+     [](const FilterSubject& s) -> Number { return pdu::to_seconds(s.row.time - s.row.start); }},
     {"frame", "number of the datagram's frame", ValueKind::number,
      [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.frame); }},
     {"pdu", "place in the datagram, from 1", ValueKind::number,
@@ -123,6 +207,10 @@ constexpr auto kFields = std::to_array<FilterField>({
      nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.source); }},
     {"group", "address:port that it was sent to; * stands for any letters", ValueKind::text,
      nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.group); }},
+    {"port", "UDP port that it was sent to", ValueKind::number,
+     [](const FilterSubject& s) { return port_of(s.datagram.group); }},
+    {"sender_port", "UDP port that it was sent from", ValueKind::number,
+     [](const FilterSubject& s) { return port_of(s.datagram.source); }},
 });
 
 }  // namespace
@@ -133,8 +221,30 @@ std::string filter_fields_text() {
   std::string text;
   for (const FilterField& field : kFields)
     fmt::format_to(std::back_inserter(text), "  {:<16} {}\n", field.name, field.meaning);
-  text.pop_back();
-  return text;
+  return text +
+         "Also each field of any PDU type by its name in --full, or by the end of that name, as\n"
+         "frequency, munition_type.kind or beams[0].beam_function; --fields TYPE lists them.";
+}
+
+std::string table_fields_text(std::string_view type) {
+  std::vector<std::string_view> types;
+  for (unsigned number = 0; number < 256; ++number) {
+    const auto known = static_cast<pdu::PduType>(number);
+    if (!pdu::is_listed(known)) continue;
+    types.push_back(pdu::snake_name(known));
+    if (types.back() != type) continue;
+    std::string text;
+    std::set<std::string, std::less<>> shown;
+    pdu::each_field_path(known, [&](std::string_view path) {
+      if (shown.emplace(path).second) text.append(path).append("\n");
+    });
+    return text;
+  }
+  const std::string_view nearest = peer::nearest_word(type, types);
+  throw UsageError(fmt::format("--fields {}: no PDU type{}", type,
+                               nearest.empty()
+                                   ? " with a field table, for example entity_state or transmitter"
+                                   : fmt::format("; did you mean '{}'?", nearest)));
 }
 
 }  // namespace reckon::tools

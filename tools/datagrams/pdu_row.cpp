@@ -147,6 +147,8 @@ void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
     ++tally_.fragments;
   row_.frame = datagram.frame;
   row_.time = datagram.time;
+  if (!start_.has_value()) start_ = datagram.time;
+  row_.start = *start_;
   row_.interface = datagram.interface;
   bytes_ = datagram.bytes;
   without_length_.reset();

@@ -31,11 +31,12 @@ enum class PduStatus : std::uint8_t { ok, note, warning, error };
 
 /// One PDU in a datagram.
 struct PduRow {
-  std::uint64_t frame = 0;          ///< of the datagram in its source, from 1
-  std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
-  std::size_t pdu = 0;              ///< place in the datagram, from 1
-  std::size_t offset = 0;           ///< of its first octet in the datagram
-  pdu::PduHeader header;            ///< as far as it was readable
+  std::uint64_t frame = 0;           ///< of the datagram in its source, from 1
+  std::chrono::nanoseconds time{};   ///< since 1970-01-01 UTC
+  std::chrono::nanoseconds start{};  ///< time of the source's first datagram
+  std::size_t pdu = 0;               ///< place in the datagram, from 1
+  std::size_t offset = 0;            ///< of its first octet in the datagram
+  pdu::PduHeader header;             ///< as far as it was readable
   std::span<const std::byte> bytes;
   bool has_header = false;  ///< 12 octets were present
   bool decoded = false;     ///< the body can be read with pdu::visit
@@ -99,6 +100,8 @@ class DatagramInspector {
     return true;
   }
   [[nodiscard]] const InspectTally& tally() const { return tally_; }
+  /// Sets the time of the source's first datagram, where the inspector does not see that one.
+  void start_at(std::chrono::nanoseconds start) { start_ = start; }
 
  private:
   void begin(const peer::SourceDatagram& datagram);
@@ -126,6 +129,7 @@ class DatagramInspector {
   PduRow row_;
   pdu::EntityState entity_state_;  // referenced by row_
   InspectTally tally_;
+  std::optional<std::chrono::nanoseconds> start_;
 };
 
 }  // namespace reckon::tools

@@ -101,7 +101,10 @@ bool CaptureSelection::takes(const peer::SourceDatagram& datagram) {
 }
 
 bool CaptureSelection::in_range(nanoseconds time) {
-  if (!origin_.has_value()) origin_ = time;
+  if (!origin_.has_value()) {
+    origin_ = time;
+    inspector_.start_at(time);
+  }
   const nanoseconds since = time - *origin_;
   return since >= from_ && (!to_.has_value() || since < *to_);
 }

@@ -22,6 +22,7 @@
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/datagrams/time_range.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 #include "reckon/tools/inspect/diff/diff.hpp"
 #include "reckon/tools/inspect/output/options.hpp"
@@ -59,6 +60,7 @@ constexpr std::string_view kExamples =
     "reckon inspect capture.pcapng stats --by entity --csv\n"
     "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
     "friendly'\n"
+    "reckon inspect capture.pcapng --where 'frequency > 2.2e8' --from 14:03 --to 14:05\n"
     "reckon inspect bundles --iface eth0 --for 10s\n"
     "reckon inspect capture.pcapng haptics --svg forces.svg\n"
     "reckon inspect raw:datagram.bin --full\n"
@@ -101,6 +103,7 @@ class Inspection {
       : options_(options),
         console_(console),
         filter_(filter_of(options)),
+        range_(options.from, options.to),
         sealed_(options.key),
         source_(open_chosen_source(options.source)),
         silence_(options.source, clock_.now()),
@@ -130,6 +133,7 @@ class Inspection {
   }
   void read();
   void tell_silence();
+  [[nodiscard]] bool is_in_range(nanoseconds time);
   void show(const peer::SourceDatagram& datagram);
   /// Shows one PDU; false after the last requested one.
   bool show(const peer::SourceDatagram& datagram, const PduRow& row);
@@ -138,6 +142,7 @@ class Inspection {
   const InspectOptions& options_;
   const Console& console_;
   std::optional<Filter> filter_;
+  TimeRange range_;
   SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
   peer::SteadyClock clock_;
@@ -145,8 +150,8 @@ class Inspection {
   Output output_;
   DatagramInspector inspector_;
   std::unique_ptr<View> view_;
-  InspectTally shown_;  // PDUs that passed the filter
-  nanoseconds start_{};
+  InspectTally shown_;                // PDUs that passed the filter
+  std::optional<nanoseconds> start_;  // of the first datagram
   bool full_ = false;
 };
 
@@ -161,7 +166,9 @@ void Inspection::read() {
     const peer::SourceEvent event =
         source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
     if (event == peer::SourceEvent::end) break;
-    if (event == peer::SourceEvent::datagram && sealed_.open(datagram)) show(datagram);
+    if (event == peer::SourceEvent::datagram && sealed_.open(datagram) &&
+        is_in_range(datagram.time))
+      show(datagram);
     if (source_->is_live()) view_->tick(clock_.utc_now(), source_->report(), out);
     if (event == peer::SourceEvent::nothing_yet) {
       output_.write();
@@ -169,6 +176,17 @@ void Inspection::read() {
     }
     full_ = full_ || view_->has_ended();
   }
+}
+
+bool Inspection::is_in_range(nanoseconds time) {
+  if (!start_.has_value()) {
+    start_ = time;
+    range_.begin_at(time);
+    inspector_.start_at(time);
+  }
+  // A capture that is still written has no end of its own.
+  full_ = full_ || (options_.source.follow && range_.is_past(time));
+  return range_.has(time);
 }
 
 void Inspection::tell_silence() {
@@ -179,7 +197,6 @@ void Inspection::tell_silence() {
 }
 
 void Inspection::show(const peer::SourceDatagram& datagram) {
-  if (inspector_.tally().datagrams == 0) start_ = datagram.time;
   view_->expect(datagram);
   const std::uint64_t before = shown_.all_pdus();
   full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
@@ -195,7 +212,7 @@ void Inspection::end_datagram(const peer::SourceDatagram& datagram, bool is_show
   std::string& out = output_.text();
   if (!is_shown) return view_->skip();
   ++shown_.datagrams;
-  view_->datagram(datagram, start_, out);
+  view_->datagram(datagram, *start_, out);
 }
 
 bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
@@ -204,7 +221,7 @@ bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
   if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
   ++shown_.pdus[static_cast<std::size_t>(row.status)];
   if (row.rule == kForeignRule) ++shown_.foreign;
-  view_->pdu(datagram, row, start_, out);
+  view_->pdu(datagram, row, *start_, out);
   return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
 }
 
@@ -297,16 +314,22 @@ void check_combination(InspectOptions& options, const Console& console) {
   if ((!options.svg.empty() || options.step.has_value()) && options.view != "haptics")
     throw UsageError(
         "--svg and --step belong to the view haptics: write reckon inspect SOURCE haptics");
+  if ((!options.from.empty() || !options.to.empty()) && is_live(options.source))
+    throw UsageError("--from and --to choose a part of a recording; what is live takes --for");
   options.json = options.json || options.full;
 }
 
-int print_rules(const InspectOptions& options, const Console& console) {
-  std::string text;
-  append_check_rules(options.format(), text);
+int print(std::string text, const Console& console) {
   Output output(console.out);
   output.text() = std::move(text);
   output.write();
   return exit_status(ExitCode::good);
+}
+
+std::string rules_text(const InspectOptions& options) {
+  std::string text;
+  append_check_rules(options.format(), text);
+  return text;
 }
 
 int run_inspect(Arguments arguments, const Console& console) {
@@ -335,6 +358,11 @@ int run_inspect(Arguments arguments, const Console& console) {
             "wait for more at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
               "only PDUs that match, for example 'entity.id == 1:*:* and kind == platform'");
+  line.option("--fields", options.fields, "list the fields of this PDU type for --where, and exit");
+  line.option("--from", options.from,
+              "recordings: only from here on, as 90s since the first datagram, 14:03:20 (UTC) or "
+              "2026-11-26T14:03:20Z");
+  line.option("--to", options.to, "recordings: only before this, written in the same way");
   line.option("--svg", options.svg, "haptics: draw the forces into this file");
   line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
   line.flag("--lenient", options.lenient,
@@ -351,7 +379,8 @@ int run_inspect(Arguments arguments, const Console& console) {
               "groups to join behind the base group (default: 256; 0 for udp://)");
   if (const auto status = line.parse(arguments, console)) return *status;
   check_combination(options, console);
-  if (options.rules) return print_rules(options, console);
+  if (options.rules) return print(rules_text(options), console);
+  if (!options.fields.empty()) return print(table_fields_text(options.fields), console);
   options.source.sealed = !options.key.empty();
 
   Inspection inspection(options, console);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <concepts>
 
+#include "reckon/pdu/geodetic.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
@@ -44,6 +45,20 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   append_member(out, "],\"drm\":", static_cast<unsigned>(pdu.dead_reckoning.algorithm));
 }
 
+/// Where an entity is and how it lies, as people read it.
+void append_place(std::string& out, const PduRow& row) {
+  if (row.entity_state == nullptr) return;
+  const auto place = pdu::geodetic_from(row.entity_state->location);
+  if (!place.has_value()) return;
+  fmt::format_to(end_of(out),
+                 FMT_COMPILE(",\"latitude\":{:.9f},\"longitude\":{:.9f},\"height\":{:.3f}"),
+                 place->latitude_deg, place->longitude_deg, place->height);
+  const auto attitude = pdu::attitude_from(row.entity_state->orientation, *place);
+  if (!attitude.has_value()) return;
+  fmt::format_to(end_of(out), FMT_COMPILE(",\"heading\":{:.4f},\"pitch\":{:.4f},\"roll\":{:.4f}"),
+                 attitude->heading_deg, attitude->pitch_deg, attitude->roll_deg);
+}
+
 /// The records of one type in an Attribute PDU, as an array under `key`; nothing if there are none.
 template <typename Record>
 void append_records(std::string& out, std::string_view key, const pdu::Attribute& pdu) {
@@ -78,6 +93,7 @@ void append_body(std::string& out, const PduRow& row, bool full) {
       append_records<pdu::EnergyAccountRecord>(out, "energy", pdu);
     }
     if (!full) return;
+    append_place(out, row);
     out += ",\"fields\":";
     pdu::TextSink sink(out);
     pdu::print_named_json(pdu, sink);

@@ -5,11 +5,14 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <concepts>
 
+#include "reckon/pdu/geodetic.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
@@ -41,6 +44,34 @@ void append_name(std::string& out, std::string_view what, Enumeration value) {
   append_number(out, static_cast<unsigned>(value));
 }
 
+/// |value| with 7 decimals, for |value| of at most 360; faster than fmt.
+void append_degrees(std::string& out, double value) {
+  constexpr std::uint64_t kUnits = 10'000'000;
+  const auto units = static_cast<std::uint64_t>(std::abs(value) * double{kUnits} + 0.5);
+  append_number(out, units / kUnits);
+  const fmt::format_int decimals(units % kUnits + kUnits);  // a leading 1 keeps the zeros
+  out += '.';
+  out.append(decimals.data() + 1, decimals.size() - 1);
+}
+
+/// "47.1234567 N 8.1234567 E 412.345 m".
+void append_place(std::string& out, const pdu::Geodetic& place) {
+  append_degrees(out, place.latitude_deg);
+  out += place.latitude_deg < 0 ? " S " : " N ";
+  append_degrees(out, place.longitude_deg);
+  out += place.longitude_deg < 0 ? " W " : " E ";
+  append_thousandths(out, place.height);
+  out += " m";
+}
+
+/// "sent 41:15.999999 absolute": the timestamp, past the hour.
+void append_timestamp(std::string& out, const pdu::PduHeader& header) {
+  out += "  sent ";
+  pdu::TextSink sink(out);
+  pdu::put_past_the_hour(sink, header.timestamp);
+  out += pdu::is_absolute(header.timestamp) ? " absolute" : " relative";
+}
+
 void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   append_printable(out, pdu.marking.view());
   out += "  ";
@@ -57,6 +88,10 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
     before = ", ";
   }
   out += ") m";
+  if (const auto place = pdu::geodetic_from(pdu.location)) {
+    out += "  ";
+    append_place(out, *place);
+  }
   if (!pdu.variable_parameters.empty())
     fmt::format_to(end_of(out), "  {} variable parameters",
                    pdu.variable_parameters.size() / pdu::kVariableParameterSize);
@@ -109,14 +144,30 @@ class BriefFields {
       named_first_ = true;  // the first one has its own column
     } else if constexpr (std::same_as<T, pdu::SimulationAddress>) {
       item(name, fmt::format("{}:{}", value.site, value.application));
+    } else if constexpr (std::same_as<T, pdu::MunitionDescriptor>) {
+      type("munition", value.munition_type);
+    } else if constexpr (std::same_as<T, pdu::ExpendableDescriptor>) {
+      type("expendable", value.expendable_type);
+    } else if constexpr (std::same_as<T, pdu::ExplosionDescriptor>) {
+      type("explosion of", value.exploding_object_type);
+      item("explosive_force", fmt::format("{} kg", value.explosive_force));
+    } else if constexpr (std::same_as<T, pdu::WorldCoordinates>) {
+      const auto place = pdu::geodetic_from(value);
+      std::string text;
+      if (place.has_value()) append_place(text, *place);
+      if (place.has_value()) item(name, text);
     } else if constexpr (pdu::Scalar<T>) {
       std::string text;
       pdu::TextSink sink(text);
-      pdu::put_json_number(sink, value);
+      if constexpr (std::is_integral_v<T>)
+        sink.number(value);
+      else
+        pdu::put_json_number(sink, value);
       if constexpr (pdu::kMayHaveNames<T>) {
         const std::string_view named = pdu::name_in(meanings_.of(name), value);
         if (!named.empty()) text = named;
       }
+      if (meanings_.has_readings()) append_reading(text, name);
       item(name, text);
     }
   }
@@ -126,10 +177,38 @@ class BriefFields {
   }
   template <typename... Any>
   void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
+  void walked(std::string_view, const pdu::VariableDatums& datums) {
+    for (const pdu::VariableDatum& datum : datums.records()) {
+      const std::string_view text = pdu::text_in(datum.value);
+      if (text.empty()) continue;
+      std::string quoted;
+      pdu::TextSink sink(quoted);
+      pdu::put_json_string(sink, text);
+      item("text", quoted);
+    }
+  }
+  template <typename View>
+  void walked(std::string_view, const View&) {}
 
  private:
+  /// " (mode_3a 4721, state on)".
+  void append_reading(std::string& text, std::string_view name) const {
+    pdu::FieldReadings readings;
+    meanings_.read(name, readings);
+    std::string_view before = " (";
+    for (const pdu::FieldReading& part : readings.parts()) {
+      text.append(before).append(part.key).append(" ").append(part.view());
+      if (!part.unit.empty()) text.append(" ").append(part.unit);
+      before = ", ";
+    }
+    if (!readings.parts().empty()) text += ')';
+  }
+  void type(std::string_view name, const pdu::EntityType& value) {
+    std::string words;
+    pdu::TextSink sink(words);
+    pdu::put_type_in_words(sink, value);
+    item(name, words);
+  }
   void item(std::string_view name, std::string_view text) {
     fmt::format_to(end_of(out_), FMT_COMPILE("{}{} {}"), first_ ? "" : ", ", name, text);
     first_ = false;
@@ -206,6 +285,7 @@ void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseco
   if (row.status != PduStatus::ok) append_fault(out, row, colour);
   if (row.status != PduStatus::ok && row.decoded) out += "; ";
   if (row.decoded) append_brief(out, row);
+  if (row.has_header) append_timestamp(out, row.header);
   out += '\n';
 }
 

@@ -87,15 +87,19 @@ std::string row_text(const std::vector<std::string>& cells,
   return line;
 }
 
-/// Applies the filter to the last Entity State of an entity.
-bool passes(const Filter& filter, const HeardEntity& entity, const EntityRow& counts) {
+/// Applies the filter to the last Entity State of an entity in a source that began at `start`.
+bool passes(const Filter& filter, const HeardEntity& entity, const EntityRow& counts,
+            std::chrono::nanoseconds start) {
   PduRow row;
   row.frame = counts.frame;
   row.time = entity.arrival;
+  row.start = start;
   row.pdu = counts.pdu_index;
   row.bytes = entity.octets;
   row.has_header = row.decoded = entity.has_state;
   if (entity.has_state) (void)decode_header(entity.octets, row.header);
+  const pdu::EntityState state = entity.entity_state();
+  if (entity.has_state) row.entity_state = &state;
   row.header.length = counts.length;
   row.id = entity.id;
   if (counts.last_is_bad) {
@@ -245,7 +249,8 @@ std::vector<std::size_t> TopScreen::chosen(const TopData& data) const {
   std::vector<std::size_t> places = top_order(data.entities, data.now, sort_, reverse_);
   if (!filter_.has_value()) return places;
   std::erase_if(places, [&](std::size_t place) {
-    return !passes(*filter_, data.entities.entities()[place], data.entities.rows()[place]);
+    return !passes(*filter_, data.entities.entities()[place], data.entities.rows()[place],
+                   data.totals.first);
   });
   return places;
 }

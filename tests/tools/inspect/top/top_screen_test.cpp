@@ -158,7 +158,7 @@ TEST(TopScreen, FiltersByTheLanguageOfWhereAndShowsTheColumnOfAnError) {
   type(screen, "marking == VEH3", data);
   screen.press({Key::enter}, data);
   const std::string text = text_of(screen.lines(data, {}, size));
-  EXPECT_THAT(text, HasSubstr("VEH3"));
+  EXPECT_THAT(text, HasSubstr("1:2:3"));
   EXPECT_THAT(text, Not(HasSubstr("VEH2")));
   EXPECT_THAT(text, HasSubstr("filter: marking == VEH3"));
 }

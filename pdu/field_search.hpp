@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds fields of any PDU by the names that JSON has for them. The field tables are the list of
+// names.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "reckon/pdu/codec/pdu_header.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+
+namespace reckon::pdu {
+
+/// A value of a field.
+struct FieldValue {
+  enum class Kind : std::uint8_t { whole, single, real, text, octets, id };
+  Kind kind = Kind::whole;
+  /// whole, single (32-bit float) and real: the value. A long double holds each of them exactly.
+  long double number = 0;
+  std::string_view text;              ///< text: the characters before the first NUL
+  std::span<const std::byte> octets;  ///< octets
+  std::string_view name;              ///< whole: what the number is called; empty without a name
+  std::string_view code;              ///< whole: the code of a country, "USA"; empty without one
+  std::array<std::uint16_t, 3> id{};  ///< id: site, application and number
+  std::size_t id_parts = 0;           ///< id: how many of these it has, 2 or 3
+};
+
+/// A question about a value, without an owner: the context outlives it.
+struct FieldTest {
+  const void* context = nullptr;
+  bool (*holds)(const void* context, const FieldValue& value) = nullptr;
+};
+
+/// A set of PDU types.
+class PduTypeSet {
+ public:
+  void add(PduType type) noexcept { bits_[index(type)] |= mask(type); }
+  [[nodiscard]] bool has(PduType type) const noexcept {
+    return (bits_[index(type)] & mask(type)) != 0;
+  }
+  [[nodiscard]] bool empty() const noexcept { return bits_ == decltype(bits_){}; }
+
+ private:
+  static constexpr std::size_t index(PduType type) noexcept {
+    return static_cast<std::size_t>(type) / 64;
+  }
+  static constexpr std::uint64_t mask(PduType type) noexcept {
+    return std::uint64_t{1} << (static_cast<unsigned>(type) % 64);
+  }
+  std::array<std::uint64_t, 4> bits_{};
+};
+
+/// A field as written: "entity_location.x", "systems[0].beams.frequency". The end of the path is
+/// enough, as "psi" or "munition_type.kind"; in a type that has the path as a whole, only that
+/// field is meant. Without an index any element of a list is meant. A bit field is written behind
+/// its word or alone: "entity_appearance.damage". Endings of JSON are taken too: "country_name",
+/// "entity_appearance_bits.damage". An ID of an entity, event or simulation is one value.
+class FieldPath {
+ public:
+  static constexpr std::size_t kDeepest = 10;  ///< parts of a path
+
+  /// Nothing if the text has an empty part, a malformed index or too many parts, or if no PDU type
+  /// has such a field.
+  /// @param whole the path begins at the PDU
+  [[nodiscard]] static std::optional<FieldPath> find(std::string_view text, bool whole = false);
+
+  /// Whether PDUs of this type may have it.
+  [[nodiscard]] bool is_in(PduType type) const noexcept {
+    return whole_.has(type) || end_.has(type);
+  }
+  /// Whether a value may be a number, may have a name, may be anything else.
+  [[nodiscard]] bool has_numbers() const noexcept { return has_numbers_; }
+  [[nodiscard]] bool has_names() const noexcept { return has_names_; }
+  [[nodiscard]] bool has_others() const noexcept { return has_others_; }
+
+  /// One part of a path.
+  struct Part {
+    std::string_view name;
+    std::size_t index;  ///< static_cast<std::size_t>(-1): any
+  };
+  /// What the last part names: a field, the name of its value, or a bit field.
+  enum class Target : std::uint8_t { field, name, bit };
+
+ private:
+  friend class FieldPathParts;
+  friend bool any_value(const FieldPath& path, std::span<const std::byte> pdu,
+                        const PduHeader& header, FieldTest test);
+
+  [[nodiscard]] bool look_for(Target target);
+
+  struct StoredPart {
+    std::uint16_t begin = 0;
+    std::uint16_t size = 0;
+    std::uint32_t index = 0;
+  };
+  std::string text_;
+  std::array<StoredPart, kDeepest> parts_{};
+  std::size_t count_ = 0;
+  Target target_ = Target::field;
+  bool begins_at_pdu_ = false;
+  PduTypeSet whole_;
+  PduTypeSet end_;
+  bool has_numbers_ = false;
+  bool has_names_ = false;
+  bool has_others_ = false;
+};
+
+/// Whether the test holds for a value of the field in this PDU; false for a type that lacks it, and
+/// for octets that cannot be decoded. The header of a PDU is there whatever its type.
+[[nodiscard]] bool any_value(const FieldPath& path, std::span<const std::byte> pdu,
+                             const PduHeader& header, FieldTest test);
+
+/// Calls `f` with the path of each field that PDUs of this type may have, in wire order, as
+/// "systems.beams.frequency"; some come more than once. The text is valid during the call.
+void each_field_path(PduType type, const std::function<void(std::string_view)>& f);
+
+}  // namespace reckon::pdu

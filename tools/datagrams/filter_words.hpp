@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the comparisons of a filter have in common: operators, and words of any spelling.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace reckon::tools {
+
+enum class FilterOperator : std::uint8_t { equal, unequal, less, at_most, greater, at_least };
+
+/// Whether `value` stands in this relation to `number`; a NaN is unequal to all.
+template <typename Number>
+[[nodiscard]] bool holds(Number value, FilterOperator op, Number number) {
+  switch (op) {
+    case FilterOperator::equal:
+      return value == number;
+    case FilterOperator::unequal:
+      return value != number;
+    case FilterOperator::less:
+      return value < number;
+    case FilterOperator::at_most:
+      return value <= number;
+    case FilterOperator::greater:
+      return value > number;
+    case FilterOperator::at_least:
+      return value >= number;
+  }
+  return false;
+}
+
+/// In lower case.
+[[nodiscard]] std::string lower(std::string_view text);
+
+/// A name as one word: "Life form" is life_form, "DRM FPW" fpw.
+[[nodiscard]] std::string word_of(std::string_view name);
+
+/// Whether `text` matches `pattern`, in which * stands for any letters. Linear, except for the
+/// stars.
+[[nodiscard]] bool is_like(std::string_view text, std::string_view pattern);
+
+}  // namespace reckon::tools
