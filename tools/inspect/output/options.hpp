@@ -23,7 +23,7 @@ struct InspectOptions {
   std::string fields;    ///< PDU type whose fields are listed instead of a run; empty: a run
   std::string key;       ///< key file; empty: sealed datagrams are only counted
   std::string svg;       ///< haptics: file for a plot; empty: none
-  bool lenient = false;  ///< see SourceChoice
+  bool lenient = false;  ///< lengths of 0 and trailing octets are noted, not refused
   bool json = false;
   bool csv = false;
   bool rules = false;
