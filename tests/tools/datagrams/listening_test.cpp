@@ -36,7 +36,7 @@ TEST(Listening, SaysWhereAndWhatCameOverEachInterface) {
   report.unheard = {"not all groups are heard on eth1: No buffer space available"};
   EXPECT_THAT(heard_text(report), HasSubstr("; 2 datagrams came over another interface too\nnot"));
   choice.source = "iface:lo";
-  EXPECT_EQ(listening_text(choice, {}), "iface:lo");
+  EXPECT_EQ(listening_text(choice, {}), "all UDP of lo");
   EXPECT_EQ(heard_text({}), "");
 }
 
