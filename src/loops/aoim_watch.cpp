@@ -86,8 +86,10 @@ void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   const double nearest = aoim.sight().take_nearest_outside();
   const bool inside =
       counts.accepted > at_begin_.accepted || counts.lingering > at_begin_.lingering;
+  // What rests is heard once a minute or less: only who has never shown anything is told.
+  const bool has_shown = counts.accepted + counts.lingering > 0;
   const bool outside = scene_.network.interop ? counts.outside > at_begin_.outside
-                                              : std::min(peers, peers_at_begin_) > 0;
+                                              : !has_shown && std::min(peers, peers_at_begin_) > 0;
   at_begin_ = counts;
   peers_at_begin_ = peers;
   if (inside) all_outside_reported_ = false;

@@ -55,12 +55,10 @@ Section<AoimConfig> aoim_section() {
            "finer in crowds, or locales such as rooms"},
           {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
            "side of a square, corner radius of a hexagon; when absent in a scene whose entities "
-           "are farther "
-           "apart than 2 m, half of the power of ten that holds them"},
+           "are farther apart than 2 m, half of the power of ten that holds them"},
           {"radius", &AoimConfig::radius, within("m", 0.01, kWorld),
            "how far this peer senses; when absent in a scene whose entities are farther apart than "
-           "2 m, "
-           "the power of ten that holds them"},
+           "2 m, the power of ten that holds them"},
           {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
            "multicast groups after the base group; not 2 or 3"},
           {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),

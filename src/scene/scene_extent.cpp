@@ -7,11 +7,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <vector>
 
 #include "reckon/peer/scene/belongings.hpp"
-#include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 
 namespace reckon::peer {
@@ -19,7 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kLooks = 256;  // at a track
+constexpr int kLooks = 256;              // at a track
+constexpr double kFarthestRadius = 1e6;  // [m], the range of the key
 
 /// Something of a peer at the start.
 struct Placed {
@@ -60,11 +61,11 @@ void set_reach_by_extent(SceneFile& scene, const StatedReach& stated) {
   double extent = 0;
   try {
     extent = extent_of(scene);
-  } catch (const CsvError&) {
+  } catch (const std::exception&) {
     return;  // reported at its key
   }
-  if (extent <= AoimConfig{}.radius) return;
-  const double radius = std::pow(10.0, std::ceil(std::log10(extent)));
+  if (!(extent > AoimConfig{}.radius)) return;
+  const double radius = std::min(std::pow(10.0, std::ceil(std::log10(extent))), kFarthestRadius);
   if (!stated.cell) aoim.cell = radius / 2;
   if (!stated.radius) aoim.radius = radius;
 }

@@ -11,7 +11,7 @@ namespace reckon::peer {
 
 /// The diagonal of the box, along the axes of S, around all entities with their whole tracks and
 /// around all devices [m]; 0 without entities. Reads the tracks.
-/// @throws CsvError for a track that cannot be read
+/// @throws CsvError or std::invalid_argument for a track that cannot be read
 [[nodiscard]] double extent_of(const SceneFile& scene);
 
 /// Which keys of [aoim] a file has.
