@@ -69,7 +69,8 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene, const deadreckon:
   aoim::AreaOfInterestConfig config = aoim_config(scene);
   aoim::AggregatorConfig& bundles = config.aggregator;
   const std::size_t fits = std::max(link.max_payload(), aoim::kLeastPayload) + bundles.reserved;
-  bundles.payload_limit = std::min(bundles.payload_limit, fits);
+  if (link.max_payload() > 0)  // else unknown
+    bundles.payload_limit = std::min(bundles.payload_limit, fits);
   config.locate = [&frame](const pdu::WorldCoordinates& at) {
     return to_position(frame.scene_from_world(Eigen::Vector3d(at.x, at.y, at.z)));
   };

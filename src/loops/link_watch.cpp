@@ -59,7 +59,7 @@ void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& ou
 
 void LinkWatch::report_payload() noexcept {
   const std::size_t asked = std::exchange(longest_bundle_, 0), most = link_.max_payload();
-  if (asked > most)
+  if (most > 0 && asked > most)
     report("bundles are of at most {} octets, for the MTU takes no more: [network.bundle] max = {}",
            most, asked);
 }
