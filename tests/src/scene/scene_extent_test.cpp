@@ -27,7 +27,7 @@ AoimConfig aoim_of(const std::string& text) { return parse_scene_file(text, "x.t
 
 TEST(SceneExtent, ASceneWithoutAreaOfInterestSensesAllItsEntities) {
   for (const auto& [apart, radius] : std::vector<std::pair<double, double>>{
-           {0.5, 2}, {2, 2}, {2.1, 10}, {30, 100}, {100, 100}, {551, 1000}, {20'000, 100'000}, {3e6, 1e6}}) {
+           {0.5, 2}, {2, 2}, {2.1, 10}, {30, 100}, {100, 100}, {551, 1000}, {20'000, 100'000}}) {
     const AoimConfig aoim = aoim_of(two_trucks(apart));
     EXPECT_NEAR(aoim.radius, radius, 1e-9 * radius) << apart;
     EXPECT_NEAR(aoim.cell, radius / 2, 1e-9 * radius) << apart;
