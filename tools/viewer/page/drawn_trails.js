@@ -10,7 +10,7 @@ const FINE = 20; // pieces of a trail
 const COARSE = 3; // of one among many
 const MOST_LINES = 40000; // about so many in all
 const MOST_LINES_BY_SOFTWARE = 3000; // they are what it is slow at: 6 us each
-const MANY = 400;
+const MANY_TRAILS = 400;
 const MOST_TRAILS = 4096; // entities with a trail
 
 export const drawnTrails = {
@@ -79,7 +79,7 @@ class Trails {
       this.since = now;
       this.next = now + TRAIL_SECONDS / this.pieces;
     }
-    this.lines.visible = count <= MANY || this.view.rectangle.width > 400; // among many a small picture is full without
+    this.lines.visible = count <= MANY_TRAILS || this.view.rectangle.width > 400; // among many a small picture is full without
     this.write(moment, count, now);
     this.last = time;
     this.material.uniforms.now.value = now;

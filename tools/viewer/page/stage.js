@@ -8,7 +8,7 @@ import { Labels } from './labels.js';
 import { OrbitCamera } from './orbit_camera.js';
 import { worldExtent, touchExtent } from './extents.js';
 
-const MANY = 100; // entities
+const MANY_MEASURED = 100; // entities
 
 function drawnBySoftware() {
   const context = document.createElement('canvas').getContext('webgl2');
@@ -36,7 +36,7 @@ class View {
   // What the camera should hold; where it holds many, they are gone through 4 times a second.
   measure(moment) {
     const { count, time } = moment;
-    if (this.measured && count > MANY && count === this.measured.count && Math.abs(time - this.measured.time) < 0.25) return this.extent;
+    if (this.measured && count > MANY_MEASURED && count === this.measured.count && Math.abs(time - this.measured.time) < 0.25) return this.extent;
     this.measured = { count, time };
     return this.extentOf(moment);
   }
