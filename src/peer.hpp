@@ -115,6 +115,10 @@ class Peer {
   /// thread.
   [[nodiscard]] bool is_reading_held_up() const noexcept { return read_.is_full(); }
 
+  /// Whether what arrives may be felt, so that its delay counts: a body is within reach of a hand or
+  /// a moving body of this peer; model thread.
+  [[nodiscard]] bool has_near() const noexcept { return model_.has_near(); }
+
   /// Ends the peer: sends a last Entity State with the deactivated bit for each entity, and
   /// announces the end. The loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;

@@ -34,6 +34,11 @@ constexpr nanoseconds kLeastSleep = microseconds(100);
 // the second.
 constexpr nanoseconds kLongPass = microseconds(500);
 constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
+// Where the model loop reads: it takes together what arrives within this.
+constexpr nanoseconds kTogether = std::chrono::milliseconds(1);
+constexpr std::size_t kMostTogether = 512;  // datagrams
+// For so long after something was near, or more had come than a pass takes, the reader reads.
+constexpr nanoseconds kUrgent = std::chrono::seconds(1);
 
 bool may_lock_memory() noexcept {
   rlimit limit{};
@@ -114,11 +119,24 @@ void PeerThreads::stop() noexcept {
   }
 }
 
+void PeerThreads::wake() noexcept {
+  news_.notify();
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (at_link_.load(std::memory_order_relaxed)) peer_.link().wake();
+}
+
 // Sleeps at the link until something arrives, or, while the ring is full, until there is room; the
 // kernel keeps what arrives meanwhile.
 void PeerThreads::run_read(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     leave_time(priority);
+    LinkReader reads = reads_.load(std::memory_order_acquire);
+    if (reads == LinkReader::asked_back && reads_.compare_exchange_strong(reads, LinkReader::model))
+      reads = LinkReader::model;
+    if (reads == LinkReader::model) {
+      room_.wait(nanoseconds::max());
+      continue;
+    }
     if (peer_.read_step(clock_.now()) > 0) news_.notify();
     if (peer_.is_reading_held_up()) {
       room_.wait(nanoseconds::max());
@@ -132,24 +150,78 @@ void PeerThreads::run_model(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     leave_time(priority);
     const nanoseconds begun = clock_.now();
+    const std::size_t taken = reads_in_model_loop() ? read_in_model_loop(begun) : 0;
     peer_.model_step(begun, clock_.utc_now());
-    const nanoseconds took = clock_.now() - begun;
-    room_.notify();
-    if (peer_.has_outbound()) ready_.notify();
-    if (peer_.has_group_commands()) peer_.link().wake();
+    const nanoseconds ended = clock_.now(), took = ended - begun;
+    send_out();
+    if (peer_.has_near() || peer_.has_inbound()) urgent_until_ = ended + kUrgent;
+    choose_reader(ended);
     // The kernel's own thread, which delivers what arrives, is an ordinary one.
     if (priority && priority->held() && took > kLongPass)
       std::this_thread::sleep_for(std::min(took, kLongestRest));
-    if (peer_.has_inbound()) continue;
-    const nanoseconds next = peer_.next_step(), now = clock_.now();
-    news_.wait(next > now + kLeastSleep ? next - now : kLeastSleep);
+    if (!peer_.has_inbound()) wait_for_work(begun, taken);
+  }
+}
+
+// Returns the number of datagrams.
+std::size_t PeerThreads::read_in_model_loop(nanoseconds now) noexcept {
+  const bool due = now >= next_look_ || peer_.has_group_commands() || peer_.is_reading_held_up();
+  if (!peer_.link().wait(nanoseconds(0)) && !due) return 0;
+  next_look_ = now + kRetry;
+  std::size_t taken = 0;
+  do {
+    taken += peer_.read_step(now);
+  } while (!peer_.is_reading_held_up() && taken < kMostTogether &&
+           peer_.link().wait(nanoseconds(0)));
+  return taken;
+}
+
+void PeerThreads::send_out() noexcept {
+  if (!peer_.has_outbound()) return;
+  if (!reads_in_model_loop()) return ready_.notify();
+  const std::unique_lock own(sending_, std::try_to_lock);
+  own ? static_cast<void>(peer_.write_step()) : ready_.notify();
+}
+
+void PeerThreads::choose_reader(nanoseconds now) noexcept {
+  const LinkReader reads = reads_.load(std::memory_order_acquire);
+  const bool urgent = now < urgent_until_;
+  if (urgent && reads == LinkReader::model) {
+    reads_.store(LinkReader::reader, std::memory_order_release);
+  } else if (!urgent && reads == LinkReader::reader) {
+    reads_.store(LinkReader::asked_back, std::memory_order_release);
+    peer_.link().wake();
+  }
+  if (reads != LinkReader::model || urgent) room_.notify();
+  if (reads == LinkReader::reader && peer_.has_group_commands()) peer_.link().wake();
+}
+
+void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
+  const nanoseconds now = clock_.now();
+  const nanoseconds until = std::max(peer_.next_step(), now + kLeastSleep);
+  const nanoseconds together = std::max(begun + kTogether, now + kLeastSleep);
+  if (!reads_in_model_loop()) {
+    news_.wait(until - now);
+  } else if (felt_ || taken > 1) {  // the servo's steps wake it, or more will have come
+    news_.wait(std::min(until, felt_ ? now + 2 * kTogether : together) - now);
+  } else {
+    at_link_.store(true, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    const bool arrived =
+        !news_.wait(nanoseconds(0)) && peer_.link().wait(std::min(until - now, kRetry));
+    at_link_.store(false, std::memory_order_relaxed);
+    const nanoseconds then = clock_.now();
+    if (arrived && then < std::min(together, until)) news_.wait(std::min(together, until) - then);
   }
 }
 
 void PeerThreads::run_write(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     leave_time(priority);
-    peer_.write_step();
+    {
+      const std::lock_guard own(sending_);
+      peer_.write_step();
+    }
     ready_.wait(nanoseconds::max());
   }
 }

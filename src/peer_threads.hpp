@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -38,9 +39,11 @@ struct PeerThreadsOptions {
 /// The threads are named after their loop and the peer's application when they start: "rk-read 1",
 /// "rk-write 1", "rk-model 1", and the servo's, where it is the peer's own, "rk-servo 1".
 ///
-/// No thread polls: the model loop runs when a datagram has come, when the servo has made a step,
-/// and when Peer::next_step() says; the reader when something arrives or a group is to be joined;
-/// the writer when there is something to send.
+/// The model loop runs when a datagram has come, when the servo has made a step, and when
+/// Peer::next_step() says. Waking a thread costs more than a datagram, so one thread does all where
+/// a delay is not felt: while no body is within reach of a hand and passes are short, the model
+/// loop itself reads and sends. It then takes what arrives within 1 ms together. Otherwise the
+/// reader waits at the link and wakes the model loop for each arrival, and the writer sends.
 class PeerThreads {
  public:
   /// @param peer, clock outlive the threads. @throws std::system_error with the remedy where a
@@ -55,7 +58,7 @@ class PeerThreads {
   void stop() noexcept;
 
   /// Makes the model loop run soon, as when a caller has queued work for it. Any thread.
-  void wake() noexcept { news_.notify(); }
+  void wake() noexcept;
 
   /// Lateness, step time and missed periods of the servo, readable while it runs.
   [[nodiscard]] const DutyCycle& servo_duty() const noexcept { return duty_; }
@@ -67,12 +70,22 @@ class PeerThreads {
   [[nodiscard]] bool memory_locked() const noexcept { return memory_locked_; }
 
  private:
+  /// Which thread reads the link. The reader returns it when the model loop has asked.
+  enum class LinkReader : std::uint8_t { model, reader, asked_back };
+
   void start();
   using Priority = std::optional<RealTimePriority>;
   void run_read(Priority& priority) noexcept;
   void run_model(Priority& priority) noexcept;
   void run_write(Priority& priority) noexcept;
   void leave_time(Priority& priority) noexcept;
+  std::size_t read_in_model_loop(std::chrono::nanoseconds now) noexcept;
+  void send_out() noexcept;
+  void choose_reader(std::chrono::nanoseconds now) noexcept;
+  void wait_for_work(std::chrono::nanoseconds begun, std::size_t taken) noexcept;
+  [[nodiscard]] bool reads_in_model_loop() const noexcept {
+    return reads_.load(std::memory_order_acquire) == LinkReader::model;
+  }
 
   Peer& peer_;
   const Clock& clock_;
@@ -82,8 +95,12 @@ class PeerThreads {
   const bool felt_;  // the peer has a device, so these threads are urgent
   std::atomic<bool> stop_{false};
   WakeSignal news_;   // for the model loop: something arrived, the servo made a step
-  WakeSignal room_;   // for the reader: the model loop has made room
+  WakeSignal room_;   // for the reader: the model loop has made room, or is to read no longer
   WakeSignal ready_;  // for the writer: something is to be sent
+  std::atomic<LinkReader> reads_{LinkReader::model};
+  std::atomic<bool> at_link_{false};                         // the model loop waits at the link
+  std::mutex sending_;                                       // of what is queued for the link
+  std::chrono::nanoseconds urgent_until_{0}, next_look_{0};  // of the model loop
   std::unique_ptr<ServoThread> own_servo_;
   ServoThread* servo_ = nullptr;
   std::optional<std::size_t> seat_;  // at servo_

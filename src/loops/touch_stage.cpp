@@ -118,6 +118,14 @@ void TouchStage::find_near(const Pass& pass) noexcept {
   }
 }
 
+bool TouchStage::has_near() const noexcept {
+  const auto is_remote = [](const NearBody& body) { return body.row != nullptr; };
+  const auto has_remote = [&](const NearBodies& bodies) {
+    return std::ranges::any_of(bodies.bodies(), is_remote);
+  };
+  return hands_near_.size() > 0 || std::ranges::any_of(near(), has_remote);
+}
+
 void TouchStage::consider(const Pass& pass) noexcept {
   consider_hands(pass);
   consider_bodies(pass);

@@ -88,6 +88,8 @@ class TouchStage {
   [[nodiscard]] std::span<const NearBodies> near() const noexcept {
     return {near_.data(), hands_.size()};
   }
+  /// Whether a remote body is near a hand or a moving body of ours, so that it may be felt soon.
+  [[nodiscard]] bool has_near() const noexcept;
   /// Copies what all hands touch.  @return its number
   std::size_t copy_touched(
       std::span<Touched, kMaxDevices * haptics::kMaxRemoteHands> out) const noexcept;

@@ -71,6 +71,9 @@ struct UdpMulticast::Sockets {
   Sockets(const UdpMulticastOptions& asked, const Clock& clock);
 
   void warn();
+  void poll(nanoseconds timeout) noexcept;
+  std::size_t take_turn(UdpSlot& slot, std::span<Datagram> out, std::size_t delivered,
+                        std::size_t most) noexcept;
   std::size_t receive_first(std::span<Datagram> out, std::size_t delivered,
                             std::size_t most) noexcept;
 
@@ -87,6 +90,7 @@ struct UdpMulticast::Sockets {
   UdpSender sender;
   UdpRecovery recovery;
   std::vector<std::string> warnings;
+  bool left = false;  // of what the last poll found, some may be unread
 };
 
 UdpMulticast::Sockets::Sockets(const UdpMulticastOptions& asked, const Clock& clock)
@@ -126,6 +130,18 @@ void UdpMulticast::Sockets::warn() {
   }
 }
 
+void UdpMulticast::Sockets::poll(nanoseconds timeout) noexcept {
+  ready.poll(timeout);
+  left = ready.is_crowded();
+}
+
+std::size_t UdpMulticast::Sockets::take_turn(UdpSlot& slot, std::span<Datagram> out,
+                                             std::size_t delivered, std::size_t most) noexcept {
+  delivered = receiver.take_turn(slot, out, delivered, most);
+  left = left || !receiver.has_emptied();
+  return delivered;
+}
+
 // Reads the prioritised groups: one turn of each that has datagrams, at most `most` messages in
 // all.
 std::size_t UdpMulticast::Sockets::receive_first(std::span<Datagram> out, std::size_t delivered,
@@ -134,9 +150,10 @@ std::size_t UdpMulticast::Sockets::receive_first(std::span<Datagram> out, std::s
   const std::size_t count = ready.find_first(numbers);
   const std::size_t before = receiver.messages();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t left = most - std::min(most, receiver.messages() - before);
-    if (left == 0 || delivered == out.size() || receiver.is_full()) break;
-    delivered = receiver.take_turn(table[numbers[i]], out, delivered, left);
+    const std::size_t room = most - std::min(most, receiver.messages() - before);
+    left = left || room == 0;
+    if (room == 0 || delivered == out.size() || receiver.is_full()) break;
+    delivered = take_turn(table[numbers[i]], out, delivered, room);
   }
   return delivered;
 }
@@ -163,7 +180,7 @@ std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
   std::size_t delivered = receiver.hand_over(out, 0);
   // The buffers of returned datagrams stay valid until the next call.
   if (delivered == 0) receiver.recycle();
-  std::size_t seen = kMaxBatch + 1;
+  bool polled = s.ready.has_next() || s.left;
   std::size_t first = s.options.read_first ? (s.options.batch + 1) / 2 : 0;
   while (delivered < out.size() && !receiver.is_full()) {
     if (first > 0) {
@@ -173,13 +190,13 @@ std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
       if (delivered == out.size() || receiver.is_full()) break;
     }
     if (!s.ready.has_next()) {
-      if (receiver.messages() == seen) break;  // the ready sockets had no datagrams
-      seen = receiver.messages();
-      s.ready.poll(nanoseconds{0});
+      if (polled && !s.left) break;  // the ready sockets were read empty
+      polled = true;
+      s.poll(nanoseconds{0});
       if (s.ready.is_first_ready() && !s.ready.has_next()) first = s.options.batch;
       continue;
     }
-    delivered = receiver.take_turn(s.table[s.ready.next()], out, delivered, s.options.batch);
+    delivered = s.take_turn(s.table[s.ready.next()], out, delivered, s.options.batch);
   }
   return delivered;
 }
@@ -194,7 +211,7 @@ bool UdpMulticast::wait(nanoseconds timeout) noexcept {
   Sockets& s = *sockets_;
   s.recovery.recover();
   const bool waits_here = s.receiver.has_arrived();
-  if (!s.ready.has_next()) s.ready.poll(waits_here ? nanoseconds{0} : timeout);
+  if (!s.ready.has_next()) s.poll(waits_here ? nanoseconds{0} : timeout);
   const bool woken = s.ready.take_wake();
   return woken || waits_here || s.ready.is_first_ready() || s.ready.has_next();
 }

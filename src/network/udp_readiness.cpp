@@ -46,6 +46,7 @@ void UdpReadiness::poll(nanoseconds timeout) noexcept {
   const int ready =
       epoll_pwait2(epoll_.get(), events_.data(), static_cast<int>(events_.size()), &limit, nullptr);
   if (ready < 0) woken_ = true;
+  crowded_ = ready == static_cast<int>(events_.size());
   next_event_ = 0;
   first_ready_ = false;
   // The wake-up stays unread here: wait() takes it, receive() leaves it to the next wait(). Without

@@ -40,6 +40,8 @@ class UdpReadiness {
   [[nodiscard]] bool has_next() const noexcept { return next_event_ < event_count_; }
   /// The number of the next one of them.
   [[nodiscard]] std::uint32_t next() noexcept { return events_[next_event_++].data.u32; }
+  /// Whether poll() has found as many sockets as it can, so that there may be others.
+  [[nodiscard]] bool is_crowded() const noexcept { return crowded_; }
   /// Discards the result of poll().
   void clear() noexcept { event_count_ = next_event_ = 0; }
   /// Whether poll() has found a readable socket among the prioritised ones.
@@ -75,6 +77,7 @@ class UdpReadiness {
   bool has_host_notices_ = false, host_changed_ = false;
   std::array<epoll_event, kMaxBatch> events_{};
   std::size_t event_count_ = 0, next_event_ = 0;
+  bool crowded_ = false;
   bool first_ready_ = false;  // at the last poll of `epoll_`
   bool woken_ = false;        // by a signal
   bool wake_waits_ = false;   // poll() has found it, take_wake() has not read it

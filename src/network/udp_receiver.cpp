@@ -48,6 +48,7 @@ void UdpReceiver::reserve(bool coalesces) {
 
 // Takes up to `count` messages of one socket into the free buffers.
 void UdpReceiver::take(UdpSlot& slot, std::size_t count) noexcept {
+  emptied_ = true;
   if (!slot.socket.is_open()) return;
   const std::size_t first = arrived_count_;
   for (std::size_t i = first; i < first + count; ++i) {
@@ -57,6 +58,7 @@ void UdpReceiver::take(UdpSlot& slot, std::size_t count) noexcept {
   }
   const int got = recvmmsg(slot.socket.native_handle(), messages_.data() + first,
                            static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
+  emptied_ = got < static_cast<int>(count);
   const nanoseconds now = clock_.now();
   if (got <= 0) {
     if (got < 0 && errno != EAGAIN && errno != EINTR) counts_.receive_errors.add();
@@ -67,7 +69,7 @@ void UdpReceiver::take(UdpSlot& slot, std::size_t count) noexcept {
   arrived_count_ += static_cast<std::size_t>(got);
   slot.brings_runs = false;
   for (std::size_t i = first; i < arrived_count_; ++i) accept(slot, i, now, utc);
-  if (static_cast<std::size_t>(got) < count) slot.empty = now;
+  if (emptied_) slot.empty = now;
 }
 
 // Records the content of a buffer, if it is for us.

@@ -53,6 +53,8 @@ class UdpReceiver {
   /// Messages read since the buffers were free.
   [[nodiscard]] std::size_t messages() const noexcept { return arrived_count_; }
   [[nodiscard]] bool is_full() const noexcept { return arrived_count_ == batch_; }
+  /// Whether the last turn left nothing in its socket.
+  [[nodiscard]] bool has_emptied() const noexcept { return emptied_; }
   /// Whether there are datagrams that were read and not returned.
   [[nodiscard]] bool has_arrived() const noexcept;
 
@@ -97,6 +99,7 @@ class UdpReceiver {
   }
 
   std::size_t batch_, max_datagram_;
+  bool emptied_ = true;
   bool deliver_own_;
   const Clock& clock_;
   const UdpReadiness& ready_;

@@ -113,6 +113,28 @@ TEST(PeerThreads, LeaveAQuietLinkAlone) {
   EXPECT_GT(threads.servo_duty().steps(), 0u);
 }
 
+// While nothing can be felt one thread does all; what may be felt is not to wait for its next pass.
+TEST(PeerThreads, ReadInAThreadOfTheirOwnWhileABodyIsInReach) {
+  Place here(1), there(2);
+  here.link.connect(there.link);
+  there.link.connect(here.link);
+  there.hand.x = 1000;
+  PeerThreads threads(here.peer, kClock, {}), others(there.peer, kClock, {});
+  const auto is_read_by = [&](auto&& wanted) {
+    for (int tries = 0; tries < 2000; ++tries) {
+      if (wanted(here.link.reader())) return true;
+      std::this_thread::sleep_for(5ms);  // of real threads
+    }
+    return false;
+  };
+  ASSERT_TRUE(here.link.settled(1, 1));
+  const std::thread::id model = here.link.reader();
+  there.hand.x = 0.1;
+  EXPECT_TRUE(is_read_by([&](std::thread::id reader) { return reader != model; }));
+  there.hand.x = 1000;
+  EXPECT_TRUE(is_read_by([&](std::thread::id reader) { return reader == model; }));
+}
+
 // The fastest paces the others: 700 Hz is no part of 1 kHz, yet so many steps a second are made.
 TEST(Peer, KeepsTheRateOfADeviceThatAFasterOnePaces) {
   const SceneFile scene = parse_scene_file(kScene, "test scene");

@@ -46,21 +46,37 @@ class ManualLink final : public peer::Link {
     return changed_.wait_for(lock, std::chrono::seconds(30),
                              [&] { return joins_ >= joins && sent_ >= sent && waiting_.empty(); });
   }
-  /// How often wait() was called: about the wakes of the reader.
+  /// What is sent arrives there from now on, in its turn.
+  void connect(ManualLink& other) {
+    const std::lock_guard lock(mutex_);
+    other_ = &other;
+  }
+  /// The thread of the last receive().
+  [[nodiscard]] std::thread::id reader() const {
+    const std::lock_guard lock(mutex_);
+    return reader_;
+  }
+  /// How often somebody waited here, polls apart.
   [[nodiscard]] std::size_t waits() const {
     const std::lock_guard lock(mutex_);
     return waits_;
   }
 
-  bool send(const peer::IpEndpoint&, std::span<const std::byte>) noexcept override {
-    const std::lock_guard lock(mutex_);
-    ++sent_;
-    changed_.notify_all();
+  bool send(const peer::IpEndpoint& to, std::span<const std::byte> octets) noexcept override {
+    ManualLink* other = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      ++sent_;
+      other = other_;
+      changed_.notify_all();
+    }
+    if (other != nullptr) other->put(to, {octets.begin(), octets.end()});
     return true;
   }
   std::size_t receive(std::span<peer::Datagram> out) noexcept override {
     const std::lock_guard lock(mutex_);
     taken_.clear();
+    reader_ = std::this_thread::get_id();
     const std::size_t count = std::min(out.size(), waiting_.size());
     for (std::size_t i = 0; i < count; ++i) {
       taken_.push_back(std::move(waiting_.front()));
@@ -84,8 +100,8 @@ class ManualLink final : public peer::Link {
   }
   bool wait(std::chrono::nanoseconds timeout) noexcept override {
     std::unique_lock lock(mutex_);
-    ++waits_;
     if (timeout > std::chrono::nanoseconds(0)) {
+      ++waits_;
       changed_.wait(lock, [&] { return woken_ || !waiting_.empty(); });
     }
     return std::exchange(woken_, false) || !waiting_.empty();
@@ -110,6 +126,8 @@ class ManualLink final : public peer::Link {
   std::vector<peer::GroupAddress> joined_;
   std::size_t sent_ = 0, waits_ = 0, joins_ = 0;
   bool woken_ = false;
+  ManualLink* other_ = nullptr;
+  std::thread::id reader_;
 };
 
 }  // namespace reckon::test

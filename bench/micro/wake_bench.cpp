@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a datagram costs a whole peer, all its threads and wake-ups, beside a bare thread that
+// blocks in recvmmsg and looks at nothing. Both hear the same datagrams of nine updates on
+// loopback, in a network namespace of its own (needs root), and take turns. CPU of threads, from
+// the kernel's account of each; what a peer takes without traffic is taken off and told in a column
+// of its own.
+#include <benchmark/benchmark.h>
+#include <net/if.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reckon/bench/micro/blocks.hpp"
+#include "reckon/bench/micro/transport_ways.hpp"
+#include "reckon/bench/studies/latency/stepped_hand.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/joined_peer.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kTurn = milliseconds(500);
+constexpr std::string_view kScene =
+    "[scene]\norigin = {latitude = \"47 deg\", longitude = \"8 deg\", height = \"430 m\"}\n"
+    "[network]\ninterop = true\ngroup = \"239.192.79.7\"\nport = 3107\n"
+    "[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n";
+
+/// CPU so far [ns] of the threads of this process whose names begin so.
+double cpu_of_threads(std::string_view prefix) {
+  double sum = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::string name;
+    std::getline(std::ifstream(entry.path() / "comm"), name);
+    double spent = 0;
+    if (name.starts_with(prefix)) std::ifstream(entry.path() / "schedstat") >> spent;
+    sum += spent;
+  }
+  return sum;
+}
+
+/// Datagrams of nine Entity States, of 1,000 entities in turn, sent at an even pace by eight hosts:
+/// a peer mutes one host that sends all of it.
+class Traffic {
+ public:
+  explicit Traffic(const SceneFile& scene)
+      : frame_(scene.origin.latitude, scene.origin.longitude, scene.origin.height),
+        exercise_(scene.network.exercise) {
+    const GroupAddress& group = scene.network.group;
+    to_.sin_family = AF_INET;
+    to_.sin_port = htons(group.port);
+    std::copy_n(group.octets.begin(), 4, reinterpret_cast<std::uint8_t*>(&to_.sin_addr));
+    for (std::uint32_t i = 0; i < sockets_.size(); ++i) {
+      sockets_[i] = socket(AF_INET, SOCK_DGRAM, 0);
+      sockaddr_in from{};
+      from.sin_family = AF_INET;
+      from.sin_addr.s_addr = htonl(0x7f000002u + i);
+      check(bind(sockets_[i], reinterpret_cast<sockaddr*>(&from), sizeof from) == 0, "bind");
+      const ip_mreqn out{{}, {}, static_cast<int>(if_nametoindex("lo"))};
+      check(setsockopt(sockets_[i], IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out) == 0,
+            "multicast if");
+    }
+  }
+  ~Traffic() { std::ranges::for_each(sockets_, close); }
+  Traffic(const Traffic&) = delete;
+  Traffic& operator=(const Traffic&) = delete;
+
+  /// Sends for so long; returns the number of datagrams.
+  std::size_t send(double per_second, nanoseconds length) {
+    const auto gap =
+        std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(1 / per_second));
+    const auto begin = std::chrono::steady_clock::now();
+    std::size_t count = 0;
+    for (nanoseconds due{0}; due < length; due += gap, ++count) {
+      std::this_thread::sleep_until(begin + due);
+      send_next(sockets_[count % sockets_.size()]);
+    }
+    return count;
+  }
+
+ private:
+  void send_next(int from) {
+    std::array<std::byte, kPerDatagram * kUpdate> octets;
+    for (std::size_t i = 0; i < kPerDatagram; ++i) {
+      deadreckon::KinematicState at;
+      at.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+      at.position = {10.0 * (next_ % 32), 10.0 * (next_ / 32), 0};
+      at.velocity = {10, 0, 0};
+      pdu::EntityState state;
+      state.header.exercise_id = exercise_;
+      state.header.timestamp = pdu::to_dis_timestamp(SteadyClock().utc_now(), true);
+      state.entity_id = {7, 1, static_cast<std::uint16_t>(next_ + 1)};
+      state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
+      check(deadreckon::to_wire(at, frame_, state) == deadreckon::ConversionError::none, "to_wire");
+      check(pdu::encode(state, std::span(octets).subspan(i * kUpdate, kUpdate)) == kUpdate,
+            "encode");
+      next_ = static_cast<std::uint16_t>((next_ + 1) % kEntities);
+    }
+    sendto(from, octets.data(), octets.size(), 0, reinterpret_cast<sockaddr*>(&to_), sizeof to_);
+  }
+
+  deadreckon::LocalFrame frame_;
+  std::uint8_t exercise_;
+  std::array<int, 8> sockets_{};
+  sockaddr_in to_{};
+  std::uint16_t next_ = 0;
+};
+
+/// A thread in recvmmsg.
+class BareReceiver {
+ public:
+  explicit BareReceiver(const SceneFile& scene) {
+    socket_ = socket(AF_INET, SOCK_DGRAM, 0);
+    const int one = 1, room = kBuffer;
+    setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &room, sizeof room);
+    const timeval patience{0, 50'000};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_port = htons(scene.network.group.port);
+    std::copy_n(scene.network.group.octets.begin(), 4,
+                reinterpret_cast<std::uint8_t*>(&at.sin_addr));
+    check(bind(socket_, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0, "bind");
+    const ip_mreqn in{at.sin_addr, {}, static_cast<int>(if_nametoindex("lo"))};
+    check(setsockopt(socket_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &in, sizeof in) == 0, "join");
+    thread_ = std::thread([this] { receive(); });
+    pthread_setname_np(thread_.native_handle(), "bare");
+  }
+  ~BareReceiver() {
+    stop_ = true;
+    thread_.join();
+    close(socket_);
+  }
+  BareReceiver(const BareReceiver&) = delete;
+  BareReceiver& operator=(const BareReceiver&) = delete;
+
+  [[nodiscard]] std::size_t received() const { return received_; }
+
+ private:
+  void receive() {
+    std::vector<std::array<std::byte, 2048>> buffers(kDatagrams);
+    std::array<iovec, kDatagrams> vectors{};
+    std::array<mmsghdr, kDatagrams> messages{};
+    for (std::size_t i = 0; i < kDatagrams; ++i) {
+      vectors[i] = {buffers[i].data(), buffers[i].size()};
+      messages[i].msg_hdr.msg_iov = &vectors[i];
+      messages[i].msg_hdr.msg_iovlen = 1;
+    }
+    while (!stop_) {
+      const int got = recvmmsg(socket_, messages.data(), kDatagrams, MSG_WAITFORONE, nullptr);
+      if (got > 0) received_ += static_cast<std::size_t>(got);
+    }
+  }
+
+  int socket_;
+  std::atomic<bool> stop_{false};
+  std::atomic<std::size_t> received_{0};
+  std::thread thread_;
+};
+
+/// A running peer of a plain DIS exercise that hears all, with a device far from everything or
+/// none.
+class HearingPeer {
+ public:
+  HearingPeer(const SceneFile& scene, bool device)
+      : hand_(Eigen::Vector3d(0, 0, 500)), joined_(options_of(scene, device ? &hand_ : nullptr)) {
+    joined_.run();
+  }
+  [[nodiscard]] std::size_t entities() const {
+    return joined_.peer().counters().find("entities")->value();
+  }
+  [[nodiscard]] std::uint64_t received() const {
+    return joined_.peer().counters().find("datagrams_in")->value();
+  }
+
+ public:
+  static FederateOptions options_of(const SceneFile& scene, haptics::HapticDevice* device) {
+    FederateOptions options;
+    options.name = "wake";
+    options.scene = scene;
+    options.interface = "lo";
+    options.loops = FederateLoops::threads;
+    if (device != nullptr) options.devices.push_back({.device = device, .marking = {}});
+    return options;
+  }
+  bench::SteppedHand hand_;
+  JoinedPeer joined_;
+};
+
+struct Spent {
+  double cpu_ns = 0;
+  std::size_t sent = 0, received = 0;
+};
+
+/// CPU of the threads so named while the traffic runs, and until it has been read.
+template <typename Receiver>
+Spent spend(const Receiver& receiver, std::string_view threads, Traffic& traffic, double rate) {
+  const std::uint64_t before = receiver.received();
+  const double begin = cpu_of_threads(threads);
+  Spent spent;
+  if (rate > 0) {
+    spent.sent = traffic.send(rate, kTurn);
+  } else {
+    std::this_thread::sleep_for(kTurn);
+  }
+  std::this_thread::sleep_for(milliseconds(20));
+  spent.cpu_ns = cpu_of_threads(threads) - begin;
+  spent.received = receiver.received() - before;
+  return spent;
+}
+
+void whole_peer(benchmark::State& state, bool device) try {
+  static_cast<void>(Cable::instance());  // a namespace of our own
+  const double rate = static_cast<double>(state.range(0));
+  const SceneFile scene = parse_scene_file(kScene, "wake_bench");
+  Traffic traffic(scene);
+  bench::Blocks bare_us, peer_us, over_bare, idle_percent;
+  std::size_t sent = 0, received = 0;
+  for (auto _ : state) {
+    double bare = 0;
+    {
+      const BareReceiver receiver(scene);
+      const Spent spent = spend(receiver, "bare", traffic, rate);
+      bare = spent.cpu_ns / static_cast<double>(std::max<std::size_t>(spent.received, 1));
+    }
+    HearingPeer peer(scene, device);
+    std::this_thread::sleep_for(milliseconds(200));
+    const double idle = spend(peer, "rk-", traffic, 0).cpu_ns;
+    const Spent spent = spend(peer, "rk-", traffic, rate);
+    sent += spent.sent;
+    received += spent.received;
+    for (auto n : {"datagrams_in","muted_in","stale_datagrams","too_long_in","read_waits","datagrams_refused"}) { auto c=peer.joined_.peer().counters().find(n); fprintf(stderr,"%s %ld ",n,c?(long)c->value():-1);} fprintf(stderr, "rows %zu drops %ld sent %zu\n", peer.joined_.peer().model().remote().rows().size(), (long)peer.joined_.peer().link().statistics().kernel_drops, spent.sent);
+    const double each =
+        (spent.cpu_ns - idle) / static_cast<double>(std::max<std::size_t>(spent.received, 1));
+    bare_us.add(1e-3 * bare);
+    peer_us.add(1e-3 * each);
+    over_bare.add(each / bare);
+    idle_percent.add(100 * idle /
+                     std::chrono::duration<double, std::nano>(kTurn + milliseconds(20)).count());
+  }
+  bare_us.report(state, "bare_us");
+  peer_us.report(state, "peer_us");
+  over_bare.report(state, "over_bare");
+  idle_percent.report(state, "idle_percent");
+  state.counters["unread"] = 1.0 - static_cast<double>(received) / static_cast<double>(sent);
+} catch (const std::exception& error) {
+  state.SkipWithError(error.what());
+}
+
+BENCHMARK_CAPTURE(whole_peer, no_device, false)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
+BENCHMARK_CAPTURE(whole_peer, device, true)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
+
+}  // namespace
+}  // namespace reckon::peer
