@@ -244,26 +244,3 @@ void whole_peer(benchmark::State& state, bool device) try {
     const Spent spent = spend(peer, "rk-", traffic, rate);
     sent += spent.sent;
     received += spent.received;
-    for (auto n : {"datagrams_in","muted_in","stale_datagrams","too_long_in","read_waits","datagrams_refused"}) { auto c=peer.joined_.peer().counters().find(n); fprintf(stderr,"%s %ld ",n,c?(long)c->value():-1);} fprintf(stderr, "rows %zu drops %ld sent %zu\n", peer.joined_.peer().model().remote().rows().size(), (long)peer.joined_.peer().link().statistics().kernel_drops, spent.sent);
-    const double each =
-        (spent.cpu_ns - idle) / static_cast<double>(std::max<std::size_t>(spent.received, 1));
-    bare_us.add(1e-3 * bare);
-    peer_us.add(1e-3 * each);
-    over_bare.add(each / bare);
-    idle_percent.add(100 * idle /
-                     std::chrono::duration<double, std::nano>(kTurn + milliseconds(20)).count());
-  }
-  bare_us.report(state, "bare_us");
-  peer_us.report(state, "peer_us");
-  over_bare.report(state, "over_bare");
-  idle_percent.report(state, "idle_percent");
-  state.counters["unread"] = 1.0 - static_cast<double>(received) / static_cast<double>(sent);
-} catch (const std::exception& error) {
-  state.SkipWithError(error.what());
-}
-
-BENCHMARK_CAPTURE(whole_peer, no_device, false)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
-BENCHMARK_CAPTURE(whole_peer, device, true)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
-
-}  // namespace
-}  // namespace reckon::peer
