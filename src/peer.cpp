@@ -128,6 +128,10 @@ void Peer::servo_step(std::chrono::nanoseconds now) noexcept {
   }
 }
 
+bool Peer::has_near_servo() noexcept {
+  return std::ranges::any_of(servos_, [](const auto& servo) { return servo->has_near(); });
+}
+
 void Peer::start(std::chrono::nanoseconds now) {
   model_.start(now);
   read_.step(now);  // the base group is joined before the first word is said

@@ -87,6 +87,8 @@ class Peer {
   [[nodiscard]] std::chrono::nanoseconds servo_period_of(std::size_t device) const noexcept {
     return servo_due_[device].period;
   }
+  /// Whether a late servo_step() could be felt; servo thread.
+  [[nodiscard]] bool has_near_servo() noexcept;
   /// Reads datagrams from the link while the ring has room. Returns their number.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// One pass of the model loop. `utc` is the same instant as `now`.
@@ -115,8 +117,8 @@ class Peer {
   /// thread.
   [[nodiscard]] bool is_reading_held_up() const noexcept { return read_.is_full(); }
 
-  /// Whether what arrives may be felt, so that its delay counts: a body is within reach of a hand or
-  /// a moving body of this peer; model thread.
+  /// Whether what arrives may be felt, so that its delay counts: a body is within reach of a hand
+  /// or a moving body of this peer; model thread.
   [[nodiscard]] bool has_near() const noexcept { return model_.has_near(); }
 
   /// Ends the peer: sends a last Entity State with the deactivated bit for each entity, and

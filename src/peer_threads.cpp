@@ -103,8 +103,9 @@ void PeerThreads::start() {
   write_ = running("write", &PeerThreads::run_write);
   model_ = running("model", &PeerThreads::run_model);
   if (!felt_) return;
-  seat_ = servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
-                       [this] { news_.notify(); }, &duty_});
+  seat_ =
+      servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
+                   [this] { news_.notify(); }, [this] { return peer_.has_near_servo(); }, &duty_});
 }
 
 void PeerThreads::stop() noexcept {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <latch>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -100,7 +101,7 @@ void ServoThread::run(std::optional<RealTimePriority>& priority) noexcept {
     const nanoseconds left = next == nullptr ? nanoseconds::max() : next->due - clock_.now();
     if (left > kTimeToTell || next->untold) tell();
     if (priority) leave_time(*priority);
-    const nanoseconds spin = spin_.load(std::memory_order_relaxed);
+    const nanoseconds spin = is_urgent() ? spin_.load(std::memory_order_relaxed) : nanoseconds(0);
     if (left > spin) {
       changed_.wait(next == nullptr ? left : left - spin);
     } else {
@@ -124,6 +125,15 @@ ServoThread::Seat* ServoThread::next_due() noexcept {
     }
   }
   return next;
+}
+
+// A step in time for one servo needs all to be in time: they share the thread.
+bool ServoThread::is_urgent() const noexcept {
+  const auto used = std::span(seats_).first(seats_used_.load(std::memory_order_acquire));
+  return std::ranges::any_of(used, [](const Seat& seat) {
+    return seat.state.load(std::memory_order_acquire) == State::served &&
+           (!seat.servo.is_urgent || seat.servo.is_urgent());
+  });
 }
 
 void ServoThread::step(Seat& seat) noexcept {

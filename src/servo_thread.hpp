@@ -34,12 +34,15 @@ struct ServoThreadOptions {
   std::string name = "rk-servo";  ///< of the thread, see name_thread()
 };
 
-/// A servo as a ServoThread calls it. The thread calls both functions; they must not throw.
+/// A servo as a ServoThread calls it. The thread calls all functions; they must not throw.
 struct Servo {
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< > 0
   std::function<void(std::chrono::nanoseconds now)> step;
   /// Called after one or more steps, when no other servo is due: wakes the readers of the outcome.
   std::function<void()> tell;
+  /// Whether the next step has to be punctual, so that the thread wakes early and spins; called
+  /// between steps. Empty: always.
+  std::function<bool()> is_urgent;
   DutyCycle* duty = nullptr;  ///< counts lateness, step time and misses; outlives the servo
 };
 
@@ -85,6 +88,7 @@ class ServoThread {
 
   void run(std::optional<RealTimePriority>& priority) noexcept;
   [[nodiscard]] Seat* next_due() noexcept;
+  [[nodiscard]] bool is_urgent() const noexcept;
   void step(Seat& seat) noexcept;
   void tell() noexcept;
   void leave_time(RealTimePriority& priority) noexcept;

@@ -35,6 +35,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kTurn = milliseconds(500);
+constexpr nanoseconds kIntroduction = milliseconds(50);  // of all entities: rows take memory once
 constexpr std::string_view kScene =
     "[scene]\norigin = {latitude = \"47 deg\", longitude = \"8 deg\", height = \"430 m\"}\n"
     "[network]\ninterop = true\ngroup = \"239.192.79.7\"\nport = 3107\n"
@@ -181,14 +182,11 @@ class HearingPeer {
       : hand_(Eigen::Vector3d(0, 0, 500)), joined_(options_of(scene, device ? &hand_ : nullptr)) {
     joined_.run();
   }
-  [[nodiscard]] std::size_t entities() const {
-    return joined_.peer().counters().find("entities")->value();
-  }
   [[nodiscard]] std::uint64_t received() const {
     return joined_.peer().counters().find("datagrams_in")->value();
   }
 
- public:
+ private:
   static FederateOptions options_of(const SceneFile& scene, haptics::HapticDevice* device) {
     FederateOptions options;
     options.name = "wake";
@@ -238,9 +236,32 @@ void whole_peer(benchmark::State& state, bool device) try {
       const Spent spent = spend(receiver, "bare", traffic, rate);
       bare = spent.cpu_ns / static_cast<double>(std::max<std::size_t>(spent.received, 1));
     }
-    HearingPeer peer(scene, device);
+    const HearingPeer peer(scene, device);
     std::this_thread::sleep_for(milliseconds(200));
+    traffic.send(5'000, kIntroduction);
     const double idle = spend(peer, "rk-", traffic, 0).cpu_ns;
     const Spent spent = spend(peer, "rk-", traffic, rate);
     sent += spent.sent;
     received += spent.received;
+    const double each =
+        (spent.cpu_ns - idle) / static_cast<double>(std::max<std::size_t>(spent.received, 1));
+    bare_us.add(1e-3 * bare);
+    peer_us.add(1e-3 * each);
+    over_bare.add(each / bare);
+    idle_percent.add(100 * idle /
+                     std::chrono::duration<double, std::nano>(kTurn + milliseconds(20)).count());
+  }
+  bare_us.report(state, "bare_us");
+  peer_us.report(state, "peer_us");
+  over_bare.report(state, "over_bare");
+  idle_percent.report(state, "idle_percent");
+  state.counters["unread"] = 1.0 - static_cast<double>(received) / static_cast<double>(sent);
+} catch (const std::exception& error) {
+  state.SkipWithError(error.what());
+}
+
+BENCHMARK_CAPTURE(whole_peer, no_device, false)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
+BENCHMARK_CAPTURE(whole_peer, device, true)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
+
+}  // namespace
+}  // namespace reckon::peer

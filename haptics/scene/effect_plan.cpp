@@ -257,6 +257,17 @@ void EffectPlan::plant_tree() {
   in_tree_.clear();
 }
 
+bool EffectPlan::has_within(const Eigen::Vector3d& at, double reach) const noexcept {
+  bool found = false;
+  const Eigen::Vector3d room = Eigen::Vector3d::Constant(reach);
+  visit_near({at - room, at + room}, [&](std::uint32_t index) {
+    const PlannedObject& object = objects_[index];
+    found = found || acts_from_afar(object.effects) ||
+            distance_below(object.shape, object.to_object(at)) <= reach;
+  });
+  return found;
+}
+
 double EffectPlan::max_stiffness() const noexcept {
   double most = 0.0;
   for (const PlannedObject& object : objects_) {

@@ -73,6 +73,9 @@ class EffectPlan {
       for (std::uint32_t i = first; i < first + count; ++i) visit(in_tree_[tree_.order()[i]]);
     });
   }
+  /// Whether a surface, or an effect that acts at a distance, is within `reach` [m] of `at` [m, S].
+  /// Surely true where one is; logarithmic in the objects out of reach.
+  [[nodiscard]] bool has_within(const Eigen::Vector3d& at, double reach) const noexcept;
   /// Stiffness of the stiffest surface [N/m]; 0 without objects. Compared with the device's passive
   /// limit.
   [[nodiscard]] double max_stiffness() const noexcept;

@@ -104,6 +104,15 @@ void ServoLoop::step(nanoseconds now) noexcept {
   ++count_;
 }
 
+bool ServoLoop::has_near() noexcept {
+  if (near_count_ > 0 || !written_.isZero(0.0)) return true;
+  if (count_ >= next_search_) {
+    next_search_ = count_ + 8;
+    near_surface_ = plan_->has_within(step_.probe, kSoonFelt + config_.probe_radius);
+  }
+  return near_surface_;
+}
+
 double ServoLoop::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
 }

@@ -46,6 +46,12 @@ class ServoLoop {
   /// reach, and the contact queries. Logarithmic in the number of objects out of reach.
   void step(std::chrono::nanoseconds now) noexcept;
 
+  /// Whether a late step could be felt: the hand feels something, or a hand or a surface is within
+  /// kSoonFelt of the probe. Servo thread; surfaces are searched in one of 8 steps.
+  [[nodiscard]] bool has_near() noexcept;
+  /// Farther than a hand moves before the next search, at 2 m/s and 100 Hz [m].
+  static constexpr double kSoonFelt = 0.2;
+
   /// The model loop writes the remote hands here.
   [[nodiscard]] TripleBuffer<ContactSet>& contacts() noexcept { return contacts_; }
   /// The model loop reads the outcome here.
@@ -125,6 +131,8 @@ class ServoLoop {
   std::array<RemoteContact*, kMaxRemoteHands> near_{};    // slots in use, in the order of remote_
   std::array<RemoteContact*, kMaxRemoteHands> placed_{};  // slots by place in the last set
   std::size_t near_count_ = 0;
+  std::uint64_t next_search_ = 0;  // of surfaces, by count_
+  bool near_surface_ = true;
   std::size_t left_out_ = 0;
   std::array<PairAccount, 8 * kMaxRemoteHands> pairs_{};
 
