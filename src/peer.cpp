@@ -132,6 +132,13 @@ bool Peer::has_near_servo() noexcept {
   return std::ranges::any_of(servos_, [](const auto& servo) { return servo->has_near(); });
 }
 
+bool Peer::take_servo_news() noexcept {
+  const double moved = scene_.dead_reckoning.thresholds.position / 8;
+  bool any = false;
+  for (const auto& servo : servos_) any = servo->take_news(moved) || any;
+  return any;
+}
+
 void Peer::start(std::chrono::nanoseconds now) {
   model_.start(now);
   read_.step(now);  // the base group is joined before the first word is said

@@ -89,6 +89,9 @@ class Peer {
   }
   /// Whether a late servo_step() could be felt; servo thread.
   [[nodiscard]] bool has_near_servo() noexcept;
+  /// Whether model_step() has to see the last servo_step()s now: a resting hand with nothing near
+  /// is looked at 100 times a second. Servo thread.
+  [[nodiscard]] bool take_servo_news() noexcept;
   /// Reads datagrams from the link while the ring has room. Returns their number.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// One pass of the model loop. `utc` is the same instant as `now`.

@@ -37,6 +37,8 @@ constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
 // Where the model loop reads: it takes together what arrives within this.
 constexpr nanoseconds kTogether = std::chrono::milliseconds(1);
 constexpr std::size_t kMostTogether = 512;  // datagrams
+// News at least so often is the servo's, of a hand that moves; arrivals wait for them.
+constexpr nanoseconds kPace = microseconds(1500);
 // For so long after something was near, or more had come than a pass takes, the reader reads.
 constexpr nanoseconds kUrgent = std::chrono::seconds(1);
 
@@ -103,9 +105,11 @@ void PeerThreads::start() {
   write_ = running("write", &PeerThreads::run_write);
   model_ = running("model", &PeerThreads::run_model);
   if (!felt_) return;
-  seat_ =
-      servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
-                   [this] { news_.notify(); }, [this] { return peer_.has_near_servo(); }, &duty_});
+  seat_ = servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
+                       [this] {
+                         if (peer_.take_servo_news()) wake();
+                       },
+                       [this] { return peer_.has_near_servo(); }, &duty_});
 }
 
 void PeerThreads::stop() noexcept {
@@ -200,20 +204,35 @@ void PeerThreads::choose_reader(nanoseconds now) noexcept {
 void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   const nanoseconds now = clock_.now();
   const nanoseconds until = std::max(peer_.next_step(), now + kLeastSleep);
-  const nanoseconds together = std::max(begun + kTogether, now + kLeastSleep);
+  const nanoseconds together = std::min(std::max(begun + kTogether, now + kLeastSleep), until);
   if (!reads_in_model_loop()) {
     news_.wait(until - now);
-  } else if (felt_ || taken > 1) {  // the servo's steps wake it, or more will have come
-    news_.wait(std::min(until, felt_ ? now + 2 * kTogether : together) - now);
+  } else if (taken > 1) {
+    news_.wait(together - now);  // more will have come
+  } else if (paced_) {
+    note_pace(news_.wait(std::min(until, now + kPace) - now));
   } else {
-    at_link_.store(true, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_seq_cst);
-    const bool arrived =
-        !news_.wait(nanoseconds(0)) && peer_.link().wait(std::min(until - now, kRetry));
-    at_link_.store(false, std::memory_order_relaxed);
-    const nanoseconds then = clock_.now();
-    if (arrived && then < std::min(together, until)) news_.wait(std::min(together, until) - then);
+    wait_at_link(std::min(until - now, kRetry), together);
   }
+}
+
+// What arrives soon after the last pass waits for others.
+void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexcept {
+  at_link_.store(true, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  bool news = news_.wait(nanoseconds(0));
+  const bool ended = !news && peer_.link().wait(timeout);
+  at_link_.store(false, std::memory_order_relaxed);
+  const nanoseconds now = clock_.now();
+  if (ended && now < together) news = news_.wait(together - now);
+  note_pace(news);
+}
+
+// The servo's steps pace the model loop as long as each is news.
+void PeerThreads::note_pace(bool news) noexcept {
+  const nanoseconds now = clock_.now();
+  paced_ = news && now - last_news_ < kPace;
+  if (news) last_news_ = now;
 }
 
 void PeerThreads::run_write(Priority& priority) noexcept {

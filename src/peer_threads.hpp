@@ -83,6 +83,8 @@ class PeerThreads {
   void send_out() noexcept;
   void choose_reader(std::chrono::nanoseconds now) noexcept;
   void wait_for_work(std::chrono::nanoseconds begun, std::size_t taken) noexcept;
+  void wait_at_link(std::chrono::nanoseconds timeout, std::chrono::nanoseconds together) noexcept;
+  void note_pace(bool news) noexcept;
   [[nodiscard]] bool reads_in_model_loop() const noexcept {
     return reads_.load(std::memory_order_acquire) == LinkReader::model;
   }
@@ -98,9 +100,11 @@ class PeerThreads {
   WakeSignal room_;   // for the reader: the model loop has made room, or is to read no longer
   WakeSignal ready_;  // for the writer: something is to be sent
   std::atomic<LinkReader> reads_{LinkReader::model};
-  std::atomic<bool> at_link_{false};                         // the model loop waits at the link
-  std::mutex sending_;                                       // of what is queued for the link
-  std::chrono::nanoseconds urgent_until_{0}, next_look_{0};  // of the model loop
+  std::atomic<bool> at_link_{false};  // the model loop waits at the link
+  std::mutex sending_;                // of what is queued for the link
+  // Of the model loop.
+  std::chrono::nanoseconds urgent_until_{0}, next_look_{0}, last_news_{0};
+  bool paced_ = false;  // by the servo
   std::unique_ptr<ServoThread> own_servo_;
   ServoThread* servo_ = nullptr;
   std::optional<std::size_t> seat_;  // at servo_

@@ -52,6 +52,11 @@ class ServoLoop {
   /// Farther than a hand moves before the next search, at 2 m/s and 100 Hz [m].
   static constexpr double kSoonFelt = 0.2;
 
+  /// Whether the model loop has to see the last steps: something is near, the hand has moved by
+  /// more than `moved` [m] or did within 100 ms, or 10 ms have passed. Notes that it will; servo
+  /// thread.
+  [[nodiscard]] bool take_news(double moved) noexcept;
+
   /// The model loop writes the remote hands here.
   [[nodiscard]] TripleBuffer<ContactSet>& contacts() noexcept { return contacts_; }
   /// The model loop reads the outcome here.
@@ -133,6 +138,8 @@ class ServoLoop {
   std::size_t near_count_ = 0;
   std::uint64_t next_search_ = 0;  // of surfaces, by count_
   bool near_surface_ = true;
+  Eigen::Vector3d seen_at_ = Eigen::Vector3d::Zero();  // [m, S], of the probe as last seen
+  std::chrono::nanoseconds seen_{0}, moved_{0};        // times of news
   std::size_t left_out_ = 0;
   std::array<PairAccount, 8 * kMaxRemoteHands> pairs_{};
 

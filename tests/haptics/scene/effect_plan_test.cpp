@@ -99,6 +99,29 @@ TEST(EffectPlan, NamesTheObjectTheValueAndTheRemedy) {
   EXPECT_THAT(message_of([&] { EffectPlan plan(scene); }), testing::HasSubstr("none.obj"));
 }
 
+// Twenty boxes, so that a tree of bounds is searched; each turned about its middle.
+TEST(EffectPlan, FindsWhatIsWithinReachWhateverTheWay) {
+  Scene scene;
+  for (int i = 0; i < 20; ++i) {
+    scene.objects.push_back(object("box " + std::to_string(i), BoxShape{Vector3d(0.1, 0.1, 0.1)}));
+    scene.objects.back().pose.position = Vector3d(i, 0, 0);
+    scene.objects.back().pose.orientation = Eigen::Quaterniond(0.9, 0.1 * i, 0.3, -0.2);
+  }
+  const EffectPlan plan(scene);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> x(-1, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d at(10 + 10 * x(random), x(random), x(random));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const PlannedObject& box : plan.objects()) {
+      const Vector3d beyond = (box.to_object(at).cwiseAbs() - Vector3d::Constant(0.05)).cwiseMax(0);
+      nearest = std::min(nearest, beyond.norm());
+    }
+    EXPECT_TRUE(plan.has_within(at, nearest + 1e-6));
+    EXPECT_EQ(plan.has_within(at, 0.3), nearest <= 0.3) << nearest;
+  }
+}
+
 TEST(ContactSolver, SumsTheForcesOfAllObjectsTouched) {
   const EffectPlan plan(walls());
   ContactSolver solver(plan);

@@ -190,6 +190,52 @@ TEST(ServoLoop, HoldsTheLimitOfTheDeviceInEverySituation) {
   EXPECT_GE(bench.least, kPassive);
 }
 
+HandScript along(double from, double begin, double speed) {
+  return [=](double t) {
+    HandTarget hand;
+    hand.position.z() = from + speed * std::max(0.0, t - begin);
+    return hand;
+  };
+}
+
+// The hand goes down at 20 cm/s towards a floor 1 m below it.
+TEST(ServoLoop, IsNearASurfaceBeforeItIsFelt) {
+  Bench bench(floor(800), at(1.0), along(1.0, 0.0, -0.2));
+  bench.run(10ms);
+  EXPECT_FALSE(bench.servo.has_near());
+  while (!bench.servo.has_near()) ASSERT_GT(bench.run(1ms).device.z(), 0.15);
+  EXPECT_NEAR(bench.device.position().z(), ServoLoop::kSoonFelt, 0.01);
+  while (!(bench.run(1ms).force.norm() > 0)) EXPECT_TRUE(bench.servo.has_near());
+}
+
+TEST(ServoLoop, IsNearARemoteHandAsLongAsTheModelLoopGivesIt) {
+  Bench bench({}, at(0.1));
+  bench.run(10ms);
+  EXPECT_FALSE(bench.servo.has_near());
+  bench.servo.contacts().write(only(sphere({0, 0, 0.2}, 300)));
+  bench.run(1ms);
+  EXPECT_TRUE(bench.servo.has_near());
+  bench.servo.contacts().write({});
+  bench.run(1s);
+  EXPECT_FALSE(bench.servo.has_near());
+}
+
+TEST(ServoLoop, HasNewsOfAHandThatMovesAndTenTimesLessOfOneThatRests) {
+  Bench bench({}, at(0.0), along(0.0, 1.0, 0.2));
+  const auto news_of = [&](int steps) {
+    int news = 0;
+    for (int i = 0; i < steps; ++i) {
+      bench.run(1ms);
+      news += bench.servo.take_news(1e-4) ? 1 : 0;
+    }
+    return news;
+  };
+  news_of(500);
+  EXPECT_EQ(news_of(400), 40);
+  news_of(300);
+  EXPECT_EQ(news_of(400), 400);
+}
+
 TEST(ServoLoop, TracesEveryStepUntilTheRingIsFullAndCountsTheRest) {
   TraceRing ring(128);
   Bench bench;
