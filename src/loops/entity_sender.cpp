@@ -80,8 +80,8 @@ void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) con
   Audiences& audiences = *entity.audiences();
   if (aoim_.tiers().last_row() == 0 || !audiences.has_to_look(pass.now)) return;
   const EntityTruth& truth = entity.truth();
-  const double ahead = aoim::kNearAhead * truth.velocity.norm() + audiences.slack();
-  audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), ahead),
+  audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), truth.velocity.norm(),
+                                                audiences.slack()),
                   pass.now + kLookAgain);
 }
 
@@ -244,7 +244,7 @@ std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position&
     return pdu::wire_size(update_.state) + records.size();
   }
   std::array<std::byte, StateCompressor::kRoom> octets;
-  const std::size_t size = compressor->compress_near(update_.state, octets);
+  const std::size_t size = compressor->compress_independent(update_.state, octets);
   if (size == 0) {
     entity.event();
     entity.look_again(now);
