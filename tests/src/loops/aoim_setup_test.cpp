@@ -19,6 +19,11 @@
 namespace reckon::peer {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::Ge;
+using testing::Le;
+
 /// As a file would say a key's least, most and standard value.
 std::vector<std::string> corners(const SceneKey& key) {
   if (key.kind == KeyKind::boolean) return {"true", "false"};
