@@ -11,25 +11,24 @@
 namespace reckon::aoim {
 namespace {
 
-std::size_t near_rows_of(const AreaOfInterestConfig& config) {
-  if (!config.near_groups || config.channels.empty()) return 0;
-  return ChannelTable(config.channels).near_rows();
-}
+bool runs_ahead(const TierKind* kind) { return kind->runs_ahead; }
 
-void check_more_groups(const AreaOfInterestConfig& config) {
+void check_tiers(const AreaOfInterestConfig& config) {
   const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
-  if (!config.contact_groups && !config.near_groups) return;
-  if (config.interop) refuse("contact and near groups: plain DIS has one group");
+  if (config.tiers.empty()) return;
+  if (config.interop) refuse("tiers with groups of their own: plain DIS has one group");
   if (config.leader.on && config.leader.hand_out)
-    refuse("contact and near groups are those of the fixed tile: none is handed out");
+    refuse("tiers have the groups of the fixed tile: none is handed out");
   if (config.grid.pool < 2 || all_groups(config) > kMaximumPool)
-    refuse("contact and near groups: take a pool of 4 or more, and 1000 groups in all at most");
-  if (!config.near_groups) return;
-  if (config.channels.empty() || ChannelTable(config.channels).near_rows() == 0)
-    refuse("near groups: the channels have no row that is near, not kept, and not the last");
-  if (config.leader.on) refuse("near groups: leaders would tell what was said in all of them");
-  if (config.channels[ChannelTable(config.channels).kept_rows()].coarser > 1.0)
-    refuse("near groups: the nearest row has the thresholds of the scene");
+    refuse("tiers with groups of their own: take a pool of 4 or more, and 1000 groups at most");
+  const auto ahead = std::ranges::count_if(config.tiers, runs_ahead);
+  if (ahead == 0) return;
+  const ChannelTable table(config.channels);
+  if (static_cast<std::size_t>(ahead) != table.inner_rows())
+    refuse("a tier that runs ahead has a row of channels that is neither kept nor the last");
+  if (config.leader.on) refuse("leaders relay what the cell receives: no tier may run ahead");
+  if (table.channel(table.kept_rows()).coarser > 1.0)
+    refuse("tiers with groups of their own: the nearest row has the thresholds of the scene");
 }
 
 }  // namespace
@@ -46,9 +45,7 @@ CellPartition cells_of(const AreaOfInterestConfig& config) {
   return *config.cells;
 }
 
-TierTable tiers_of(const AreaOfInterestConfig& config) {
-  return {config.contact_groups, near_rows_of(config), config.grid.pool};
-}
+TierTable tiers_of(const AreaOfInterestConfig& config) { return {config.tiers, config.grid.pool}; }
 
 std::size_t all_groups(const AreaOfInterestConfig& config) {
   return config.grid.pool * tiers_of(config).count();
@@ -62,8 +59,14 @@ pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config
   return own;
 }
 
+TierReach tier_reach_of(const AreaOfInterestConfig& config) {
+  TierReach reach{config.radius, config.farthest_nimbus, {}, 1.0};
+  if (std::ranges::any_of(config.tiers, runs_ahead)) reach.rows.emplace(config.channels);
+  return reach;
+}
+
 AggregatorConfig aggregator_of(const AreaOfInterestConfig& config, const pdu::Presence& own) {
-  check_more_groups(config);
+  check_tiers(config);
   AggregatorConfig aggregator = config.aggregator;
   aggregator.pool = all_groups(config);
   aggregator.sender = own.simulation;

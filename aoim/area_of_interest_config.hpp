@@ -46,19 +46,18 @@ struct AreaOfInterestConfig {
   std::function<Position(const pdu::WorldCoordinates&)> locate;
   /// Recipient tiers by distance; empty: all receivers get everything. See ReceiverChannels.
   std::vector<Channel> channels;
-  /// How far entities sense [m], >= 0. The part of a focus radius beyond it is added to each near
-  /// row.
+  /// How far entities sense [m], >= 0. The part of a focus radius beyond it is added to the end of
+  /// each row of channels.
   double radius = 0.0;
   /// Largest nimbus of any entity [m], >= 0. Cells are joined this much farther away.
   double farthest_nimbus = 0.0;
-  /// Each cell has a contact group for updates of felt entities. The pool's numbers are repeated
-  /// after all other groups. Off by default; equal for all peers of a scene. Excludes `interop`,
-  /// groups that leaders hand out, a pool of 1, and more than kMaximumPool groups in all.
-  bool contact_groups = false;
-  /// Each cell has a group for each near row of `channels`. The pool's numbers are repeated for
-  /// each. Off by default; equal for all peers of a scene, with equal rows. Needs a near row whose
-  /// thresholds are those of the scene. Excludes leaders and what contact_groups excludes.
-  bool near_groups = false;
+  /// Kinds of the recipient tiers besides the cell's, see TierTable. Each cell has a group for each
+  /// of them, and the pool's numbers are repeated for each. Equal for all peers of a scene, with
+  /// equal channels. One tier that runs ahead for each inner row of `channels`, or none; the
+  /// nearest of these rows has the thresholds of the scene. Excludes `interop`, groups that leaders
+  /// hand out, a pool of 1, and more than kMaximumPool groups in all; a tier that runs ahead
+  /// excludes leaders.
+  std::vector<const TierKind*> tiers;
   /// Most (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: all PDUs go to the base group, without presence and trailers.
@@ -72,10 +71,9 @@ struct AreaOfInterestConfig {
 /// @throws std::invalid_argument for cells that do not fit the pool or plain DIS
 [[nodiscard]] CellPartition cells_of(const AreaOfInterestConfig& config);
 
-/// The recipient tiers. @throws std::invalid_argument as ChannelTable does
 [[nodiscard]] TierTable tiers_of(const AreaOfInterestConfig& config);
 
-/// Number of groups after the base group: those of cells, of near rows, and contact groups.
+/// Number of groups after the base group, of all tiers.
 [[nodiscard]] std::size_t all_groups(const AreaOfInterestConfig& config);
 
 /// The announcement of a peer, with the cells and groups of `config`.
@@ -83,7 +81,9 @@ struct AreaOfInterestConfig {
 
 // Complete configurations of the manager's parts -------------------------------------------------
 
-/// @throws std::invalid_argument for contact or near groups that the other settings exclude
+/// @throws std::invalid_argument as ChannelTable does
+[[nodiscard]] TierReach tier_reach_of(const AreaOfInterestConfig& config);
+/// @throws std::invalid_argument for tiers that the other settings exclude
 [[nodiscard]] AggregatorConfig aggregator_of(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own);
 [[nodiscard]] InterestConfig interest_of(const AreaOfInterestConfig& config,

@@ -17,8 +17,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
     : config_(config),
       cells_(cells_of(config)),
       tiers_(tiers_of(config)),
-      subscriptions_(tiers_, cells_, config.subscription,
-                     {config.radius, config.farthest_nimbus, config.channels}),
+      subscriptions_(tiers_, cells_, config.subscription, tier_reach_of(config)),
       sight_(interest_of(config, cells_), cells_, subscriptions_.cells(), config.follow,
              config.cells ? config.cells->finest() : config.grid.cell_size),
       aggregator_(aggregator_of(config, own)),
@@ -110,7 +109,7 @@ SubscriptionChange AreaOfInterestManager::listen_beside_cells(std::size_t tier,
                                                               std::span<const Focus> foci,
                                                               nanoseconds now) {
   const SubscriptionChange cells = subscriptions_.update(tier, foci, now);
-  if (started_ && tiers_.is_near(tier)) {
+  if (started_ && tiers_.kind(tier).runs_ahead) {
     for (const GroupIndex cell : cells.join)
       joins_.ask_once(tier, subscriptions_.of(tier).cell(cell));
   }
@@ -169,8 +168,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     incoming.verdict = IncomingVerdict::stranger;
   }
   ++incoming_[static_cast<std::size_t>(incoming.verdict)];
-  if (leading_ && incoming.verdict == IncomingVerdict::use &&
-      !tiers_.is_felt(tiers_.tier_of(group))) {
+  if (leading_ && incoming.verdict == IncomingVerdict::use && tiers_.tier_of(group) == kCellTier) {
     leading_->receive(group, datagram, trailer->epoch, now, came.value_or(now));
   }
   return incoming;
@@ -234,17 +232,14 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
   const Standing standing = presence_.standing(membership.epoch, &from);
   if (standing != Standing::member && standing != Standing::unknown) return;
-  // Who begins to listen to a near group knows what was sent to the rows behind it alone.
-  const bool is_near = membership.action == pdu::MembershipAction::join_near;
-  if (is_near && membership.near_row >= tiers_.near_rows()) return;
-  if (!is_near && membership.action != pdu::MembershipAction::join) return;
-  if (!is_near && !heard_asks_.note(membership.epoch, membership.since)) return;
-  const std::size_t tier = is_near ? tiers_.of_row(membership.near_row) : kCellTier;
+  const std::optional<std::size_t> tier = joined_tier(membership, tiers_);
+  if (!tier) return;
+  if (*tier == kCellTier && !heard_asks_.note(membership.epoch, membership.since)) return;
   const nanoseconds heard_for = presence_.heard_for(membership.epoch);
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     const CellId id{cell.column, cell.row};
-    if (is_near || id != kWholeScene) {
-      introductions_.begin(tiers_.group(tier, cells_.group(id)), heard_for, now);
+    if (*tier != kCellTier || id != kWholeScene) {
+      introductions_.begin(tiers_.group(*tier, cells_.group(id)), heard_for, now);
     } else if (hands_out() && standing == Standing::member) {
       leading_->role().doubt_map(now);
       introductions_.begin(kBaseGroup, heard_for, now);

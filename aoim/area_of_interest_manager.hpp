@@ -44,8 +44,8 @@ class AreaOfInterestManager {
  public:
   /// `own`: our identity (see Presence); cell scheme, cell size and pool are filled in from the
   /// cells.
-  /// @throws std::invalid_argument as its parts do, for contact groups that the settings exclude,
-  /// and for more cells than groups.
+  /// @throws std::invalid_argument as its parts do, for tiers that the settings exclude, and for
+  /// more cells than groups.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
   AreaOfInterestManager(const AreaOfInterestManager&) = delete;
   AreaOfInterestManager& operator=(const AreaOfInterestManager&) = delete;
@@ -106,11 +106,12 @@ class AreaOfInterestManager {
   /// Sets the foci of this peer for a tier. Call it for each tier, the cell's first, every step or
   /// whenever a focus has moved. Returns the groups to join and to leave, valid until the next
   /// call. The base group must always be joined.
-  ///   cell        foci of what our entities sense
-  ///   near row    the same foci; set_stretch() shortens the row, so that a peer over its budget
-  ///               leaves the distant cells
-  ///   touch       positions of our entities that can be felt, with their reach; a group is kept
-  ///               until its cell is beyond twice the reach, and at least as long as any other
+  ///   kCellKind      foci of what our entities sense
+  ///   kDistanceKind  the same foci; set_stretch() shortens the row, so that a peer over its budget
+  ///                  leaves the distant cells
+  ///   kTouchKind     positions of our entities that can be touched, with their reach; a group is
+  ///                  kept until its cell is beyond twice the reach, and at least as long as any
+  ///                  other
   SubscriptionChange listen(std::size_t tier, std::span<const Focus> foci,
                             std::chrono::nanoseconds now);
 

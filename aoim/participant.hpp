@@ -45,19 +45,15 @@ class Participant {
   /// received and after each step.
   void deliver(std::chrono::nanoseconds now) noexcept;
 
-  /// Subscribes to the cells and near rows that these foci sense. Call it before start(), and
-  /// whenever a focus has moved.
+  /// Subscribes to all tiers, each as far around these foci as it reaches. Call it before start(),
+  /// and whenever a focus has moved.
   /// @param follow gets (std::size_t tier, const SubscriptionChange&): groups to join and to leave
   template <typename Follow>
   void listen(std::span<const Focus> foci, std::chrono::nanoseconds now, Follow&& follow) {
-    follow(kCellTier, manager_.listen(kCellTier, foci, now));
-    for (std::size_t row = 0; row < manager_.tiers().near_rows(); ++row) {
-      const std::size_t tier = manager_.tiers().of_row(row);
-      follow(tier, manager_.listen(tier, foci, now));
-    }
+    listen_by_tier([&](std::size_t) { return foci; }, now, follow);
   }
 
-  /// Subscribes to all tiers, each with foci of its own.
+  /// The same, each tier with foci of its own.
   /// @param foci_of gets a tier and returns its foci, valid until its next call
   template <typename FociOf, typename Follow>
   void listen_by_tier(FociOf&& foci_of, std::chrono::nanoseconds now, Follow&& follow) {

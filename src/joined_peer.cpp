@@ -30,7 +30,7 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   lan.udp.receive_buffer = receive_room(static_cast<double>(scene.network.rate), kLongestStall,
                                         scene.network.bundle_max);
   lan.udp.offload = scene.network.offload;
-  lan.udp.read_first = contact_pool_of(scene);
+  lan.udp.read_first = urgent_pool_of(scene);
   if (lan.udp.read_first && !scene.network.key.empty()) {
     const GroupPool& plain = *lan.udp.read_first;
     lan.udp.read_first = GroupPool(sealed_group(plain.base()), plain.size());

@@ -52,9 +52,9 @@ std::string marking_of(const PeerOptions& options, const PeerDevice& device, std
   return index == 0 ? options.name : options.name + std::to_string(index + 1);
 }
 
-std::optional<FeltRing> felt_ring(const SceneFile& scene, DatagramRing* ring) {
+std::optional<UrgentRing> urgent_ring(const SceneFile& scene, DatagramRing* ring) {
   if (ring == nullptr) return {};
-  return FeltRing{*contact_pool_of(scene), *ring};
+  return UrgentRing{*urgent_pool_of(scene), *ring};
 }
 
 }  // namespace
@@ -67,18 +67,18 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       pool_(pool_of(scene)),
       commands_(4 * pool_.size() + 16),
       inbound_(options.datagram_ring),
-      felt_(has_touch_tier(scene.aoim.tiers) ? std::make_unique<DatagramRing>(options.datagram_ring)
-                                             : nullptr),
+      urgent_(urgent_pool_of(scene) ? std::make_unique<DatagramRing>(options.datagram_ring)
+                                    : nullptr),
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       servos_(make_servos(scene, options, devices)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap,
-            felt_ring(scene, felt_.get())),
+            urgent_ring(scene, urgent_.get())),
       write_(link, outbound_, counters_),
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_, link_,
               options.record_shown ? &shown_ : nullptr, counters_, options.capacity,
-              options.record_changes, &read_.muted(), options.tap, felt_.get(), &read_.known()},
+              options.record_changes, &read_.muted(), options.tap, urgent_.get(), &read_.known()},
              {{options.site, options.application},
               options.name,
               options.epoch,

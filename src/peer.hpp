@@ -110,7 +110,7 @@ class Peer {
   [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
   /// Whether more datagrams are pending for model_step().
   [[nodiscard]] bool has_inbound() const noexcept {
-    return !inbound_.empty() || (felt_ && !felt_->empty());
+    return !inbound_.empty() || (urgent_ && !urgent_->empty());
   }
   /// Whether write_step() has something to send.
   [[nodiscard]] bool has_outbound() const noexcept { return !outbound_.empty(); }
@@ -162,7 +162,7 @@ class Peer {
   Counters counters_;
   haptics::SpscRing<GroupCommand> commands_;
   DatagramRing inbound_;
-  std::unique_ptr<DatagramRing> felt_;  // of contact groups, where the scene has some
+  std::unique_ptr<DatagramRing> urgent_;  // of the urgent tier, if the scene has one
   DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;

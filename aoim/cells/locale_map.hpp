@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Locales, as in Spline: parts of the world with a frame each, for example the rooms of a building.
-// A locale has its own group and neighbours. An entity behind a wall is near but not received,
-// unless a path of neighbours leads there within the radius.
+// A locale has its own group and neighbours. An entity behind a wall is not received,
+// however close it is, unless a path of neighbours leads there within the radius.
 #pragma once
 
 #include <array>

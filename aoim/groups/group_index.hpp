@@ -11,8 +11,7 @@
 namespace reckon::aoim {
 
 /// 0 is the base group (presence, and everything in an interop scene); 1 .. G are the pool of
-/// cells. Behind them, with G each, are the groups of the near rows of channels, the nearest first,
-/// and the contact groups, if the scene has them.
+/// cells. Behind them, with G each, are those of the other recipient tiers that the scene has.
 struct GroupIndex {
   std::uint16_t value = 0;
   auto operator<=>(const GroupIndex&) const = default;

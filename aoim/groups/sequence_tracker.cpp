@@ -53,7 +53,7 @@ SequenceVerdict SequenceTracker::note(std::uint32_t epoch, GroupIndex group,
   return verdict;
 }
 
-// One such number may be forged; a second one near it shows the sender's new numbering.
+// One such number may be forged; a second one close to it shows the sender's new numbering.
 SequenceVerdict SequenceTracker::hold_leap(Track& track, std::uint32_t sequence) noexcept {
   const auto from_first = static_cast<std::int32_t>(sequence - track.leapt_to);
   if (track.has_leapt && from_first == 0) {

@@ -28,8 +28,8 @@ struct Channel {
   double octets = 0.0;      ///< of an update on the wire, > 0
   /// Independent of the budget, such as contact: its distance is not stretched.
   bool kept = false;
-  /// With near groups: factor on the owner's thresholds of place and turn, >= 1; no row has a
-  /// smaller one than the row before it.
+  /// If the inner rows have tiers: factor on the owner's thresholds of place and turn, >= 1; no row
+  /// has a smaller one than the row before it.
   double coarser = 1.0;
 };
 
@@ -66,8 +66,8 @@ class ChannelTable {
   [[nodiscard]] std::size_t size() const noexcept { return channels_.size(); }
   /// Number of kept rows, which come first.
   [[nodiscard]] std::size_t kept_rows() const noexcept { return kept_rows_; }
-  /// Number of rows with near groups: those that are neither kept nor the last.
-  [[nodiscard]] std::size_t near_rows() const noexcept {
+  /// Number of rows that are neither kept nor the last. Each may have a recipient tier.
+  [[nodiscard]] std::size_t inner_rows() const noexcept {
     return size() > kept_rows_ ? size() - kept_rows_ - 1 : 0;
   }
 

@@ -60,14 +60,14 @@ InterestVerdict Interest::verdict(const Position& position, double nimbus, std::
   for (const Focus& focus : foci_) {
     const double away = distance(position, focus.position) - nimbus;
     const double slack = shown ? config_.leave_factor : 1.0;
-    const bool within = away <= focus.radius, near = away <= config_.leave_factor * focus.radius;
-    if (near && asks_more_ && !is_aware(focus, position, nimbus, slack)) {
+    const bool within = away <= focus.radius, stays = away <= config_.leave_factor * focus.radius;
+    if (stays && asks_more_ && !is_aware(focus, position, nimbus, slack)) {
       hidden = hidden || within;
       continue;
     }
     if (within) return InterestVerdict::inside;
     nearest = std::min(nearest, away);
-    lingers = lingers || near;
+    lingers = lingers || stays;
   }
   if (hidden && !(shown && lingers)) return InterestVerdict::hidden;
   if (!shown) {

@@ -40,7 +40,9 @@ const Channel* ReceiverChannels::of(const Position& position) const noexcept {
   return row < table_.size() ? &table_.channel(row) : nullptr;
 }
 
-std::size_t ReceiverChannels::served_row(const Position& position, double ahead) const noexcept {
+std::size_t ReceiverChannels::served_row(const Position& position, double speed,
+                                         double slack) const noexcept {
+  const double ahead = kNearAhead * speed + slack;
   double nearest = kNobody;
   for (const Receiver& receiver : receivers_) {
     const double least = ahead + kNearAhead * receiver.speed;

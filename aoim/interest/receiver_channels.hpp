@@ -37,11 +37,12 @@ class ReceiverChannels {
   /// known, and null if all are beyond the last row. 2 ns a receiver.
   [[nodiscard]] const Channel* of(const Position& position) const noexcept;
   /// Number of the nearest row (of those that are not kept, from 0) with a possible listener that
-  /// receives an entity here, now or within kNearAhead; the last one if no receiver is known. With
-  /// near groups nothing needs to be sent in the rows before it. 4 ns a receiver.
-  /// @param ahead [m] by which the two may be nearer than here, besides the receiver's own movement
-  /// within kNearAhead; >= 0
-  [[nodiscard]] std::size_t served_row(const Position& position, double ahead) const noexcept;
+  /// receives an entity here, now or within kNearAhead; the last one if no receiver is known. If
+  /// the inner rows have tiers, nothing needs to be sent to those before it. 4 ns a receiver.
+  /// @param speed of the entity [m/s], >= 0
+  /// @param slack [m] by which the two may be closer than the positions show; >= 0
+  [[nodiscard]] std::size_t served_row(const Position& position, double speed,
+                                       double slack) const noexcept;
   /// Distance [m] of the nearest receiver; infinite if there is none.
   [[nodiscard]] double nearest(const Position& position) const noexcept;
   /// For this peer as a receiver, see ChannelTable::fit.

@@ -30,13 +30,13 @@ bool Sight::is_in_followed_cell(const Position& position, bool shown) const noex
   if (!is_finite(position)) return false;
   if (is_besides(cells_.group(position))) return true;
   const double beyond = (shown ? kLingers : kBorder) * finest_;
-  bool near = false;
+  bool found = false;
   cells_.visit([&](const auto& scheme) {
     scheme.for_each_cell_within(position, beyond, [&](CellId cell, double) {
-      near = near || is_besides(scheme.group(cell));
+      found = found || is_besides(scheme.group(cell));
     });
   });
-  return near;
+  return found;
 }
 
 }  // namespace reckon::aoim

@@ -12,6 +12,13 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
 
+void state_tier(std::size_t tier, const TierTable& tiers, pdu::CellMembership& membership) {
+  membership.action = pdu::MembershipAction::join;
+  if (tier == kCellTier) return;
+  membership.action = pdu::MembershipAction::join_near;
+  membership.near_row = static_cast<std::uint8_t>(tiers.row_of(tier));
+}
+
 void send_membership(pdu::CellMembership membership, const ControlStamp& stamp,
                      const JoinAnnouncer::Send& send) {
   stamp.put(membership);
@@ -20,6 +27,14 @@ void send_membership(pdu::CellMembership membership, const ControlStamp& stamp,
 }
 
 }  // namespace
+
+std::optional<std::size_t> joined_tier(const pdu::CellMembership& membership,
+                                       const TierTable& tiers) noexcept {
+  if (membership.action == pdu::MembershipAction::join) return kCellTier;
+  const bool is_inner = membership.action == pdu::MembershipAction::join_near;
+  if (!is_inner || membership.near_row >= tiers.last_row()) return {};
+  return tiers.of_row(membership.near_row);
+}
 
 JoinAnnouncer::JoinAnnouncer(const TierTable& tiers, std::size_t cells)
     : tiers_(tiers), asks_(cells), once_(tiers.count()) {
@@ -78,11 +93,7 @@ void JoinAnnouncer::send_once(std::size_t tier, const ControlStamp& stamp, const
     const auto cells = rest.first(std::min(rest.size(), JoinAsks::kMostCells * kCellSize));
     rest = rest.subspan(cells.size());
     pdu::CellMembership membership;
-    membership.action = pdu::MembershipAction::join;
-    if (tiers_.is_near(tier)) {
-      membership.action = pdu::MembershipAction::join_near;
-      membership.near_row = static_cast<std::uint8_t>(tiers_.row_of(tier));
-    }
+    state_tier(tier, tiers_, membership);
     membership.since = static_cast<std::uint64_t>(stamp.utc.count()) + announced++;
     membership.cells = cells;
     send_membership(membership, stamp, send);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,11 @@
 #include "reckon/pdu/reckon/cell_membership.hpp"
 
 namespace reckon::aoim {
+
+/// The tier in whose cells a peer begins to listen; none if it does not begin, or in a tier that
+/// the scene does not have.
+[[nodiscard]] std::optional<std::size_t> joined_tier(const pdu::CellMembership& membership,
+                                                     const TierTable& tiers) noexcept;
 
 /// Pending Cell Membership PDUs. One thread; allocates when more cells are pending than ever
 /// before.

@@ -5,31 +5,24 @@
 
 #include <chrono>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_partition.hpp"
-#include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
+#include "reckon/aoim/tiers/tier_kind.hpp"
 #include "reckon/aoim/tiers/tier_table.hpp"
 
 namespace reckon::aoim {
-
-/// Reach of the tiers beyond the foci.
-struct TierReach {
-  double radius = 0.0;            ///< range in which entities sense [m], >= 0
-  double farthest_nimbus = 0.0;   ///< [m], >= 0: cells are joined this much farther
-  std::vector<Channel> channels;  ///< of the near rows; may be empty without them
-};
 
 /// One subscription for each tier, all to the same cells. One thread; allocates at construction and
 /// when there are more foci than ever before.
 class TierSubscriptions {
  public:
-  /// @param cells outlives this  @throws std::invalid_argument from Subscription and ChannelTable
+  /// @param config of the subscription to the cells  @param cells outlives this
+  /// @throws std::invalid_argument from Subscription
   TierSubscriptions(const TierTable& tiers, const CellPartition& cells,
-                    const SubscriptionConfig& config, const TierReach& reach);
+                    const SubscriptionConfig& config, TierReach reach);
 
   /// Subscription of the cell tier; cells are numbered as in the partition.
   [[nodiscard]] const Subscription& cells() const noexcept { return by_tier_.front(); }
@@ -42,8 +35,8 @@ class TierSubscriptions {
   /// Number of joined groups without the base group.
   [[nodiscard]] std::size_t joined_groups() const noexcept { return joined_count_; }
 
-  /// Factor of the near rows on distances, > 0; see ChannelTable::fit.
-  void set_stretch(double stretch) noexcept { stretch_ = stretch; }
+  /// Sets TierReach::stretch.
+  void set_stretch(double stretch) noexcept { reach_.stretch = stretch; }
   /// Subscribes to the cells in reach of these foci, and to `besides`.
   /// @return changed cells, by number, valid until the next call for this tier
   SubscriptionChange update(std::size_t tier, std::span<const Focus> foci,
@@ -58,8 +51,7 @@ class TierSubscriptions {
 
   TierTable tiers_;
   std::vector<Subscription> by_tier_;
-  std::optional<ChannelTable> rows_;
-  double radius_, farthest_nimbus_, stretch_ = 1.0;
+  TierReach reach_;
   std::vector<Focus> foci_;  ///< with the reach of a tier
   std::vector<GroupIndex> join_, leave_;
   std::vector<bool> joined_ = std::vector<bool>(kMaximumPool + 1);  ///< by group

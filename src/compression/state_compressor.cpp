@@ -52,8 +52,8 @@ StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
   return {store_compact(state, out), needs_key};
 }
 
-std::size_t StateCompressor::compress_near(const pdu::EntityState& state,
-                                           std::span<std::byte, kRoom> out) const noexcept {
+std::size_t StateCompressor::compress_independent(const pdu::EntityState& state,
+                                                  std::span<std::byte, kRoom> out) const noexcept {
   return form_ == CompressedForm::compact ? store_compact(state, out) : 0;
 }
 

@@ -42,8 +42,8 @@ class StateCompressor {
   /// The same for the listeners of a tier's group besides that of the cell, in the compact form,
   /// which depends on nothing. Returns its octets. 0 if it has parts, and in the residual form,
   /// whose key states the cell's group carries: then all receive the whole state.
-  [[nodiscard]] std::size_t compress_near(const pdu::EntityState& state,
-                                          std::span<std::byte, kRoom> out) const noexcept;
+  [[nodiscard]] std::size_t compress_independent(const pdu::EntityState& state,
+                                                 std::span<std::byte, kRoom> out) const noexcept;
 
   [[nodiscard]] pdu::CompressedForm form() const noexcept { return form_; }
 

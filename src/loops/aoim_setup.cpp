@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/loops/life_proof.hpp"
+#include "reckon/peer/loops/tier_foci.hpp"
 #include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -27,6 +28,8 @@ void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig&
   for (const NimbusClass& one : awareness.nimbus)
     config.farthest_nimbus = std::max(config.farthest_nimbus, one.nimbus);
 }
+
+aoim::TierTable tiers_of(const SceneFile& scene) { return {tier_kinds_of(scene), scene.aoim.pool}; }
 
 // [s]. Members have the same scene, so none of them states a longer one.
 double longest_validity(const SceneFile& scene) {
@@ -55,8 +58,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   add_awareness(scene.aoim.awareness, config);
   config.radius = scene.aoim.radius;
   config.channels = channels_of(scene.aoim.tiers);
-  config.contact_groups = has_touch_tier(scene.aoim.tiers);
-  config.near_groups = own_group_count(scene.aoim.tiers) > 0;
+  config.tiers = tier_kinds_of(scene);
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
   for (const std::string& name : beacon_names(scene.aoim.follow))
@@ -89,7 +91,7 @@ OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identi
           scene.network.exercise,
           scene.convergence.settings.teleport_distance,
           scene.network.compression,
-          has_touch_tier(scene.aoim.tiers),
+          tiers_of(scene).urgent().size(),
           audience_rows_of(scene.aoim)};
 }
 
@@ -128,10 +130,11 @@ IpEndpoint endpoint_of(const aoim::SourceAddress& source) noexcept {
 
 GroupPool pool_of(const SceneFile& scene) { return {scene.network.group, scene.aoim.all_groups()}; }
 
-std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
-  if (!has_touch_tier(scene.aoim.tiers)) return {};
-  const std::size_t before = scene.aoim.all_groups() - scene.aoim.pool;
-  return GroupPool(pool_of(scene).address(before - 1), scene.aoim.pool);
+std::optional<GroupPool> urgent_pool_of(const SceneFile& scene) {
+  const aoim::TierTable tiers = tiers_of(scene);
+  if (tiers.urgent().empty()) return {};
+  const std::size_t before = tiers.urgent().front() * scene.aoim.pool;
+  return GroupPool(pool_of(scene).address(before - 1), scene.aoim.all_groups() - before);
 }
 
 GroupNeeds group_needs(const SceneFile& scene) {
@@ -139,15 +142,12 @@ GroupNeeds group_needs(const SceneFile& scene) {
   if (scene.network.interop) return {};
   // Assigned groups: as many as there are cells, until none is left.
   const aoim::CellPartition cells = cells_of(scene.aoim);
-  const std::size_t felt =
-      config.contact_groups ? cells.groups_bound(contact_reach(scene.hand)) : 0;
-  std::size_t near = 0;
+  std::vector<std::size_t> within_tiers;
   for (const TierConfig& tier : scene.aoim.tiers) {
-    if (tier.own_group)
-      near += cells.groups_bound(std::min(tier.channel.farthest, scene.aoim.radius));
+    within_tiers.push_back(has_group(tier) ? cells.groups_bound(tier_radius(scene, tier)) : 0);
   }
   return {cells.groups_bound(scene.aoim.radius + config.farthest_nimbus), cells.groups_in_use(),
-          config.subscription.maximum_groups, felt, near};
+          config.subscription.maximum_groups, std::move(within_tiers)};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

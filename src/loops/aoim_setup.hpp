@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
@@ -57,12 +58,13 @@ struct ModelIdentity {
                                                      const deadreckon::LocalFrame& frame,
                                                      const Link& link);
 
-/// The groups of a scene: the base group, those of the cells, and if there are any, those of near
-/// rows and contact groups.
+/// The groups of a scene: the base group, those of the cells, and if there are any, those of the
+/// other tiers.
 [[nodiscard]] GroupPool pool_of(const SceneFile& scene);
 
-/// The contact groups among these, the last ones: those behind its base. Nothing if there are none.
-[[nodiscard]] std::optional<GroupPool> contact_pool_of(const SceneFile& scene);
+/// The groups among these that are read first, those of urgent tiers and the last ones: those
+/// behind its base. Nothing if there are none.
+[[nodiscard]] std::optional<GroupPool> urgent_pool_of(const SceneFile& scene);
 
 /// The scene's radius of interest in terms of groups; all 0 in an interop scene, which has no
 /// radius.
@@ -70,8 +72,8 @@ struct GroupNeeds {
   std::size_t within_radius = 0;  ///< most groups whose cells a focus can reach, at any position
   std::size_t in_use = 0;         ///< groups of the pool that cells use
   std::size_t most_joined = 0;    ///< as the scene allows
-  std::size_t within_touch = 0;   ///< most contact groups of one hand; 0: there are none
-  std::size_t within_rows = 0;    ///< most near groups of a focus; 0: there are none
+  /// Most groups of each tier, by tier of the scene; 0 for a tier without groups of its own.
+  std::vector<std::size_t> within_tiers;
 
   /// Cells are so small compared with the radius that every group is joined: all is received,
   /// nothing is saved.

@@ -30,8 +30,8 @@ void ChannelKeeper::note_places(const RemoteEntities& remote, aoim::AreaOfIntere
       });
 }
 
-// Others send as much as their nearest receiver asks for. With further receivers near them we may
-// get more than we ask for.
+// Others send as much as their nearest receiver asks for. If that is not us, we may get more than
+// we ask for.
 void ChannelKeeper::keep_to_budget(const RemoteEntities& remote, aoim::AreaOfInterestManager& aoim,
                                    Nanoseconds now, haptics::SpscRing<Notice>& out) {
   clients_.clear();
@@ -45,11 +45,11 @@ void ChannelKeeper::keep_to_budget(const RemoteEntities& remote, aoim::AreaOfInt
   const NoticeCondition::Turn turn = stretched_.turn(budget.stretch > 1.0, now);
   if (turn == NoticeCondition::Turn::begins) {
     static_cast<void>(out.push(make_notice(
-        "entities near would send more than {:.4g} B/s: distances count {:.3g} times as long "
+        "entities in range would send more than {:.4g} B/s: distances count {:.3g} times as long "
         "([aoim] budget)",
         config_.budget, budget.stretch)));
   } else if (turn == NoticeCondition::Turn::ends) {
-    static_cast<void>(out.push(make_notice("all that is near fits the budget again")));
+    static_cast<void>(out.push(make_notice("all entities in range fit the budget again")));
   }
 }
 

@@ -38,7 +38,7 @@ DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestMa
     : scene_(wiring.scene),
       pool_(wiring.pool),
       inbound_(wiring.inbound),
-      felt_(wiring.felt),
+      urgent_(wiring.urgent),
       tap_(wiring.tap),
       aoim_(aoim),
       time_(time),
@@ -54,7 +54,7 @@ DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestMa
 void DatagramIntake::read(const Pass& pass, const aoim::PeerId& own,
                           UpdateHandler& handler) noexcept {
   const Reading reading{pass, own, handler};
-  if (felt_ != nullptr) drain(*felt_, reading);
+  if (urgent_ != nullptr) drain(*urgent_, reading);
   drain(inbound_, reading);
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   counted_.lost.set(counts.lost);
@@ -152,7 +152,7 @@ void DatagramIntake::report_judged(const QueuedDatagram& datagram, const aoim::I
 
 void DatagramIntake::report_unread() noexcept {
   if (tap_ == nullptr) return;
-  for (DatagramRing* ring : {felt_, &inbound_}) {
+  for (DatagramRing* ring : {urgent_, &inbound_}) {
     while (const QueuedDatagram* datagram = ring == nullptr ? nullptr : ring->front()) {
       tap_->note(DatagramTap::Loop::model, DatagramFate::unread, datagram->group, datagram->octets);
       ring->pop();

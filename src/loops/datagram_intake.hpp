@@ -65,7 +65,7 @@ class DatagramIntake {
   const SceneFile& scene_;
   const GroupPool& pool_;
   DatagramRing& inbound_;
-  DatagramRing* felt_;
+  DatagramRing* urgent_;
   DatagramTap* tap_;
   aoim::AreaOfInterestManager& aoim_;
   TimeKeeper& time_;

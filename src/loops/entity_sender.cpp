@@ -15,8 +15,8 @@ namespace {
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-// An update of a slightly wrong pose or a repetition may wait for a bundle; new and felt states may
-// not.
+// An update of a slightly wrong pose or a repetition may wait for a bundle; new states and those of
+// a contact may not.
 bool is_patient(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation ||
          reason == SendReason::heartbeat;
@@ -27,12 +27,12 @@ bool is_by_distance(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation;
 }
 
-// A receiver may come near meanwhile.
+// A receiver may approach meanwhile.
 constexpr nanoseconds kLookAgain = std::chrono::milliseconds(100);
 
-// The innermost tier that is more than a contact group.
-std::size_t inmost_row(const Audiences* audiences) noexcept {
-  return audiences != nullptr && audiences->has_felt() ? 1 : 0;
+// The number of urgent tiers, and so the innermost tier with a row of channels.
+std::size_t urgent_of(const Audiences* audiences) noexcept {
+  return audiences != nullptr ? audiences->urgent() : 0;
 }
 
 }  // namespace
@@ -46,15 +46,15 @@ std::optional<std::size_t> EntitySender::asked_tier(const OwnedEntity& entity,
                       {entity.last_whole, entity.last_group}, pass.now))
     return aoim::kCellTier;
   if (entity.audiences() == nullptr || !aoim_.introductions().is_pending()) return {};
-  for (std::size_t row = tiers.near_rows(); row-- > 0;) {
-    if (is_asked_near(entity, tiers.of_row(row), pass)) return tiers.of_row(row);
+  for (std::size_t row = tiers.last_row(); row-- > 0;) {
+    if (is_asked_in(tiers.of_row(row), entity, pass)) return tiers.of_row(row);
   }
   return {};
 }
 
 // A new listener of a row has been a listener of the outer one.
-bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t tier,
-                                 const Pass& pass) const noexcept {
+bool EntitySender::is_asked_in(std::size_t tier, const OwnedEntity& entity,
+                               const Pass& pass) const noexcept {
   const std::size_t audience = entity.audiences()->audience_of(aoim_.tiers().row_of(tier));
   return entity.audiences()->is_behind(audience + 1) &&
          aoim_.must_send(tier, entity.id(), to_position(entity.truth().position),
@@ -78,10 +78,10 @@ bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexc
 
 void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept {
   Audiences& audiences = *entity.audiences();
-  if (aoim_.tiers().near_rows() == 0 || !audiences.has_to_look(pass.now)) return;
+  if (aoim_.tiers().last_row() == 0 || !audiences.has_to_look(pass.now)) return;
   const EntityTruth& truth = entity.truth();
-  const double ahead = aoim::kNearAhead * truth.velocity.norm() + audiences.slack();
-  audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), ahead),
+  audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), truth.velocity.norm(),
+                                                audiences.slack()),
                   pass.now + kLookAgain);
 }
 
@@ -91,8 +91,8 @@ bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audienc
       audience, pdu::to_seconds(entity.last_sent_at(audience - 1)), pdu::to_seconds(pass.now));
 }
 
-// The felt part of an entity in company is sent at once to peers nearby, by its contact group if
-// there is one; all others receive as much as they need to see.
+// The records of an entity in company are sent at once to peers nearby, to an urgent tier if there
+// is one; all others receive as much as they need to see.
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
@@ -100,9 +100,8 @@ bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds a
   entity.let_go(pass.now);
   counters_.checks.add();
   const SendReason inmost = entity.decide(at, probes);
-  const Audiences* audiences = entity.audiences();
-  const bool has_felt = audiences != nullptr && audiences->has_felt();
-  const bool in_company = !probes.empty() || (has_felt && !accounts.empty());
+  const bool has_urgent = urgent_of(entity.audiences()) > 0;
+  const bool in_company = !probes.empty() || (has_urgent && !accounts.empty());
   Dispatch how = choose(entity, pass, at, inmost, in_company);
   how.is_asked = is_asked;
   if (how.reason == SendReason::none) return false;
@@ -123,14 +122,14 @@ Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds
 Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                                        SendReason inmost, bool in_company) noexcept {
   const Audiences& audiences = *entity.audiences();
-  const std::size_t inmost_group = audiences.has_felt() && !in_company ? 1 : 0;
+  const std::size_t inmost_group = in_company ? 0 : audiences.urgent();
   Dispatch how{SendReason::none, in_company, 0, false};
   for (std::size_t audience = audiences.last() + 1; audience-- > 0;) {
     SendReason reason = audience == 0 ? inmost : entity.decide_for(audience, at);
     if (reason == SendReason::none && audience > 0 && is_out_of_step(entity, audience, pass))
       reason = SendReason::heartbeat;
     if (reason == SendReason::none) continue;
-    const bool at_once = in_company && (audience == 0 || aoim_.tiers().near_rows() == 0);
+    const bool at_once = in_company && (audience == 0 || aoim_.tiers().last_row() == 0);
     if (!at_once && may_wait(entity, pass, audience, reason)) continue;
     const bool is_outmost = how.reason == SendReason::none;
     if (is_outmost) how.audience = std::max(audience, inmost_group);
@@ -154,7 +153,7 @@ const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
                                               std::size_t audience) const noexcept {
   const aoim::Channel* nearest = channel_of(entity);
   const Audiences* audiences = entity.audiences();
-  if (aoim_.tiers().near_rows() == 0 || audiences == nullptr) return nearest;
+  if (aoim_.tiers().last_row() == 0 || audiences == nullptr) return nearest;
   const aoim::ChannelTable& table = aoim_.receivers()->table();
   const std::size_t row = audiences->row_of(std::min(audience, audiences->last()));
   return row == 0 && nearest->kept ? nearest : &table.channel(table.kept_rows() + row);
@@ -163,13 +162,13 @@ const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
 bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
                             SendReason reason) noexcept {
   const Audiences* audiences = entity.audiences();
-  const bool by_rows = audiences != nullptr && aoim_.tiers().near_rows() > 0;
+  const bool by_rows = audiences != nullptr && aoim_.tiers().last_row() > 0;
   if (by_rows && audience < audiences->served()) {  // no listeners
     if (reason != SendReason::heartbeat) hold(entity, pass.now + kLookAgain);
     return true;
   }
   if (!is_by_distance(reason)) return false;
-  const aoim::Channel* channel = channel_of(entity, std::max(audience, inmost_row(audiences)));
+  const aoim::Channel* channel = channel_of(entity, std::max(audience, urgent_of(audiences)));
   if (channel == nullptr || channel->kept) return false;
   const nanoseconds last = by_rows ? entity.last_sent_at(audience) : entity.last_sent;
   const double rate = entity.is_resting() ? channel->passive_hz : channel->active_hz;
@@ -202,8 +201,10 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   const aoim::BundleTerms terms(pass.now + policy.hold, policy.updates);
   const Audiences* audiences = entity.audiences();
   std::size_t octets = 0;
-  if (audiences != nullptr && audiences->has_felt() && how.in_company)
-    octets += send_to_touch_tier(position, records, pass.now);
+  if (how.in_company) {
+    for (const std::size_t tier : aoim_.tiers().urgent().first(urgent_of(audiences)))
+      octets += send_at_once(tier, position, records, pass.now);
+  }
   if (audiences == nullptr || how.audience >= audiences->last()) {
     const Written written =
         send_to_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
@@ -211,7 +212,7 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
     entity.last_group = aoim_.route(position);
     entity.last_sent = pass.now;
     if (!written.needs_key && !entity.is_thinned(body)) entity.last_whole = pass.now;
-  } else if (how.audience >= inmost_row(audiences)) {
+  } else if (how.audience >= urgent_of(audiences)) {
     entity.look_again(pass.now + kLookAgain);  // it may still be due to other tiers
     octets += send_to_row(entity, position, records, terms, how.audience, pass.now);
   }
@@ -221,12 +222,11 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   return true;
 }
 
-std::size_t EntitySender::send_to_touch_tier(const aoim::Position& position,
-                                             std::span<const std::byte> records,
-                                             nanoseconds now) noexcept {
-  static_cast<void>(
-      aoim_.send(aoim_.tiers().felt(), aoim::StatePayload{update_.state, records}, position, now));
-  counters_.felt.add();
+std::size_t EntitySender::send_at_once(std::size_t tier, const aoim::Position& position,
+                                       std::span<const std::byte> records,
+                                       nanoseconds now) noexcept {
+  static_cast<void>(aoim_.send(tier, aoim::StatePayload{update_.state, records}, position, now));
+  counters_.by_tier[tier]->add();
   return pdu::wire_size(update_.state) + records.size();
 }
 
@@ -240,11 +240,11 @@ std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position&
   if (compressor == nullptr) {
     static_cast<void>(
         aoim_.send(tier, aoim::StatePayload{update_.state, records}, position, terms));
-    counters_.near.add();
+    counters_.by_tier[tier]->add();
     return pdu::wire_size(update_.state) + records.size();
   }
   std::array<std::byte, StateCompressor::kRoom> octets;
-  const std::size_t size = compressor->compress_near(update_.state, octets);
+  const std::size_t size = compressor->compress_independent(update_.state, octets);
   if (size == 0) {
     entity.event();
     entity.look_again(now);
@@ -253,7 +253,7 @@ std::size_t EntitySender::send_to_row(OwnedEntity& entity, const aoim::Position&
   const aoim::CompressedPayload made{entity.id(), compressor->form(),
                                      std::span(octets).first(size)};
   static_cast<void>(aoim_.send(tier, made, position, terms));
-  counters_.near.add();
+  counters_.by_tier[tier]->add();
   return size;
 }
 

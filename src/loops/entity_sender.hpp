@@ -36,10 +36,10 @@ class EntitySender {
   /// References outlive this.
   EntitySender(const NetworkConfig& network, aoim::AreaOfInterestManager& aoim,
                const TimeKeeper& time, Counters& counters)
-      : network_(network), aoim_(aoim), time_(time), counters_(counters) {}
+      : network_(network), aoim_(aoim), time_(time), counters_(counters, aoim.tiers()) {}
 
   /// The outermost tier for which the entity is requested, whatever its predictor says: by a
-  /// newcomer, a change of cell, or a new listener of a near row.
+  /// newcomer, a change of cell, or a new listener of a tier.
   [[nodiscard]] std::optional<std::size_t> asked_tier(const OwnedEntity& entity,
                                                       const Pass& pass) const noexcept;
 
@@ -56,8 +56,8 @@ class EntitySender {
  private:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  [[nodiscard]] bool is_asked_near(const OwnedEntity& entity, std::size_t tier,
-                                   const Pass& pass) const noexcept;
+  [[nodiscard]] bool is_asked_in(std::size_t tier, const OwnedEntity& entity,
+                                 const Pass& pass) const noexcept;
   bool note_asked(OwnedEntity& entity, const Pass& pass) const noexcept;
   void look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept;
   [[nodiscard]] bool is_out_of_step(const OwnedEntity& entity, std::size_t audience,
@@ -72,8 +72,8 @@ class EntitySender {
   [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
                               deadreckon::SendReason reason) noexcept;
   void hold(OwnedEntity& entity, Nanoseconds until) noexcept;
-  std::size_t send_to_touch_tier(const aoim::Position& position, std::span<const std::byte> records,
-                                 Nanoseconds now) noexcept;
+  std::size_t send_at_once(std::size_t tier, const aoim::Position& position,
+                           std::span<const std::byte> records, Nanoseconds now) noexcept;
   std::size_t send_to_row(OwnedEntity& entity, const aoim::Position& position,
                           std::span<const std::byte> records, const aoim::BundleTerms& terms,
                           std::size_t audience, Nanoseconds now) noexcept;

@@ -59,7 +59,7 @@ void ModelLoop::start(nanoseconds now) {
   pass_.now = now;
   view_.start(now);
   subscriber_.join_base();
-  subscriber_.subscribe(now, touch_.near(), watches_.notices());
+  subscriber_.subscribe(now, touch_.bodies_in_reach(), watches_.notices());
   if (!scene_.network.interop) aoim_.start(now);
 }
 
@@ -108,7 +108,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
 
 // Called some twenty times a second.
 void ModelLoop::look_around() noexcept {
-  subscriber_.subscribe(pass_.now, touch_.near(), watches_.notices());
+  subscriber_.subscribe(pass_.now, touch_.bodies_in_reach(), watches_.notices());
   remote_.look_shown(pass_.now);
   remote_.look_outside(pass_.now);
 }

@@ -97,7 +97,8 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
     return std::min({aoim_.next_step(), view_.next(), owned_.next_due(), tracked_.next_due()});
   }
-  /// Whether what arrives may be felt: a body is within reach of a hand or a moving body of ours.
+  /// Whether the delay of what arrives counts: a body is in reach of a hand or a moving body of
+  /// ours.
   [[nodiscard]] bool has_near() const noexcept { return touch_.has_near(); }
   /// Queues last Entity States (deactivated), as far as the writer has room, and finally the
   /// farewell. True once all are queued; until then call it again when the writer has made room.

@@ -31,8 +31,8 @@ struct ModelWiring {
   std::size_t capacity = 100'000;                   ///< of the table of remote entities
   bool record_changes = false;                      ///< for RemoteEntities::take_changes()
   haptics::SpscRing<MutedSender>* muted = nullptr;  ///< from the read loop; may be null
-  DatagramTap* tap = nullptr;    ///< receives the fate of each datagram; may be null
-  DatagramRing* felt = nullptr;  ///< datagrams of contact groups, taken first; may be null
+  DatagramTap* tap = nullptr;      ///< receives the fate of each datagram; may be null
+  DatagramRing* urgent = nullptr;  ///< datagrams of the urgent tier, taken first; may be null
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
 };
 

@@ -17,13 +17,13 @@ constexpr std::chrono::nanoseconds kRetry = std::chrono::seconds(1);
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
                                  DatagramRing& out, Counters& counters,
                                  std::optional<std::uint8_t> exercise, DatagramTap* tap,
-                                 std::optional<FeltRing> felt)
+                                 std::optional<UrgentRing> urgent)
     : link_(link),
       commands_(commands),
       out_(out),
       exercise_(exercise),
       tap_(tap),
-      felt_(felt),
+      urgent_(urgent),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
       waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
@@ -65,11 +65,11 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
 }
 
 std::size_t NetworkReadLoop::room() const noexcept {
-  return felt_ ? std::min(out_.room(), felt_->ring.room()) : out_.room();
+  return urgent_ ? std::min(out_.room(), urgent_->ring.room()) : out_.room();
 }
 
 DatagramRing& NetworkReadLoop::ring_of(const GroupAddress& group) noexcept {
-  return felt_ && felt_->groups.index(group) ? felt_->ring : out_;
+  return urgent_ && urgent_->groups.index(group) ? urgent_->ring : out_;
 }
 
 void NetworkReadLoop::obey(const GroupCommand& command) noexcept {

@@ -30,7 +30,7 @@ struct GroupCommand {
 };
 
 /// A separate ring for the datagrams of some groups, those behind the base of the pool.
-struct FeltRing {
+struct UrgentRing {
   GroupPool groups;
   DatagramRing& ring;
 };
@@ -45,11 +45,12 @@ class NetworkReadLoop {
   /// All references outlive the loop. The first group that it joins is the base group.
   /// @param exercise of accepted datagrams; nothing: any octets are accepted
   /// @param tap receives dropped datagrams with the reason; may be null
-  /// @param felt separate ring for contact groups, so that their datagrams do not wait behind
-  /// others; nothing: all use one ring. While one of the two rings is full nothing is taken.
+  /// @param urgent separate ring for the groups of an urgent tier, so that their datagrams do not
+  /// wait behind others; nothing: all use one ring. While one of the two rings is full nothing is
+  /// taken.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters, std::optional<std::uint8_t> exercise = {},
-                  DatagramTap* tap = nullptr, std::optional<FeltRing> felt = {});
+                  DatagramTap* tap = nullptr, std::optional<UrgentRing> urgent = {});
 
   /// Carries out joins and leaves, then takes arrived datagrams until the ring is full. Returns the
   /// number put there: the model loop has to wake only for these. A failed join is repeated each
@@ -80,7 +81,7 @@ class NetworkReadLoop {
   DatagramRing& out_;
   std::optional<std::uint8_t> exercise_;
   DatagramTap* tap_;
-  std::optional<FeltRing> felt_;
+  std::optional<UrgentRing> urgent_;
   haptics::SpscRing<MutedSender> muted_{64};
   haptics::TripleBuffer<KnownSources> known_;
   SenderBudget budget_{muted_};

@@ -46,7 +46,7 @@ class PeerWatches {
   }
   /// Makes the remaining reports; call it some twenty times a second.
   /// @param unfelt most that a servo has left out
-  /// @param crowder host with more bodies near a hand than it takes
+  /// @param crowder host with more bodies in reach of a hand than it takes
   void look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim, std::size_t unfelt,
             const aoim::SourceAddress& crowder, Nanoseconds now) noexcept;
 

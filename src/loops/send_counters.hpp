@@ -6,7 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "reckon/aoim/tiers/tier_table.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/peer/counters/counters.hpp"
 
@@ -14,13 +16,12 @@ namespace reckon::peer {
 
 /// The counters of an owner. Made at set-up; `counters` outlives them.
 struct SendCounters {
-  explicit SendCounters(Counters& counters)
+  SendCounters(Counters& counters, const aoim::TierTable& tiers)
       : checks(counters.make("send_checks", "decisions whether an own entity is due")),
         updates(counters.make("updates_out", "own updates sent, for any reason")),
         held_back(counters.make("updates_held_back",
                                 "own updates held back, because no receiver needs them yet")),
-        felt(counters.make("updates_felt", "own updates sent to a contact group")),
-        near(counters.make("updates_near", "own updates sent to a near group")),
+        by_tier(tier_counters(counters, tiers)),
         octets(counters.make("own_octets",
                              "octets of own updates: Entity States and their records of force")) {
     for (std::size_t i = 1; i < by_reason.size(); ++i) {
@@ -39,10 +40,25 @@ struct SendCounters {
   Counter& checks;
   Counter& updates;
   Counter& held_back;
-  Counter& felt;
-  Counter& near;
+  std::vector<Counter*> by_tier;  ///< null for the cell tier
   Counter& octets;
   std::array<Counter*, 7> by_reason{};  ///< by SendReason, from 1
+
+ private:
+  // Kinds of which the scene has no tier have a counter too.
+  static std::vector<Counter*> tier_counters(Counters& counters, const aoim::TierTable& tiers) {
+    const auto counter_of = [&](const aoim::TierKind& kind) {
+      return kind.name.empty()
+                 ? nullptr
+                 : &counters.make("updates_" + std::string(kind.name),
+                                  "own updates sent to a " + std::string(kind.groups));
+    };
+    for (const aoim::TierKind* kind : aoim::tier_kinds()) counter_of(*kind);
+    std::vector<Counter*> by_tier;
+    for (std::size_t tier = 0; tier < tiers.count(); ++tier)
+      by_tier.push_back(counter_of(tiers.kind(tier)));
+    return by_tier;
+  }
 };
 
 }  // namespace reckon::peer

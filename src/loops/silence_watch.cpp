@@ -46,9 +46,10 @@ bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   Doubt& now = doubt != nullptr ? *doubt : doubt_of(peer, look.now);
   now.whole = true;
   look.remote.doubt_peer(peer.announced.epoch, look.now);
-  const bool felt = std::any_of(look.touched.begin(), look.touched.end(),
-                                [&](const Touched& t) { return t.id.simulation() == peer.id(); });
-  if (felt) report(peer, now, look);
+  const bool is_touched =
+      std::any_of(look.touched.begin(), look.touched.end(),
+                  [&](const Touched& t) { return t.id.simulation() == peer.id(); });
+  if (is_touched) report(peer, now, look);
   return false;
 }
 

@@ -20,7 +20,7 @@ Subscriber::Subscriber(const ModelWiring& wiring, aoim::Participant& participant
       owned_(owned),
       remote_(remote),
       cover_(cells_of(wiring.scene.aoim)),
-      tier_foci_(tier_foci(wiring.scene, aoim_.tiers())),
+      tier_foci_(tier_foci(wiring.scene)),
       aoim_watch_(wiring.scene, wiring.counters),
       leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
       beacon_watch_(wiring.scene.aoim.follow) {}
@@ -47,15 +47,15 @@ void Subscriber::place_beacons(nanoseconds now) noexcept {
   if (aoim::Leading* leading = aoim_.leading()) leading->set_beacons(beacons_, now);
 }
 
-void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> near,
+void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> in_reach,
                            haptics::SpscRing<Notice>& notices) noexcept {
   if (moved_ && scene_.aoim.hand_out) place_beacons(now);
   if (moved_) cover_our_entities();
-  const FociInputs inputs{owned_, foci_, near, now};
+  const FociInputs inputs{owned_, foci_, in_reach, now};
   const auto foci_of = [&](std::size_t tier) { return tier_foci_[tier](inputs); };
   const auto follow = [&](std::size_t tier, const aoim::SubscriptionChange& change) {
     command(change);
-    if (aoim_.tiers().is_near(tier)) remote_.leave_groups(change.leave, now);
+    remote_.leave_groups(change.leave, now);
     if (tier == aoim::kCellTier) aoim_watch_.look(aoim_, change, now, notices);
   };
   participant_.listen_by_tier(foci_of, now, follow);

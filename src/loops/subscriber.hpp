@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Subscribes to the groups for what this peer's entities sense, for near rows and for what can be
-// felt, and places its beacons.
+// Subscribes to the groups of all recipient tiers around this peer's entities, and places its
+// beacons.
 #pragma once
 
 #include <chrono>
@@ -38,8 +38,8 @@ class Subscriber {
   /// Joins the base group, once, before all others.
   void join_base() noexcept { static_cast<void>(commands_.push({pool_.base(), true})); }
   /// Joins and leaves groups; call it some twenty times a second.
-  /// @param near bodies near each of our hands  @param notices for the user
-  void subscribe(std::chrono::nanoseconds now, std::span<const NearBodies> near,
+  /// @param in_reach bodies in reach of each of our hands  @param notices for the user
+  void subscribe(std::chrono::nanoseconds now, std::span<const NearBodies> in_reach,
                  haptics::SpscRing<Notice>& notices) noexcept;
 
   /// Records a state that a leader relayed.

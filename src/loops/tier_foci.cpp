@@ -15,19 +15,23 @@ namespace {
 
 using Foci = std::span<const aoim::Focus>;
 
-TierFoci sensed(const SceneFile&, const TierConfig&) {
+TierFoci sensed(const SceneFile&) {
   return [](const FociInputs& inputs) { return inputs.sensed; };
 }
 
+double row_end(const SceneFile& scene, const TierConfig& tier) {
+  return std::min(tier.channel.farthest, scene.aoim.radius);
+}
+
 // The places where we can touch and be touched. The search for what our hands could touch also
-// finds large entities whose surface, but not whose origin, is near.
-TierFoci touchable(const SceneFile& scene, const TierConfig&) {
+// finds large entities whose surface is in reach, but not their origin.
+TierFoci touchable(const SceneFile& scene) {
   const auto foci = std::make_shared<ContactFoci>(scene);
   return [foci](const FociInputs& inputs) -> Foci {
     foci->clear();
     for (const EntityNumber number : inputs.owned.touchable())
       foci->add(*inputs.owned.find(number));
-    for (const NearBodies& of_hand : inputs.near) {
+    for (const NearBodies& of_hand : inputs.in_reach) {
       for (const NearBody& body : of_hand.bodies()) {
         if (body.row != nullptr) foci->add_near(body.row->predicted(inputs.now).position);
       }
@@ -36,16 +40,23 @@ TierFoci touchable(const SceneFile& scene, const TierConfig&) {
   };
 }
 
-struct FociRow {
+double reach_of_hands(const SceneFile& scene, const TierConfig&) {
+  return contact_reach(scene.hand);
+}
+
+struct RecipientsRow {
   Recipients to;
-  TierFoci (*make)(const SceneFile& scene, const TierConfig& tier);
+  const aoim::TierKind* kind;
+  TierFoci (*foci)(const SceneFile& scene);
+  double (*radius)(const SceneFile& scene, const TierConfig& tier);
 };
 
 // THE list.
-constexpr FociRow kRows[]{{Recipients::distance, sensed}, {Recipients::touch, touchable}};
+constexpr RecipientsRow kRows[]{{Recipients::distance, &aoim::kDistanceKind, sensed, row_end},
+                                {Recipients::touch, &aoim::kTouchKind, touchable, reach_of_hands}};
 
-constexpr const FociRow* row_of(Recipients to) {
-  return std::ranges::find(kRows, to, &FociRow::to);
+constexpr const RecipientsRow* row_of(Recipients to) {
+  return std::ranges::find(kRows, to, &RecipientsRow::to);
 }
 
 static_assert(std::ranges::all_of(kWords<Recipients>,
@@ -54,20 +65,34 @@ static_assert(std::ranges::all_of(kWords<Recipients>,
                                   }),
               "all kinds of recipients have a row");
 
-TierFoci foci_of(const SceneFile& scene, const TierConfig& tier) {
-  return row_of(tier.to)->make(scene, tier);
+// Calls visit(RecipientsRow) for each tier with groups of its own, in the order of the groups:
+// urgent tiers come last.
+template <typename Visit>
+void for_each_tier(const SceneFile& scene, Visit&& visit) {
+  for (const bool is_urgent : {false, true}) {
+    for (const TierConfig& tier : scene.aoim.tiers) {
+      const RecipientsRow& row = *row_of(tier.to);
+      if (has_group(tier) && row.kind->is_urgent == is_urgent) visit(row);
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<TierFoci> tier_foci(const SceneFile& scene, const aoim::TierTable& tiers) {
-  std::vector<TierFoci> foci(tiers.count(), sensed(scene, {}));
-  std::size_t row = 0;
-  for (const TierConfig& tier : scene.aoim.tiers) {
-    if (tier.own_group && row < tiers.near_rows()) foci[tiers.of_row(row++)] = foci_of(scene, tier);
-    if (tier.to == Recipients::touch && tiers.has_felt()) foci[tiers.felt()] = foci_of(scene, tier);
-  }
+std::vector<const aoim::TierKind*> tier_kinds_of(const SceneFile& scene) {
+  std::vector<const aoim::TierKind*> kinds;
+  for_each_tier(scene, [&](const RecipientsRow& row) { kinds.push_back(row.kind); });
+  return kinds;
+}
+
+std::vector<TierFoci> tier_foci(const SceneFile& scene) {
+  std::vector<TierFoci> foci{sensed(scene)};
+  for_each_tier(scene, [&](const RecipientsRow& row) { foci.push_back(row.foci(scene)); });
   return foci;
+}
+
+double tier_radius(const SceneFile& scene, const TierConfig& tier) {
+  return row_of(tier.to)->radius(scene, tier);
 }
 
 }  // namespace reckon::peer

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The places whose updates a peer receives by the groups of a tier, for each kind of recipients:
-// THE list is in tier_foci.cpp. Part of the model loop.
+// The recipient tiers of a scene: the kind of each, and the places around which a peer receives its
+// updates. THE list, by recipients, is in tier_foci.cpp. Part of the model loop.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -20,16 +21,23 @@ namespace reckon::peer {
 /// What foci are made from.
 struct FociInputs {
   const OwnedEntities& owned;
-  std::span<const aoim::Focus> sensed;  ///< they cover the range of each entity of ours
-  std::span<const NearBodies> near;     ///< bodies near each of our hands
+  std::span<const aoim::Focus> sensed;   ///< they cover the range of each entity of ours
+  std::span<const NearBodies> in_reach;  ///< bodies in reach of each of our hands
   std::chrono::nanoseconds now;
 };
 
 /// The foci of a tier, valid until the next call. One thread; must not throw.
 using TierFoci = std::function<std::span<const aoim::Focus>(const FociInputs&)>;
 
-/// The foci of each tier of the table, the cell tier first. For set-up.
-/// @param scene outlives them; the table has its tiers
-[[nodiscard]] std::vector<TierFoci> tier_foci(const SceneFile& scene, const aoim::TierTable& tiers);
+/// The kinds of the scene's tiers with groups of their own, in the order of their groups. For
+/// set-up.
+[[nodiscard]] std::vector<const aoim::TierKind*> tier_kinds_of(const SceneFile& scene);
+
+/// The foci of each tier of the scene, by its number: the cell tier first. For set-up.
+/// @param scene outlives them
+[[nodiscard]] std::vector<TierFoci> tier_foci(const SceneFile& scene);
+
+/// Largest distance from a focus up to which groups of this tier are joined [m]. For set-up.
+[[nodiscard]] double tier_radius(const SceneFile& scene, const TierConfig& tier);
 
 }  // namespace reckon::peer

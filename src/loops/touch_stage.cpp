@@ -123,7 +123,7 @@ bool TouchStage::has_near() const noexcept {
   const auto has_remote = [&](const NearBodies& bodies) {
     return std::ranges::any_of(bodies.bodies(), is_remote);
   };
-  return hands_near_.size() > 0 || std::ranges::any_of(near(), has_remote);
+  return hands_near_.size() > 0 || std::ranges::any_of(bodies_in_reach(), has_remote);
 }
 
 void TouchStage::consider(const Pass& pass) noexcept {

@@ -84,8 +84,8 @@ class TouchStage {
   [[nodiscard]] std::size_t hand_count() const noexcept { return hands_.size(); }
   /// Snapshot of the first hand; at rest if there is none.
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept;
-  /// Bodies near each hand.
-  [[nodiscard]] std::span<const NearBodies> near() const noexcept {
+  /// The bodies in reach of each hand.
+  [[nodiscard]] std::span<const NearBodies> bodies_in_reach() const noexcept {
     return {near_.data(), hands_.size()};
   }
   /// Whether a remote body is near a hand or a moving body of ours, so that it may be felt soon.

@@ -215,7 +215,7 @@ struct AoimConfig {
   AwarenessConfig awareness;
   /// Groups behind the base group: those of the pool, and as many for each tier with own groups.
   [[nodiscard]] std::size_t all_groups() const noexcept {
-    return pool * (1 + own_group_count(tiers) + (has_touch_tier(tiers) ? 1 : 0));
+    return pool * (1 + group_tier_count(tiers));
   }
 };
 

@@ -62,6 +62,10 @@ std::string own_group_refusal(const Tiers& tiers, std::size_t place) {
   return {};
 }
 
+std::size_t group_tier_count(const Tiers& tiers) noexcept {
+  return static_cast<std::size_t>(std::ranges::count_if(tiers, has_group));
+}
+
 std::size_t own_group_count(const Tiers& tiers) noexcept {
   return static_cast<std::size_t>(std::ranges::count(tiers, true, &TierConfig::own_group));
 }

@@ -40,7 +40,13 @@ using Tiers = std::vector<TierConfig>;
 [[nodiscard]] std::vector<aoim::Channel> channels_of(const Tiers& tiers);
 /// Reason why the tier at this place cannot have its own group; empty if it can.
 [[nodiscard]] std::string own_group_refusal(const Tiers& tiers, std::size_t place);
-/// Tiers by distance that have their own groups.
+/// Whether each cell has a separate group for it.
+[[nodiscard]] constexpr bool has_group(const TierConfig& tier) noexcept {
+  return tier.own_group || !is_by_distance(tier);
+}
+/// Tiers for which each cell has a separate group.
+[[nodiscard]] std::size_t group_tier_count(const Tiers& tiers) noexcept;
+/// Of these, tiers by distance.
 [[nodiscard]] std::size_t own_group_count(const Tiers& tiers) noexcept;
 
 /// Tiers by distance from these rows.

@@ -19,20 +19,21 @@ deadreckon::Thresholds coarser(deadreckon::Thresholds thresholds, double times) 
 
 }  // namespace
 
-Audiences::Audiences(bool felt, std::span<const aoim::Channel> rows,
+Audiences::Audiences(std::size_t urgent, std::span<const aoim::Channel> rows,
                      const deadreckon::UpdatePolicy& inmost, const deadreckon::SendRule& rule,
                      double first_repeat)
-    : felt_(felt) {
+    : urgent_(urgent) {
   if (rows.empty()) rows = std::span(&kOneRow, 1);
-  for (std::size_t row = felt ? 0 : 1; row < rows.size(); ++row) {
-    const double times = rows[row].coarser;
-    const double behind = felt && row == 0 ? SeenSide::kBehind : SeenSide::kNever;
+  for (std::size_t audience = 1; audience < urgent + rows.size(); ++audience) {
+    const aoim::Channel& row = rows[std::max(audience, urgent) - urgent];
+    const double times = row.coarser;
+    const double behind = audience <= urgent ? SeenSide::kBehind : SeenSide::kNever;
     deadreckon::UpdatePolicy policy(coarser(inmost.thresholds(), times), inmost.heartbeat(),
                                     times * first_repeat, rule, deadreckon::kEventRepeat);
     policy.align_heartbeats(inmost.step(), inmost.phase());
     sides_.emplace_back(policy, behind);
     slack_ = times * inmost.thresholds().position;
-    if (rows[row].body != aoim::Body::rigid) receive_parts_ = sides_.size();
+    if (row.body != aoim::Body::rigid) receive_parts_ = sides_.size();
   }
 }
 
@@ -43,7 +44,7 @@ void Audiences::event(std::size_t outmost) noexcept {
 void Audiences::note_sent(std::size_t audience, const deadreckon::KinematicState& as_received,
                           double now, deadreckon::SendReason reason, bool whole) noexcept {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const bool is_in_step = felt_ && i == 0;
+    const bool is_in_step = i < urgent_;
     i < audience ? sides_[i].note_sent_to_all(as_received, now, reason, whole || is_in_step)
                  : sides_[i].note_sent_to_inner();
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Recipient tiers of an entity of ours whose peers do not all receive the same updates: the
-// listeners of its contact group, those of the group of a near row of channels, and all peers. Part
-// of the model loop.
+// Recipient tiers of an entity of ours whose peers do not all receive the same updates: urgent
+// tiers, those of the inner rows of channels, and all peers (aoim::TierTable). Part of the model
+// loop.
 #pragma once
 
 #include <chrono>
@@ -31,24 +31,24 @@ class Audiences {
   /// A subscription may not be known at once, and a peer that was near does not leave at once.
   static constexpr std::chrono::nanoseconds kGrace = std::chrono::seconds(1);
 
-  /// @param felt whether the listeners of the contact group are the innermost tier
+  /// @param urgent number of urgent tiers, the innermost ones
   /// @param rows of the channels that are not kept, the nearest first, one tier each; empty: all
   /// are one tier  @param inmost thresholds and heartbeat of the entity
   /// @param first_repeat of visible changes [s]; it and the thresholds grow by Channel::coarser,
   /// but the repetition of an event does not
-  Audiences(bool felt, std::span<const aoim::Channel> rows, const deadreckon::UpdatePolicy& inmost,
-            const deadreckon::SendRule& rule, double first_repeat);
+  Audiences(std::size_t urgent, std::span<const aoim::Channel> rows,
+            const deadreckon::UpdatePolicy& inmost, const deadreckon::SendRule& rule,
+            double first_repeat);
 
-  [[nodiscard]] bool has_felt() const noexcept { return felt_; }
+  /// Number of urgent tiers; the others begin at this one.
+  [[nodiscard]] std::size_t urgent() const noexcept { return urgent_; }
   /// The tier of all peers.
   [[nodiscard]] std::size_t last() const noexcept { return sides_.size(); }
-  /// The row of channels of a tier other than the contact group's.
+  /// The row of channels of a tier that is not urgent.
   [[nodiscard]] std::size_t row_of(std::size_t audience) const noexcept {
-    return felt_ ? audience - 1 : audience;
+    return audience - urgent_;
   }
-  [[nodiscard]] std::size_t audience_of(std::size_t row) const noexcept {
-    return felt_ ? row + 1 : row;
-  }
+  [[nodiscard]] std::size_t audience_of(std::size_t row) const noexcept { return row + urgent_; }
   /// The outermost tier that receives articulated parts.
   [[nodiscard]] std::size_t receive_parts() const noexcept { return receive_parts_; }
 
@@ -103,7 +103,7 @@ class Audiences {
 
  private:
   std::vector<SeenSide> sides_;  // of tiers 1 ..
-  bool felt_;
+  std::size_t urgent_;
   std::size_t receive_parts_ = 0;
   double slack_ = 0.0;
   std::size_t served_row_ = 0;

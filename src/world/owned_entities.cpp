@@ -25,7 +25,7 @@ bool OwnedEntities::add(EntityNumber number, const EntityDescription& descriptio
   slot.entity = std::make_unique<OwnedEntity>(frame_, description, id, settings_.exercise,
                                               settings_.teleport_distance);
   slot.entity->compress(settings_.compression);
-  slot.entity->set_tiers(settings_.touch_tier, settings_.rows);
+  slot.entity->set_tiers(settings_.urgent_tiers, settings_.rows);
   slot.scheduled = nanoseconds::max();
   ++size_;
   if (description.model) touchable_.push_back(number);

@@ -28,8 +28,8 @@ struct OwnerSettings {
   double teleport_distance = 10.0;  ///< [m] > 0
   /// Motion is rounded to the quanta of the compressed forms, unless there is none.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
-  bool touch_tier = false;  ///< peers that can touch it receive the felt part separately
-  /// With near groups: the rows of channels that are not kept, the nearest first.
+  std::size_t urgent_tiers = 0;  ///< see aoim::TierTable
+  /// If the inner rows of channels have tiers: the rows that are not kept, the nearest first.
   std::vector<aoim::Channel> rows = {};
 };
 

@@ -120,10 +120,11 @@ void OwnedEntity::compress(pdu::CompressedForm form) {
   compressor_ = std::make_unique<StateCompressor>(form);
 }
 
-void OwnedEntity::set_tiers(bool felt, std::span<const aoim::Channel> rows) {
+void OwnedEntity::set_tiers(std::size_t urgent, std::span<const aoim::Channel> rows) {
   const bool is_felt = touch_ != nullptr;
-  if (is_felt ? !felt : rows.size() < 2) return;
-  audiences_ = std::make_unique<Audiences>(is_felt, rows, policy_, *config_.rule, kFirstRepeat);
+  if (is_felt ? urgent == 0 : rows.size() < 2) return;
+  audiences_ =
+      std::make_unique<Audiences>(is_felt ? urgent : 0, rows, policy_, *config_.rule, kFirstRepeat);
 }
 
 void OwnedEntity::rename(const pdu::EntityId& id) noexcept {

@@ -154,10 +154,10 @@ class OwnedEntity {
   [[nodiscard]] deadreckon::SendReason decide(
       std::chrono::nanoseconds now, std::span<const deadreckon::ProbeState> probes = {}) noexcept;
 
-  /// From now on tiers receive different updates: with `felt`, the felt tier by contact groups;
-  /// with two or more rows of channels, each row by near groups. A felt entity uses near groups
-  /// only if it uses contact groups too.
-  void set_tiers(bool felt, std::span<const aoim::Channel> rows);
+  /// From now on tiers receive different updates: `urgent` tiers those of an entity that can be
+  /// felt, and each of two or more rows of channels. An entity that can be felt uses rows only if
+  /// there is an urgent tier too.
+  void set_tiers(std::size_t urgent, std::span<const aoim::Channel> rows);
   /// Null if all peers receive the same.
   [[nodiscard]] Audiences* audiences() noexcept { return audiences_.get(); }
   [[nodiscard]] const Audiences* audiences() const noexcept { return audiences_.get(); }

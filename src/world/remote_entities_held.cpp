@@ -92,7 +92,7 @@ void RemoteEntities::leave_groups(std::span<const aoim::GroupIndex> groups,
                                   nanoseconds now) noexcept {
   for (const aoim::GroupIndex group : groups) {
     const std::size_t tier = aoim_.tiers().tier_of(group);
-    if (!aoim_.tiers().is_near(tier)) continue;
+    if (!aoim_.tiers().kind(tier).runs_ahead) continue;
     held_.leave(group, aoim_.tiers().row_of(tier),
                 [&](std::size_t place, const HeldState& held) { go_back(place, held, now); });
   }

@@ -14,10 +14,11 @@ namespace {
 using namespace test;
 
 constexpr double kReach = 0.5;  // [m]
+constexpr std::size_t kTouchTier = 1;
 
 AreaOfInterestConfig with_contacts() {
   AreaOfInterestConfig result = config();
-  result.contact_groups = true;
+  result.tiers = {&kTouchKind};
   return result;
 }
 
@@ -36,15 +37,14 @@ struct Hands : World {
   }
   SubscriptionChange reach_from(const Position& at, std::size_t member, double speed = 0.0) {
     const Focus focus{at, speed, kReach};
-    const auto change =
-        members[member].manager->listen(members[member].manager->tiers().felt(), {&focus, 1}, now);
+    const auto change = members[member].manager->listen(kTouchTier, {&focus, 1}, now);
     follow(members[member], change);
     return change;
   }
   void say(std::uint16_t entity, bool felt) {
     pdu::EntityState state = entity_state(entity);
     AreaOfInterestManager& first = *members[0].manager;
-    felt ? first.send(first.tiers().felt(), StatePayload{state}, members[0].place, now)
+    felt ? first.send(kTouchTier, StatePayload{state}, members[0].place, now)
          : first.send(kCellTier, StatePayload{state}, members[0].place, now);
     run(milliseconds(2));
   }
@@ -69,13 +69,12 @@ TEST(ContactGroups, AreHeardByThoseWithinReachAloneAndCellsByAll) {
 TEST(ContactGroups, AreNoneUnlessAskedFor) {
   Hands world;
   AreaOfInterestManager& plain = world.place({0, 0, 0}, config());
-  EXPECT_FALSE(plain.tiers().has_felt());
+  EXPECT_TRUE(plain.tiers().urgent().empty());
   EXPECT_TRUE(world.reach_from({0, 0, 0}, 0).join.empty());
   EXPECT_FALSE(plain.subscriptions().hears(contact_group_at(plain, {0, 0, 0})));
-  const std::size_t none = plain.tiers().felt();
-  EXPECT_EQ(plain.send(none, StatePayload{entity_state(1)}, {0, 0, 0}, world.now),
+  EXPECT_EQ(plain.send(kTouchTier, StatePayload{entity_state(1)}, {0, 0, 0}, world.now),
             AddResult::refused_group);
-  EXPECT_FALSE(plain.must_send(none, {7, 1, 1}, {0, 0, 0}, {}, world.now));
+  EXPECT_FALSE(plain.must_send(kTouchTier, {7, 1, 1}, {0, 0, 0}, {}, world.now));
 }
 
 // A cell's corner radius is 125 m: the next one begins 108.25 m east.
@@ -136,7 +135,7 @@ TEST(ContactGroups, RefuseWhatAnyGroupRefuses) {
   manager.receive(kBaseGroup, encoded(presence_of(2, 22)), world.now, source(2));
   AreaOfInterestManager other(with_contacts(), presence_of(2, 22));
   Collector wire;
-  other.send(other.tiers().felt(), StatePayload{entity_state(1)}, {0.3, 0, 0}, world.now);
+  other.send(kTouchTier, StatePayload{entity_state(1)}, {0.3, 0, 0}, world.now);
   other.step(world.now, wire);
   ASSERT_EQ(wire.datagrams.size(), 1u);
   const auto& [group, octets] = wire.datagrams[0];

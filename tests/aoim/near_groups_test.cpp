@@ -35,7 +35,7 @@ std::vector<Channel> rows(bool kept = false) {
 AreaOfInterestConfig with_rows() {
   AreaOfInterestConfig result = config();
   result.channels = rows();
-  result.near_groups = true;
+  result.tiers = {&kDistanceKind, &kDistanceKind};
   result.radius = kSenses;
   return result;
 }
@@ -59,7 +59,7 @@ struct Near : World {
     AreaOfInterestManager& manager = *members[member].manager;
     join_.clear();
     leave_.clear();
-    for (std::size_t row = 0; row < manager.tiers().near_rows(); ++row) {
+    for (std::size_t row = 0; row < manager.tiers().last_row(); ++row) {
       const auto change = manager.listen(manager.tiers().of_row(row), {&focus, 1}, now);
       follow(members[member], change);
       join_.insert(join_.end(), change.join.begin(), change.join.end());
@@ -109,16 +109,16 @@ TEST(NearGroups, AreHeardByThoseWhoAreSoNearAndTheCellsByAll) {
 TEST(NearGroups, AreNoneUnlessAskedFor) {
   Near world;
   AreaOfInterestConfig how = with_rows();
-  how.near_groups = false;
+  how.tiers.clear();
   AreaOfInterestManager& plain = world.place({0, 0, 0}, how);
-  EXPECT_EQ(plain.tiers().near_rows(), 0u);
+  EXPECT_EQ(plain.tiers().last_row(), 0u);
   EXPECT_TRUE(world.listen(0).join.empty());
   EXPECT_FALSE(plain.subscriptions().hears(near_group_at(plain, 0, {0, 0, 0})));
 }
 
 TEST(NearGroups, OfTheSameNumbersAreOfTheSameCellAndRow) {
   AreaOfInterestConfig how = with_rows();
-  how.contact_groups = true;
+  how.tiers.push_back(&kTouchKind);
   how.grid.pool = 100;
   const AreaOfInterestManager manager(how, presence_of(1, 11));
   const GroupIndex cell = manager.route({0, 0, 0});
@@ -129,7 +129,7 @@ TEST(NearGroups, OfTheSameNumbersAreOfTheSameCellAndRow) {
   EXPECT_EQ(manager.tiers().tier_of(cell), kCellTier);
   EXPECT_EQ(manager.tiers().tier_of(kBaseGroup), kCellTier);
   const GroupIndex felt = near_group_at(manager, 2, {0, 0, 0}, how.grid.pool);
-  EXPECT_EQ(manager.tiers().tier_of(felt), manager.tiers().felt()) << "the contact group";
+  EXPECT_EQ(manager.tiers().tier_of(felt), manager.tiers().urgent().front()) << "the contact group";
   EXPECT_EQ(all_groups(how), 4 * how.grid.pool);
 }
 
@@ -271,6 +271,7 @@ TEST(NearGroups, AreRefusedWhereThereCanBeNone) {
   refused([](auto& how) { how.channels.clear(); });
   refused([](auto& how) { how.channels.erase(how.channels.begin(), how.channels.begin() + 2); });
   refused([](auto& how) { how.channels.front().coarser = 2.0; });
+  refused([](auto& how) { how.tiers.pop_back(); });
   AreaOfInterestConfig most = with_rows();
   most.grid.pool = kMaximumPool / 3;
   EXPECT_NO_THROW(AreaOfInterestManager(most, presence_of(1, 11)));

@@ -140,10 +140,10 @@ TEST(UnevenCells, LetPeersHearEachOtherAndAnnounceTheirScheme) {
 
 TEST(UnevenCells, HaveContactGroupsBehindThePool) {
   AreaOfInterestConfig how = with_tree(4);
-  how.contact_groups = true;
+  how.tiers = {&kTouchKind};
   AreaOfInterestManager manager(how, presence_of(1, 11));
   const Focus hand{{1000, 1000, 0}, 0.0, 0.5};
-  const auto change = manager.listen(manager.tiers().felt(), {&hand, 1}, seconds(1));
+  const auto change = manager.listen(manager.tiers().urgent().front(), {&hand, 1}, seconds(1));
   ASSERT_EQ(change.join.size(), 1U);
   EXPECT_EQ(change.join[0].value, manager.route(hand.position).value + 64);
   EXPECT_TRUE(manager.subscriptions().hears(change.join[0]));

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <vector>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
@@ -26,6 +28,15 @@ void add_beacons(const peer::SceneFile& file, SettingRows& rows) {
   if (!file.aoim.follow.empty())
     rows.emplace_back("follows",
                       file.aoim.follow + ": listens to the cell of each and shows what is in it");
+}
+
+// Most groups that the tiers with these recipients need at once.
+std::size_t within_tiers(const peer::SceneFile& file, peer::Recipients to) {
+  const std::vector<std::size_t> within = peer::group_needs(file).within_tiers;
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < within.size(); ++i)
+    sum += file.aoim.tiers[i].to == to ? within[i] : 0;
+  return sum;
 }
 
 }  // namespace
@@ -49,21 +60,23 @@ void add_group_rows(const peer::SceneFile& file, SettingRows& rows) {
   add_beacons(file, rows);
   const std::size_t own_groups = own_group_count(file.aoim.tiers);
   if (has_touch_tier(file.aoim.tiers))
-    rows.emplace_back("felt", fmt::format("by {} more groups, joined only by peers that can touch "
-                                          "there; a hand needs up to {} of them",
-                                          file.aoim.pool, peer::group_needs(file).within_touch));
+    rows.emplace_back("felt",
+                      fmt::format("by {} more groups, joined only by peers that can touch "
+                                  "there; a hand needs up to {} of them",
+                                  file.aoim.pool, within_tiers(file, peer::Recipients::touch)));
   if (own_groups > 0)
     rows.emplace_back(
-        "near", fmt::format("{} by {} more groups, joined only by peers that are near enough; a "
-                            "focus needs up to {} of them",
-                            own_groups == 1 ? "one tier" : fmt::format("{} tiers", own_groups),
-                            own_groups * file.aoim.pool, peer::group_needs(file).within_rows));
+        "near",
+        fmt::format("{} by {} more groups, joined only by peers that are near enough; a "
+                    "focus needs up to {} of them",
+                    own_groups == 1 ? "one tier" : fmt::format("{} tiers", own_groups),
+                    own_groups * file.aoim.pool, within_tiers(file, peer::Recipients::distance)));
 }
 
 std::vector<std::string> group_warnings(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
-  const std::size_t joined =
-      std::min(needs.within_radius, needs.most_joined) + needs.within_rows + needs.within_touch + 1;
+  const std::size_t joined = std::accumulate(needs.within_tiers.begin(), needs.within_tiers.end(),
+                                             std::min(needs.within_radius, needs.most_joined) + 1);
   std::vector<std::string> warnings;
   for (const peer::Finding& finding : {peer::probe_open_files(joined), peer::probe_memberships()}) {
     if (finding.level != peer::FindingLevel::problem) continue;

@@ -41,7 +41,7 @@ LightStates::Compressed LightStates::compress(std::uint32_t entity, const LightE
   peer::StateCompressor& compressor = *owned.compressor;
   Compressed answer{to, {}};
   std::size_t size = 0;
-  if (to.row < near_rows) size = compressor.compress_near(pdu, octets_);
+  if (to.row < near_rows) size = compressor.compress_independent(pdu, octets_);
   if (size == 0) {
     answer.to.row = near_rows;
     const bool is_event = reason == deadreckon::SendReason::event;

@@ -83,8 +83,7 @@ void NearOthers::find_near(std::uint32_t entity, const Crowd& crowd) {
 
 std::size_t NearOthers::served_row(std::uint32_t entity, const Crowd& crowd, double slack) {
   find_near(entity, crowd);
-  return channels_.served_row(crowd.position(entity),
-                              slack + aoim::kNearAhead * crowd.speed(entity));
+  return channels_.served_row(crowd.position(entity), crowd.speed(entity), slack);
 }
 
 const aoim::Channel& NearOthers::channel(std::uint32_t entity, const Crowd& crowd) {

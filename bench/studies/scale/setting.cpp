@@ -71,7 +71,7 @@ ScaleChannels scale_channels(const ScaleSetting& setting) {
     cut.rows.back().farthest = std::numeric_limits<double>::infinity();
     break;
   }
-  cut.near_rows = aoim::ChannelTable(cut.rows).near_rows();
+  cut.near_rows = aoim::ChannelTable(cut.rows).inner_rows();
   const bool has_room = setting.grid.pool * (cut.near_rows + 1) <= aoim::kMaximumPool;
   if (has_room && cut.near_rows > 0) return cut;
   return {{usual.begin(), usual.end()}, 0};

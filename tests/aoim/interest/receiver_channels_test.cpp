@@ -46,21 +46,23 @@ TEST(ReceiverChannels, CountDistancesAsLongAsEachReceiverAsksButNeverThoseOfCont
 TEST(ReceiverChannels, ServeARowWhereSomebodyIsOrSoonWillBe) {
   ReceiverChannels to = channels();
   const Position here{0, 0, 0};
-  EXPECT_EQ(to.served_row(here, 0.0), 2u) << "nobody is known";
+  EXPECT_EQ(to.served_row(here, 0.0, 0.0), 2u) << "nobody is known";
   to.add({250, 0, 0});
-  EXPECT_EQ(to.served_row(here, 0.0), 2u);
-  EXPECT_EQ(to.served_row(here, 31.0), 1u) << "within 1.1 x 200 m of where it may be";
+  EXPECT_EQ(to.served_row(here, 0.0, 0.0), 2u);
+  EXPECT_EQ(to.served_row(here, 0.0, 31.0), 1u) << "within 1.1 x 200 m of where it may be";
+  EXPECT_EQ(to.served_row(here, 101.0, 1.0), 1u) << "31.3 m in 0.3 s";
+  EXPECT_EQ(to.served_row(here, 95.0, 1.0), 2u);
   to.add({80, 0, 0}, 1.0, 100.0);
-  EXPECT_EQ(to.served_row(here, 0.0), 0u) << "30 m nearer in 0.3 s";
+  EXPECT_EQ(to.served_row(here, 0.0, 0.0), 0u) << "30 m nearer in 0.3 s";
   to.clear();
   to.add({80, 0, 0}, 1.0, 50.0);
-  EXPECT_EQ(to.served_row(here, 0.0), 1u);
+  EXPECT_EQ(to.served_row(here, 0.0, 0.0), 1u);
   to.clear();
   to.add({30, 0, 0}, 2.0);
-  EXPECT_EQ(to.served_row(here, 0.0), 1u) << "30 m count as 60";
+  EXPECT_EQ(to.served_row(here, 0.0, 0.0), 1u) << "30 m count as 60";
   to.clear();
   to.add({0.5, 0, 0});
-  EXPECT_EQ(to.served_row(here, 0.0), 0u) << "kept rows are said by the next one's group";
+  EXPECT_EQ(to.served_row(here, 0.0, 0.0), 0u) << "kept rows are said by the next one's group";
 }
 
 TEST(ReceiverChannels, ForgetWhoIsNowhere) {

@@ -5,27 +5,35 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <vector>
 
 namespace reckon::aoim {
 namespace {
 
+std::vector<const TierKind*> kinds(std::size_t by_distance, std::size_t by_touch) {
+  std::vector<const TierKind*> result(by_distance, &kDistanceKind);
+  result.insert(result.end(), by_touch, &kTouchKind);
+  return result;
+}
+
 TEST(TierTable, HasTheCellAloneWhereNothingElseIsAskedFor) {
-  constexpr TierTable tiers(false, 0, 4);
+  const TierTable tiers({}, 4);
   EXPECT_EQ(tiers.count(), 1u);
   for (std::uint16_t group = 0; group <= 4; ++group) {
     EXPECT_EQ(tiers.tier_of({group}), kCellTier);
     EXPECT_EQ(tiers.cell_of({group}), GroupIndex{group});
   }
-  EXPECT_FALSE(tiers.has_felt() || tiers.is_felt(1) || tiers.is_near(kCellTier));
+  EXPECT_EQ(&tiers.kind(kCellTier), &kCellKind);
+  EXPECT_TRUE(tiers.urgent().empty());
   EXPECT_EQ(tiers.row_of(kCellTier), 0u);
 }
 
 TEST(TierTable, GivesEachTierAndCellAGroupOfItsOwn) {
-  for (const bool felt : {false, true}) {
+  for (const std::size_t touch : {0u, 1u}) {
     for (const std::size_t rows : {0u, 1u, 3u}) {
       constexpr std::size_t kPool = 7;
-      const TierTable tiers(felt, rows, kPool);
-      ASSERT_EQ(tiers.count(), 1 + rows + (felt ? 1 : 0));
+      const TierTable tiers(kinds(rows, touch), kPool);
+      ASSERT_EQ(tiers.count(), 1 + rows + touch);
       std::set<GroupIndex> groups;
       for (std::size_t tier = 0; tier < tiers.count(); ++tier) {
         for (std::uint16_t cell = 1; cell <= kPool; ++cell) {
@@ -41,19 +49,38 @@ TEST(TierTable, GivesEachTierAndCellAGroupOfItsOwn) {
   }
 }
 
+// Groups are numbered as the kinds are given, whatever is inside of what.
 TEST(TierTable, KnowsRowsByTierAndTiersByRow) {
-  constexpr TierTable tiers(true, 2, 5);
-  for (std::size_t row = 0; row <= 2; ++row) EXPECT_EQ(tiers.row_of(tiers.of_row(row)), row);
-  EXPECT_EQ(tiers.of_row(2), kCellTier);
-  EXPECT_EQ(tiers.row_of(tiers.felt()), 0u);
-  EXPECT_TRUE(tiers.is_felt(tiers.felt()));
-  EXPECT_FALSE(tiers.is_near(tiers.felt()));
+  const std::vector orders{kinds(2, 1), std::vector{&kTouchKind, &kDistanceKind, &kDistanceKind},
+                           std::vector{&kDistanceKind, &kTouchKind, &kDistanceKind}};
+  for (const std::vector<const TierKind*>& order : orders) {
+    const TierTable tiers(order, 5);
+    ASSERT_EQ(tiers.last_row(), 2u);
+    for (std::size_t row = 0; row <= 2; ++row) EXPECT_EQ(tiers.row_of(tiers.of_row(row)), row);
+    EXPECT_TRUE(tiers.kind(tiers.of_row(0)).runs_ahead);
+    EXPECT_LT(tiers.of_row(0), tiers.of_row(1));
+    EXPECT_EQ(tiers.of_row(2), kCellTier);
+    ASSERT_EQ(tiers.urgent().size(), 1u);
+    EXPECT_TRUE(tiers.kind(tiers.urgent().front()).is_urgent);
+    EXPECT_EQ(tiers.row_of(tiers.urgent().front()), 0u);
+  }
 }
 
 TEST(TierTable, TakesNumbersBeyondAllTiersForCells) {
-  constexpr TierTable tiers(true, 1, 5);
+  const TierTable tiers(kinds(1, 1), 5);
   EXPECT_EQ(tiers.tier_of({16}), kCellTier);
   EXPECT_EQ(tiers.cell_of({16}), GroupIndex{16});
+}
+
+// What the rest of the layer takes for granted of a row of THE list.
+TEST(TierKinds, BesideTheCellAreUrgentOrRunAheadAndHaveNamesForTheirCounters) {
+  for (const TierKind* kind : tier_kinds()) {
+    const bool is_cell = kind == &kCellKind;
+    EXPECT_EQ(kind->is_urgent != kind->runs_ahead, !is_cell);
+    EXPECT_FALSE(kind->is_urgent && kind->runs_ahead);
+    EXPECT_EQ(kind->name.empty(), is_cell);
+    EXPECT_EQ(kind->groups.empty(), is_cell);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,6 +18,11 @@
 
 namespace reckon::peer {
 namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::Ge;
+using testing::Le;
 
 /// As a file would say a key's least, most and standard value.
 std::vector<std::string> corners(const SceneKey& key) {
@@ -172,15 +178,15 @@ TEST(AoimSetup, HasAsManyContactGroupsAgainWhereTheSceneAsksForThem) {
   scene.aoim.pool = 16;
   const auto last = scene.network.group;
   EXPECT_EQ(pool_of(scene).size(), 16u);
-  EXPECT_EQ(group_needs(scene).within_touch, 0u);
+  EXPECT_TRUE(group_needs(scene).within_tiers.empty());
   const std::uint64_t hash = scene_hash(scene);
   scene.aoim.tiers = {{Recipients::touch, {}, false}};
   EXPECT_EQ(pool_of(scene).size(), 32u);
   EXPECT_EQ(pool_of(scene).base(), last);
   EXPECT_NE(scene_hash(scene), hash) << "all peers have to agree";
   scene.aoim.cell = 100.0;
-  EXPECT_GE(group_needs(scene).within_touch, 3u) << "a corner of hexagons";
-  EXPECT_LE(group_needs(scene).within_touch, 4u);
+  EXPECT_THAT(group_needs(scene).within_tiers, ElementsAre(AllOf(Ge(3u), Le(4u))))
+      << "a corner of hexagons";
 }
 
 TEST(AoimSetup, HasAsManyGroupsAgainForEachNearRowAndThoseOfContactBehindThem) {
@@ -193,13 +199,13 @@ TEST(AoimSetup, HasAsManyGroupsAgainForEachNearRowAndThoseOfContactBehindThem) {
   scene.aoim.tiers = distance_tiers(aoim::default_channels(), true);
   EXPECT_EQ(pool_of(scene).size(), 48u) << "to 50 m and to 200 m";
   EXPECT_NE(scene_hash(scene), hash) << "all peers have to agree";
-  const GroupNeeds needs = group_needs(scene);
-  EXPECT_GE(needs.within_rows, 6u);
+  EXPECT_THAT(group_needs(scene).within_tiers, ElementsAre(0u, Ge(2u), Ge(4u), 0u))
+      << "none of what is kept, and of what is farthest by the cell's";
   EXPECT_EQ(audience_rows_of(scene.aoim).size(), 3u) << "but the one that is kept";
   scene.aoim.tiers.insert(scene.aoim.tiers.begin(), {Recipients::touch, {}, false});
   EXPECT_EQ(pool_of(scene).size(), 64u);
-  ASSERT_TRUE(contact_pool_of(scene).has_value());
-  EXPECT_EQ(contact_pool_of(scene)->address(0), pool_of(scene).address(48));
+  ASSERT_TRUE(urgent_pool_of(scene).has_value());
+  EXPECT_EQ(urgent_pool_of(scene)->address(0), pool_of(scene).address(48));
   SceneFile other = scene;
   other.aoim.tiers[2].channel.farthest = 60.0;
   EXPECT_NE(scene_hash(other), scene_hash(scene)) << "who hears what follows from the rows";

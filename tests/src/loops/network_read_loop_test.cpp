@@ -225,7 +225,7 @@ TEST(NetworkReadLoop, KeepsWhatIsFeltInARingOfItsOwn) {
   DatagramRing others(std::size_t{64} << 10), felt(std::size_t{64} << 10);
   Counters counters;
   const GroupPool contacts(kPool.address(99), 100);
-  NetworkReadLoop loop(link, commands, others, counters, {}, nullptr, FeltRing{contacts, felt});
+  NetworkReadLoop loop(link, commands, others, counters, {}, nullptr, UrgentRing{contacts, felt});
   for (std::uint32_t i = 0; i < 3; ++i) link.put(kPool.address(99), numbered(i));
   link.put(kPool.address(100), numbered(3));
   link.put(kPool.base(), numbered(4));

@@ -17,11 +17,11 @@ TEST(TierFoci, OfTiersByDistanceAreWhatEntitiesSenseAndOfTheTouchTierWhatCanBeTo
   OwnedEntities owned(frame, {});
   const aoim::Focus sensed{{3.0, 0.0, 0.0}, 0.0, scene.aoim.radius};
 
-  const std::vector<TierFoci> foci = tier_foci(scene, tiers);
+  const std::vector<TierFoci> foci = tier_foci(scene);
   ASSERT_EQ(foci.size(), tiers.count());
   for (std::size_t tier = 0; tier < tiers.count(); ++tier) {
     const auto of_tier = foci[tier]({owned, {&sensed, 1}, {}, {}});
-    if (tiers.is_felt(tier)) {
+    if (tiers.kind(tier).is_urgent) {
       EXPECT_TRUE(of_tier.empty());  // no entity of ours, and none near
     } else {
       EXPECT_EQ(of_tier.data(), &sensed) << tier;

@@ -19,6 +19,7 @@ namespace reckon::peer {
 namespace {
 
 using test::refusal;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -34,8 +35,7 @@ const std::string kOwnGroup = "own_group = true\n";
 TEST(TierSection, IsEverythingToAllUnlessTheFileHasRows) {
   const aoim::AreaOfInterestConfig config = aoim_config(read_tiers(""));
   EXPECT_TRUE(config.channels.empty());
-  EXPECT_FALSE(config.contact_groups);
-  EXPECT_FALSE(config.near_groups);
+  EXPECT_TRUE(config.tiers.empty());
 }
 
 TEST(TierSection, ReadsWhoCanTouchAndReceiversByDistance) {
@@ -64,8 +64,8 @@ octets = 144
 coarser = 8
 )");
   const aoim::AreaOfInterestConfig config = aoim_config(file);
-  EXPECT_TRUE(config.contact_groups);
-  EXPECT_TRUE(config.near_groups);
+  EXPECT_THAT(config.tiers, ElementsAre(&aoim::kDistanceKind, &aoim::kTouchKind))
+      << "in the order of their groups";
   const std::vector<aoim::Channel>& rows = config.channels;
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].farthest, 2.0);

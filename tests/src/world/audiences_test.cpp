@@ -26,26 +26,26 @@ std::vector<aoim::Channel> rows() {
           {kForever, aoim::Body::rigid, 1.0, 1.0, 144.0, false, 8.0}};
 }
 
-Audiences made(bool felt, const std::vector<aoim::Channel>& table = rows()) {
+Audiences made(std::size_t urgent, const std::vector<aoim::Channel>& table = rows()) {
   deadreckon::Thresholds thresholds;
   thresholds.position = kThreshold;
-  return {felt, table, deadreckon::UpdatePolicy(thresholds, 5.0, 0.2), deadreckon::kDefaultSendRule,
-          1.0};
+  return {urgent, table, deadreckon::UpdatePolicy(thresholds, 5.0, 0.2),
+          deadreckon::kDefaultSendRule, 1.0};
 }
 
 TEST(Audiences, AreOneForEachRowAndTheInmostForWhatIsFelt) {
-  EXPECT_EQ(made(false).last(), 2u);
-  EXPECT_EQ(made(true).last(), 3u);
-  EXPECT_EQ(made(true, {}).last(), 1u) << "all, and those who touch";
-  EXPECT_EQ(made(true).row_of(1), 0u);
-  EXPECT_EQ(made(true).audience_of(2), 3u);
-  EXPECT_EQ(made(false).row_of(2), 2u);
-  EXPECT_EQ(made(false).receive_parts(), 1u) << "a rigid body has none";
-  EXPECT_EQ(made(true).receive_parts(), 2u);
+  EXPECT_EQ(made(0).last(), 2u);
+  EXPECT_EQ(made(1).last(), 3u);
+  EXPECT_EQ(made(1, {}).last(), 1u) << "all, and those who touch";
+  EXPECT_EQ(made(1).row_of(1), 0u);
+  EXPECT_EQ(made(1).audience_of(2), 3u);
+  EXPECT_EQ(made(0).row_of(2), 2u);
+  EXPECT_EQ(made(0).receive_parts(), 1u) << "a rigid body has none";
+  EXPECT_EQ(made(1).receive_parts(), 2u);
 }
 
 TEST(Audiences, AskWhereTheirOwnCopyIsOffByTheirOwnThreshold) {
-  Audiences all = made(false);
+  Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   all.note_sent(0, last_sent_at(0.15), 1.1, SendReason::position, true);
   EXPECT_EQ(all.decide(1, at(0.19), 1.1), SendReason::none) << "twice as wide";
@@ -58,7 +58,7 @@ TEST(Audiences, AskWhereTheirOwnCopyIsOffByTheirOwnThreshold) {
 }
 
 TEST(Audiences, AreBehindUntilTheyAreToldTheWholeOfIt) {
-  Audiences all = made(false);
+  Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   EXPECT_FALSE(all.is_behind(1) || all.is_behind(2));
   all.note_sent(1, last_sent_at(0.1), 1.1, SendReason::position, true);
@@ -71,7 +71,7 @@ TEST(Audiences, AreBehindUntilTheyAreToldTheWholeOfIt) {
 }
 
 TEST(Audiences, ArePutInStepOnceWhereNobodyIsServedBeforeThem) {
-  Audiences all = made(false);
+  Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   all.note_sent(0, last_sent_at(0.1), 2.0, SendReason::position, true);
   EXPECT_FALSE(all.is_out_of_step(1, 2.0, 9.0)) << "somebody may listen to the nearest row";
@@ -84,7 +84,7 @@ TEST(Audiences, ArePutInStepOnceWhereNobodyIsServedBeforeThem) {
 }
 
 TEST(Audiences, AreToldAgainTheLaterTheCoarser) {
-  Audiences all = made(false);
+  Audiences all = made(0);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::position, true);
   EXPECT_DOUBLE_EQ(all.next(1), 3.0) << "1 s, twice as long";
   EXPECT_DOUBLE_EQ(all.next(2), 6.0) << "eight times, a heartbeat at most";
@@ -93,7 +93,7 @@ TEST(Audiences, AreToldAgainTheLaterTheCoarser) {
 
 // Contact groups as without rows.
 TEST(Audiences, OfWhatIsFeltFollowHalfASecondLaterAtTheLatest) {
-  Audiences all = made(true);
+  Audiences all = made(1);
   all.note_sent(all.last(), last_sent_at(0.0), 1.0, SendReason::first, true);
   all.note_sent(0, last_sent_at(0.0), 1.1, SendReason::force, true);
   EXPECT_DOUBLE_EQ(all.next(1), 1.5);

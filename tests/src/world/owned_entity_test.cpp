@@ -84,7 +84,7 @@ TEST(OwnedEntity, HasToldAllOfACraneWhoseUpdateLeavesOutOnlyWhatHandsFeel) {
   for (const aoim::Body body : kBodies) {
     const auto crane = entity(false, true);
     constexpr aoim::Channel kRow{100.0, aoim::Body::approximate, 10.0, 1.0, 4.0, false, 1.0};
-    crane->set_tiers(false, std::array{kRow, kRow});
+    crane->set_tiers(0, std::array{kRow, kRow});
     EntityUpdate update;
     ASSERT_TRUE(crane->build(1s, 1h, deadreckon::SendReason::event, {}, update, body));
     crane->audiences()->event(1);

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The kinds of recipient tiers, and how a tier of each kind differs from the others. THE list is in
+// tier_kind.cpp.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "reckon/aoim/interest/channel_table.hpp"
+#include "reckon/aoim/interest/subscription.hpp"
+
+namespace reckon::aoim {
+
+/// What determines how far around a focus the groups of a tier are joined.
+struct TierReach {
+  double radius = 0.0;               ///< range in which entities sense [m], >= 0
+  double farthest_nimbus = 0.0;      ///< [m], >= 0: cells are joined this much farther
+  std::optional<ChannelTable> rows;  ///< of channels; needed only for tiers that run ahead
+  double stretch = 1.0;  ///< factor of the rows on distances, > 0; see ChannelTable::fit
+};
+
+/// A kind of recipients. A tier besides that of the cell is urgent or runs ahead.
+struct TierKind {
+  std::string_view name = {};    ///< of what its tiers receive, in names of counters
+  std::string_view groups = {};  ///< one of its groups, in words
+  /// Its updates are sent at once, in plain form and with all records, and are read before those of
+  /// other tiers. It shares the nearest row of channels, and outer tiers get a new state soon
+  /// after.
+  bool is_urgent = false;
+  /// Its tiers have a row of channels each, whose thresholds are finer than those of outer tiers.
+  /// Outer tiers therefore lack its updates for a time without bound: a new listener requests what
+  /// is there, a listener that leaves goes back to the states of the outer tiers, and leaders,
+  /// which relay what the cell receives, are excluded.
+  bool runs_ahead = false;
+  /// The subscription to its groups, derived from that to the cells; null: the same.
+  SubscriptionConfig (*subscription)(SubscriptionConfig cells) noexcept = nullptr;
+  /// The focus from which its groups are subscribed to; null: the given one.
+  /// @param row of channels of the tier, see TierTable::row_of
+  Focus (*focus)(const Focus& given, std::size_t row, const TierReach& reach) noexcept = nullptr;
+};
+
+/// All that listen to the cell.
+extern const TierKind kCellKind;
+/// Those within the distance of a row of channels that is neither kept nor the last.
+extern const TierKind kDistanceKind;
+/// Those that can touch the entity.
+extern const TierKind kTouchKind;
+
+/// THE list, the innermost first.
+[[nodiscard]] std::span<const TierKind* const> tier_kinds() noexcept;
+
+}  // namespace reckon::aoim
