@@ -43,6 +43,9 @@ struct RuleShare {
 /// length of the capture.
 class CaptureSummary {
  public:
+  /// @param lenient as DatagramInspector
+  explicit CaptureSummary(bool lenient = false) : inspector_(lenient) {}
+
   void add(const peer::SourceDatagram& datagram);
 
   std::optional<std::chrono::nanoseconds> first;  ///< least time, since 1970-01-01 UTC

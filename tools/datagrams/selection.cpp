@@ -66,6 +66,12 @@ void SelectionOptions::declare_filter(CommandLine& line) {
             "sent stays as it is");
 }
 
+void declare_lenient(CommandLine& line, bool& lenient) {
+  line.flag("--lenient", lenient,
+            "take a length field of 0 as the rest of the datagram; keep and note what stands "
+            "behind the last PDU or its last field");
+}
+
 CaptureSelection::CaptureSelection(const SelectionOptions& options)
     : from_(options.from), to_(options.to), inspector_(options.lenient) {
   if (to_.has_value() && *to_ <= from_)

@@ -35,6 +35,9 @@ struct SelectionOptions {
   void declare_filter(CommandLine& line);
 };
 
+/// Declares `--lenient` of a verb that shows PDUs, as DatagramInspector takes it.
+void declare_lenient(CommandLine& line, bool& lenient);
+
 /// Selects whole datagrams. Several words of one kind are alternatives; words of different kinds
 /// must all match.
 class CaptureSelection {

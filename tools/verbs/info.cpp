@@ -30,14 +30,15 @@ ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report
 
 int run_info(Arguments arguments, const Console& console) {
   std::string file;
-  bool json = false;
+  bool json = false, lenient = false;
   CommandLine line("info", kSummary, kExamples);
   line.word("FILE", file, true, "the capture");
   line.flag("--json", json, "one JSON object on one line");
+  declare_lenient(line, lenient);
   if (const auto status = line.parse(arguments, console)) return *status;
 
   const auto source = open_recording(file);
-  CaptureSummary summary;
+  CaptureSummary summary(lenient);
   peer::SourceDatagram datagram;
   while (!console.stopped() && source->next(datagram, {}) == peer::SourceEvent::datagram)
     summary.add(datagram);

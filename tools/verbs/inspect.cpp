@@ -21,6 +21,7 @@
 #include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/datagrams/time_range.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
@@ -365,9 +366,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--to", options.to, "recordings: only before this, written in the same way");
   line.option("--svg", options.svg, "haptics: draw the forces into this file");
   line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
-  line.flag("--lenient", options.lenient,
-            "take a length field of 0 as the rest of the datagram; keep and note what stands "
-            "behind the last PDU or its last field");
+  declare_lenient(line, options.lenient);
   line.flag("--rules", options.rules, "list the rules of check with remedies, and exit");
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--count", options.count, "stop after this many PDUs");

@@ -17,6 +17,7 @@
 #include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/datagrams/listening.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/viewer/page_files.hpp"
@@ -47,6 +48,7 @@ struct ViewOptions {
   std::optional<nanoseconds> duration;
   std::string save;
   bool overwrite = false;
+  bool lenient = false;
 };
 
 std::optional<int> parse(Arguments arguments, const Console& console, ViewOptions& options) {
@@ -64,6 +66,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, ViewOption
   line.option("--save", options.save,
               "write one HTML file that plays, in the place of a page that is served");
   line.flag("--force", options.overwrite, "overwrite the file of --save");
+  declare_lenient(line, options.lenient);
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: every one, lo too)");
   line.option("--key", options.key, "key file: reads what is sealed");
@@ -83,6 +86,7 @@ std::optional<peer::SceneFile> scene_of(const SourceChoice& choice) {
 
 StageOptions stage_options(const ViewOptions& options) {
   StageOptions stage;
+  stage.history.lenient = options.lenient;
   stage.source = options.source.source.empty() ? "the default groups" : options.source.source;
   stage.is_capture = !is_live(options.source);
   stage.kind = stage.is_capture ? "capture" : "live";

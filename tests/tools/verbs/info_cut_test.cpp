@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
 
@@ -15,6 +16,7 @@ namespace reckon::tools {
 namespace {
 
 using namespace captures;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(Info, CountsTypesSendersGroupsAndEntities) {
@@ -46,6 +48,19 @@ TEST(Info, ShowsTheSameToPeople) {
   EXPECT_THAT(result.out, HasSubstr("900 ms"));
   EXPECT_THAT(result.out, HasSubstr("entity_state"));
   EXPECT_THAT(result.out, HasSubstr("1:2:2"));
+}
+
+TEST(Info, ReadsALengthOf0AsTheRestIfLenient) {
+  test::CaptureBuilder capture;
+  Octets octets = entity_state(7);
+  octets[9] = std::byte{0};  // of the length field, of 144
+  capture.add(octets, 1s);
+  const ProgramResult strict = run_reckon({"info", capture.path()});
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_THAT(strict.out, HasSubstr("E-LENGTH"));
+  const ProgramResult lenient = run_reckon({"info", capture.path(), "--lenient"});
+  EXPECT_EQ(lenient.status, 0);
+  EXPECT_THAT(lenient.out, AllOf(HasSubstr("1:2:7"), HasSubstr("I-NO-LENGTH")));
 }
 
 TEST(Info, TellsWhereARecordingEndsTooEarly) {

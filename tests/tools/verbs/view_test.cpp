@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
@@ -72,6 +73,23 @@ TEST(ViewVerb, SavesAPageThatHoldsTheEndOfACapture) {
   const auto end = run_reckon({"view", capture.path(), "--save", path, "--force", "--for", "1s"});
   EXPECT_EQ(end.status, 0);
   EXPECT_THAT(end.err, AllOf(HasSubstr("1.0 s, 2 entities"), HasSubstr("the 2.5 s before are")));
+}
+
+TEST(ViewVerb, ShowsWhoLeavesTheLengthFieldAt0IfLenient) {
+  test::CaptureBuilder capture;
+  for (const trucks::Sent& sent : trucks::drive(2, 1)) {
+    std::vector<std::byte> octets = sent.octets;
+    octets[8] = octets[9] = std::byte{0};
+    capture.add(octets, sent.time);
+  }
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("run.html");
+  const auto strict = run_reckon({"view", capture.path(), "--save", path});
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_THAT(strict.err, HasSubstr("no entity"));
+  const auto lenient = run_reckon({"view", capture.path(), "--save", path, "--lenient"});
+  EXPECT_EQ(lenient.status, 0) << lenient.err;
+  EXPECT_THAT(lenient.err, HasSubstr("2 entities"));
 }
 
 TEST(ViewVerb, SavesNothingThatItCannot) {

@@ -6,6 +6,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -45,7 +46,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DiffOption
   line.word("A", options.path_a, true, "a capture, pcap or pcapng");
   line.word("B", options.path_b, true, "another one");
   line.option("--where", options.where, "only PDUs that match, of both; see reckon inspect --help");
-  line.flag("--lenient", options.lenient, "as with reckon inspect");
+  declare_lenient(line, options.lenient);
   line.flag("--ignore-time", options.ignore_time,
             "times inside PDUs do not count: header, trailer, presence");
   line.choice("--align", options.align, {"rate", "first", "none"},

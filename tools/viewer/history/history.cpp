@@ -27,7 +27,8 @@ History::History(const HistoryOptions& options)
     : options_(options),
       roster_(std::min<std::size_t>(options.entities, kMostPictureRows)),
       live_(std::min<std::size_t>(options.entities, kMostPictureRows), options.convergence,
-            options.tiers) {}
+            options.tiers),
+      inspector_(options.lenient) {}
 
 void History::begin_at(Time time) {
   if (!start_) start_ = end_ = time;

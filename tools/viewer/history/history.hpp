@@ -27,6 +27,7 @@ struct HistoryOptions {
   std::size_t octets = std::size_t{64} << 20;
   std::size_t entities = 16384;          ///< shown at most; below kNoNumber
   std::optional<std::uint8_t> exercise;  ///< alone; none: all
+  bool lenient = false;                  ///< as DatagramInspector
   deadreckon::ConvergenceSettings convergence;
   GroupTiers tiers;
 };
