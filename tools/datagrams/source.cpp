@@ -14,6 +14,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/datagrams/file_kind.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -22,10 +23,6 @@ constexpr std::string_view kUdp = "udp://";
 constexpr std::string_view kInterface = "iface:";
 constexpr std::string_view kRaw = "raw:";
 constexpr std::string_view kScene = ".toml";
-
-bool names_scene(const std::string& source) {
-  return source.ends_with(kScene) && !source.starts_with(kRaw);
-}
 
 peer::SceneFile scene_of_source(const std::string& source) {
   try {
@@ -133,6 +130,11 @@ std::vector<peer::GroupAddress> groups_of(const peer::SceneFile& scene) {
   if (!scene.network.peers.empty())
     throw UsageError("the scene's 'peers' speak by unicast, which no group carries");
   return addresses_of(groups_of_scene(scene, false));
+}
+
+bool names_scene(const std::string& source) {
+  return source.ends_with(kScene) && !source.starts_with(kRaw) &&
+         kind_of_file(source) != FileKind::capture;
 }
 
 std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {

@@ -37,6 +37,9 @@ struct SourceChoice {
 /// @throws UsageError with what may be meant
 void check_form(const std::string& source);
 
+/// Whether the source is a scene: a file with the ending of one that is no capture.
+[[nodiscard]] bool names_scene(const std::string& source);
+
 /// Whether the choice means live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);
 

@@ -6,35 +6,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
+
+#include "reckon/tools/datagrams/file_kind.hpp"
 
 namespace reckon::tools {
 namespace {
-
-using namespace std::string_view_literals;
-
-// pcap in either order of octets and with either clock, pcapng, and what compresses them.
-constexpr std::array kCaptureHeads{
-    "\xd4\xc3\xb2\xa1"sv, "\xa1\xb2\xc3\xd4"sv,         "\x4d\x3c\xb2\xa1"sv,
-    "\xa1\xb2\x3c\x4d"sv, "\x0a\x0d\x0d\x0a"sv,         "\x28\xb5\x2f\xfd"sv,
-    "\x1f\x8b"sv,         "\xfd\x37\x7a\x58\x5a\x00"sv, "BZh"sv,
-    "\x04\x22\x4d\x18"sv};
-constexpr std::size_t kLongestHead = 6;
-
-struct Ending {
-  std::string_view text;
-  FileKind kind;
-};
-constexpr std::array kEndings{
-    Ending{".pcap", FileKind::capture}, Ending{".pcapng", FileKind::capture},
-    Ending{".cap", FileKind::capture},  Ending{".toml", FileKind::scene},
-    Ending{".obj", FileKind::mesh},     Ending{".ply", FileKind::mesh},
-    Ending{".stl", FileKind::mesh},     Ending{".off", FileKind::mesh},
-    Ending{".key", FileKind::key},      Ending{".csv", FileKind::table}};
 
 /// What `reckon FILE` does with a kind of file.
 struct Opening {
@@ -66,23 +44,6 @@ const std::vector<Opening>& openings() {
 }
 
 }  // namespace
-
-FileKind kind_of_file(const std::string& path) {
-  std::array<char, kLongestHead> octets{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return FileKind::unknown;
-  file.read(octets.data(), octets.size());
-  const std::string_view head(octets.data(), static_cast<std::size_t>(file.gcount()));
-  if (std::ranges::any_of(kCaptureHeads, [&](auto known) { return head.starts_with(known); }))
-    return FileKind::capture;
-  std::string name = path;
-  std::ranges::transform(name, name.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  const auto found = std::ranges::find_if(
-      kEndings, [&](const Ending& ending) { return name.ends_with(ending.text); });
-  return found == kEndings.end() ? FileKind::unknown : found->kind;
-}
 
 std::optional<std::vector<std::string>> words_for_file(Arguments words, const Console& console) {
   const std::string file(words.front());

@@ -76,7 +76,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, ViewOption
 }
 
 std::optional<peer::SceneFile> scene_of(const SourceChoice& choice) {
-  if (!choice.source.ends_with(".toml")) return std::nullopt;
+  if (!names_scene(choice.source)) return std::nullopt;
   try {
     return peer::load_scene_file(choice.source);
   } catch (const peer::SceneFileError& error) {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // `reckon FILE`: captures, scenes and meshes are opened, and of others the verb is told.
-#include "reckon/tools/verbs/given_file.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +11,7 @@
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/datagrams/file_kind.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -75,6 +74,19 @@ TEST_F(GivenFile, IsMissedByItsNameAndVerbsGoBeforeFiles) {
   EXPECT_THAT(missing.err, HasSubstr("there is no file '" + folder_.file("none.pcap") + "'"));
   EXPECT_THAT(run_reckon({"inspetc"}).err, HasSubstr("there is no verb 'inspetc'; did you mean"));
   EXPECT_EQ(run_reckon({test::source_dir() + "/scenes"}).status, 2);
+}
+
+TEST_F(GivenFile, IsACaptureForEveryVerbEvenIfItIsCalledAScene) {
+  const std::string path = folder_.file("recorded.toml");
+  std::filesystem::copy_file(shipped("exercise.pcapng"), path);
+  const auto inspected = run_reckon({"inspect", path, "stats", "--json"});
+  EXPECT_EQ(inspected.status, 0) << inspected.err;
+  EXPECT_EQ(inspected.out,
+            run_reckon({"inspect", shipped("exercise.pcapng"), "stats", "--json"}).out);
+  EXPECT_EQ(run_reckon({"info", path}).status, 0);
+  EXPECT_EQ(run_reckon({"inspect", "diff", path, shipped("exercise.pcapng")}).status, 0);
+  const auto viewed = run_reckon({"view", path, "--save", folder_.file("run.html")});
+  EXPECT_EQ(viewed.status, 0) << viewed.err;
 }
 
 TEST_F(GivenFile, IsKnownByItsFirstOctetsOrTheEndOfItsName) {
