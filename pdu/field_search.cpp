@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <concepts>
-#include <memory>
 #include <type_traits>
 
-#include "reckon/pdu/field_walk.hpp"
+#include "reckon/pdu/field_list.hpp"
 
 namespace reckon::pdu {
 namespace {
@@ -19,54 +17,7 @@ using Target = FieldPath::Target;
 /// Stored for a part of a path without an index.
 constexpr std::uint32_t kAnyIndex = static_cast<std::uint32_t>(-1);
 
-/// The records around the field that is visited, from the PDU on.
-class Place {
- public:
-  [[nodiscard]] bool is_full() const { return depth_ == parts_.size(); }
-  void enter(std::string_view name, std::size_t index) { parts_[depth_++] = {name, index}; }
-  void leave() { --depth_; }
-  [[nodiscard]] std::span<const Part> parts() const { return std::span(parts_).first(depth_); }
-
- private:
-  std::array<Part, FieldPath::kDeepest> parts_{};
-  std::size_t depth_ = 0;
-};
-
-bool is_same(const Part& there, const Part& wanted) {
-  return (wanted.index == kNoIndex || there.index == kNoIndex || there.index == wanted.index) &&
-         there.name == wanted.name;
-}
-
-/// The path of the fields that are sought, without a bit field.
-struct Goal {
-  std::span<const Part> parts;
-  bool whole = false;  ///< the path begins at the PDU
-
-  [[nodiscard]] bool is_at(const Place& place, const Part& field) const {
-    const std::span<const Part> around = place.parts();
-    if (parts.empty()) return true;
-    if (!is_same(field, parts.back()) || around.size() + 1 < parts.size() ||
-        (whole && around.size() + 1 != parts.size()))
-      return false;
-    const auto outer = parts.first(parts.size() - 1);
-    return std::equal(outer.begin(), outer.end(),
-                      around.end() - static_cast<std::ptrdiff_t>(outer.size()),
-                      [](const Part& wanted, const Part& there) { return is_same(there, wanted); });
-  }
-  /// Whether it may be inside a record at this place.
-  [[nodiscard]] bool may_be_in(const Place& place, const Part& record) const {
-    if (!whole) return true;
-    const std::size_t depth = place.parts().size();
-    return depth + 1 < parts.size() && is_same(record, parts[depth]);
-  }
-};
-
-template <typename T>
-concept Id =
-    std::same_as<T, EntityId> || std::same_as<T, LiveEntityId> || std::same_as<T, EventId> ||
-    std::same_as<T, SimulationAddress> || std::same_as<T, LiveSimulationAddress>;
-
-template <Id T>
+template <OneId T>
 FieldValue value_of(const T& id) {
   FieldValue value;
   value.kind = FieldValue::Kind::id;
@@ -112,13 +63,13 @@ FieldValue value_of(const std::array<T, n>& array) {
 class Search {
  public:
   static constexpr bool kExamples = false;
-  Search(const Goal& goal, Target target, std::string_view bit, FieldTest test)
+  Search(const FieldGoal& goal, Target target, std::string_view bit, FieldTest test)
       : goal_(goal), target_(target), bit_(bit), test_(test) {}
 
   template <typename Record>
   bool enter(std::string_view name, std::size_t index, const Record& record) {
     const Part here{name, index};
-    if constexpr (Id<Record>) {
+    if constexpr (OneId<Record>) {
       if (target_ == Target::field && goal_.is_at(place_, here)) ask(value_of(record));
     }
     if (holds_ || place_.is_full() || !goal_.may_be_in(place_, here)) return false;
@@ -163,133 +114,13 @@ class Search {
     }
   }
 
-  Goal goal_;
+  FieldGoal goal_;
   Target target_;
   std::string_view bit_;
   FieldTest test_;
-  Place place_;
+  FieldPlace place_;
   bool holds_ = false;
 };
-
-/// What kind of value a field has.
-enum class ValueClass : std::uint8_t { number, named_number, other };
-
-/// Handler of a walk through examples: tells of each field.
-class FieldList {
- public:
-  struct Field {
-    PduType type;
-    std::span<const Part> around;
-    Part part;
-    ValueClass value;
-  };
-  using Tell = void (*)(void* context, const Place& place, const Field& field);
-  static constexpr bool kExamples = true;
-  FieldList(void* context, Tell told) : context_(context), tell_(told) {}
-
-  /// The fields that follow are those of PDUs of this type.
-  void begin(PduType type) { type_ = type; }
-  template <typename Record>
-  bool enter(std::string_view name, std::size_t index, const Record&) {
-    if constexpr (Id<Record>) tell(name, ValueClass::other);
-    if (place_.is_full()) return false;
-    place_.enter(name, index);
-    return true;
-  }
-  void leave() { place_.leave(); }
-  template <typename T>
-  void leaf(std::string_view name, const T&, const FieldMeanings&) {
-    if constexpr (!Scalar<T>)
-      tell(name, ValueClass::other);
-    else
-      tell(name, kMayHaveNames<T> ? ValueClass::named_number : ValueClass::number);
-  }
-  void octets(std::string_view name, std::span<const std::byte>) { tell(name, ValueClass::other); }
-
- private:
-  void tell(std::string_view name, ValueClass value) {
-    tell_(context_, place_, {type_, place_.parts(), {name, kNoIndex}, value});
-  }
-
-  void* context_;
-  Tell tell_;
-  Place place_;
-  PduType type_ = PduType::other;
-};
-
-/// Visitor: sets the octets of flags that switch fields on.
-struct AllFlags {
-  template <typename T>
-  void operator()(std::string_view name, T& value) {
-    if constexpr (std::same_as<T, std::uint8_t>) {
-      if (name.ends_with("flags")) value = 0xFF;
-    }
-  }
-  template <typename... Any>
-  void count(Any&&...) {}
-  template <typename... Any>
-  void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
-};
-
-constexpr std::array<std::byte, 64> kZeros{};
-
-/// Calls `f` with PDUs of this type that differ in the fields they have.
-template <typename Pdu, typename F>
-void each_variant(F&& f) {
-  const auto pdu = std::make_unique<Pdu>();
-  AllFlags flags;
-  fields(flags, *pdu);
-  f(std::as_const(*pdu));
-  if constexpr (std::same_as<Pdu, Fire> || std::same_as<Pdu, Detonation>) {
-    for (const std::uint8_t status : {std::uint8_t{0x10}, std::uint8_t{0x20}}) {
-      pdu->header.pdu_status = status;
-      f(std::as_const(*pdu));
-    }
-  } else if constexpr (std::same_as<Pdu, Transmitter>) {
-    pdu->antenna_pattern_type = BeamAntennaPattern::kBeam;
-    pdu->antenna_pattern.bytes = std::span(kZeros).first(kFixedSize<BeamAntennaPattern>);
-    for (const auto& [system, size] :
-         {std::pair<std::uint16_t, std::size_t>{2, 16}, {6, 16}, {8, 8}}) {
-      pdu->modulation_type.radio_system = system;
-      pdu->modulation_parameters.bytes = std::span(kZeros).first(size);
-      f(std::as_const(*pdu));
-    }
-  } else if constexpr (std::same_as<Pdu, GriddedData>) {
-    pdu->number_of_grid_axes = 1;  // more than there are: octets
-    f(std::as_const(*pdu));
-  } else if constexpr (std::same_as<Pdu, AggregateState>) {
-    pdu->silent_systems_and_variable_datums.bytes = std::span(kZeros).first(8);
-    f(std::as_const(*pdu));
-    pdu->number_of_silent_entity_systems = 1;  // more than there are: octets
-    pdu->silent_systems_and_variable_datums.bytes = {};
-    f(std::as_const(*pdu));
-  }
-  pdu->header.protocol_version = 6;
-  f(std::as_const(*pdu));
-}
-
-/// Tells of the fields of each type in the list, or of one.
-template <typename... T>
-void list_fields(FieldList& list, std::optional<PduType> only, TypeList<T...>) {
-  const auto show = [&]<typename Pdu>(std::type_identity<Pdu>) {
-    if (only.has_value() && *only != Pdu::kPduType) return;
-    list.begin(Pdu::kPduType);
-    each_variant<Pdu>([&](const Pdu& pdu) {
-      FieldWalk walk(list, pdu);
-      fields(walk, pdu);
-    });
-  };
-  (show(std::type_identity<T>{}), ...);
-}
-
-/// Tells of the fields of a PDU without a field table.
-void list_header(FieldList& list, PduType type) {
-  list.begin(type);
-  FieldWalk walk(list);
-  walk("header", PduHeader{});
-}
 
 bool is_bit_field(std::string_view name) {
   for (unsigned set = 1; set < static_cast<unsigned>(SisoBits::end_); ++set) {
@@ -316,7 +147,9 @@ class FieldPathParts {
     bit_ = parts_[--count_].name;
     if (count_ > 0) drop_ending(parts_[count_ - 1].name, "_bits");
   }
-  [[nodiscard]] Goal goal(bool whole) const { return {std::span(parts_).first(count_), whole}; }
+  [[nodiscard]] FieldGoal goal(bool whole) const {
+    return {std::span(parts_).first(count_), whole};
+  }
   [[nodiscard]] std::string_view bit() const { return bit_; }
   /// Whether the endings that this target needs are there.
   [[nodiscard]] bool may_be() const {
@@ -342,27 +175,24 @@ bool FieldPath::look_for(Target target) {
   if (!parts.may_be()) return false;
   struct Look {
     FieldPath& path;
-    Goal goal;
+    FieldGoal goal;
     Target target;
     bool found = false;
   } look{*this, parts.goal(begins_at_pdu_), target};
-  const auto tell = [](void* context, const Place& place, const FieldList::Field& field) {
+  const auto tell = [](void* context, const FieldPlace& place, const FieldList::Field& field) {
     Look& at = *static_cast<Look*>(context);
-    if (at.target != Target::field && field.value != ValueClass::named_number) return;
+    if (at.target != Target::field && field.value != FieldValueClass::named_number) return;
     if (!at.goal.is_at(place, field.part)) return;
     at.found = true;
     const bool whole = field.around.size() + 1 == at.goal.parts.size();
     (whole ? at.path.whole_ : at.path.end_).add(field.type);
-    const bool is_number = field.value != ValueClass::other && at.target != Target::name;
+    const bool is_number = field.value != FieldValueClass::other && at.target != Target::name;
     at.path.has_numbers_ |= is_number;
-    at.path.has_names_ |= is_number && field.value == ValueClass::named_number;
+    at.path.has_names_ |= is_number && field.value == FieldValueClass::named_number;
     at.path.has_others_ |= !is_number;
   };
   FieldList list(&look, tell);
-  list_fields(list, std::nullopt, PduTypes{});
-  for (unsigned type = 0; type < 256; ++type) {
-    if (!is_listed(static_cast<PduType>(type))) list_header(list, static_cast<PduType>(type));
-  }
+  list_fields(list, std::nullopt);
   target_ = target;
   return look.found;
 }
@@ -392,6 +222,64 @@ std::optional<FieldPath> FieldPath::find(std::string_view text, bool whole) {
   return std::nullopt;
 }
 
+namespace {
+
+using Names = const std::function<void(std::string_view)>&;
+
+void each_name_in(SisoTable table, Names f) {
+  for (std::size_t i = 0; i < siso_size(table); ++i) f(siso_entry(table, i).name);
+}
+
+/// Of a bit field of this name in any word.
+void each_bit_name(std::string_view bit, Names f) {
+  for (unsigned set = 1; set < static_cast<unsigned>(SisoBits::end_); ++set) {
+    for (std::size_t i = 0; i < siso_size(static_cast<SisoBits>(set)); ++i) {
+      const SisoBitField field = siso_bit_field(static_cast<SisoBits>(set), i);
+      if (field.name == bit) each_name_in(field.values, f);
+    }
+  }
+}
+
+/// Of a field whose table depends on the record that it is in: by every table that it may have.
+void each_dependent_name(std::string_view field, Names f) {
+  constexpr unsigned kKinds = 10, kDomains = 6;
+  for (auto detail = static_cast<unsigned>(SisoTable::amplitude_detail);
+       field == "detail" && detail <= static_cast<unsigned>(SisoTable::satcom_detail); ++detail)
+    each_name_in(static_cast<SisoTable>(detail), f);
+  for (unsigned number = 0; number < kKinds; ++number) {
+    const auto kind = static_cast<EntityKind>(number);
+    if (field == "domain") each_name_in(domain_table(kind), f);
+    for (unsigned domain = 0; field == "category" && domain < kDomains; ++domain)
+      each_name_in(category_table(kind, static_cast<EntityDomain>(domain)), f);
+  }
+}
+
+void each_field_name(const FieldList::Field& field, Names f) {
+  each_name_in(field.meaning.values, f);
+  if (field.meaning.values == SisoTable::country) each_name_in(SisoTable::country_code, f);
+  each_dependent_name(field.part.name, f);
+  for (unsigned value = 0; value < field.values; ++value) {
+    if (const std::string_view name = field.name_of(value); !name.empty()) f(name);
+  }
+}
+
+}  // namespace
+
+void FieldPath::each_name(Names f) const {
+  const FieldPathParts parts(*this, target_);
+  if (target_ == Target::bit) return each_bit_name(parts.bit(), f);
+  struct Look {
+    FieldGoal goal;
+    Names f;
+  } look{parts.goal(begins_at_pdu_), f};
+  const auto tell = [](void* context, const FieldPlace& place, const FieldList::Field& field) {
+    const Look& at = *static_cast<Look*>(context);
+    if (at.goal.is_at(place, field.part)) each_field_name(field, at.f);
+  };
+  FieldList list(&look, tell);
+  list_fields(list, std::nullopt);
+}
+
 bool any_value(const FieldPath& path, std::span<const std::byte> pdu, const PduHeader& header,
                FieldTest test) {
   if (!path.is_in(header.pdu_type)) return false;
@@ -406,23 +294,6 @@ bool any_value(const FieldPath& path, std::span<const std::byte> pdu, const PduH
     walk("header", header);
   }
   return search.holds();
-}
-
-void each_field_path(PduType type, const std::function<void(std::string_view)>& f) {
-  struct Names {
-    const std::function<void(std::string_view)>& f;
-    std::string path;
-  } names{f, {}};
-  const auto tell = [](void* context, const Place&, const FieldList::Field& field) {
-    Names& to = *static_cast<Names*>(context);
-    to.path.clear();
-    for (const Part& part : field.around) to.path.append(part.name).append(".");
-    to.path += field.part.name;
-    to.f(to.path);
-  };
-  FieldList list(&names, tell);
-  if (!is_listed(type)) return list_header(list, type);
-  list_fields(list, type, PduTypes{});
 }
 
 }  // namespace reckon::pdu

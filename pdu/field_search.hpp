@@ -80,6 +80,12 @@ class FieldPath {
   [[nodiscard]] bool has_names() const noexcept { return has_names_; }
   [[nodiscard]] bool has_others() const noexcept { return has_others_; }
 
+  /// Calls `f` with each name that a value of the field may have, in whatever PDU; some come more
+  /// than once.
+  void each_name(const std::function<void(std::string_view)>& f) const;
+  /// Whether its value is the name of another field's value: "country_name".
+  [[nodiscard]] bool is_name() const noexcept { return target_ == Target::name; }
+
   /// One part of a path.
   struct Part {
     std::string_view name;

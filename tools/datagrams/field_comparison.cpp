@@ -3,11 +3,15 @@
 #include "reckon/tools/datagrams/field_comparison.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <ranges>
+#include <set>
 #include <utility>
 
 namespace reckon::tools {
@@ -63,7 +67,27 @@ std::string FieldComparison::misfit() const {
   if (number_.has_value()) return {};
   if (is_ordered || (!path_.has_names() && !path_.has_others()))
     return fmt::format("'{}' is no number, and this field is one", text_);
-  return {};
+  return path_.has_others() && !path_.is_name() ? std::string() : unlisted_name();
+}
+
+std::string FieldComparison::unlisted_name() const {
+  constexpr std::size_t kShown = 6;
+  WordSearch search(path_.is_name() ? text_ : word_of(text_));
+  std::set<std::string, std::less<>> names;
+  bool is_listed = false;
+  path_.each_name([&](std::string_view name) {
+    std::string word = path_.is_name() ? lower(name) : word_of(name);
+    is_listed = is_listed || (path_.is_name() && is_like(word, text_));
+    search.look_at(word);
+    names.insert(std::move(word));
+  });
+  if (is_listed || search.is_found()) return {};
+  if (names.empty()) return fmt::format("'{}' is no number, and this field is one", text_);
+  const auto shown = names | std::views::take(kShown);
+  return fmt::format(
+      "this field has no value '{}'{}", text_,
+      suggestion(search.nearest(), fmt::format("; it is a number, or {}{}", fmt::join(shown, ", "),
+                                               names.size() > kShown ? ", ..." : "")));
 }
 
 bool FieldComparison::holds(const PduRow& row) const {

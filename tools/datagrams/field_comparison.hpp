@@ -29,6 +29,7 @@ class FieldComparison {
   [[nodiscard]] bool holds(const PduRow& row) const;
 
  private:
+  [[nodiscard]] std::string unlisted_name() const;
   [[nodiscard]] bool holds(const pdu::FieldValue& value) const;
   [[nodiscard]] bool holds_for_number(const pdu::FieldValue& value) const;
   [[nodiscard]] bool holds_for_id(const pdu::FieldValue& value) const;

@@ -32,13 +32,6 @@ bool is_like(pdu::EntityId id, const Filter::IdPattern& pattern) {
          pattern.entity.value_or(id.entity) == id.entity;
 }
 
-/// Replaces the nearest word so far if `word` is nearer to the typed one.
-void keep_nearer(std::string_view typed, std::string_view word, std::string& nearest) {
-  const std::array<std::string_view, 2> both{nearest, word};
-  const auto candidates = std::span(both).subspan(nearest.empty() ? 1 : 0);
-  if (peer::nearest_word(typed, candidates) == word) nearest = word;
-}
-
 /// The last parts of a path, as many as `typed` has.
 std::string_view end_of_path(std::string_view path, std::string_view typed) {
   std::size_t at = path.size();
@@ -50,16 +43,14 @@ std::string_view end_of_path(std::string_view path, std::string_view typed) {
 
 /// The field of the field tables that is nearest to a mistyped one; empty if none is near.
 std::string nearest_table_field(std::string_view typed) {
-  std::string nearest;
+  WordSearch search(typed);
   for (unsigned number = 0; number < 256; ++number) {
     const auto type = static_cast<pdu::PduType>(number);
     if (!pdu::is_listed(type)) continue;
-    pdu::each_field_path(type, [&](std::string_view path) {
-      const std::string_view end = end_of_path(path, typed);
-      if (end != nearest) keep_nearer(typed, end, nearest);
-    });
+    pdu::each_field_path(type,
+                         [&](std::string_view path) { search.look_at(end_of_path(path, typed)); });
   }
-  return nearest;
+  return search.nearest();
 }
 
 std::string text_with_mark(std::string_view text, std::size_t column, std::string_view why) {
@@ -237,26 +228,22 @@ class FilterParser {
     return filter_.tables_.size() - 1;
   }
   [[noreturn]] void fail_unknown(const std::string& typed) const {
-    std::vector<std::string_view> names;
+    if (short_name(typed) == "force")
+      fail(token_.at, fmt::format("there is no field '{}', forces are newtons; the force ID of an "
+                                  "entity is '{}'",
+                                  token_.text, typed == "force" ? "side" : "entity.side"));
+    WordSearch search(typed);
     for (const FilterField& field : filter_fields()) {
-      names.push_back(field.name);
-      names.push_back(short_name(field.name));
+      search.look_at(field.name);
+      search.look_at(short_name(field.name));
     }
-    const std::string of_table = nearest_table_field(typed);
-    names.push_back(of_table);
+    search.look_at(nearest_table_field(typed));
     fail(token_.at,
          fmt::format(
              "there is no field '{}'{}", token_.text,
-             suggestion(typed, names,
+             suggestion(search.nearest(),
                         "; `reckon inspect --help` lists those of every PDU, `reckon inspect "
                         "--fields TYPE` those of a PDU type")));
-  }
-
-  [[nodiscard]] static std::string suggestion(std::string_view typed,
-                                              std::span<const std::string_view> names,
-                                              std::string_view otherwise) {
-    const std::string_view nearest = peer::nearest_word(typed, names);
-    return nearest.empty() ? std::string(otherwise) : fmt::format("; did you mean '{}'?", nearest);
   }
 
   Filter::Operator operation() {
@@ -281,7 +268,7 @@ class FilterParser {
     if (token_.kind == TokenKind::end || token_.kind == TokenKind::sign)
       fail(token_.at, fmt::format("expected a value: {} is {}", field.name, field.meaning));
     if (field.kind == ValueKind::text)
-      comparison.text = lower(token_.text);
+      comparison.text = text_value(field);
     else if (field.kind == ValueKind::id)
       comparison.id = id_pattern();
     else if (const auto number = plain_number())
@@ -303,20 +290,33 @@ class FilterParser {
   }
   [[nodiscard]] double named_value(const FilterField& field) const {
     const std::string typed = word_of(token_.text);
-    std::string nearest;  // one at a time, because there are hundreds of countries
+    WordSearch search(typed);
     for (const auto name_of : {field.value_name, field.short_name}) {
       for (unsigned value = 0; name_of != nullptr && value < field.values; ++value) {
         const std::string_view name = name_of(value);
         if (name.empty()) continue;
-        std::string word = word_of(name);
-        if (word == typed) return value;
-        keep_nearer(typed, word, nearest);
+        search.look_at(word_of(name));
+        if (search.is_found()) return value;
       }
     }
-    const std::array<std::string_view, 1> known{nearest};
+    fail_unnamed(field, search.nearest());
+  }
+  [[noreturn]] void fail_unnamed(const FilterField& field, std::string_view nearest) const {
     fail(token_.at, fmt::format("{} has no value '{}'{}", field.name, token_.text,
-                                suggestion(typed, std::span(known).first(nearest.empty() ? 0 : 1),
-                                           fmt::format("; it is {}", field.meaning))));
+                                suggestion(nearest, fmt::format("; it is {}", field.meaning))));
+  }
+  /// Text; where the field has a list of values, it is like one of them.
+  [[nodiscard]] std::string text_value(const FilterField& field) const {
+    std::string typed = lower(token_.text);
+    if (field.value_name == nullptr) return typed;
+    WordSearch search(token_.text);
+    for (unsigned value = 0; value < field.values; ++value) {
+      const std::string_view name = field.value_name(value);
+      if (name.empty()) continue;
+      if (is_like(lower(name), typed)) return typed;
+      search.look_at(name);
+    }
+    fail_unnamed(field, search.nearest());
   }
 
   /// One part of an ID; `at` is its offset in the token.

@@ -17,6 +17,7 @@
 #include "reckon/pdu/print.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/type_names.hpp"
+#include "reckon/tools/datagrams/foreign.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 
 namespace reckon::tools {
@@ -49,6 +50,15 @@ std::string_view type_name(unsigned value) {
 std::string_view status_name(unsigned value) {
   return value < 4 ? name(static_cast<PduStatus>(value)) : "";
 }
+/// The rules that a row may have.
+constexpr std::array kOtherRules{kForeignRule, kNoLengthRule, kTrailingRule,
+                                 std::string_view("E-FRAGMENT")};
+constexpr unsigned kRules = static_cast<unsigned>(pdu::DecodeError::not_finite) + 1;
+std::string_view row_rule(unsigned value) {
+  if (value < kRules) return pdu::rule(static_cast<pdu::DecodeError>(value));
+  return value - kRules < kOtherRules.size() ? kOtherRules[value - kRules] : "";
+}
+
 
 /// Getters of numbers: from any PDU with a header, and from Entity States.
 template <auto Get>
@@ -135,8 +145,8 @@ using State = pdu::EntityState;
 /// THE list of fields.
 constexpr auto kFields = std::to_array<FilterField>({
     {"entity.id", "site:application:entity, each a number or *", ValueKind::id},
-    {"entity.force", "force of an Entity State: friendly, opposing, neutral, or a number",
-     ValueKind::name, from_state<[](const State& s) { return s.force_id; }>, name_of<pdu::ForceId>},
+    {"entity.side", "its force ID: friendly, opposing, neutral, or a number", ValueKind::name,
+     from_state<[](const State& s) { return s.force_id; }>, name_of<pdu::ForceId>},
     {"entity.kind", "kind of its type: platform, munition, life_form, ..., or a number",
      ValueKind::name, from_state<[](const State& s) { return s.entity_type.kind; }>,
      name_of<pdu::EntityKind>},
@@ -198,7 +208,7 @@ constexpr auto kFields = std::to_array<FilterField>({
     {"status", "ok, note, warning or error", ValueKind::name,
      [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.status); },
      status_name},
-    {"rule", "rule that the octets break: E-LENGTH, E-*, ...", ValueKind::text, nullptr, nullptr,
+    {"rule", "rule that the octets break: E-LENGTH, E-*, ...", ValueKind::text, nullptr, row_rule,
      [](const FilterSubject& s) -> Text {
        if (s.row.rule.empty()) return std::nullopt;
        return std::string(s.row.rule);

@@ -2,8 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/datagrams/filter_words.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cctype>
 #include <cstddef>
+#include <span>
+
+#include "reckon/peer/scene/nearest_word.hpp"
 
 namespace reckon::tools {
 
@@ -20,6 +26,18 @@ std::string word_of(std::string_view name) {
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
   }
   return word.starts_with("drm_") ? word.substr(4) : word;
+}
+
+void WordSearch::look_at(std::string_view word) {
+  is_found_ = is_found_ || word == typed_;
+  if (word == nearest_) return;
+  const std::array<std::string_view, 2> both{nearest_, word};
+  const auto candidates = std::span(both).subspan(nearest_.empty() ? 1 : 0);
+  if (peer::nearest_word(typed_, candidates) == word) nearest_ = word;
+}
+
+std::string suggestion(std::string_view nearest, std::string_view otherwise) {
+  return nearest.empty() ? std::string(otherwise) : fmt::format("; did you mean '{}'?", nearest);
 }
 
 bool is_like(std::string_view text, std::string_view pattern) {

@@ -37,6 +37,26 @@ template <typename Number>
 /// A name as one word: "Life form" is life_form, "DRM FPW" fpw.
 [[nodiscard]] std::string word_of(std::string_view name);
 
+/// Looks for a typed word among words that come one at a time, as there may be hundreds.
+class WordSearch {
+ public:
+  explicit WordSearch(std::string_view typed) : typed_(typed) {}
+
+  void look_at(std::string_view word);
+
+  [[nodiscard]] bool is_found() const { return is_found_; }
+  /// The nearest word; empty if none is near.
+  [[nodiscard]] const std::string& nearest() const { return nearest_; }
+
+ private:
+  std::string typed_;
+  std::string nearest_;
+  bool is_found_ = false;
+};
+
+/// "; did you mean 'platform'?", or something else where nothing is near.
+[[nodiscard]] std::string suggestion(std::string_view nearest, std::string_view otherwise = {});
+
 /// Whether `text` matches `pattern`, in which * stands for any letters. Linear, except for the
 /// stars.
 [[nodiscard]] bool is_like(std::string_view text, std::string_view pattern);

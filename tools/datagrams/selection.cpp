@@ -59,7 +59,7 @@ void SelectionOptions::declare(CommandLine& line) {
 
 void SelectionOptions::declare_filter(CommandLine& line) {
   line.option("--where", where,
-              "only datagrams with a PDU that matches, for example 'kind == platform and force == "
+              "only datagrams with a PDU that matches, for example 'kind == platform and side == "
               "opposing'; `reckon inspect --help` lists the fields");
   line.flag("--lenient", lenient,
             "read a PDU whose length field is 0 as the rest of its datagram; what is written or "

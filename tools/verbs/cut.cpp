@@ -24,7 +24,7 @@ constexpr std::string_view kExamples =
     "reckon cut day.pcapng part.pcapng --from 90s --to 2min\n"
     "reckon cut day.pcapng one.pcapng --entity 1:2:3\n"
     "reckon cut day.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type entity_state\n"
-    "reckon cut day.pcapng foes.pcapng.zst --where 'force == opposing and domain == land'";
+    "reckon cut day.pcapng foes.pcapng.zst --where 'side == opposing and domain == land'";
 
 struct CutOptions {
   std::string in;

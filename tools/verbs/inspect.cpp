@@ -59,7 +59,7 @@ constexpr std::string_view kExamples =
     "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
     "reckon inspect capture.pcapng check || echo findings\n"
     "reckon inspect capture.pcapng stats --by entity --csv\n"
-    "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
+    "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not side == "
     "friendly'\n"
     "reckon inspect capture.pcapng --where 'frequency > 2.2e8' --from 14:03 --to 14:05\n"
     "reckon inspect bundles --iface eth0 --for 10s\n"

@@ -45,7 +45,7 @@ constexpr std::string_view kExamples =
     "reckon record exercise.pcapng\n"
     "reckon record exercise.pcapng --for 10min --iface eth0\n"
     "reckon record day.pcapng udp://239.1.2.3:3000 --rotate-time 1h --rotate-size 1GB\n"
-    "reckon record foes.pcapng.zst --where 'force == opposing'\n"
+    "reckon record foes.pcapng.zst --where 'side == opposing'\n"
     "reckon record sealed.pcapng --key crane.key\n"
     "reckon record all.pcapng iface:eth0";
 

@@ -69,9 +69,9 @@ TEST(Filter, MatchesByTheWordsThatDisPeopleKnow) {
                           "id == 1-20-300",
                           "ID=1:20:*",
                           "id != 2:*:*",
-                          "force == opposing",
-                          "entity.force == 2",
-                          "force >= 2",
+                          "side == opposing",
+                          "entity.side == 2",
+                          "side >= 2",
                           "domain == Land",
                           "drm == rvw",
                           "drm == drm_rvw",
@@ -90,13 +90,13 @@ TEST(Filter, MatchesByTheWordsThatDisPeopleKnow) {
                           "kind == munition or kind == platform",
                           "not kind == munition",
                           "!(kind == munition)",
-                          "kind == munition and force == 1 or force == 2",
-                          "  ( ( force == 2 ) )  "})
+                          "kind == munition and side == 1 or side == 2",
+                          "  ( ( side == 2 ) )  "})
     EXPECT_TRUE(sample.matches(yes)) << yes;
   for (const char* no :
-       {"id == 2:*:*", "id != 1:*:*", "force == friendly", "kind == munition", "speed < 5",
+       {"id == 2:*:*", "id != 1:*:*", "side == friendly", "kind == munition", "speed < 5",
         "marking == truck", "sender == 10.0.0.2:*", "status != ok", "rule == *", "rule != E-*",
-        "not force == 2", "kind == munition and (force == 1 or force == 2)"})
+        "not side == 2", "kind == munition and (side == 1 or side == 2)"})
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
@@ -147,6 +147,19 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
   for (const Wrong& wrong : std::initializer_list<Wrong>{
            {"id == 1:*:* and knd == platform", 17, "did you mean 'kind'?"},
            {"kind == platfrom", 9, "did you mean 'platform'?"},
+           {"side == freindly", 9, "did you mean 'friendly'?"},
+           {"force == friendly", 1, "forces are newtons; the force ID of an entity is 'side'"},
+           {"entity.force == 1", 1, "the force ID of an entity is 'entity.side'"},
+           {"rule == E-LENGHT", 9, "did you mean 'E-LENGTH'?"},
+           {"rule == W-SIDE", 9, "it is rule that the octets break"},
+           {"entity_type.kind == platfrom", 21, "did you mean 'platform'?"},
+           {"munition_type.domain == anti-amor", 25, "did you mean 'anti_armor'?"},
+           {"country == germny", 12, "did you mean 'germany'?"},
+           {"country_name == germny", 17, "did you mean 'germany'?"},
+           {"beam_function == serach", 18, "did you mean 'search'?"},
+           {"entity_appearance.damage == destroied", 29, "did you mean 'destroyed'?"},
+           {"warhead == xyzzyxyzzy", 12, "it is a number, or "},
+           {"exercise_id == one", 16, "'one' is no number"},
            {"id == 1:2", 7, "three parts"},
            {"id == 1:70000:*", 9, "'70000' is neither * nor a number from 0 to 65535"},
            {"id < 1:*:*", 4, "takes == and != only"},
@@ -155,10 +168,10 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
            {"speed > fast", 9, "'fast' is no number"},
            {"(kind == platform", 18, "expected ')' for the parenthesis of column 1"},
            {"kind == platform)", 17, "no parenthesis is open here"},
-           {"kind == platform force == 1", 18, "expected 'and', 'or' or the end"},
+           {"kind == platform side == 1", 18, "expected 'and', 'or' or the end"},
            {"marking == 'x", 12, "this quote is not closed"},
-           {"force == 1 and", 15, "expected a field"},
-           {"force == #1", 10, "this letter has no meaning here"},
+           {"side == 1 and", 14, "expected a field"},
+           {"side == #1", 9, "this letter has no meaning here"},
            {"", 1, "expected a field"}}) {
     EXPECT_EQ(column_of(wrong.text), wrong.column) << wrong.text;
     try {
@@ -179,10 +192,10 @@ TEST(Filter, ShowsLettersThatATerminalWouldObeyAsDots) {
 }
 
 TEST(Filter, BoundsLengthAndNesting) {
-  EXPECT_GT(column_of(std::string(65, '(') + "force == 1" + std::string(65, ')')), 0U);
-  EXPECT_EQ(column_of(std::string(60, '(') + "force == 1" + std::string(60, ')')), 0U);
-  std::string many = "force == 1";
-  while (many.size() < Filter::kLongest - 20) many += " or force == 1";
+  EXPECT_GT(column_of(std::string(65, '(') + "side == 1" + std::string(65, ')')), 0U);
+  EXPECT_EQ(column_of(std::string(60, '(') + "side == 1" + std::string(60, ')')), 0U);
+  std::string many = "side == 1";
+  while (many.size() < Filter::kLongest - 20) many += " or side == 1";
   EXPECT_EQ(column_of(many), 0U);
   EXPECT_GT(column_of(many + std::string(30, ' ')), 0U);
 }
@@ -237,7 +250,7 @@ class RandomExpressions {
     const std::string gap = space();
     switch (below(4)) {
       case 0:
-        return {"force" + gap + "<=" + number,
+        return {"side" + gap + "<=" + number,
                 [=](const auto& s) { return static_cast<unsigned>(s.force_id) <= value; }};
       case 1:
         return {"entity.country" + gap + ">" + space() + std::to_string(70 * value),
@@ -293,7 +306,7 @@ TEST(Filter, MeansWhatASecondEvaluationOfRandomExpressionsMeans) {
 
 TEST(Filter, AnswersAnyTextWithAFilterOrAColumn) {
   RandomExpressions expressions(11);
-  constexpr std::string_view kLetters = "kind force==!<>()'\"&|*:-. 0123456789and or not\t\x80\xff";
+  constexpr std::string_view kLetters = "kind side==!<>()'\"&|*:-. 0123456789and or not\t\x80\xff";
   for (int i = 0; i < 3000; ++i) {
     std::string text = expressions.make(3).text;
     const unsigned changes = expressions.below(4);
@@ -318,7 +331,7 @@ TEST(InspectWhere, ShowsAndCountsOnlyWhatMatches) {
     capture.add(datagram, std::chrono::seconds(1'700'000'000 + i));
   }
   const std::string file = capture.path();
-  const auto tail = run_reckon({"inspect", file, "--json", "--where", "force == 2"});
+  const auto tail = run_reckon({"inspect", file, "--json", "--where", "side == 2"});
   EXPECT_EQ(tail.lines().size(), 5U);
   EXPECT_THAT(tail.err,
               HasSubstr("5 PDUs in 5 datagrams: 5 good, 0 errors, 0 notes; 20 PDUs looked at"));
@@ -331,17 +344,17 @@ TEST(InspectWhere, ShowsAndCountsOnlyWhatMatches) {
   ASSERT_EQ(bundles.size(), 1U);
   EXPECT_THAT(bundles[0], HasSubstr(R"("types":["entity_state","comment"])"));
   const auto stats =
-      run_reckon({"inspect", file, "stats", "--json", "--where", "force == 2"}).lines();
+      run_reckon({"inspect", file, "stats", "--json", "--where", "side == 2"}).lines();
   EXPECT_THAT(stats.back(), HasSubstr(R"("pdus":5,"datagrams":5)"));
 }
 
 TEST(InspectWhere, TellsWrongUsageWithAMarkUnderTheColumn) {
-  const auto result = run_reckon({"inspect", "x.pcap", "--where", "force == 1 and knd == 2"});
+  const auto result = run_reckon({"inspect", "x.pcap", "--where", "side == 1 and knd == 2"});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err,
-            "reckon inspect: --where, column 16: there is no field 'knd'; did you mean 'kind'?\n"
-            "  force == 1 and knd == 2\n"
-            "                 ^\n");
+            "reckon inspect: --where, column 15: there is no field 'knd'; did you mean 'kind'?\n"
+            "  side == 1 and knd == 2\n"
+            "                ^\n");
 }
 
 }  // namespace

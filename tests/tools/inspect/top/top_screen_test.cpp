@@ -63,7 +63,7 @@ TEST(TopScreen, FitsEveryTerminalWhateverItShows) {
   for (const std::size_t rows : {0U, 1U, 2U, 3U, 5U, 24U, 80U}) {
     for (const std::size_t columns : {1U, 2U, 9U, 40U, 80U, 300U}) {
       TopScreen screen;
-      for (const std::string_view keys : {"", "b", "b", "c", "c", "s", "/force ==", "x"}) {
+      for (const std::string_view keys : {"", "b", "b", "c", "c", "s", "/side ==", "x"}) {
         type(screen, keys, data);
         const auto lines = screen.lines(data, {}, {rows, columns});
         EXPECT_EQ(lines.size(), rows);
@@ -146,12 +146,12 @@ TEST(TopScreen, FiltersByTheLanguageOfWhereAndShowsTheColumnOfAnError) {
   const TopData data = data_of(5);
   TopScreen screen;
   const ScreenSize size{24, 200};
-  type(screen, "/force == friendly and knd == platform", data);
+  type(screen, "/side == friendly and knd == platform", data);
   screen.press({Key::enter}, data);
   const auto lines = screen.lines(data, {}, size);
   ASSERT_GE(lines.size(), 3U);
   const std::string& written = lines[size.rows - 3].text;
-  EXPECT_THAT(written, HasSubstr("filter: force == friendly and knd"));
+  EXPECT_THAT(written, HasSubstr("filter: side == friendly and knd"));
   EXPECT_EQ(lines[size.rows - 2].text.find('^'), written.find("knd"));
   EXPECT_THAT(lines[size.rows - 1].text, HasSubstr("no field 'knd'"));
   for (int i = 0; i < 50; ++i) screen.press({Key::backspace}, data);
