@@ -271,7 +271,7 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "send DRM 2 to 9 for what moves, or zeros for what stands", static_moves},
     {"W-DRM", "The dead-reckoning algorithm has no name in the standard.",
      "send 0 to 9; receivers treat others as static or drop them", unknown_drm},
-    {"W-FORCE", "The force ID has no name.", "send 0 to 30", unknown_force},
+    {"W-SIDE", "The force ID has no name.", "send 0 to 30", unknown_force},
     {"W-KIND", "The kind of the entity type has no name.", "send 0 to 9", unknown_kind},
     {"W-DOMAIN", "The domain of the entity type has no name for its kind.",
      "send 0 to 5; 0 to 12 for munitions and supplies", unknown_domain},

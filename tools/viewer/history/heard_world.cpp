@@ -19,9 +19,9 @@ std::uint16_t group_number(const peer::IpEndpoint& group) {
   return static_cast<std::uint16_t>(group.octets[end - 2] << 8 | group.octets[end - 1]);
 }
 
-std::uint8_t force_of(const HeardEntity& entity) {
-  constexpr std::size_t kForceAt = 18;
-  return std::to_integer<std::uint8_t>(entity.octets[kForceAt]);
+std::uint8_t side_of(const HeardEntity& entity) {
+  constexpr std::size_t kSideAt = 18;
+  return std::to_integer<std::uint8_t>(entity.octets[kSideAt]);
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ void HeardWorld::add_marks(nanoseconds time, nanoseconds start, const Roster& ro
     const deadreckon::Pose pose = entity.pose_at(time);
     EntityMark& mark = out.emplace_back();
     mark.slot = slot;
-    mark.force = force_of(entity);
+    mark.side = side_of(entity);
     mark.cause = row.cause;
     mark.group = group_number(row.group);
     mark.position = frame.scene_from_world(pose.position).cast<float>();

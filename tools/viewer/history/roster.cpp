@@ -16,7 +16,7 @@ namespace reckon::tools {
 namespace {
 
 // In the fixed octets of an Entity State.
-constexpr std::size_t kForceAt = 18, kTypeAt = 20, kMarkingAt = 128;
+constexpr std::size_t kSideAt = 18, kTypeAt = 20, kMarkingAt = 128;
 
 /// Copies a field; whether it was another before.
 template <std::size_t Size>
@@ -44,9 +44,9 @@ std::string kind_text(std::span<const std::byte> type) {
       fmt::format("{} {}", named, pdu::name(static_cast<pdu::EntityDomain>(type[1]))));
 }
 
-std::string force_text(std::byte force) {
-  const std::string_view named = pdu::name(static_cast<pdu::ForceId>(force));
-  return named.empty() ? fmt::format("force {}", std::to_integer<unsigned>(force))
+std::string side_text(std::byte side) {
+  const std::string_view named = pdu::name(static_cast<pdu::ForceId>(side));
+  return named.empty() ? fmt::format("side {}", std::to_integer<unsigned>(side))
                        : lower_case(named);
 }
 
@@ -105,7 +105,7 @@ std::uint16_t Roster::admit(const Listener& heard, const StateUpdate& update) {
   entry.heard = update.arrival;
   entry.id = entity.id;
   by_id_[entity_key(0, entity.id)] = slot;
-  changed_ |= renew(entry.force, update.octets, kForceAt);
+  changed_ |= renew(entry.side, update.octets, kSideAt);
   changed_ |= renew(entry.type, update.octets, kTypeAt);
   changed_ |= renew(entry.marking, update.octets, kMarkingAt);
   return slot;
@@ -142,7 +142,7 @@ void Roster::append_entry(std::string& out, std::size_t slot) const {
       .text("id", fmt::format("{}:{}:{}", id.site, id.application, id.entity))
       .text("marking", letters(entry.marking))
       .text("kind", kind_text(entry.type))
-      .text("force", force_text(entry.force[0]))
+      .text("side", side_text(entry.side[0]))
       .value("haptic", entry.haptic)
       .decimals("radius", entry.radius, 4)
       .text("peer", fmt::format("{}:{}", id.site, id.application))

@@ -67,7 +67,7 @@ class Roster {
   struct Entry {
     std::uint64_t key = 0;  // 0: free
     pdu::EntityId id;
-    std::array<std::byte, 1> force{};
+    std::array<std::byte, 1> side{};  // force ID
     std::array<std::byte, 8> type{};
     std::array<std::byte, 12> marking{};  // with its character set
     bool haptic = false;

@@ -5,6 +5,6 @@ import { Color } from './libraries.js';
 
 export function cssColour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
 export function colour(name) { return new Color(cssColour(name)); }
-export const FORCE_COLOURS = ['force-other', 'force-friendly', 'force-opposing', 'force-neutral'];
+export const SIDE_COLOURS = ['side-other', 'side-friendly', 'side-opposing', 'side-neutral'];
 export const HAND_COLOURS = ['hand-0', 'hand-1', 'hand-2', 'hand-3'];
 export function handColour(index) { return HAND_COLOURS[index % HAND_COLOURS.length]; }

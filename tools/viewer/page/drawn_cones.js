@@ -30,7 +30,7 @@ class Cones {
   }
 
   paint() {
-    this.holds.color = colour('force-neutral');
+    this.holds.color = colour('side-neutral');
     this.slides.color = colour('force');
   }
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities as they are shown: shape by kind, nose where they head, colour by force. What the followed one does not hear is faint.
+// Entities as they are shown: shape by kind, nose where they head, colour by side. What the followed one does not hear is faint.
 import { Color, DoubleSide, MeshBasicMaterial } from './libraries.js';
 import { Bodies, leastScale, shapeOf } from './bodies.js';
-import { colour, FORCE_COLOURS } from './colours.js';
+import { colour, SIDE_COLOURS } from './colours.js';
 import { NONE } from './picture.js';
 
 export const drawnEntities = {
-  name: 'entities', view: 'world', says: 'entity as shown', mark: 'body force-friendly',
+  name: 'entities', view: 'world', says: 'entity as shown', mark: 'body side-friendly',
   make(group, view) { return new Entities(group, view); },
 };
 
@@ -20,7 +20,7 @@ class Entities {
   }
 
   paint() {
-    this.teams = FORCE_COLOURS.map(colour);
+    this.teams = SIDE_COLOURS.map(colour);
     this.faint = this.teams.map((team) => new Color().lerpColors(team, colour('sky'), 0.72));
     this.tinted = '';
   }
@@ -58,7 +58,7 @@ class Entities {
     const all = followed === NONE || !heard.size;
     this.bodies.colours((i) => {
       const near = all || heard.has(picture.cell(i)) || picture.slot(i) === followed;
-      return (near ? this.teams : this.faint)[picture.force(i)];
+      return (near ? this.teams : this.faint)[picture.side(i)];
     });
   }
 }

@@ -3,20 +3,20 @@
 // What can be felt and is no hand of this program: hands and bodies of others, as balls of their radius.
 import { Mesh, MeshLambertMaterial, SphereGeometry } from './libraries.js';
 import { Pool } from './arrow.js';
-import { colour, FORCE_COLOURS } from './colours.js';
+import { colour, SIDE_COLOURS } from './colours.js';
 import { foreign } from './words.js';
 
 const MOST_BALLS = 128;
 
 export const drawnTouchEntities = {
-  name: 'felt entities', view: 'touch', says: 'what others own', mark: 'ball force-friendly',
+  name: 'felt entities', view: 'touch', says: 'what others own', mark: 'ball side-friendly',
   make(group, view, labels) { return new TouchEntities(group, view, labels); },
 };
 
 class TouchEntities {
   constructor(group, view, labels) {
     Object.assign(this, { view, labels });
-    this.materials = FORCE_COLOURS.map(() => new MeshLambertMaterial());
+    this.materials = SIDE_COLOURS.map(() => new MeshLambertMaterial());
     const shape = new SphereGeometry(1, 28, 18);
     this.balls = new Pool(() => {
       const ball = new Mesh(shape, this.materials[0]);
@@ -26,7 +26,7 @@ class TouchEntities {
     });
   }
 
-  paint() { this.materials.forEach((material, i) => { material.color = colour(FORCE_COLOURS[i]); }); }
+  paint() { this.materials.forEach((material, i) => { material.color = colour(SIDE_COLOURS[i]); }); }
 
   update(moment) {
     const { picture, shown } = moment;
@@ -38,7 +38,7 @@ class TouchEntities {
       if (!row?.haptic || own.has(slot)) continue;
       const ball = this.balls.next();
       ball.visible = true;
-      ball.material = this.materials[picture.force(i)];
+      ball.material = this.materials[picture.side(i)];
       ball.position.fromArray(shown, 3 * i);
       const radius = row.radius || 0.01;
       ball.scale.setScalar(radius);

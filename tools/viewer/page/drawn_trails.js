@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where each entity has been in the last 10 s. Pieces are written once, round and round; the shader fades them by age.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, ShaderMaterial } from './libraries.js';
-import { colour, FORCE_COLOURS } from './colours.js';
+import { colour, SIDE_COLOURS } from './colours.js';
 import { NONE } from './picture.js';
 
 const TRAIL_SECONDS = 10;
@@ -14,7 +14,7 @@ const MANY_TRAILS = 400;
 const MOST_TRAILS = 4096; // entities with a trail
 
 export const drawnTrails = {
-  name: 'trails', view: 'world', says: 'trail of 10 s', mark: 'line force-friendly',
+  name: 'trails', view: 'world', says: 'trail of 10 s', mark: 'line side-friendly',
   make(group, view) { return new Trails(group, view); },
 };
 
@@ -41,7 +41,7 @@ class Trails {
     this.key = '';
   }
 
-  paint() { this.material.uniforms.teams.value = FORCE_COLOURS.map((name) => colour(name).convertLinearToSRGB()); }
+  paint() { this.material.uniforms.teams.value = SIDE_COLOURS.map((name) => colour(name).convertLinearToSRGB()); }
 
   // One piece more than is full: the last one follows the entity.
   room(count) {
@@ -96,8 +96,8 @@ class Trails {
       }
       this.born[v] = this.since;
       this.born[v + 1] = now;
-      this.team[v] = picture.force(i);
-      this.team[v + 1] = picture.force(i);
+      this.team[v] = picture.side(i);
+      this.team[v + 1] = picture.side(i);
     }
     for (const name of ['position', 'born', 'team']) {
       const attribute = this.lines.geometry.attributes[name];

@@ -70,7 +70,7 @@ class Picture {
   }
 
   slot(i) { return this.words[(HEAD + ENTITY * i) >> 1]; }
-  force(i) { return this.octets[HEAD + ENTITY * i + 2] & 3; }
+  side(i) { return this.octets[HEAD + ENTITY * i + 2] & 3; }
   cause(i) { return this.octets[HEAD + ENTITY * i + 3]; }
   cell(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 2]; }
   group(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 3]; }

@@ -64,7 +64,7 @@ std::uint8_t cause_number(UpdateCause cause) {
 
 void write_entity(Writer& out, const EntityMark& entity) {
   out.u16(entity.slot);
-  out.u8(entity.force);
+  out.u8(entity.side);
   out.u8(cause_number(entity.cause));
   out.u16(entity.cell);
   out.u16(entity.group);

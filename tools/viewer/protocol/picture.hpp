@@ -46,7 +46,7 @@ enum HandFlag : std::uint16_t {
 /// An entity; east, north, up of the origin [m].
 struct EntityMark {
   std::uint16_t slot = kNoNumber;  ///< in the roster
-  std::uint8_t force = 0;          ///< DIS force ID
+  std::uint8_t side = 0;           ///< DIS force ID
   UpdateCause cause = UpdateCause::none;
   std::uint16_t cell = kNoNumber;
   std::uint16_t group = 0;  ///< low 16 bits of the address of the last update; 0: none

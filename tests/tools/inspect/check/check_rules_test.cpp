@@ -99,7 +99,7 @@ const std::vector<Planted>& planted() {
       {"W-DRM", in_fields([](auto& pdu) {
          pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm{10};
        })},
-      {"W-FORCE", in_fields([](auto& pdu) { pdu.force_id = pdu::ForceId{31}; })},
+      {"W-SIDE", in_fields([](auto& pdu) { pdu.force_id = pdu::ForceId{31}; })},
       {"W-KIND", in_fields([](auto& pdu) { pdu.entity_type.kind = pdu::EntityKind{10}; })},
       {"W-DOMAIN", in_fields([](auto& pdu) { pdu.entity_type.domain = pdu::EntityDomain{6}; })},
       {"I-UNNAMED", in_fields([](auto& pdu) {

@@ -32,14 +32,14 @@ TEST(InspectCheck, WritesAFindingWithTheKeysOthersRelyOn) {
   const auto lines = run_reckon({"inspect", capture.path(), "check", "--json"}).lines();
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0],
-            R"({"rule":"W-FORCE","status":"warning","frame":1,"pdu":2,"offset":32,"at":50,)"
+            R"({"rule":"W-SIDE","status":"warning","frame":1,"pdu":2,"offset":32,"at":50,)"
             R"("time":1700000000.000000000,"id":"1:2:3",)"
             R"("reason":"force_id is 77, named are 0 to 30",)"
             R"("sentence":"The force ID has no name.","remedy":"send 0 to 30"})");
   EXPECT_EQ(json::parse(lines[1])["rule"], "I-BUNDLE-ORDER");
   EXPECT_EQ(lines[2],
             R"({"summary":"check","datagrams":1,"pdus":2,"errors":0,"warnings":1,"notes":1,)"
-            R"("rules":{"I-BUNDLE-ORDER":1,"W-FORCE":1}})");
+            R"("rules":{"I-BUNDLE-ORDER":1,"W-SIDE":1}})");
 }
 
 TEST(InspectCheck, TellsFrameOctetReasonAndRemedyToPeople) {
@@ -63,7 +63,7 @@ TEST(InspectCheck, WritesCsvWithTitles) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0], "rule,frame,pdu,offset,at,time,id,reason,remedy");
   EXPECT_EQ(lines[1],
-            "W-FORCE,1,1,0,18,1700000004.000000000,1:2:3,\"force_id is 99, named are 0 to "
+            "W-SIDE,1,1,0,18,1700000004.000000000,1:2:3,\"force_id is 99, named are 0 to "
             "30\",send 0 to 30");
 }
 

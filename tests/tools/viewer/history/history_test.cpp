@@ -309,7 +309,8 @@ TEST(Roster, NamesWhomItShowsAndGivesSlotsAwayAgain) {
   EXPECT_EQ(entity["id"], "1:2:7");
   EXPECT_EQ(entity["marking"], "<b>&\"'");
   EXPECT_EQ(entity["kind"], "platform land");
-  EXPECT_EQ(entity["force"], "friendly");
+  EXPECT_EQ(entity["side"], "friendly");
+  EXPECT_FALSE(entity.contains("force"));
   EXPECT_EQ(entity["haptic"], false);
   EXPECT_EQ(entity["peer"], "1:2");
   EXPECT_EQ(marks_of(history.live(), history, kStart).size(), 1U);

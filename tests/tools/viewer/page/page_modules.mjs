@@ -68,7 +68,7 @@ test('A picture gives each field back', () => {
     time: 12.5, number: 9, entities: [{ slot: 3, x: 2 }, { slot: 8, x: 4, error: 0.5 }], hands: [{ index: 1, flags: 128, patch: 5, force: [3, 0, 4] }], contacts: 2,
   }));
   assert.deepEqual([decoded.time, decoded.number, decoded.epoch, decoded.entities], [12.5, 9, 7, 2]);
-  assert.deepEqual([decoded.slot(1), decoded.force(1), decoded.cause(1), decoded.cell(1), decoded.group(1), decoded.rate(1), decoded.jump(1)],
+  assert.deepEqual([decoded.slot(1), decoded.side(1), decoded.cause(1), decoded.cell(1), decoded.group(1), decoded.rate(1), decoded.jump(1)],
     [8, 1, 2, 27, 513, 2.5, 12]);
   assert.deepEqual([decoded.floats[decoded.floatAt(1)], decoded.floats[decoded.floatAt(1) + 5], decoded.shorts[decoded.turnAt(1)]], [4, 0.5, 32767]);
   assert.deepEqual([decoded.indexOf(8), decoded.indexOf(4)], [1, -1]);

@@ -26,7 +26,7 @@ PictureRows rows() {
   picture.entities.resize(2);
   EntityMark& entity = picture.entities[1];
   entity.slot = 300;
-  entity.force = 2;
+  entity.side = 2;
   entity.cause = UpdateCause::event;
   entity.cell = 11;
   entity.group = 0x0105;
