@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <functional>
 #include <iterator>
 #include <set>
@@ -17,8 +16,9 @@
 #include "reckon/pdu/print.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/type_names.hpp"
-#include "reckon/tools/datagrams/foreign.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/tools/datagrams/first_location.hpp"
+#include "reckon/tools/datagrams/foreign.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -50,6 +50,7 @@ std::string_view type_name(unsigned value) {
 std::string_view status_name(unsigned value) {
   return value < 4 ? name(static_cast<PduStatus>(value)) : "";
 }
+
 /// The rules that a row may have.
 constexpr std::array kOtherRules{kForeignRule, kNoLengthRule, kTrailingRule,
                                  std::string_view("E-FRAGMENT")};
@@ -58,7 +59,6 @@ std::string_view row_rule(unsigned value) {
   if (value < kRules) return pdu::rule(static_cast<pdu::DecodeError>(value));
   return value - kRules < kOtherRules.size() ? kOtherRules[value - kRules] : "";
 }
-
 
 /// Getters of numbers: from any PDU with a header, and from Entity States.
 template <auto Get>
@@ -81,46 +81,16 @@ Text endpoint(const peer::IpEndpoint& endpoint) {
   return endpoint.text();
 }
 
-/// Visitor: the first position in W among the fields of a PDU.
-class FirstLocation {
- public:
-  template <typename T>
-  void operator()(std::string_view, const T& value) {
-    if constexpr (std::same_as<T, pdu::WorldCoordinates>) {
-      if (!location_.has_value()) location_ = value;
-    }
-  }
-  template <typename... Any>
-  void count(Any&&...) {}
-  template <typename... Any>
-  void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
-
-  [[nodiscard]] const std::optional<pdu::WorldCoordinates>& location() const { return location_; }
-
- private:
-  std::optional<pdu::WorldCoordinates> location_;
-};
-
-std::optional<pdu::WorldCoordinates> location_of(const FilterSubject& subject) {
-  if (subject.entity_state != nullptr) return subject.entity_state->location;
-  if (!subject.row.decoded) return std::nullopt;
-  FirstLocation first;
-  (void)pdu::visit(subject.row.bytes, subject.row.header,
-                   [&](const auto& pdu) { fields(first, pdu); });
-  return first.location();
-}
 /// A coordinate of the PDU's location, in W or on WGS84.
 template <auto Member>
 Number from_location(const FilterSubject& subject) {
-  const auto location = location_of(subject);
+  const auto location = first_location(subject.row);
   if (!location.has_value()) return std::nullopt;
   return *location.*Member;
 }
 template <auto Member>
 Number from_place(const FilterSubject& subject) {
-  const auto location = location_of(subject);
+  const auto location = first_location(subject.row);
   const auto place = location.has_value() ? pdu::geodetic_from(*location) : std::nullopt;
   if (!place.has_value()) return std::nullopt;
   return *place.*Member;

@@ -5,12 +5,14 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <concepts>
 
 #include "reckon/pdu/geodetic.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/tools/datagrams/first_location.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 
@@ -36,23 +38,39 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   out += ",\"marking\":";
   pdu::put_json_string(sink, pdu.marking.view());
   append_member(out, ",\"force_id\":", static_cast<unsigned>(pdu.force_id));
-  out += ",\"location\":[";
-  append_millimetres(out, pdu.location.x);
-  out += ',';
-  append_millimetres(out, pdu.location.y);
-  out += ',';
-  append_millimetres(out, pdu.location.z);
-  append_member(out, "],\"drm\":", static_cast<unsigned>(pdu.dead_reckoning.algorithm));
 }
 
-/// Where an entity is and how it lies, as people read it.
-void append_place(std::string& out, const PduRow& row) {
-  if (row.entity_state == nullptr) return;
-  const auto place = pdu::geodetic_from(row.entity_state->location);
+/// Degrees to 9 decimals, within 360; null if JSON has no such number.
+void append_degrees(std::string& out, double degrees) {
+  if (!std::isfinite(degrees)) {
+    out += "null";
+    return;
+  }
+  constexpr std::int64_t kScale = 1'000'000'000;
+  const std::int64_t scaled = std::llround(degrees * static_cast<double>(kScale));
+  append_time(out, std::chrono::nanoseconds(scaled));
+}
+
+/// Where the PDU is, geocentric and as people read it, and with `full` how its entity lies.
+void append_place(std::string& out, const PduRow& row, bool full) {
+  const auto location = first_location(row);
+  if (!location.has_value()) return;
+  out += ",\"location\":[";
+  append_millimetres(out, location->x);
+  out += ',';
+  append_millimetres(out, location->y);
+  out += ',';
+  append_millimetres(out, location->z);
+  out += ']';
+  const auto place = pdu::geodetic_from(*location);
   if (!place.has_value()) return;
-  fmt::format_to(end_of(out),
-                 FMT_COMPILE(",\"latitude\":{:.9f},\"longitude\":{:.9f},\"height\":{:.3f}"),
-                 place->latitude_deg, place->longitude_deg, place->height);
+  out += ",\"latitude\":";
+  append_degrees(out, place->latitude_deg);
+  out += ",\"longitude\":";
+  append_degrees(out, place->longitude_deg);
+  out += ",\"height\":";
+  append_millimetres(out, place->height);
+  if (!full || row.entity_state == nullptr) return;
   const auto attitude = pdu::attitude_from(row.entity_state->orientation, *place);
   if (!attitude.has_value()) return;
   fmt::format_to(end_of(out), FMT_COMPILE(",\"heading\":{:.4f},\"pitch\":{:.4f},\"roll\":{:.4f}"),
@@ -86,6 +104,10 @@ void append_records(std::string& out, std::string_view key, const pdu::Attribute
 
 void append_body(std::string& out, const PduRow& row, bool full) {
   if (row.entity_state != nullptr) append_entity_state(out, *row.entity_state);
+  append_place(out, row, full);
+  if (row.entity_state != nullptr)
+    append_member(out, ",\"drm\":",
+                  static_cast<unsigned>(row.entity_state->dead_reckoning.algorithm));
   if (!full && row.header.pdu_type != pdu::PduType::attribute) return;
   (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {
@@ -93,7 +115,6 @@ void append_body(std::string& out, const PduRow& row, bool full) {
       append_records<pdu::EnergyAccountRecord>(out, "energy", pdu);
     }
     if (!full) return;
-    append_place(out, row);
     out += ",\"fields\":";
     pdu::TextSink sink(out);
     pdu::print_named_json(pdu, sink);

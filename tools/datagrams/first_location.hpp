@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where a PDU is: the first position among its fields.
+#pragma once
+
+#include <optional>
+
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+
+namespace reckon::tools {
+
+/// The first position in W among the fields of a decoded PDU, in wire order; nothing in a PDU that
+/// has none.
+[[nodiscard]] std::optional<pdu::WorldCoordinates> first_location(const PduRow& row);
+
+}  // namespace reckon::tools
