@@ -10,7 +10,6 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -83,11 +82,11 @@ std::string FieldComparison::unlisted_name() const {
   });
   if (is_listed || search.is_found()) return {};
   if (names.empty()) return fmt::format("'{}' is no number, and this field is one", text_);
-  const auto shown = names | std::views::take(kShown);
-  return fmt::format(
-      "this field has no value '{}'{}", text_,
-      suggestion(search.nearest(), fmt::format("; it is a number, or {}{}", fmt::join(shown, ", "),
-                                               names.size() > kShown ? ", ..." : "")));
+  const auto end = names.size() > kShown ? std::next(names.begin(), kShown) : names.end();
+  const std::string known =
+      fmt::format("; it is a number, or {}{}", fmt::join(names.begin(), end, ", "),
+                  end == names.end() ? "" : ", ...");
+  return fmt::format("this field has no value '{}'{}", text_, suggestion(search.nearest(), known));
 }
 
 bool FieldComparison::holds(const PduRow& row) const {
