@@ -106,12 +106,8 @@ class AreaOfInterestManager {
   /// Sets the foci of this peer for a tier. Call it for each tier, the cell's first, every step or
   /// whenever a focus has moved. Returns the groups to join and to leave, valid until the next
   /// call. The base group must always be joined.
-  ///   kCellKind      foci of what our entities sense
-  ///   kDistanceKind  the same foci; set_stretch() shortens the row, so that a peer over its budget
-  ///                  leaves the distant cells
-  ///   kTouchKind     positions of our entities that can be touched, with their reach; a group is
-  ///                  kept until its cell is beyond twice the reach, and at least as long as any
-  ///                  other
+  /// Which foci a tier has depends on its kind, see tier_kind.hpp. set_stretch() shortens the rows
+  /// of channels, so that a peer over its budget leaves the distant cells.
   SubscriptionChange listen(std::size_t tier, std::span<const Focus> foci,
                             std::chrono::nanoseconds now);
 

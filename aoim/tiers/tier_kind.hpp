@@ -42,11 +42,13 @@ struct TierKind {
   Focus (*focus)(const Focus& given, std::size_t row, const TierReach& reach) noexcept = nullptr;
 };
 
-/// All that listen to the cell.
+/// All that listen to the cell. Foci: what our entities sense.
 extern const TierKind kCellKind;
-/// Those within the distance of a row of channels that is neither kept nor the last.
+/// Those within the distance of a row of channels that is neither kept nor the last. The same foci.
 extern const TierKind kDistanceKind;
-/// Those that can touch the entity.
+/// Those that can touch the entity. Foci: positions of our entities that can be touched, with their
+/// reach. A group is kept until its cell is beyond twice the reach, and at least as long as any
+/// other.
 extern const TierKind kTouchKind;
 
 /// THE list, the innermost first.

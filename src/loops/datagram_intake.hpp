@@ -38,8 +38,8 @@ class DatagramIntake {
   DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, TimeKeeper& time,
                  RemoteEntities& remote, ModelCounters& counted);
 
-  /// Reads pending datagrams, contact groups first. The number in a step is bounded, so that a
-  /// flood does not delay the own hand's updates.  @param own the simulation of this peer
+  /// Reads pending datagrams, those of urgent tiers first. The number in a step is bounded, so that
+  /// a flood does not delay the own hand's updates.  @param own the simulation of this peer
   void read(const Pass& pass, const aoim::PeerId& own, UpdateHandler& handler) noexcept;
   /// Reports pending datagrams to the tap, because nobody will read them.
   void report_unread() noexcept;
