@@ -107,12 +107,13 @@ TEST(PeerThreads, LeaveAQuietLinkAlone) {
   Place place;
   PeerThreads threads(place.peer, kClock, {});
   ASSERT_TRUE(place.link.settled(2, 2));  // the second presence comes a second later
-  std::this_thread::sleep_for(200ms);     // it has rested for long enough
+  std::this_thread::sleep_for(200ms);
   const std::size_t waits = place.link.waits();
   const std::uint64_t steps = threads.servo_duty().steps();
-  ASSERT_TRUE(place.link.settled(2, 3));
-  EXPECT_GT(threads.servo_duty().steps(), steps);
-  EXPECT_LE(place.link.waits(), waits + 2 + (threads.servo_duty().steps() - steps) / 5);
+  std::this_thread::sleep_for(300ms);
+  const std::uint64_t more = threads.servo_duty().steps() - steps;
+  EXPECT_GT(more, 0u);
+  EXPECT_LE(place.link.waits(), waits + 5 + more / 5);
 }
 
 // While nothing can be felt one thread does all; what may be felt is not to wait for its next pass.

@@ -91,6 +91,21 @@ TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
                            {first, 128}, {first + 1, 128}, {first + 2, 44}}));
 }
 
+// Several steps at one instant are usual where a program moves the clock. Peers would take the
+// second question for the first one.
+TEST(JoinAsks, GiveTheQuestionsOfOneInstantTimesOfTheirOwn) {
+  JoinAsks asks(16);
+  ReceivedAsks heard;
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
+  static_cast<void>(asked(asks, seconds(1)));
+  for (const int second : {2, 3, 4}) {  // the third time is the last
+    EXPECT_TRUE(heard.note(11, asked(asks, seconds(second)).at(kAskedCell)));
+    asks.join(kSecondGroup, kSecondCell, true, seconds(second));
+    EXPECT_TRUE(heard.note(11, asked(asks, seconds(second), false).at(kSecondCell)));
+    asks.leave(kSecondGroup);
+  }
+}
+
 TEST(ReceivedAsks, KnowAQuestionAgainByWhoAskedAndWhen) {
   ReceivedAsks heard;
   EXPECT_TRUE(heard.note(11, 5));
