@@ -29,7 +29,9 @@ struct Counted {
               last = now;
               if (++steps == enough) reached.notify();
             },
-            [this] { told = steps.load(); }, {}, &duty};
+            [this] { told = steps.load(); },
+            {},
+            &duty};
   }
   void wait() {
     while (steps < enough) reached.wait(nanoseconds::max());
