@@ -136,8 +136,10 @@ void PeerThreads::run_read(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     leave_time(priority);
     LinkReader reads = reads_.load(std::memory_order_acquire);
-    if (reads == LinkReader::asked_back && reads_.compare_exchange_strong(reads, LinkReader::model))
-      reads = LinkReader::model;
+    if (reads == LinkReader::asked_back) {
+      reads_.store(reads = LinkReader::model, std::memory_order_release);
+      news_.notify();  // it may sleep elsewhere than at the link
+    }
     if (reads == LinkReader::model) {
       room_.wait(nanoseconds::max());
       continue;
