@@ -92,7 +92,8 @@ std::string ServoThread::describe() const {
   const auto early = std::chrono::duration_cast<microseconds>(spin_.load()).count();
   if (early == 0)
     return fmt::format("SCHED_FIFO {}, wakes when a step is due{}", kPriority, remedy);
-  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins", kPriority, early);
+  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins near what can be felt", kPriority,
+                     early);
 }
 
 void ServoThread::run(std::optional<RealTimePriority>& priority) noexcept {

@@ -113,18 +113,6 @@ bool ServoLoop::has_near() noexcept {
   return near_surface_;
 }
 
-bool ServoLoop::take_news(double moved) noexcept {
-  constexpr std::chrono::milliseconds kStillFor{100}, kAtLeast{10};
-  const bool moves = has_near() || !((step_.probe - seen_at_).norm() <= moved);
-  if (moves) {
-    seen_at_ = step_.probe;
-    moved_ = step_.now;
-  }
-  const bool is_new = step_.now - moved_ < kStillFor || step_.now - seen_ >= kAtLeast;
-  if (is_new) seen_ = step_.now;
-  return is_new;
-}
-
 double ServoLoop::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The servo publishes the outcome of a step.
 #include <algorithm>
+#include <chrono>
 
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -15,6 +16,18 @@ double ServoLoop::transferred() const noexcept {
     sum += remote->pair().received - remote->pair().given;
   }
   return sum;
+}
+
+bool ServoLoop::take_news(double moved) noexcept {
+  constexpr std::chrono::milliseconds kStillFor{100}, kAtLeast{10};
+  const bool moves = has_near() || !((step_.probe - seen_at_).norm() <= moved);
+  if (moves) {
+    seen_at_ = step_.probe;
+    moved_ = step_.now;
+  }
+  const bool is_new = step_.now - moved_ < kStillFor || step_.now - seen_ >= kAtLeast;
+  if (is_new) seen_ = step_.now;
+  return is_new;
 }
 
 void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {

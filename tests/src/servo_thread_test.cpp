@@ -195,10 +195,10 @@ TEST(ServoThread, SaysHowItKeepsTime) {
   EXPECT_FALSE(plain.real_time());
   EXPECT_EQ(plain.describe(), "SCHED_OTHER as asked for, wakes when a step is due");
   const ServoThread thread(kClock);
-  EXPECT_EQ(thread.describe(), thread.real_time()
-                                   ? "SCHED_FIFO 50, wakes 100 us early and spins"
-                                   : "no real-time right (see reckon doctor), wakes when a step is "
-                                     "due");
+  EXPECT_EQ(thread.describe(),
+            thread.real_time() ? "SCHED_FIFO 50, wakes 100 us early and spins near what can be felt"
+                               : "no real-time right (see reckon doctor), wakes when a step is "
+                                 "due");
 }
 
 }  // namespace
