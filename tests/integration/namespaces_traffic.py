@@ -109,29 +109,40 @@ def noise(setup):
             check(not errors, f"an error on the {name}: {errors[0] if errors else None}")
 
 
+PROBE = 300  # octets of a comment that only shows that tshark has begun
+
+
 def judged(setup):
     """tshark and `inspect` beside each other: multicast, both broadcasts, unicast and fragments, PDU by PDU."""
     if shutil.which("tshark") is None:
         raise Skip("needs tshark, the judge")
     with setup.testbed(2) as bed:
         fields = ("ip.dst", "dis.proto_ver", "dis.pdu_type", "dis.exer_id", "dis.pdu_length")
-        shark = bed.run(1, ["tshark", "-i", "e0", "-n", "-Q", "-f", "udp or (ip[6:2] & 0x3fff != 0)", "-Y", "dis", "-a", "duration:7",
+        shark = bed.run(1, ["tshark", "-i", "e0", "-n", "-Q", "-l", "-f", "udp or (ip[6:2] & 0x3fff != 0)", "-Y", "dis",
                             "-d", f"udp.port=={PORT},dis", "-T", "fields", *(word for field in fields for word in ("-e", field))])
-        program = bed.run(1, [str(setup.reckon), "inspect", "iface:e0", "--json", "--for", "6s"])
-        check(program.wait_line("listening", 5, errors=True), program.error_text())
-        time.sleep(2)  # tshark says nothing of its start when it is quiet
         sender = broadcaster(bed, 2)
         group = bed.multicast_sender(2)
+        # tshark does not say when it begins.
+        end = time.monotonic() + 30
+        while not shark.lines and time.monotonic() < end:
+            group.sendto(comment(0, PROBE), (BASE_GROUP, PORT))
+            time.sleep(0.1)
+        check(shark.lines, f"tshark saw nothing in 30 s: {shark.error_text()}")
+        program = bed.run(1, [str(setup.reckon), "inspect", "iface:e0", "--json", "--for", "6s"])
+        check(program.wait_line("listening", 5, errors=True), program.error_text())
         for number in range(20):
             for target in (SUBNET, EVERYBODY, Testbed.address(1)):
                 sender.sendto(pdu(number), (target, PORT))
             group.sendto(pdu(number), (BASE_GROUP, PORT))
             group.sendto(comment(number, 7000), (BASE_GROUP, PORT))
             time.sleep(0.01)
-        check(shark.wait() == 0, shark.error_text())
-        judge = sorted((words[2], words[4]) for words in (text.split("\t") for _, text in shark.lines))
+        probe = str(len(comment(0, PROBE)))
         rows = heard(program)
         ours = sorted((str(row["type_number"]), str(row["length"])) for row in rows)
+        shark.interrupt()
+        check(shark.wait() == 0, shark.error_text())
+        judge = sorted((words[2], words[4]) for words in (text.split("\t") for _, text in shark.lines) if words[4] != probe)
+        ours = [pdu for pdu in ours if pdu[1] != probe]
         print(f"  tshark {len(judge)} PDUs, inspect {len(ours)}")
         check(len(judge) == 100, f"tshark itself saw {len(judge)} of 100")
         check(ours == judge, f"inspect: {sorted(set(ours) ^ set(judge))[:4]}, {len(ours)} PDUs")
