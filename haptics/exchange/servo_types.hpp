@@ -126,8 +126,10 @@ struct ServoSnapshot : AccountList {
   bool enabled = false;      ///< operator switch held and no trip pending
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
   double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
-  /// [J], least value of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
+  /// [J], least value of port_energy + loan so far; >= -1e-9 - late_cost on a device that keeps its
+  /// limits.
   double port_energy_min = 0.0;
+  double late_cost = 0.0;  ///< [J], energy that late steps took from an empty ledger, at most
   /// [J], greatest error of port_energy above the truth from encoder steps; 0 without them.
   double encoder_allowance = 0.0;
   double loan = 0.0;         ///< [J], debt, see exchange_energy(); <= kGreatestLoan

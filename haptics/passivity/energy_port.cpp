@@ -31,8 +31,16 @@ void EnergyPort::keep_in_mind(double dt) noexcept {
   squares_ += dt * force.squaredNorm();
 }
 
+// hold() reckoned with the damping that dx costs within its own dt.
+void EnergyPort::note_late(const Eigen::Vector3d& dx, double dt) noexcept {
+  if (!(period_ > 0) || !(dt > period_)) return;
+  const double way = dx.norm() + 2.0 * unsure_;
+  late_ += damping() * way * way * (1.0 / period_ - 1.0 / dt);
+}
+
 void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
   pass();
+  note_late(dx, dt);
   if (missed_) {
     keep_in_mind(dt);
     settle_missed(dx);
@@ -135,6 +143,8 @@ void EnergyPort::pay_back(double energy) noexcept {
 }
 
 void EnergyPort::clear() noexcept {
+  written_off_ += std::min(late_, debt());
+  late_ = 0.0;
   level_ = booked_ = unearned_ = 0.0;
   let_go();
 }
@@ -159,6 +169,8 @@ SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) c
 PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   PortHold out;
   period_ = dt;
+  late_ = std::min(late_, debt());
+  late_cost_ = std::max(late_cost_, written_off_ + late_);
   SplitBound bound = bound_of(load, 1.0, dt);
   if (const auto whole = largest_weight(bound, load.springs + load.extra)) {
     out.weight = *whole;

@@ -132,6 +132,10 @@ class EnergyPort {
   /// Energy in no spring [J], after the last hold().
   [[nodiscard]] double free() const noexcept { return level_ - booked_; }
   [[nodiscard]] double damping() const noexcept { return damping_.damping(); }
+  /// Greatest part of an E below 0 that samples longer than the dt of their hold() account for [J],
+  /// since the start. Each may take b |dx|^2 (1 / dt - 1 / its length) beyond what was reckoned. 0
+  /// for a punctual servo.
+  [[nodiscard]] double late_cost() const noexcept { return late_cost_; }
   /// Energy that the hand put in, plus what the device's damping certainly took [J], since the
   /// start.
   [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
@@ -154,6 +158,7 @@ class EnergyPort {
                                  PortHold& out) const noexcept;
   void lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept;
   void pass() noexcept;
+  void note_late(const Eigen::Vector3d& dx, double dt) noexcept;
   void keep_in_mind(double dt) noexcept;
   void settle_missed(const Eigen::Vector3d& dx) noexcept;
   void absorb(double energy) noexcept {
@@ -182,6 +187,9 @@ class EnergyPort {
   double received_power_ = std::numeric_limits<double>::infinity();
   double receivable_ = kReceivedAtOnce;
   double absorbed_ = 0.0;
+  double late_ = 0.0;         // of what E is below 0
+  double written_off_ = 0.0;  // of late_, by clear()
+  double late_cost_ = 0.0;
   double allowance_ = 0.0;
   Eigen::Vector3d chosen_ = Eigen::Vector3d::Zero();  // to be written
   // Since the last reading, if samples were missed: time, and integrals of force and its square.

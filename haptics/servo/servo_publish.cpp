@@ -70,6 +70,7 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.loan = port_.owed();
   port_min_ = std::min(port_min_, out.port_energy + out.loan);
   out.port_energy_min = port_min_;
+  out.late_cost = port_.late_cost();
   out.loan_most = loan_most_ = std::max(loan_most_, out.loan);
   if (trace_ != nullptr) trace_->push(out);
   snapshots_.publish();

@@ -120,15 +120,20 @@ void print_refused(std::FILE* out, const Hands& hands) {
 
 void print_steps(std::FILE* out, const Hands& hands) {
   std::uint64_t late = 0, let_go = 0, failed = 0;
+  double late_cost = 0.0;
   for (const HandView* hand : hands) {
     late += hand->servo.tally.late;
     let_go += hand->servo.tally.let_go;
     failed += hand->servo.tally.failed;
+    late_cost += hand->servo.late_cost;
   }
   if (late > 0 || let_go > 0)
     print_line(
         out, "late servo steps",
         fmt::format("{}, of which {} found that the device had let go of its force", late, let_go));
+  if (late_cost > 1e-9)
+    print_line(out, "energy of late steps",
+               fmt::format("up to {:.1e} J, by which the energy may be below 0", late_cost));
   if (failed > 0)
     print_line(out, "failed readings", fmt::format("{} of a device's position", failed));
 }

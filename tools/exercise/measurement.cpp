@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "reckon/deadreckon/force/force_model.hpp"
@@ -42,6 +43,7 @@ DemoMeasurement::DemoMeasurement(std::vector<std::size_t> peers, const peer::Han
       ids_(peers_.size()),
       devices_(peers_.size()),
       last_(peers_.size()),
+      late_costs_(peers_.size(), 0.0),
       history_(peers_.size()),
       steps_(peers_.size()) {}
 
@@ -205,6 +207,7 @@ bool DemoMeasurement::compare_force(std::size_t observer, std::size_t owner,
 
 void DemoMeasurement::add_energy(std::size_t index, const haptics::ServoSnapshot& step) {
   energy_min_ = std::min(energy_min_, step.port_energy_min);
+  late_costs_[index] = step.late_cost;
   loan_most_ = std::max(loan_most_, step.loan_most);
   // Of many hands the steps of one are times enough to look at the sum of all.
   constexpr std::size_t kFew = 8;
@@ -217,6 +220,10 @@ void DemoMeasurement::add_energy(std::size_t index, const haptics::ServoSnapshot
     sum += other->energy;
   }
   energy_min_ = std::min(energy_min_, sum);
+}
+
+double DemoMeasurement::late_cost() const {
+  return std::accumulate(late_costs_.begin(), late_costs_.end(), 0.0);
 }
 
 }  // namespace reckon::tools

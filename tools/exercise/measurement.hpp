@@ -60,6 +60,8 @@ class DemoMeasurement {
   [[nodiscard]] double force_error_rms() const;
   /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
   [[nodiscard]] double energy_min() const { return energy_min_; }
+  /// Greatest part of it that late steps account for [J], added over the ports.
+  [[nodiscard]] double late_cost() const;
   /// Most that was lent to a port to hands that found one another inside [J].
   [[nodiscard]] double loan_most() const { return loan_most_; }
   /// [s] of hand-to-hand contact, on the static scene, and with entities that no hand moves, each
@@ -103,6 +105,7 @@ class DemoMeasurement {
   std::vector<pdu::EntityId> ids_;
   std::vector<peer::DeviceStiffness> devices_;
   std::vector<Place> last_;  // step that was compared
+  std::vector<double> late_costs_;  // [J]
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;
   std::deque<Shown> shown_;

@@ -47,6 +47,7 @@ std::uint64_t most(std::span<const peer::Counters* const> peers, std::string_vie
 // Of all hands: the least energy, and the cuts of the force.
 struct Ports {
   double energy_min = 0;
+  double late_cost = 0;
   double loan_most = 0;
   std::uint64_t trips = 0;
 };
@@ -55,6 +56,7 @@ Ports ports_of(const peer::PeerView& view) {
   Ports ports;
   for (const peer::HandView& hand : view.own_hands()) {
     ports.energy_min = std::min(ports.energy_min, hand.servo.port_energy_min);
+    ports.late_cost = std::max(ports.late_cost, hand.servo.late_cost);
     ports.loan_most = std::max(ports.loan_most, hand.servo.loan_most);
     ports.trips += hand.servo.trips;
   }
@@ -85,7 +87,7 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
       R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
       R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
-      R"("energy_min_j":{:.6g},"loan_j":{:.6g},"trips":{},"hands":{})",
+      R"("energy_min_j":{:.6g},"late_cost_j":{:.6g},"loan_j":{:.6g},"trips":{},"hands":{})",
       view.own.site, view.own.application, view.own.entity, seconds,
       seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", pdu::to_seconds(seen)), view.entities,
       view.peers, static_cast<double>(counter(peer, "datagrams_out")) / seconds,
@@ -94,7 +96,8 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
       spread_json(peer.model().remote().pose_jumps().spread()),
       spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
-      ports_of(view).loan_most, ports_of(view).trips, hands_json(hands_of(view)));
+      ports_of(view).late_cost, ports_of(view).loan_most, ports_of(view).trips,
+      hands_json(hands_of(view)));
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
   });

@@ -84,7 +84,7 @@ struct Cost {
   double packets = 0, octets = 0, raw_packets = 0, raw_octets = 0;
   ServoReport servo;
   peer::Spread pose, force, possible_force;
-  double energy_min = 0;
+  double energy_min = 0, late_cost = 0;
 };
 
 Cost cost_of(const Exercise& exercise) {
@@ -101,6 +101,7 @@ Cost cost_of(const Exercise& exercise) {
   cost.force = exercise.measurement().force_error();
   cost.possible_force = exercise.measurement().possible_force_error();
   cost.energy_min = exercise.measurement().energy_min();
+  cost.late_cost = exercise.measurement().late_cost();
   return cost;
 }
 
@@ -167,7 +168,7 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
       R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
       R"("missed_steps":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
-      R"("energy_min_j":{:.6g},"loan_j":{:.6g},)"
+      R"("energy_min_j":{:.6g},"late_cost_j":{:.6g},"loan_j":{:.6g},)"
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
       R"("entity_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
@@ -177,11 +178,12 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       cost.octets, cost.raw_packets, cost.raw_octets,
       spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
       exercise.unmeasured_steps(), errors_json(cost.pose), errors_json(cost.force),
-      errors_json(cost.possible_force), cost.energy_min, measured.loan_most(), cost.seconds,
-      measured.touching_hands(), measured.touching_scene(), measured.touching_entities(),
-      measured.peak_force(), measured.trips(), exercise.total("datagrams_lost"),
-      exercise.total("send_checks"), exercise.total("updates_out"), exercise.total("own_octets"),
-      hands_json(hands_of(exercise)), walls_json(counters_of(exercise)));
+      errors_json(cost.possible_force), cost.energy_min, cost.late_cost, measured.loan_most(),
+      cost.seconds, measured.touching_hands(), measured.touching_scene(),
+      measured.touching_entities(), measured.peak_force(), measured.trips(),
+      exercise.total("datagrams_lost"), exercise.total("send_checks"),
+      exercise.total("updates_out"), exercise.total("own_octets"), hands_json(hands_of(exercise)),
+      walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
