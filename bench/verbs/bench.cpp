@@ -129,8 +129,9 @@ void declare_stability_flags(tools::CommandLine& line, StabilityWords& words) {
 void declare_scale_flags(tools::CommandLine& line, ScaleWords& words) {
   std::string movements;
   for (const Gait& gait : kGaits) movements += fmt::format("{}, ", gait.name);
-  line.option("--peers", words.peers, "scale: numbers of peers, as in 16,64,256 (64)");
-  line.option("--entities", words.entities, "scale: numbers of entities, all together (6400)");
+  line.option("--peers", words.peers, "scale: numbers of peers, as in 16,64,256 (8,16,32,64)");
+  line.option("--entities", words.entities,
+              "scale: numbers of entities, all together (100 for each peer)");
   line.option("--movement", words.movement,
               fmt::format("scale: how they move: {}{} (mixed)", movements, kMixedGait));
   line.option("--density", words.density, "scale: entities a square kilometre (400)");
@@ -164,6 +165,7 @@ void declare_scale_flags(tools::CommandLine& line, ScaleWords& words) {
   line.flag("--many-hands", words.many_hands,
             "scale: 64 peers with a hand each, 4 of them touching: what all send over a whole run "
             "with and without dead reckoning of the force");
+  line.flag("--wide", words.wide, "scale: tables with all columns, one for each exercise");
   line.option("--compare", words.compare,
               "scale: what has changed against this file, which --json wrote");
 }
@@ -186,7 +188,7 @@ void declare_flags(tools::CommandLine& line, BenchOptions& options, LatencyOptio
   line.option(
       "--for", shared.length,
       "length of a motion, or of the study of latency (60s); of a run of stability (12s), of "
-      "scale (10s)");
+      "scale (5s)");
   line.only_for("accuracy stability");
   line.option(
       "--csv", options.csv,

@@ -49,12 +49,28 @@ double notable(std::string_view measure) {
   return measure.find("cpu") == measure.npos ? kNotable : kNotableCpu;
 }
 
-const BaseRow* base_of(const ScaleRow& row, std::span<const BaseRow> base) {
-  const auto found = std::ranges::find_if(base, [&](const BaseRow& other) {
-    return other.mechanism == kMechanisms[row.mechanism].name && other.peers == row.counts.peers &&
-           other.entities == row.counts.entities;
-  });
-  return found == base.end() ? nullptr : &*found;
+bool is_of(const BaseRow& base, const ScaleRow& row) {
+  return base.mechanism == kMechanisms[row.mechanism].name && base.peers == row.counts.peers &&
+         base.entities == row.counts.entities;
+}
+
+bool has_base(const ScaleRow& row, std::span<const BaseRow> base) {
+  return std::ranges::any_of(base, [&](const BaseRow& other) { return is_of(other, row); });
+}
+
+/// The value of the base that is nearest to `now`: `now` itself between two of them; none where the
+/// base lacks the row.
+std::optional<double> nearest_of_base(const ScaleRow& row, std::string_view measure, double now,
+                                      std::span<const BaseRow> base) {
+  std::optional<double> least, most;
+  for (const BaseRow& other : base) {
+    if (!is_of(other, row)) continue;
+    const double value = other.values.find(measure)->second;
+    least = std::min(least.value_or(value), value);
+    most = std::max(most.value_or(value), value);
+  }
+  if (!least) return std::nullopt;
+  return std::clamp(now, *least, *most);
 }
 
 }  // namespace
@@ -90,15 +106,16 @@ std::vector<BaseRow> read_scale_rows(const std::string& path) {
 std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows, std::span<const BaseRow> base) {
   std::vector<ScaleChange> changes;
   for (const ScaleRow& row : rows) {
-    const BaseRow* before = base_of(row, base);
-    if (before == nullptr) continue;
     for (const ScaleMeasure& measure : scale_measures()) {
+      const double now = measure.of(row);
+      const auto before = nearest_of_base(row, measure.name, now, base);
+      if (!before) continue;
       const ScaleChange change{kMechanisms[row.mechanism].name,
                                measure.name,
                                row.counts.peers,
                                row.counts.entities,
-                               before->values.find(measure.name)->second,
-                               measure.of(row)};
+                               *before,
+                               now};
       if (std::abs(change.ratio() - 1) > notable(measure.name)) changes.push_back(change);
     }
   }
@@ -108,9 +125,29 @@ std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows, std::span<co
   return changes;
 }
 
+void check_same_exercises(std::span<const ScaleSetting> settings, std::span<const BaseRow> base,
+                          std::string_view file) {
+  const auto name = [](std::size_t peers, std::size_t entities) {
+    return fmt::format("{} peers with {} entities", peers, entities);
+  };
+  std::vector<std::string> known;
+  for (const BaseRow& row : base) {
+    const std::string one = name(row.peers, row.entities);
+    if (std::ranges::find(known, one) == known.end()) known.push_back(one);
+  }
+  for (const ScaleSetting& setting : settings) {
+    const std::string one = name(setting.peers, setting.crowd.entities);
+    if (std::ranges::find(known, one) == known.end())
+      throw tools::UsageError(
+          fmt::format("--compare: {} has no exercise of {}, only {}; give --peers and --entities "
+                      "as it has them",
+                      file, one, fmt::join(known, "; ")));
+  }
+}
+
 std::string comparison_text(std::span<const ScaleRow> rows, std::span<const BaseRow> base) {
-  const auto matched = std::ranges::count_if(
-      rows, [&](const ScaleRow& row) { return base_of(row, base) != nullptr; });
+  const auto matched =
+      std::ranges::count_if(rows, [&](const ScaleRow& row) { return has_base(row, base); });
   std::string out = fmt::format("{} of {} rows are in the base too", matched, rows.size());
   const auto changes = changes_of(rows, base);
   if (changes.empty())

@@ -33,9 +33,14 @@ struct ScaleChange {
   [[nodiscard]] double ratio() const;
 };
 
-/// Numbers that differ by more than 2 %, CPU by more than 10 %, largest change first.
+/// Numbers that are outside what the base has, which may hold several runs of an exercise, by more
+/// than 2 %, CPU by more than 10 %; the largest change first. `before` is the nearest of the base.
 [[nodiscard]] std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows,
                                                   std::span<const BaseRow> base);
+
+/// @throws UsageError for an exercise that the base does not have, with those that it has
+void check_same_exercises(std::span<const ScaleSetting> settings, std::span<const BaseRow> base,
+                          std::string_view file);
 
 [[nodiscard]] std::string comparison_text(std::span<const ScaleRow> rows,
                                           std::span<const BaseRow> base);

@@ -24,23 +24,25 @@ struct ScaleDesign {
 
 struct Mechanism {
   std::string_view name;
+  std::string_view short_name;  ///< for a narrow table
   std::string_view meaning;
   void (*add)(ScaleDesign&);  ///< to what the rows before it do
 };
 
 inline constexpr std::array kMechanisms{
-    Mechanism{"every tick", "each entity is sent at each tick, to all, one a datagram",
-              [](ScaleDesign&) {}},
-    Mechanism{"+ dead reckoning",
+    Mechanism{"every tick", "every tick",
+              "each entity is sent at each tick, to all, one a datagram", [](ScaleDesign&) {}},
+    Mechanism{"+ dead reckoning", "+ dead reckoning",
               "sent where peers' prediction is off by the threshold, and at the "
               "heartbeat",
               [](ScaleDesign& design) { design.dead_reckoning = true; }},
-    Mechanism{"+ bundling", "entities of one peer share datagrams",
+    Mechanism{"+ bundling", "+ bundling", "entities of one peer share datagrams",
               [](ScaleDesign& design) { design.bundling = true; }},
-    Mechanism{"+ areas of interest", "a multicast group for each cell, joined where it is in reach",
+    Mechanism{"+ areas of interest", "+ areas",
+              "a multicast group for each cell, joined where it is in reach",
               [](ScaleDesign& design) { design.areas = true; }},
     Mechanism{
-        "+ channels",
+        "+ channels", "+ channels",
         "30 updates a second at most where a receiver is within 50 m, 10 and 4 times as coarse "
         "within "
         "200 m, else 1 and 16 times; of the rows that the radius reaches each but the last is said "
@@ -49,7 +51,7 @@ inline constexpr std::array kMechanisms{
         "needs",
         [](ScaleDesign& design) { design.channels = true; }},
     Mechanism{
-        "+ compression",
+        "+ compression", "+ compression",
         "what receivers cannot predict of a state, or with groups for near rows, what differs "
         "from the last key, in one PDU a bundle",
         [](ScaleDesign& design) { design.compression = true; }},

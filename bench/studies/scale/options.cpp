@@ -30,6 +30,11 @@ std::vector<std::size_t> counts_of(const std::string& text, double most, std::st
   return counts;
 }
 
+std::vector<std::size_t> entities_of(const ScaleWords& words, std::size_t peers) {
+  if (words.entities.empty()) return {kEntitiesAPeer * peers};
+  return counts_of(words.entities, kMostEntities, "--entities");
+}
+
 double single(const std::string& text, const ValueRule& rule, std::string_view flag) {
   const auto values = read_values(text, rule, flag);
   if (values.size() == 1) return values.front();
@@ -164,7 +169,7 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
   plan.tracks = read_tracks(words, kWarmUp + base.seconds);
   base.crowd.tracks = plan.tracks;
   for (const std::size_t peers : counts_of(words.peers, kMostPeers, "--peers"))
-    for (const std::size_t entities : counts_of(words.entities, kMostEntities, "--entities")) {
+    for (const std::size_t entities : entities_of(words, peers)) {
       plan.settings.push_back(base);
       plan.settings.back().peers = peers;
       plan.settings.back().crowd.entities = entities;

@@ -16,10 +16,13 @@
 
 namespace reckon::bench {
 
+inline constexpr std::size_t kEntitiesAPeer = 100;  ///< unless --entities says otherwise
+
 /// The words as typed.
 struct ScaleWords {
   std::string file;  ///< of tracks; empty: movement by a seed
-  std::string peers = "64", entities = "6400";
+  std::string peers = "8,16,32,64";
+  std::string entities;  ///< empty: kEntitiesAPeer each
   std::string movement;  ///< empty: mixed
   std::string radius = "200 m";
   std::string scheme;      ///< of cells, a word of a scene; empty: hexagonal
@@ -30,7 +33,7 @@ struct ScaleWords {
   std::optional<std::chrono::nanoseconds> delay;
   std::string jitter, loss;  ///< shares
   std::optional<std::uint64_t> seed;
-  std::optional<std::chrono::nanoseconds> length;  ///< 10 s
+  std::optional<std::chrono::nanoseconds> length;  ///< 5 s
   std::string report;
   std::string compare;                ///< JSON Lines of an earlier run
   std::string whole;                  ///< where whole peers meet, see read_meeting(); empty: none
@@ -42,6 +45,7 @@ struct ScaleWords {
   bool hands = false;                 ///< hands in contact too
   bool many_hands = false;            ///< and hands among many
   bool json = false;
+  bool wide = false;  ///< all columns
 };
 
 /// What is run.

@@ -19,8 +19,9 @@ namespace reckon::bench {
 namespace {
 
 constexpr std::string_view kStyle =
-    "body{max-width:100rem}pre{overflow-x:auto;font-size:11px}"
-    ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(26rem,1fr));gap:1rem}"
+    "body{max-width:100rem}pre{overflow-x:auto;font-size:12px}"
+    ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(26rem,100%),1fr));"
+    "gap:1rem}"
     ".plots svg{width:100%;height:auto}";
 
 /// What is drawn.
@@ -35,10 +36,6 @@ constexpr std::array kPictures{
     Picture{"pose_error_p99_m", "Error of what is shown, p99", "m"},
     Picture{"send_cpu_share", "CPU of deciding, encoding and bundling", "share of a core"},
 };
-
-const ScaleMeasure& measure_named(std::string_view name) {
-  return *std::ranges::find(scale_measures(), name, &ScaleMeasure::name);
-}
 
 /// Without the sign of what is added.
 std::string short_name(std::size_t mechanism) {
@@ -64,7 +61,7 @@ std::string picture(const ScaleReport& report, const Picture& drawn) {
       plot.note += fmt::format("{}{} peers {}", plot.note.empty() ? "" : ", ", count,
                                LogPlot::dash_name(piece++));
   }
-  const ScaleMeasure& measure = measure_named(drawn.measure);
+  const ScaleMeasure& measure = scale_measure(drawn.measure);
   for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
     LogCurve curve{short_name(mechanism), {}, mechanism + 1 == kMechanisms.size()};
     for (const ScaleRow& row : report.rows) {
@@ -122,8 +119,11 @@ std::string table(std::string_view title, const std::string& text) {
 }  // namespace
 
 std::string scale_page(const ScaleReport& report) {
-  std::string body = fmt::format("<p><code>{}</code></p>\n", html_escaped(report.command));
-  body += table("Mechanism by mechanism", scale_text(report.rows));
+  std::string body = fmt::format("<p><code>{}</code></p>\n<p>{}</p>\n",
+                                 html_escaped(report.command), html_escaped(report.circumstances));
+  const auto found = capacities(report.rows, report.limits);
+  if (!found.empty()) body += table("What it carries", capacity_text(found, report.limits));
+  body += table("Mechanism by mechanism", scale_summary(report.rows));
   std::string list;
   for (const Mechanism& mechanism : kMechanisms)
     list += fmt::format("<li><b>{}</b>: {}</li>\n", mechanism.name, mechanism.meaning);
@@ -132,6 +132,7 @@ std::string scale_page(const ScaleReport& report) {
   if (!report.measured.runs.empty()) body += measured_picture(report.measured);
   if (!report.hands.empty()) body += hands_picture(report.hands);
   body += "</div>\n";
+  body += table("All columns", scale_text(report.rows));
   if (!report.measured.runs.empty())
     body += table("One whole peer", measured_text(report.measured));
   if (!report.whole.empty()) body += table("All peers whole", whole_text(report.whole));

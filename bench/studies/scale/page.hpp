@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/studies/scale/capacity.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
 #include "reckon/bench/studies/scale/hands.hpp"
 #include "reckon/bench/studies/scale/many_hands.hpp"
@@ -17,7 +18,9 @@ namespace reckon::bench {
 
 /// All that a run gave.
 struct ScaleReport {
-  std::string command;  ///< as typed
+  std::string command;        ///< as typed
+  std::string circumstances;  ///< date, version and host
+  HostLimits limits;          ///< of the capacities
   std::vector<ScaleRow> rows;
   MeasuredReport measured;      ///< without runs where none was asked for
   std::vector<WholeRow> whole;  ///< likewise

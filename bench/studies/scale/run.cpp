@@ -2,20 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/bench/studies/scale/run.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <ctime>
 #include <functional>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "reckon/bench/studies/accuracy/query_cost.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
 #include "reckon/bench/studies/scale/measured_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/page.hpp"
+#include "reckon/bench/studies/scale/read_cost.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
 #include "reckon/bench/studies/scale/world.hpp"
 #include "reckon/bench/studies/sweep/progress_bar.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
+#include "reckon/tools/command_line/version.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -55,6 +62,7 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
     for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
       if (!sweep.next([&](const ScaleProgress& progress) {
             ScaleRow row{setting, mechanism, run_world(setting, design_of(mechanism), progress)};
+            row.counts.receive_cpu = receive_cpu(row.counts, report.limits);
             if (!console.stopped()) report.rows.push_back(std::move(row));
           }))
         return false;
@@ -82,18 +90,30 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
   });
 }
 
+/// "2026-11-26 12:00 UTC, reckon 0.1.0, 2 cores of Intel ..".
+std::string circumstances() {
+  const std::time_t now = std::time(nullptr);
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC, reckon {}, {} of {}", fmt::gmtime(now),
+                     tools::program_version(),
+                     tools::counted(std::thread::hardware_concurrency(), "core"), processor_name());
+}
+
 }  // namespace
 
-std::string scale_findings(const ScaleReport& report, bool json) {
+std::string scale_findings(const ScaleReport& report, bool json, bool wide) {
   std::string out;
+  const auto found = capacities(report.rows, report.limits);
   const auto add = [&](const auto& rows, auto as_json, auto as_text) {
     if (rows.empty()) return;
     if (!json && !out.empty()) out += '\n';
     out += json ? as_json() : as_text();
   };
   add(
+      found, [&] { return capacity_json(found); },
+      [&] { return capacity_text(found, report.limits); });
+  add(
       report.rows, [&] { return scale_json(report.rows); },
-      [&] { return scale_text(report.rows); });
+      [&] { return wide ? scale_text(report.rows) : scale_summary(report.rows); });
   add(
       report.measured.runs, [&] { return measured_json(report.measured); },
       [&] { return measured_text(report.measured); });
@@ -122,18 +142,23 @@ int bench_scale(const ScaleWords& words, const std::string& command,
   tools::check_writable(words.report);
   ScaleReport report;
   report.command = command;
-  if (!words.compare.empty()) report.base = read_scale_rows(words.compare);
+  report.circumstances = circumstances();
+  report.limits.datagram = peer_read_cost(measure_read_cost());
+  if (!words.compare.empty()) {
+    report.base = read_scale_rows(words.compare);
+    check_same_exercises(plan.settings, report.base, words.compare);
+  }
   const bool whole = run_all(plan, words, report, console);
   if (!whole) report.base.clear();  // what is missing is no difference
-  const std::string out = scale_findings(report, words.json);
+  const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)
-    fmt::print(
-        console.err, "stopped{}{}\n",
-        out.empty() ? " before the first run had ended" : ": only runs that had ended are told",
-        words.report.empty() ? "" : "; no report is written");
+    fmt::print(console.err, "stopped{}\n",
+               out.empty() ? " before the first run had ended"
+                           : ": only runs that had ended are reported");
   fmt::print(console.out, "{}", out);
-  if (whole) tools::write_output(words.report, scale_page(report), console);
-  return tools::exit_status(tools::ExitCode::good);
+  if (!out.empty()) tools::write_output(words.report, scale_page(report), console);
+  const bool differs = !changes_of(report.rows, report.base).empty();
+  return tools::exit_status(differs ? tools::ExitCode::findings : tools::ExitCode::good);
 }
 
 }  // namespace reckon::bench

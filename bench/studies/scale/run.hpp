@@ -12,10 +12,12 @@
 namespace reckon::bench {
 
 /// All that the report has, as tables or as JSON Lines; empty where it has nothing.
-[[nodiscard]] std::string scale_findings(const ScaleReport& report, bool json);
+/// @param wide tables with all columns
+[[nodiscard]] std::string scale_findings(const ScaleReport& report, bool json, bool wide = false);
 
-/// Runs the study and returns the exit status; of one that is stopped the runs that had ended are
-/// told. @throws UsageError @param command as typed
+/// Runs the study and returns the exit status, `findings` where something differs from the base. Of
+/// a study that is stopped the runs that had ended are reported. @throws UsageError @param command
+/// as typed
 [[nodiscard]] int bench_scale(const ScaleWords& words, const std::string& command,
                               const tools::Console& console);
 

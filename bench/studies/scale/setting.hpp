@@ -28,7 +28,7 @@ struct ScaleSetting {
   CrowdPlan crowd{kMixedGait, 6400};  ///< at least one entity a peer, 65,534 at most
   double radius = 200;                ///< of interest [m], about each entity
   double rate = 30;     ///< ticks a second: decisions to send, and looks at what is shown
-  double seconds = 10;  ///< measured, after kWarmUp
+  double seconds = 5;   ///< measured, after kWarmUp
   deadreckon::Thresholds thresholds;
   double heartbeat = 55;       ///< [s]
   double first_heartbeat = 1;  ///< silence after which a change is said again, as peers do [s]
@@ -111,6 +111,7 @@ struct ScaleCounts {
   // CPU of this process in the library's code, of all peers together [s].
   double send_cpu = 0;      ///< decide, encode, bundle
   double interest_cpu = 0;  ///< foci and subscription
+  double receive_cpu = 0;   ///< by receive_cpu(); of the kernel too
 };
 
 }  // namespace reckon::bench

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
@@ -38,56 +40,77 @@ double wanted(const ScaleRow& row) {
 }
 
 constexpr std::array kMeasures{
-    ScaleMeasure{"sent_packets_per_s", "SENT/s",
+    ScaleMeasure{"sent_packets_per_s", "SENT/s", "SENT/s",
                  [](const ScaleRow& row) { return each(row, row.counts.datagrams); }},
-    ScaleMeasure{"sent_bytes_per_s", "SENT B/s",
+    ScaleMeasure{"sent_bytes_per_s", "SENT B/s", "",
                  [](const ScaleRow& row) { return each(row, row.counts.octets); }},
-    ScaleMeasure{"sent_updates_per_s", "UPDATES/s",
+    ScaleMeasure{"sent_updates_per_s", "UPDATES/s", "",
                  [](const ScaleRow& row) { return each(row, row.counts.updates); }},
-    ScaleMeasure{"heard_packets_per_s", "HEARD/s",
+    ScaleMeasure{"heard_packets_per_s", "HEARD/s", "HEARD/s",
                  [](const ScaleRow& row) { return each(row, row.counts.heard_datagrams); }},
-    ScaleMeasure{"heard_bytes_per_s", "HEARD B/s",
+    ScaleMeasure{"heard_bytes_per_s", "HEARD B/s", "HEARD B/s",
                  [](const ScaleRow& row) { return each(row, row.counts.heard_octets); }},
-    ScaleMeasure{"heard_updates_per_s", "HEARD UPD/s",
+    ScaleMeasure{"heard_updates_per_s", "HEARD UPD/s", "",
                  [](const ScaleRow& row) { return each(row, row.counts.heard_updates); }},
-    ScaleMeasure{"wanted_updates_per_s", "WANTED/s", wanted},
-    ScaleMeasure{"unwanted_updates_per_s", "UNWANTED/s",
+    ScaleMeasure{"wanted_updates_per_s", "WANTED/s", "", wanted},
+    ScaleMeasure{"unwanted_updates_per_s", "UNWANTED/s", "",
                  [](const ScaleRow& row) {
                    const double heard = each(row, row.counts.heard_updates) *
                                         (1 - ratio(row.counts.lost, row.counts.wanted));
                    return std::max(0.0, heard - wanted(row));
                  }},
-    ScaleMeasure{"pose_error_p50_m", "POSE p50",
+    ScaleMeasure{"pose_error_p50_m", "POSE p50", "",
                  [](const ScaleRow& row) { return row.counts.pose.p50; }},
-    ScaleMeasure{"pose_error_p99_m", "POSE p99",
+    ScaleMeasure{"pose_error_p99_m", "POSE p99", "POSE",
                  [](const ScaleRow& row) { return row.counts.pose.p99; }},
-    ScaleMeasure{"unseen_share", "UNSEEN",
+    ScaleMeasure{"unseen_share", "UNSEEN", "",
                  [](const ScaleRow& row) { return ratio(row.counts.unseen, row.counts.looks); }},
-    ScaleMeasure{"missed_share", "MISSED",
+    ScaleMeasure{"missed_share", "MISSED", "",
                  [](const ScaleRow& row) { return ratio(row.counts.missed, row.counts.wanted); }},
-    ScaleMeasure{"lost_share", "LOST",
+    ScaleMeasure{"lost_share", "LOST", "",
                  [](const ScaleRow& row) {
                    return ratio(row.counts.lost, row.counts.wanted - row.counts.missed);
                  }},
-    ScaleMeasure{"joins_per_s", "JOINS/s",
+    ScaleMeasure{"joins_per_s", "JOINS/s", "",
                  [](const ScaleRow& row) { return each(row, row.counts.joins); }},
-    ScaleMeasure{"shown_after_p50_s", "SHOWN p50",
+    ScaleMeasure{"shown_after_p50_s", "SHOWN p50", "",
                  [](const ScaleRow& row) { return pdu::to_seconds(row.counts.discovery.p50); }},
-    ScaleMeasure{"shown_after_p99_s", "SHOWN p99",
+    ScaleMeasure{"shown_after_p99_s", "SHOWN p99", "SHOWN",
                  [](const ScaleRow& row) { return pdu::to_seconds(row.counts.discovery.p99); }},
-    ScaleMeasure{"send_cpu_share", "CPU OUT",
+    ScaleMeasure{"wanted_share", "WANTED", "WANTED",
+                 [](const ScaleRow& row) {
+                   return std::min(1.0, ratio(wanted(row), each(row, row.counts.heard_updates)));
+                 }},
+    ScaleMeasure{"send_cpu_share", "CPU OUT", "",
                  [](const ScaleRow& row) { return each(row, row.counts.send_cpu); }},
-    ScaleMeasure{"interest_cpu_share", "CPU AOI",
+    ScaleMeasure{"interest_cpu_share", "CPU AOI", "",
                  [](const ScaleRow& row) { return each(row, row.counts.interest_cpu); }},
+    ScaleMeasure{"receive_cpu_share", "CPU IN", "",
+                 [](const ScaleRow& row) { return each(row, row.counts.receive_cpu); }},
+    ScaleMeasure{"cpu_share", "CPU", "CPU",
+                 [](const ScaleRow& row) {
+                   return each(
+                       row, row.counts.send_cpu + row.counts.interest_cpu + row.counts.receive_cpu);
+                 }},
 };
 
 bool is_same_exercise(const ScaleRow& a, const ScaleRow& b) {
   return a.setting.peers == b.setting.peers && a.counts.entities == b.counts.entities;
 }
 
+std::string exercise_name(const ScaleRow& row) {
+  return fmt::format(
+      "{} with {}", tools::counted(row.counts.peers, "peer"),
+      row.counts.entities == 1 ? "1 entity" : fmt::format("{} entities", row.counts.entities));
+}
+
 }  // namespace
 
 std::span<const ScaleMeasure> scale_measures() { return kMeasures; }
+
+const ScaleMeasure& scale_measure(std::string_view name) {
+  return *std::ranges::find(kMeasures, name, &ScaleMeasure::name);
+}
 
 std::string measure_text(const ScaleMeasure& measure, double value) {
   if (measure.name.ends_with("_m")) return length_text(value);
@@ -113,10 +136,8 @@ std::string scale_text(std::span<const ScaleRow> rows) {
       table.add(cells);
     }
     const ScaleRow& first = rows.front();
-    out += fmt::format(
-        "{} with {} over {:g} s\n{}\n", tools::counted(first.counts.peers, "peer"),
-        first.counts.entities == 1 ? "1 entity" : fmt::format("{} entities", first.counts.entities),
-        first.counts.seconds, table.text());
+    out += fmt::format("{} over {:g} s\n{}\n", exercise_name(first), first.counts.seconds,
+                       table.text());
     rows = rows.subspan(count);
   }
   out +=
@@ -126,8 +147,106 @@ std::string scale_text(std::span<const ScaleRow> rows) {
       "true. UNSEEN: of entities within the radius,\nat each tick, not shown; SHOWN: after coming "
       "in. MISSED: wanted, and the group not joined yet. LOST: of what\nwas sent to a joined "
       "group. "
-      "CPU: of this machine's core, in the library's code.\n";
+      "CPU: of this machine's core; IN: by what the kernel takes of it for a datagram.\n";
   return out;
+}
+
+namespace {
+
+/// "heard 3.4 x less", "sent 2 x more"; empty where nothing changes.
+std::string times(double before, double now, std::string_view what) {
+  if (!(before > 0) || !(now > 0)) return {};
+  const double factor = before / now;
+  if (factor > 1.05) return fmt::format("{} {:.2g} x less", what, factor);
+  if (factor < 1 / 1.05) return fmt::format("{} {:.2g} x more", what, 1 / factor);
+  return {};
+}
+
+std::string bought(const ScaleRow& before, const ScaleRow& now) {
+  std::string out;
+  const auto add = [&](const std::string& words) {
+    if (!words.empty()) out += (out.empty() ? "" : ", ") + words;
+  };
+  const auto compare = [&](std::string_view name, std::string_view what) {
+    const ScaleMeasure& measure = scale_measure(name);
+    add(times(measure.of(before), measure.of(now), what));
+  };
+  compare("heard_packets_per_s", "heard");
+  compare("sent_packets_per_s", "sent");
+  compare("heard_bytes_per_s", "octets heard");
+  const ScaleMeasure& pose = scale_measure("pose_error_p99_m");
+  if (std::abs(pose.of(now) - pose.of(before)) > 0.05 * pose.of(now))
+    add(fmt::format("pose {}", measure_text(pose, pose.of(now))));
+  return out.empty() ? "no difference here" : out;
+}
+
+std::vector<tools::TextTable::Column> narrow_columns(
+    std::vector<tools::TextTable::Column> columns) {
+  for (const ScaleMeasure& measure : kMeasures)
+    if (!measure.short_title.empty())
+      columns.push_back({std::string(measure.short_title), tools::TextTable::Align::right});
+  return columns;
+}
+
+void add_narrow(tools::TextTable& table, std::vector<std::string> cells, const ScaleRow& row) {
+  for (const ScaleMeasure& measure : kMeasures)
+    if (!measure.short_title.empty()) cells.push_back(measure_text(measure, measure.of(row)));
+  table.add(cells);
+}
+
+/// Where what a peer hears begins to grow in step with the exercise, and why.
+std::string knee_text(std::span<const ScaleRow> rows) {
+  constexpr double kInStep = 0.9;
+  const ScaleMeasure& heard = scale_measure("heard_packets_per_s");
+  const ScaleRow* before = nullptr;
+  for (const ScaleRow& row : rows) {
+    if (row.mechanism + 1 != kMechanisms.size()) continue;
+    const ScaleRow* last = std::exchange(before, &row);
+    if (last == nullptr || !(heard.of(*last) > 0)) continue;
+    const double growth = ratio(row.counts.entities, last->counts.entities);
+    if (!(growth > 1) || std::log(heard.of(row) / heard.of(*last)) < kInStep * std::log(growth))
+      continue;
+    const bool shared = row.counts.groups >= row.setting.grid.pool;
+    return fmt::format(
+        "From {} entities on each peer hears {:.2g} times as much{}.\n", row.counts.entities,
+        heard.of(row) / heard.of(*last),
+        shared ? ": cells share the groups\nof the pool; --pool takes up to 1000" : "");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string scale_summary(std::span<const ScaleRow> rows) {
+  if (rows.empty()) return {};
+  const ScaleRow& largest = *std::ranges::max_element(rows, {}, [](const ScaleRow& row) {
+    return std::pair(row.counts.entities, row.counts.peers);
+  });
+  tools::TextTable table(narrow_columns({{"EACH PEER"}}));
+  std::string changes;
+  const ScaleRow* before = nullptr;
+  for (const ScaleRow& row : rows) {
+    if (!is_same_exercise(row, largest)) continue;
+    const std::string_view name = kMechanisms[row.mechanism].short_name;
+    add_narrow(table, {std::string(name)}, row);
+    if (before != nullptr) changes += fmt::format("  {}: {}\n", name, bought(*before, row));
+    before = &row;
+  }
+  std::string out = fmt::format("{} over {:g} s\n{}\n{}", exercise_name(largest),
+                                largest.counts.seconds, table.text(), changes);
+  tools::TextTable sizes(narrow_columns({{"PEERS x ENTITIES"}}));
+  std::size_t count = 0;
+  for (const ScaleRow& row : rows) {
+    if (row.mechanism + 1 != kMechanisms.size()) continue;
+    add_narrow(sizes, {fmt::format("{} x {}", row.counts.peers, row.counts.entities)}, row);
+    ++count;
+  }
+  if (count > 1)
+    out += fmt::format("\nAll mechanisms together\n{}{}", sizes.text(), knee_text(rows));
+  return out +
+         "\nHEARD: datagrams, with those of control; WANTED: of the updates heard;\n"
+         "POSE: error p99; SHOWN: after coming within the radius, p99;\n"
+         "CPU: of a core, with the kernel's part. --wide has all columns.\n";
 }
 
 std::string scale_json(std::span<const ScaleRow> rows) {

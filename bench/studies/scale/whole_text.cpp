@@ -37,10 +37,6 @@ std::string_view name_of(Meeting meeting) {
   return "";
 }
 
-const ScaleMeasure& measure_named(std::string_view name) {
-  return *std::ranges::find(scale_measures(), name, &ScaleMeasure::name);
-}
-
 ScaleRow as_row(const WholeRow& row) {
   return {row.run.setting, row.model.mechanism, row.run.as_row()};
 }
@@ -93,10 +89,17 @@ std::string whole_text(std::span<const WholeRow> rows) {
     tools::TextTable table(
         {{"EACH PEER"}, {"MODEL", kRight}, {"WHOLE PEERS", kRight}, {"DIFFERENCE", kRight}});
     for (const std::string_view name : kCompared) {
-      const ScaleMeasure& measure = measure_named(name);
+      const ScaleMeasure& measure = scale_measure(name);
       const double model = measure.of(row.model), found = measure.of(whole);
       table.add({std::string(measure.title), measure_text(measure, model),
                  measure_text(measure, found), difference(found, model)});
+    }
+    // In a simulated network peers take no time of a kernel.
+    if (run.meeting != Meeting::simulated) {
+      const ScaleMeasure& cpu = scale_measure("cpu_share");
+      const double model = cpu.of(row.model), found = share_of_core(run);
+      table.add({std::string(cpu.title), measure_text(cpu, model), measure_text(cpu, found),
+                 difference(found, model)});
     }
     const WholeCounts& counts = run.counts;
     out += fmt::format(
@@ -128,7 +131,7 @@ std::string whole_json(std::span<const WholeRow> rows) {
         .value("entities", row.run.setting.crowd.entities)
         .value("seconds", counts.seconds);
     for (const std::string_view name : kCompared)
-      object.value(name, measure_named(name).of(as_row(row)));
+      object.value(name, scale_measure(name).of(as_row(row)));
     object.value("looks", counts.looks)
         .value("overdue", counts.overdue)
         .value("lost", counts.lost)

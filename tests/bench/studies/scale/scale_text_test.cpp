@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "reckon/bench/studies/scale/capacity.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/options.hpp"
 #include "reckon/bench/studies/scale/page.hpp"
@@ -101,6 +102,30 @@ TEST(ScaleText, WritesWhatItCanCompareWith) {
   EXPECT_THAT(comparison_json(now, base), HasSubstr("sent_packets_per_s"));
 }
 
+TEST(ScaleText, TakesWhatRepeatedRunsOfTheBaseHaveForNoise) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("base.json");
+  std::ofstream(file) << scale_json(std::vector{row_of(1, 60)})
+                      << scale_json(std::vector{row_of(1, 80)});
+  const auto base = read_scale_rows(file);
+  for (const std::uint64_t datagrams : {60u, 66u, 80u, 81u})
+    EXPECT_TRUE(changes_of(std::vector{row_of(1, datagrams)}, base).empty()) << datagrams;
+  const auto changes = changes_of(std::vector{row_of(1, 100)}, base);
+  ASSERT_FALSE(changes.empty());
+  EXPECT_DOUBLE_EQ(changes.front().ratio(), 1.25);
+}
+
+TEST(ScaleText, RefusesABaseOfOtherExercises) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("base.json");
+  std::ofstream(file) << scale_json(std::vector{row_of(1, 60)});
+  const auto result =
+      reckon::test::run_bench({"bench", "scale", "--peers", "4", "--for", "1s", "--compare", file});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("no exercise of 4 peers with 400 entities, only 10 peers with "
+                                    "100 entities"));
+}
+
 TEST(ScaleText, RefusesFilesThatHaveNoRows) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("other.json");
@@ -109,6 +134,87 @@ TEST(ScaleText, RefusesFilesThatHaveNoRows) {
   std::ofstream(file, std::ios::trunc) << "{}\n";
   EXPECT_THROW(static_cast<void>(read_scale_rows(file)), tools::UsageError);
   EXPECT_THROW(static_cast<void>(read_scale_rows(folder.file("none.json"))), tools::UsageError);
+}
+
+/// All mechanisms at one size; what a peer hears grows by a power of the number of peers.
+std::vector<ScaleRow> exercise_of(std::size_t peers, double power) {
+  std::vector<ScaleRow> rows;
+  for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
+    ScaleRow row = row_of(mechanism, 60);
+    row.counts.peers = row.setting.peers = peers;
+    row.counts.entities = 100 * peers;
+    const double heard = 20'000.0 * std::pow(static_cast<double>(peers) / 10, power);  // a second
+    const double sum = heard * row.counts.seconds * static_cast<double>(peers);
+    row.counts.heard_datagrams = static_cast<std::uint64_t>(sum);
+    row.counts.heard_updates = 0;
+    row.counts.heard_octets = 0;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// 20,000 datagrams of 10 us take a fifth of a core; half of one is 2.5 times as much.
+TEST(ScaleCapacity, IsReachedWhereAQuantityGrowsToItsLimit) {
+  const HostLimits limits{1e9, 0.5, 0.5, 10e-6};
+  for (const double power : {0.5, 1.0, 2.0}) {
+    std::vector<ScaleRow> rows = exercise_of(10, power);
+    for (const ScaleRow& row : exercise_of(20, power)) rows.push_back(row);
+    for (ScaleRow& row : rows) row.counts.receive_cpu = receive_cpu(row.counts, limits);
+    const auto found = capacities(rows, limits);
+    ASSERT_EQ(found.size(), kMechanisms.size());
+    EXPECT_NEAR(found.back().peers, 10 * std::pow(2.5, 1 / power), 0.01) << power;
+    EXPECT_NEAR(found.back().entities, 100 * found.back().peers, 1e-6);
+    EXPECT_EQ(found.back().limit, "the time in which a host reads datagrams");
+    EXPECT_EQ(found.back().within, power == 2.0);
+    EXPECT_THAT(capacity_text(found, limits), HasSubstr("reads datagrams limits first"));
+    std::istringstream lines(capacity_json(found));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_NEAR(json::parse(line)["peers"].get<double>(), found.front().peers, 1e-6);
+  }
+}
+
+TEST(ScaleCapacity, IsTheLinkWhereThatIsFullFirst) {
+  const HostLimits limits{1e9, 0.5, 0.5, 1e-6};
+  std::vector<ScaleRow> rows = exercise_of(10, 1);
+  for (const ScaleRow& row : exercise_of(20, 1)) rows.push_back(row);
+  for (ScaleRow& row : rows) row.counts.heard_octets = 1000 * row.counts.heard_datagrams;
+  // 20,000 datagrams of 1,000 octets are 0.16 Gbit/s.
+  const auto found = capacities(rows, limits);
+  EXPECT_NEAR(found.back().peers, 10 * 0.5 / 0.16, 0.1);
+  EXPECT_EQ(found.back().limit, "the link of a host");
+}
+
+TEST(ScaleCapacity, HasNoBoundWhereNothingGrowsAndIsNotGuessedFromOneSize) {
+  const HostLimits limits{1e9, 0.5, 0.5, 1e-6};
+  std::vector<ScaleRow> rows = exercise_of(10, 0);
+  EXPECT_TRUE(capacities(rows, limits).empty());
+  EXPECT_EQ(capacity_text({}, limits), "");
+  for (const ScaleRow& row : exercise_of(20, 0)) rows.push_back(row);
+  for (ScaleRow& row : rows) row.counts.send_cpu *= static_cast<double>(row.counts.peers);
+  const auto found = capacities(rows, limits);
+  EXPECT_TRUE(std::isinf(found.back().peers));
+  EXPECT_THAT(capacity_json(found), HasSubstr("\"peers\":null"));
+  EXPECT_THAT(capacity_text(found, limits), HasSubstr("as many peers as DIS can number"));
+  for (ScaleRow& row : rows) row.counts.entities += row.counts.peers == 20 ? 500 : 0;
+  EXPECT_TRUE(capacities(rows, limits).empty()) << "other peers have other numbers of entities";
+}
+
+TEST(ScaleSummary, FitsInto80ColumnsAndSaysWhatEachMechanismBought) {
+  std::vector<ScaleRow> rows = exercise_of(10, 1);
+  for (const ScaleRow& row : exercise_of(60'000, 1)) rows.push_back(row);
+  rows.back().counts.heard_datagrams /= 3;
+  rows.back().counts.pose.p99 = 123.456;
+  const std::string text = scale_summary(rows);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_THAT(text, HasSubstr("60000 peers with 6000000 entities"));
+  EXPECT_THAT(text, HasSubstr("+ compression: heard 3 x less"));
+  EXPECT_THAT(text, HasSubstr("pose 123 m"));
+  EXPECT_THAT(text, HasSubstr("All mechanisms together"));
+  EXPECT_THAT(text, HasSubstr("From 6000000 entities on each peer hears 2e+03 times as much.\n"));
+  for (ScaleRow& row : rows) row.counts.groups = row.setting.grid.pool;
+  EXPECT_THAT(scale_summary(rows), HasSubstr("cells share the groups"));
 }
 
 MeasuredPeer run_of(std::size_t entities, std::uint64_t datagrams, std::uint64_t updates,
@@ -240,8 +346,10 @@ TEST(ScaleBench, SaysThatNothingWasRunWhereItIsStoppedAtOnce) {
 }
 
 TEST(ScalePage, HoldsAllThatWasTold) {
-  ScaleReport report{
-      "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}, {}};
+  ScaleReport report;
+  report.command = "reckon bench scale --peers '<b>'";
+  report.circumstances = "2026-11-26 12:00 UTC, reckon 0.1.0";
+  report.rows = {row_of(0, 600), row_of(1, 60)};
   report.rows.push_back(row_of(0, 900));
   report.rows.back().counts.entities = 1000;
   report.hands = {{"press-20", 0.015, 20, 35, 11'000, {}}, {"press-20", 0.05, 23, 23, 7000, {}}};
@@ -251,6 +359,7 @@ TEST(ScalePage, HoldsAllThatWasTold) {
   const std::string page = scale_page(report);
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("'<b>'")));
+  EXPECT_THAT(page, HasSubstr("2026-11-26 12:00 UTC, reckon 0.1.0"));
   EXPECT_THAT(page, HasSubstr("Datagrams that a peer hears"));
   EXPECT_THAT(page, HasSubstr("One whole peer"));
   EXPECT_THAT(page, HasSubstr("press-20, sent at 50 mN: 23 a second, 112 mN"));

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/capacity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kDisPeers = 65'534;  // that DIS can number
+constexpr double kLeastPower = 0.02;  // below, a quantity does not grow
+
+/// What a peer uses up.
+struct Use {
+  std::string_view words;
+  double (*of)(const ScaleRow&);  ///< of a peer, a second
+  double (*most)(const HostLimits&);
+};
+
+double a_peer(const ScaleRow& row, double sum) {
+  return sum / (row.counts.seconds * static_cast<double>(row.counts.peers));
+}
+
+// THE list.
+constexpr std::array kUses{
+    Use{"the link of a host",
+        [](const ScaleRow& row) {
+          const auto octets = static_cast<double>(row.counts.octets + row.counts.heard_octets);
+          return 8 * a_peer(row, octets);
+        },
+        [](const HostLimits& limits) { return limits.link_share * limits.link; }},
+    Use{"the time in which a host reads datagrams",
+        [](const ScaleRow& row) { return a_peer(row, row.counts.receive_cpu); },
+        [](const HostLimits& limits) { return limits.core_share; }},
+    Use{"the time in which a host decides what to send",
+        [](const ScaleRow& row) {
+          return a_peer(row, row.counts.send_cpu + row.counts.interest_cpu);
+        },
+        [](const HostLimits& limits) { return limits.core_share; }},
+};
+
+/// The number of peers at which `use` reaches `most`.
+double reached_at(const Use& use, const ScaleRow& small, const ScaleRow& large, double most) {
+  const double before = use.of(small), now = use.of(large);
+  const auto peers = static_cast<double>(large.counts.peers);
+  if (!(now > 0)) return kUnbounded;
+  const double growth = std::log(peers / static_cast<double>(small.counts.peers));
+  const double power = before > 0 ? std::log(now / before) / growth : 1.0;
+  if (power < kLeastPower) return now > most ? 0.0 : kUnbounded;
+  return peers * std::pow(most / now, 1 / power);
+}
+
+double entities_a_peer(const ScaleRow& row) {
+  return static_cast<double>(row.counts.entities) / static_cast<double>(row.counts.peers);
+}
+
+Capacity capacity_of(const ScaleRow& small, const ScaleRow& large, const HostLimits& limits) {
+  Capacity out;
+  out.mechanism = large.mechanism;
+  out.peers = kUnbounded;
+  for (const Use& use : kUses) {
+    const double at = reached_at(use, small, large, use.most(limits));
+    if (at >= out.peers) continue;
+    out.peers = at;
+    out.limit = use.words;
+  }
+  if (out.peers > kDisPeers) {
+    out.peers = kUnbounded;
+    out.limit = {};
+  }
+  out.entities = out.peers * entities_a_peer(large);
+  out.within = out.peers <= static_cast<double>(large.counts.peers);
+  return out;
+}
+
+/// "1,200": two digits count.
+std::string rounded(double value) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(value, 1.0))) - 1));
+  const auto whole = static_cast<std::uint64_t>(std::max(0.0, std::floor(value / unit) * unit));
+  std::string digits = fmt::format("{}", whole);
+  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+  return digits;
+}
+
+std::string carries(const Capacity& one) {
+  if (std::isinf(one.peers))
+    return fmt::format("as many peers as DIS can number ({})", rounded(kDisPeers));
+  return fmt::format("some {} peers with {} entities", rounded(one.peers), rounded(one.entities));
+}
+
+}  // namespace
+
+double receive_cpu(const ScaleCounts& counts, const HostLimits& limits) {
+  return limits.datagram * static_cast<double>(counts.heard_datagrams) +
+         kUpdateCost * static_cast<double>(counts.heard_updates);
+}
+
+std::vector<Capacity> capacities(std::span<const ScaleRow> rows, const HostLimits& limits) {
+  std::vector<Capacity> out;
+  for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
+    std::vector<const ScaleRow*> sizes;
+    for (const ScaleRow& row : rows)
+      if (row.mechanism == mechanism) sizes.push_back(&row);
+    std::ranges::stable_sort(sizes, {}, [](const ScaleRow* row) { return row->counts.peers; });
+    if (sizes.size() < 2) return {};
+    const ScaleRow &large = *sizes.back(), &small = *sizes[sizes.size() - 2];
+    const double alike = entities_a_peer(small) / entities_a_peer(large);
+    if (small.counts.peers == large.counts.peers || std::abs(alike - 1) > 0.05) return {};
+    out.push_back(capacity_of(small, large, limits));
+  }
+  return out;
+}
+
+std::string capacity_text(std::span<const Capacity> capacities, const HostLimits& limits) {
+  if (capacities.empty()) return {};
+  const auto sentence = [&](std::string_view with, const Capacity& one) {
+    std::string out = fmt::format("{}: {}", with, carries(one));
+    if (!one.limit.empty()) out += fmt::format(";\n  {} limits first", one.limit);
+    return out + (std::isinf(one.peers) || one.within ? ".\n" : ", extrapolated.\n");
+  };
+  return fmt::format(
+             "What a LAN of {:g} Gbit/s carries, {:g} % of it and {:g} % of a core for each peer, "
+             "{:.1f} us a datagram:\n",
+             1e-9 * limits.link, 100 * limits.link_share, 100 * limits.core_share,
+             1e6 * limits.datagram) +
+         sentence("- with all mechanisms", capacities.back()) +
+         sentence("- with dead reckoning alone", capacities[1]);
+}
+
+std::string capacity_json(std::span<const Capacity> capacities) {
+  std::string out;
+  for (const Capacity& one : capacities) {
+    tools::JsonObject object(out);
+    object.text("kind", "capacity").text("mechanism", kMechanisms[one.mechanism].name);
+    object.number("peers", one.peers).number("entities", one.entities);
+    object.text("limit", one.limit).value("within", one.within).end("\n");
+  }
+  return out;
+}
+
+}  // namespace reckon::bench
