@@ -171,7 +171,10 @@ bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t a
   const aoim::Channel* channel = channel_of(entity, std::max(audience, urgent_of(audiences)));
   if (channel == nullptr || channel->kept) return false;
   const nanoseconds last = by_rows ? entity.last_sent_at(audience) : entity.last_sent;
-  const double rate = entity.is_resting() ? channel->passive_hz : channel->active_hz;
+  // What has stopped is at rest for its receivers, too, only when they know.
+  const bool rests =
+      entity.is_resting() && !entity.is_shown_moving(by_rows ? audience : 0, pass.now);
+  const double rate = rests ? channel->passive_hz : channel->active_hz;
   if (rate > 0.0 && pass.now - last >= pdu::from_seconds(1.0 / rate)) return false;
   nanoseconds again = pass.now + kLookAgain;
   if (rate > 0.0) again = std::min(again, last + pdu::from_seconds(1.0 / rate));

@@ -60,6 +60,10 @@ class Audiences {
                                               double now) const noexcept {
     return sides_[audience - 1].decide(truth, now);
   }
+  /// What this tier predicts at `now`, before convergence.
+  [[nodiscard]] deadreckon::Pose predicted(std::size_t audience, double now) const noexcept {
+    return sides_[audience - 1].predicted(now);
+  }
   /// Records an update for this tier.  @param whole whether the update is complete
   void note_sent(std::size_t audience, const deadreckon::KinematicState& as_received, double now,
                  deadreckon::SendReason reason, bool whole) noexcept;

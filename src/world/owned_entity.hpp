@@ -164,6 +164,9 @@ class OwnedEntity {
   /// Reason for an update to this tier, 1 or more; `none` if none is due.
   [[nodiscard]] deadreckon::SendReason decide_for(std::size_t audience,
                                                   std::chrono::nanoseconds now) const noexcept;
+  /// Whether the receivers of a tier predict any motion, from the last update on.
+  [[nodiscard]] bool is_shown_moving(std::size_t audience,
+                                     std::chrono::nanoseconds now) const noexcept;
   /// Steady time of the last update to a tier.
   [[nodiscard]] std::chrono::nanoseconds last_sent_at(std::size_t audience) const noexcept;
 

@@ -49,6 +49,10 @@ class SeenSide {
   void note_sent_to_inner() noexcept { is_behind_ = true; }
   /// Whether inner tiers have an update that these peers lack.
   [[nodiscard]] bool is_behind() const noexcept { return is_behind_; }
+  /// What these peers predict at `now`, before their convergence.
+  [[nodiscard]] deadreckon::Pose predicted(double now) const noexcept {
+    return policy_.predicted(now);
+  }
   /// Time of the last update to these peers [s].
   [[nodiscard]] double last_sent() const noexcept { return last_sent_; }
   /// When decide() is due even without a change.
