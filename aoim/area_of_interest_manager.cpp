@@ -124,7 +124,7 @@ SubscriptionChange AreaOfInterestManager::listen_to_cells(std::span<const Focus>
     return leading_->role().directory().find_beacon(tag, now);
   });
   const SubscriptionChange change = subscriptions_.update(kCellTier, foci, now, besides);
-  if (!change.leave.empty()) sight_.leave_locale();
+  if (!change.leave.empty()) sight_.leave_cell();
   if (!hands_out()) {
     for (const GroupIndex group : change.leave) joins_.asks().leave(group);
   }

@@ -62,7 +62,7 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
   for (std::size_t i = 0; i < count_; ++i) {
     const Group& group = groups_[i];
     foci_[i] = group.only;
-    if (group.count > 1) foci_[i] = {group.centre, group.speed, group.radius};
+    if (group.count > 1) foci_[i] = {group.centre, group.speed, group.radius, group.cut};
   }
   return {foci_.data(), count_};
 }
@@ -143,8 +143,9 @@ void FocusCover::enlarge(std::span<const Focus> entities, int level) noexcept {
     if (!is_usable(entity)) continue;
     Group& group = groups_[find_or_open(square_of(entity.position, level))];
     const double away = distance(group.centre, entity.position);
-    const double needed = away > 0.0 ? (away + entity.radius) * kRounded : entity.radius;
-    group.radius = std::max(group.radius, needed);
+    const auto needed = [away](double own) { return away > 0.0 ? (away + own) * kRounded : own; };
+    group.radius = std::max(group.radius, needed(entity.radius));
+    group.cut = std::max(group.cut, needed(entity.cut));
   }
 }
 

@@ -36,11 +36,11 @@ class FocusCover {
   explicit FocusCover(const CellPartition& cells)
       : FocusCover(cells.finest(), cells.as<LocaleMap>()) {}
 
-  /// At most most(cells) foci. Each entity's ball lies in one of theirs, and a focus is as fast as
-  /// its fastest entity. An entity that is alone in its square is its own focus, unchanged.
-  /// Entities that are not finite or have no radius >= 0 are skipped; an invalid speed counts as 0
-  /// in a shared focus. Foci are in the order of their first entities; valid until the next call.
-  /// Cost: up to nine passes over the entities, each some ns an entity.
+  /// At most most(cells) foci. Each entity's ball lies in one of theirs, cut or whole, and a focus
+  /// is as fast as its fastest entity. An entity that is alone in its square is its own focus,
+  /// unchanged. Entities that are not finite or have no radius >= 0 are skipped; an invalid speed
+  /// counts as 0 in a shared focus. Foci are in the order of their first entities; valid until the
+  /// next call. Cost: up to nine passes over the entities, each some ns an entity.
   [[nodiscard]] std::span<const Focus> cover(std::span<const Focus> entities) noexcept;
 
   /// Most foci of these cells: kMostFoci, or the number of locales if that is larger.
@@ -59,7 +59,7 @@ class FocusCover {
     Square square;
     Focus only;  ///< its first entity
     Position least, most, centre;
-    double radius = 0.0, speed = 0.0;
+    double radius = 0.0, speed = 0.0, cut = 0.0;
     std::size_t count = 0;
   };
   [[nodiscard]] Square square_of(const Position& position, int level) const noexcept;

@@ -24,16 +24,28 @@ Sight::Sight(const InterestConfig& config, const CellPartition& cells,
 }
 
 bool Sight::is_in_followed_cell(const Position& position, bool shown) const noexcept {
-  const auto is_besides = [this](GroupIndex number) {
-    return std::find(besides_.begin(), besides_.end(), number) != besides_.end();
-  };
   if (!is_finite(position)) return false;
-  if (is_besides(cells_.group(position))) return true;
-  const double beyond = (shown ? kLingers : kBorder) * finest_;
+  return is_in_or_near(position, shown ? kLingers : kBorder, [this](GroupIndex number) {
+    return std::find(besides_.begin(), besides_.end(), number) != besides_.end();
+  });
+}
+
+// Beyond the wall of a locale is another place, however near.
+bool Sight::is_unheard(const Position& position) const noexcept {
+  if (!is_finite(position)) return false;
+  if (cells_.as<LocaleMap>() != nullptr) return !subscription_.is_joined(cells_.group(position));
+  return !is_in_or_near(position, kBorder,
+                        [this](GroupIndex number) { return subscription_.is_joined(number); });
+}
+
+template <typename Is>
+bool Sight::is_in_or_near(const Position& position, double share, Is&& is_one) const noexcept {
+  if (is_one(cells_.group(position))) return true;
+  const double beyond = share * finest_;
   bool found = false;
   cells_.visit([&](const auto& scheme) {
     scheme.for_each_cell_within(position, beyond, [&](CellId cell, double) {
-      found = found || is_besides(scheme.group(cell));
+      found = found || is_one(scheme.group(cell));
     });
   });
   return found;

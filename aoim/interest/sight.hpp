@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct FollowedBeacon {
 };
 
 /// The exact test of Interest with the rules of cells: the cell of a followed beacon is inside, and
-/// a locale without a subscription is hidden. One thread; allocates only at construction.
+/// a locale without a subscription is hidden, as is any cell without one under a cut. One thread;
+/// allocates only at construction.
 class Sight {
  public:
   /// @param cells, subscription outlive this; groups are numbered as in both
@@ -34,7 +36,7 @@ class Sight {
         std::span<const std::uint32_t> follow, double finest);
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves. With
-  /// locales, an entity in a locale without a subscription is hidden.
+  /// locales or a cut, an entity in a cell without a subscription is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
     if (is_walled_off(position)) return interest_.judge_hidden();
@@ -48,7 +50,7 @@ class Sight {
   }
   /// See Interest::withdrawn; it jumps when a locale or the cell of a beacon is left.
   [[nodiscard]] double withdrawn() const noexcept { return interest_.withdrawn() + leapt_; }
-  /// See Interest::spare; 0 in a locale without a subscription.
+  /// See Interest::spare; 0 in a cell without a subscription that judge() hides.
   [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind) noexcept {
     if (is_walled_off(position)) return 0.0;
     return interest_.spare(position, nimbus, kind, is_followed(position, true));
@@ -59,9 +61,17 @@ class Sight {
 
   /// Sets the places where this peer senses.
   void set_foci(std::span<const Focus> foci) noexcept { interest_.set_foci(foci); }
-  /// Records that a locale was left: its shown entities are judged anew.
-  void leave_locale() noexcept {
-    if (cells_.as<LocaleMap>() != nullptr) leap();
+  /// Records that a cell was left: where cells hide entities, the shown ones are judged anew.
+  void leave_cell() noexcept {
+    if (hides_unheard()) leap();
+  }
+  /// Distance from our entities beyond which cells are not joined [m], >= 0, see Focus::cut;
+  /// infinite at first. What is in them is hidden.
+  void set_cut(double metres) noexcept { cut_ = metres; }
+  [[nodiscard]] double cut() const noexcept { return cut_; }
+  /// Whether the cut hides what is here: its cell is not joined.
+  [[nodiscard]] bool is_cut_off(const Position& position) const noexcept {
+    return cut_ < std::numeric_limits<double>::infinity() && is_unheard(position);
   }
 
   /// Beacons that we follow, as of the last follow().
@@ -96,17 +106,25 @@ class Sight {
   [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
     return !followed_.empty() && is_in_followed_cell(position, shown);
   }
+  /// @param share of a cell's side by which the cell may be away
+  template <typename Is>
+  [[nodiscard]] bool is_in_or_near(const Position& position, double share,
+                                   Is&& is_one) const noexcept;
   [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept;
-  [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
-    return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
-           !subscription_.is_joined(cells_.group(position));
+  [[nodiscard]] bool hides_unheard() const noexcept {
+    return cut_ < std::numeric_limits<double>::infinity() || cells_.as<LocaleMap>() != nullptr;
   }
+  [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
+    return hides_unheard() && is_unheard(position);
+  }
+  [[nodiscard]] bool is_unheard(const Position& position) const noexcept;
   void leap() noexcept { leapt_ += 2.0 * Interest::kFarthest; }
 
   const CellPartition& cells_;
   const Subscription& subscription_;
   Interest interest_;
   double finest_;
+  double cut_ = std::numeric_limits<double>::infinity();
   double leapt_ = 0.0;  // [m], see withdrawn()
   std::vector<FollowedBeacon> followed_;
   std::vector<GroupIndex> besides_;  // numbers of their cells

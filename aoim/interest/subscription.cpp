@@ -58,11 +58,12 @@ bool Subscription::is_joined(GroupIndex group) const noexcept {
 }
 
 void Subscription::measure(const Focus& focus) {
-  if (!is_finite(focus.position) || !(focus.radius >= 0.0) || !(focus.speed >= 0.0)) return;
+  const double radius = std::min(focus.radius, focus.cut);
+  if (!is_finite(focus.position) || !(radius >= 0.0) || !(focus.speed >= 0.0)) return;
 
   // Every path of this speed stays within this disc, however it turns.
   const double ahead = focus.speed * pdu::to_seconds(config_.lookahead);
-  const double widest = config_.leave_factor * focus.radius + ahead;
+  const double widest = config_.leave_factor * radius + ahead;
 
   cells_.visit([&](const auto& scheme) {
     // A disc with far more cells than there are groups reaches all groups.
@@ -72,8 +73,8 @@ void Subscription::measure(const Focus& focus) {
     }
     const auto reach = [&](CellId cell, double distance) {
       Entry& entry = entries_[scheme.group(cell).value - 1u];
-      entry.reach = std::min(entry.reach, share(distance - ahead, focus.radius));
-      const double cover = share(distance, focus.radius);
+      entry.reach = std::min(entry.reach, share(distance - ahead, radius));
+      const double cover = share(distance, radius);
       if (cover >= entry.cover) return;
       entry.cover = cover;
       entry.cell = cell;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Focus {
   Position position;    ///< [m], in S
   double speed = 0.0;   ///< [m/s], >= 0; magnitude of the velocity
   double radius = 0.0;  ///< R [m], >= 0
+  /// Cells farther away are not joined [m], >= 0; see ReachLimit. No bound by default.
+  double cut = std::numeric_limits<double>::infinity();
 };
 
 /// Tunables of the subscription.

@@ -14,7 +14,7 @@ namespace {
 constexpr double kContactLeave = 2.0;
 
 Focus with_nimbus(const Focus& given, std::size_t, const TierReach& reach) noexcept {
-  return {given.position, given.speed, given.radius + reach.farthest_nimbus};
+  return {given.position, given.speed, given.radius + reach.farthest_nimbus, given.cut};
 }
 
 Focus to_end_of_row(const Focus& given, std::size_t row, const TierReach& reach) noexcept {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/budget_keeper.hpp"
 #include "reckon/peer/loops/channel_keeper.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
@@ -14,13 +15,24 @@ namespace reckon::peer {
 namespace {
 
 bool always(const SceneFile&) { return true; }
+bool has_budget(const SceneFile& scene) { return scene.aoim.awareness.budget > 0.0; }
 
-// Keeps the channels within the budget of this peer.
-PeerHooks channels(const ModelWiring& wiring) {
-  const auto keeper = std::make_shared<ChannelKeeper>(wiring.scene.aoim.awareness);
+PeerHooks channels(const ModelWiring&) {
+  const auto keeper = std::make_shared<ChannelKeeper>();
   return {.look = [keeper](const WatchedPeer& peer) {
-    keeper->look(peer.remote, peer.aoim, peer.now, peer.notices);
+    keeper->look(peer.remote, peer.aoim, peer.now);
   }};
+}
+
+PeerHooks budget(const ModelWiring& wiring) {
+  const auto keeper = std::make_shared<BudgetKeeper>(wiring.scene);
+  return {
+      .look =
+          [keeper](const WatchedPeer& peer) {
+            keeper->look(peer.remote, peer.aoim, peer.now, peer.notices);
+          },
+      .received =
+          [keeper](std::span<const std::byte> datagram) { keeper->note_heard(datagram.size()); }};
 }
 
 PeerHooks known_sources(const ModelWiring& wiring) {
@@ -53,6 +65,7 @@ struct HookRow {
 // clang-format off
 constexpr HookRow kRows[]{
     {always, channels},
+    {has_budget, budget},
     {always, known_sources},
     {always, limits},
     {always, link}};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/subscriber.hpp"
 
+#include <utility>
+
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -29,10 +31,11 @@ void Subscriber::cover_our_entities() noexcept {
   balls_.clear();
   owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {
     const EntityTruth& truth = entity.truth();
-    balls_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
+    balls_.push_back(
+        {to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius, cut_});
   });
   // A peer without entities looks at the scene's origin.
-  if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius});
+  if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius, cut_});
   foci_ = cover_.cover(balls_);
   moved_ = false;
 }
@@ -50,7 +53,8 @@ void Subscriber::place_beacons(nanoseconds now) noexcept {
 void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> in_reach,
                            haptics::SpscRing<Notice>& notices) noexcept {
   if (moved_ && scene_.aoim.hand_out) place_beacons(now);
-  if (moved_) cover_our_entities();
+  const bool cut = std::exchange(cut_, aoim_.sight().cut()) != cut_;
+  if (moved_ || cut) cover_our_entities();
   const FociInputs inputs{owned_, foci_, in_reach, now};
   const auto foci_of = [&](std::size_t tier) { return tier_foci_[tier](inputs); };
   const auto follow = [&](std::size_t tier, const aoim::SubscriptionChange& change) {

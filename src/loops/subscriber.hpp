@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -60,8 +61,9 @@ class Subscriber {
   RemoteEntities& remote_;
   std::vector<aoim::Focus> balls_;  // range of each entity of ours
   aoim::FocusCover cover_;
-  std::span<const aoim::Focus> foci_;  // they cover the balls
-  bool moved_ = true;                  // an entity of ours has moved since they were made
+  std::span<const aoim::Focus> foci_;                     // they cover the balls
+  double cut_ = std::numeric_limits<double>::infinity();  // [m], of the balls
+  bool moved_ = true;  // an entity of ours has moved since they were made
   std::vector<TierFoci> tier_foci_;
   std::vector<aoim::PlacedBeacon> beacons_;  // last positions of our beacons
   AoimWatch aoim_watch_;

@@ -40,6 +40,20 @@ TierFoci touchable(const SceneFile& scene) {
   };
 }
 
+// What is felt is heard whatever the budget.
+TierFoci of_cells(const SceneFile& scene) {
+  if (!(scene.aoim.awareness.budget > 0.0)) return sensed(scene);
+  const auto both = std::make_shared<std::vector<aoim::Focus>>();
+  return [both, touch = touchable(scene)](const FociInputs& inputs) -> Foci {
+    const auto is_cut = [](const aoim::Focus& focus) { return focus.cut < focus.radius; };
+    if (!std::ranges::any_of(inputs.sensed, is_cut)) return inputs.sensed;
+    both->assign(inputs.sensed.begin(), inputs.sensed.end());
+    const Foci touched = touch(inputs);
+    both->insert(both->end(), touched.begin(), touched.end());
+    return *both;
+  };
+}
+
 double reach_of_hands(const SceneFile& scene, const TierConfig&) {
   return contact_reach(scene.hand);
 }
@@ -86,7 +100,7 @@ std::vector<const aoim::TierKind*> tier_kinds_of(const SceneFile& scene) {
 }
 
 std::vector<TierFoci> tier_foci(const SceneFile& scene) {
-  std::vector<TierFoci> foci{sensed(scene)};
+  std::vector<TierFoci> foci{of_cells(scene)};
   for_each_tier(scene, [&](const RecipientsRow& row) { foci.push_back(row.foci(scene)); });
   return foci;
 }

@@ -33,7 +33,8 @@ using TierFoci = std::function<std::span<const aoim::Focus>(const FociInputs&)>;
 /// set-up.
 [[nodiscard]] std::vector<const aoim::TierKind*> tier_kinds_of(const SceneFile& scene);
 
-/// The foci of each tier of the scene, by its number: the cell tier first. For set-up.
+/// The foci of each tier of the scene, by its number: the cell tier first. If the foci of our
+/// entities are cut, the cell tier has those of what can be touched besides. For set-up.
 /// @param scene outlives them
 [[nodiscard]] std::vector<TierFoci> tier_foci(const SceneFile& scene);
 

@@ -58,9 +58,9 @@ std::vector<Row<AoimConfig>> awareness_rows() {
   using Config = AwarenessConfig;
   return {
       {"budget", of(&Config::budget), within("B", 0, 1e9),
-       "with tiers by distance: octets of updates a second that this peer can take: distances "
-       "count "
-       "as longer until that is met, and the others are informed; 0 is no bound"},
+       "octets a second that this peer accepts. Where more are heard, it leaves the most distant "
+       "cells, but neither those of its own entities nor what its hands can reach; with tiers by "
+       "distance, distances to it count as longer too, and the others are informed; 0 is no bound"},
       {"kinds", of(&Config::kinds),
        "kinds of entities that are shown, for example \"platform, life form\"; when absent, all"},
       {"aura", of(&Config::aura), within("m", 0, kWorld),

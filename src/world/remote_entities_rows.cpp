@@ -79,7 +79,9 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
     return {spare, speed};
   };
   sight_.look(now, aoim_.sight().withdrawn(), step, look, [&](std::size_t place) {
-    keep_outside(table_.rows()[place]);
+    const RemoteEntity& row = table_.rows()[place];
+    // What is cut off is heard no more. Its owner introduces it when it comes in or we join.
+    if (!aoim_.sight().is_cut_off(to_position(row.predicted(now).position))) keep_outside(row);
     drop(place, counts_.left);
   });
 }

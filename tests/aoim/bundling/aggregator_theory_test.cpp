@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The aggregator against the closed forms of time-out, quorum and hybrid bundling of Poisson
-// arrivals, docs/area_of_interest.md.
+// arrivals, docs/area_of_interest_mechanisms.md.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -161,7 +161,7 @@ TEST(Presence, LosesAPeerAfterSixMissedHeartbeatsAndNotBefore) {
 }
 
 TEST(Presence, IsDocumentedAsItIs) {
-  std::ifstream file(reckon::test::source_dir() + "/docs/area_of_interest.md");
+  std::ifstream file(reckon::test::source_dir() + "/docs/area_of_interest_mechanisms.md");
   const std::string text(std::istreambuf_iterator<char>(file), {});
   ASSERT_EQ(PresenceConfig{}.missed, 6);
   EXPECT_NE(text.find("Six missed announcements (silence of 6.1 s)"), text.npos);
