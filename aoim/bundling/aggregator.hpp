@@ -90,7 +90,7 @@ struct AggregatorCounts {
 /// than ever before: in more than 4 groups, beyond 16 KiB or 128 updates in a group, 512 entities
 /// in all, or a PDU longer than the payload limit. A group takes memory only while an update is
 /// pending in it, or if it once held more than that. Cost: about 60 ns an update, however many are
-/// pending, see docs/area_of_interest.md.
+/// pending, see docs/area_of_interest_mechanisms.md.
 class Aggregator {
  public:
   /// @throws std::invalid_argument if the payload limit leaves no room for an Entity State with

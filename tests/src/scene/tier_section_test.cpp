@@ -142,7 +142,7 @@ TEST(TierSection, PointsAtTheRowThatDoesNotFitTheOneBefore) {
 }
 
 TEST(TierSection, OfTheDocumentationHasTheUsualRows) {
-  std::ifstream file(test::source_dir() + "/docs/area_of_interest.md");
+  std::ifstream file(test::source_dir() + "/docs/area_of_interest_mechanisms.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::size_t tier = page.find("[[aoim.tier]]\n");
   ASSERT_NE(tier, std::string::npos);

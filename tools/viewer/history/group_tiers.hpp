@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Which of a scene's groups carry what only some receive: near groups, of those who are near, and
-// contact groups, of those within touch (docs/area_of_interest.md).
+// contact groups, of those within touch (docs/area_of_interest_mechanisms.md).
 #pragma once
 
 #include <cstddef>
