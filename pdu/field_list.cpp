@@ -75,7 +75,7 @@ void list_tables(FieldList& list, std::optional<PduType> only, TypeList<T...>) {
   (show(std::type_identity<T>{}), ...);
 }
 
-/// Tells of the fields of a PDU without a field table.
+/// Reports the fields of a PDU without a field table.
 void list_header(FieldList& list, PduType type) {
   list.begin(type);
   FieldWalk walk(list);
@@ -97,14 +97,14 @@ void each_field_path(PduType type, const std::function<void(std::string_view)>& 
     const std::function<void(std::string_view)>& f;
     std::string path;
   } names{f, {}};
-  const auto tell = [](void* context, const FieldPlace&, const FieldList::Field& field) {
+  const auto report = [](void* context, const FieldPlace&, const FieldList::Field& field) {
     Names& to = *static_cast<Names*>(context);
     to.path.clear();
     for (const FieldPath::Part& part : field.around) to.path.append(part.name).append(".");
     to.path += field.part.name;
     to.f(to.path);
   };
-  FieldList list(&names, tell);
+  FieldList list(&names, report);
   list_fields(list, type);
 }
 

@@ -106,7 +106,7 @@ std::size_t Listener::admit(std::uint8_t exercise, const pdu::EntityId& id) {
     return kNone;
   }
   const std::size_t place = entities_.size();
-  HeardEntity& entity = entities_.emplace_back();
+  ReceivedEntity& entity = entities_.emplace_back();
   entity.key = key;
   entity.id = id;
   entity.exercise = exercise;
@@ -132,7 +132,7 @@ void Listener::drop_entity(std::size_t place) {
 }
 
 void Listener::drop_model(std::size_t place) {
-  entities_[models_[place].owner].model = HeardEntity::kNoModel;
+  entities_[models_[place].owner].model = ReceivedEntity::kNoModel;
   drop_row(models_, place);
   if (place < models_.size()) entities_[models_[place].owner].model = place;
 }
@@ -236,7 +236,7 @@ bool Listener::place_state(StateUpdate& update) {
 }
 
 void Listener::judge(StateUpdate& update) {
-  const HeardEntity& entity = entities_[update.place];
+  const ReceivedEntity& entity = entities_[update.place];
   update.error = convert(*update.pdu, update.state);
   update.verdict =
       update.error != ConversionError::none ? ReceiveVerdict::values : lay_on_time(update);
@@ -255,7 +255,7 @@ ConversionError Listener::convert(const pdu::EntityState& pdu, deadreckon::Kinem
 }
 
 ReceiveVerdict Listener::lay_on_time(StateUpdate& update) {
-  const HeardEntity& entity = entities_[update.place];
+  const ReceivedEntity& entity = entities_[update.place];
   const std::uint32_t timestamp = update.pdu->header.timestamp;
   if (rules_.timing == Timing::pace) {
     update.state_time = update.arrival;
@@ -275,7 +275,7 @@ ReceiveVerdict Listener::lay_on_time(StateUpdate& update) {
 }
 
 void Listener::settle(const StateUpdate& update) {
-  HeardEntity& entity = entities_[update.place];
+  ReceivedEntity& entity = entities_[update.place];
   if (update.verdict == ReceiveVerdict::taken) {
     return adopt(entity, update);
   }
@@ -290,7 +290,7 @@ void Listener::settle(const StateUpdate& update) {
 }
 
 // Makes the state the entity's newest.
-void Listener::adopt(HeardEntity& entity, const StateUpdate& update) const {
+void Listener::adopt(ReceivedEntity& entity, const StateUpdate& update) const {
   if (update.is_first)
     entity.pace.restart();
   else
@@ -306,7 +306,7 @@ void Listener::adopt(HeardEntity& entity, const StateUpdate& update) const {
   set_heartbeat(entity, update.heartbeat);
 }
 
-void Listener::set_heartbeat(HeardEntity& entity, double heartbeat) const noexcept {
+void Listener::set_heartbeat(ReceivedEntity& entity, double heartbeat) const noexcept {
   entity.heartbeat = heartbeat;
   if (rules_.holds) entity.hold_after = deadreckon::timeout(heartbeat);
 }
@@ -344,7 +344,7 @@ bool Listener::read_model(const pdu::PduHeader& header, const pdu::EntityId& id,
 }
 
 void Listener::adopt(const ModelUpdate& update) {
-  HeardEntity& entity = entities_[update.place];
+  ReceivedEntity& entity = entities_[update.place];
   if (!entity.is_haptic()) {
     entity.model = models_.size();
     models_.emplace_back();

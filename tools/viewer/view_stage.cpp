@@ -56,7 +56,7 @@ ViewStage::ViewStage(const StageOptions& options)
     origin_ = scene.origin;
     frame_.emplace(origin_.latitude, origin_.longitude, origin_.height);
     thresholds_.emplace(scene);
-    cells_ = std::make_unique<HeardCells>(scene.aoim);
+    cells_ = std::make_unique<SubscribedCells>(scene.aoim);
     if (DrawnGroups::has_any(scene)) groups_ = std::make_unique<DrawnGroups>(scene);
     solids_ = drawn_solids(scene.scene);
     set_touch({});
@@ -250,13 +250,13 @@ void ViewStage::heed(Watcher& watcher, const PageRequest& request) {
 // Pictures
 // ------------------------------------------------------------------------------------------------
 
-const HeardWorld& ViewStage::world_for(Watcher& watcher, Time time) {
+const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
   if (!is_past(watcher)) return history_.live();
   history_.seek(watcher.cursor, time);
   return watcher.cursor->world();
 }
 
-void ViewStage::fill(const HeardWorld& world, Time time, PictureRows& rows) {
+void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   rows.entities.clear();
   rows.hands.clear();
   rows.contacts.clear();
@@ -270,10 +270,10 @@ void ViewStage::fill(const HeardWorld& world, Time time, PictureRows& rows) {
   add_hands(time, rows);
 }
 
-void ViewStage::add_contacts(const HeardWorld& world, Time time, PictureRows& rows) {
-  const Listener& heard = world.table().heard();
-  if (heard.models().empty() || heard.models().size() > kMostHaptic) return;
-  for (const ContactForce& force : contacts_.forces_at(heard, time)) {
+void ViewStage::add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows) {
+  const Listener& listener = world.table().listener();
+  if (listener.models().empty() || listener.models().size() > kMostHaptic) return;
+  for (const ContactForce& force : contacts_.forces_at(listener, time)) {
     if (rows.contacts.size() >= kMostPictureRows) return;
     const std::uint16_t felt = history_.roster().slot_of(force.by);
     const std::uint16_t feeling = history_.roster().slot_of(force.on);

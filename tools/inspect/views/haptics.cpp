@@ -35,7 +35,7 @@ constexpr double kSameCurve = 0.02;
 constexpr std::string_view kBeforeGate =
     "Forces that the models on the wire give, before the receivers' gates and without friction.";
 
-std::string marking_of(const HeardEntity& entity) {
+std::string marking_of(const ReceivedEntity& entity) {
   std::string text;
   for (const char letter : entity.entity_state().marking.text) {
     if (letter == '\0') break;
@@ -143,7 +143,7 @@ void HapticsView::datagram(const peer::SourceDatagram& datagram, nanoseconds, st
 void HapticsView::remember_updated() {
   for (const TouchedEntity& touched : heard_.touched()) {
     const pdu::EntityId& id = touched.id;
-    const HeardEntity* entity = heard_.find_entity(id);
+    const ReceivedEntity* entity = heard_.find_entity(id);
     if (entity == nullptr || !entity->is_haptic()) continue;
     const ReceivedModel& heard = *heard_.model_of(*entity);
     const std::array<std::uint16_t, 3> key{id.site, id.application, id.entity};
