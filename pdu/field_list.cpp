@@ -6,23 +6,19 @@
 #include <string>
 #include <utility>
 
+#include "reckon/pdu/fixed_fields.hpp"
+
 namespace reckon::pdu {
 namespace {
 
 /// Visitor: sets the octets of flags that switch fields on.
-struct AllFlags {
+struct AllFlags : FixedFields {
   template <typename T>
   void operator()(std::string_view name, T& value) {
     if constexpr (std::same_as<T, std::uint8_t>) {
       if (name.ends_with("flags")) value = 0xFF;
     }
   }
-  template <typename... Any>
-  void count(Any&&...) {}
-  template <typename... Any>
-  void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
 };
 
 constexpr std::array<std::byte, 64> kZeros{};

@@ -11,6 +11,7 @@
 #include "reckon/pdu/management/entity_request.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tools/datagrams/survey.hpp"
+#include "reckon/tools/listener/origin_at.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -54,26 +55,6 @@ void drop_row(std::vector<Row>& rows, std::size_t place) {
 }
 
 }  // namespace
-
-deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position) {
-  // Bowring: within 1e-9 rad up to satellites, which is all that axes need.
-  constexpr double kEquator = 6378137.0;
-  constexpr double kFlattening = 1 / 298.257223563;
-  constexpr double kPole = kEquator * (1 - kFlattening);
-  constexpr double kSquared = kFlattening * (2 - kFlattening);
-  constexpr double kSecondSquared = kSquared / (1 - kSquared);
-  const double axis = std::hypot(position.x(), position.y());
-  const double angle = std::atan2(position.z() * kEquator, axis * kPole);
-  const double sine = std::sin(angle);
-  const double cosine = std::cos(angle);
-  const double latitude =
-      std::atan2(position.z() + kSecondSquared * kPole * sine * sine * sine,
-                 std::max(0.0, axis - kSquared * kEquator * cosine * cosine * cosine));
-  const double up = std::sin(latitude);
-  const double height =
-      axis * std::cos(latitude) + position.z() * up - kEquator * std::sqrt(1 - kSquared * up * up);
-  return {latitude, std::atan2(position.y(), position.x()), std::clamp(height, -1e8, 1e8)};
-}
 
 Listener::Listener(const ListenerRules& rules)
     : rules_(rules), index_(std::min(rules.most_entities, kFirstKeys)) {

@@ -346,8 +346,4 @@ void Listener::take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds
   }
 }
 
-/// The scene frame whose origin lies at a geocentric position [m], finite: east, north, up of the
-/// ellipsoid there. Height is cut to +-1e8 m.
-[[nodiscard]] deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position);
-
 }  // namespace reckon::tools

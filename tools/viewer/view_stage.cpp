@@ -3,10 +3,10 @@
 #include "reckon/tools/viewer/view_stage.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/listener/origin_at.hpp"
 #include "reckon/tools/viewer/protocol/short_messages.hpp"
 
 namespace reckon::tools {
@@ -31,20 +31,6 @@ template <typename Rows>
 void forget_old(Rows& rows, nanoseconds span) {
   const nanoseconds oldest = rows.back().time - span;
   while (rows.size() > 1 && rows.front().time < oldest) rows.pop_front();
-}
-
-/// Where a frame's origin lies on the ellipsoid.
-peer::OriginConfig origin_of(const deadreckon::LocalFrame& frame) {
-  constexpr double kEquator = 6378137.0;
-  constexpr double kFlattening = 1 / 298.257223563;
-  constexpr double kSquared = kFlattening * (2 - kFlattening);
-  const Eigen::Vector3d up = frame.rotation().col(2);
-  const Eigen::Vector3d& at = frame.origin();
-  peer::OriginConfig origin;
-  origin.latitude = std::asin(std::clamp(up.z(), -1.0, 1.0));
-  origin.longitude = std::atan2(up.y(), up.x());
-  origin.height = at.dot(up) - kEquator * std::sqrt(1 - kSquared * up.z() * up.z());
-  return origin;
 }
 
 }  // namespace
@@ -75,8 +61,8 @@ nanoseconds ViewStage::live_end() const noexcept {
 void ViewStage::find_frame() {
   if (frame_) return;
   if (const auto place = history_.live().first_place()) {
-    frame_ = local_frame_at(*place);
-    origin_ = origin_of(*frame_);
+    origin_ = origin_at(*place);
+    frame_.emplace(origin_.latitude, origin_.longitude, origin_.height);
   }
 }
 

@@ -225,15 +225,5 @@ TEST(ContactForces, OfAPlaneActOnBallsAndNotTheOtherWayRound) {
   EXPECT_NEAR(force(received, 2, 1, kStart)->force.z(), 500 * 0.006, kTolerance);
 }
 
-TEST(ContactForces, HaveAFrameThatStandsOnTheEllipsoid) {
-  for (const double latitude : {-1.2, 0.0, 0.8, 1.5}) {
-    const deadreckon::LocalFrame truth(latitude, 0.3, 250);
-    const deadreckon::LocalFrame found = local_frame_at(truth.origin());
-    EXPECT_LT((found.origin() - truth.origin()).norm(), 1e-6) << latitude;
-    EXPECT_LT((found.rotation() - truth.rotation()).norm(), 1e-9) << latitude;
-  }
-  EXPECT_TRUE(local_frame_at(Eigen::Vector3d::Zero()).origin().allFinite());
-}
-
 }  // namespace
 }  // namespace reckon::tools
