@@ -12,6 +12,7 @@
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
@@ -69,8 +70,7 @@ HapticsView::HapticsView(const InspectOptions& options, const PlotCanvas& canvas
       step_(options.step.value_or(kStep)),
       canvas_(canvas) {
   if (step_ < kLeastStep) throw UsageError("--step is too small; give 100us or more");
-  if (!svg_.empty() && !std::ofstream(svg_, std::ios::app))
-    throw UsageError(fmt::format("{} cannot be written; name another file for --svg", svg_));
+  check_writable(svg_);
 }
 
 void HapticsView::begin(std::string& out) {
