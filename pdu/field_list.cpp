@@ -6,23 +6,19 @@
 #include <string>
 #include <utility>
 
+#include "reckon/pdu/fixed_fields.hpp"
+
 namespace reckon::pdu {
 namespace {
 
 /// Visitor: sets the octets of flags that switch fields on.
-struct AllFlags {
+struct AllFlags : FixedFields {
   template <typename T>
   void operator()(std::string_view name, T& value) {
     if constexpr (std::same_as<T, std::uint8_t>) {
       if (name.ends_with("flags")) value = 0xFF;
     }
   }
-  template <typename... Any>
-  void count(Any&&...) {}
-  template <typename... Any>
-  void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
 };
 
 constexpr std::array<std::byte, 64> kZeros{};
@@ -75,7 +71,7 @@ void list_tables(FieldList& list, std::optional<PduType> only, TypeList<T...>) {
   (show(std::type_identity<T>{}), ...);
 }
 
-/// Tells of the fields of a PDU without a field table.
+/// Reports the fields of a PDU without a field table.
 void list_header(FieldList& list, PduType type) {
   list.begin(type);
   FieldWalk walk(list);
@@ -97,14 +93,14 @@ void each_field_path(PduType type, const std::function<void(std::string_view)>& 
     const std::function<void(std::string_view)>& f;
     std::string path;
   } names{f, {}};
-  const auto tell = [](void* context, const FieldPlace&, const FieldList::Field& field) {
+  const auto report = [](void* context, const FieldPlace&, const FieldList::Field& field) {
     Names& to = *static_cast<Names*>(context);
     to.path.clear();
     for (const FieldPath::Part& part : field.around) to.path.append(part.name).append(".");
     to.path += field.part.name;
     to.f(to.path);
   };
-  FieldList list(&names, tell);
+  FieldList list(&names, report);
   list_fields(list, type);
 }
 

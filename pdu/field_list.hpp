@@ -72,7 +72,7 @@ concept OneId =
 /// What kind of value a field has.
 enum class FieldValueClass : std::uint8_t { number, named_number, other };
 
-/// Handler of a walk through examples: tells of each field.
+/// Handler of a walk through examples: reports each field.
 class FieldList {
  public:
   struct Field {
@@ -84,15 +84,15 @@ class FieldList {
     std::string_view (*name_of)(unsigned) = nullptr;  ///< of an enumeration
     unsigned values = 0;                              ///< of an enumeration: its values are below
   };
-  using Tell = void (*)(void* context, const FieldPlace& place, const Field& field);
+  using Report = void (*)(void* context, const FieldPlace& place, const Field& field);
   static constexpr bool kExamples = true;
-  FieldList(void* context, Tell told) : context_(context), tell_(told) {}
+  FieldList(void* context, Report callback) : context_(context), report_(callback) {}
 
   /// The fields that follow are those of PDUs of this type.
   void begin(PduType type) { type_ = type; }
   template <typename Record>
   bool enter(std::string_view name, std::size_t index, const Record&) {
-    if constexpr (OneId<Record>) tell(name, FieldValueClass::other);
+    if constexpr (OneId<Record>) report(name, FieldValueClass::other);
     if (place_.is_full()) return false;
     place_.enter(name, index);
     return true;
@@ -101,7 +101,7 @@ class FieldList {
   template <typename T>
   void leaf(std::string_view name, const T&, const FieldMeanings& meanings) {
     if constexpr (!Scalar<T>) {
-      tell(name, FieldValueClass::other);
+      report(name, FieldValueClass::other);
     } else {
       Field field{
           .value = kMayHaveNames<T> ? FieldValueClass::named_number : FieldValueClass::number,
@@ -110,29 +110,29 @@ class FieldList {
         field.name_of = [](unsigned value) { return pdu::name(static_cast<T>(value)); };
         field.values = sizeof(T) > 1 ? 0x10000U : 0x100U;
       }
-      tell(name, field);
+      report(name, field);
     }
   }
   void octets(std::string_view name, std::span<const std::byte>) {
-    tell(name, FieldValueClass::other);
+    report(name, FieldValueClass::other);
   }
 
  private:
-  void tell(std::string_view name, FieldValueClass value) { tell(name, Field{.value = value}); }
-  void tell(std::string_view name, Field field) {
+  void report(std::string_view name, FieldValueClass value) { report(name, Field{.value = value}); }
+  void report(std::string_view name, Field field) {
     field.type = type_;
     field.around = place_.parts();
     field.part = {name, kNoIndex};
-    tell_(context_, place_, field);
+    report_(context_, place_, field);
   }
 
   void* context_;
-  Tell tell_;
+  Report report_;
   FieldPlace place_;
   PduType type_ = PduType::other;
 };
 
-/// Tells of the fields of each type, or of one. A type without a field table has a header.
+/// Reports the fields of each type, or of one. A type without a field table has a header.
 void list_fields(FieldList& list, std::optional<PduType> only);
 
 }  // namespace reckon::pdu

@@ -179,7 +179,7 @@ bool FieldPath::look_for(Target target) {
     Target target;
     bool found = false;
   } look{*this, parts.goal(begins_at_pdu_), target};
-  const auto tell = [](void* context, const FieldPlace& place, const FieldList::Field& field) {
+  const auto report = [](void* context, const FieldPlace& place, const FieldList::Field& field) {
     Look& at = *static_cast<Look*>(context);
     if (at.target != Target::field && field.value != FieldValueClass::named_number) return;
     if (!at.goal.is_at(place, field.part)) return;
@@ -191,7 +191,7 @@ bool FieldPath::look_for(Target target) {
     at.path.has_names_ |= is_number && field.value == FieldValueClass::named_number;
     at.path.has_others_ |= !is_number;
   };
-  FieldList list(&look, tell);
+  FieldList list(&look, report);
   list_fields(list, std::nullopt);
   target_ = target;
   return look.found;
@@ -272,11 +272,11 @@ void FieldPath::each_name(Names f) const {
     FieldGoal goal;
     Names f;
   } look{parts.goal(begins_at_pdu_), f};
-  const auto tell = [](void* context, const FieldPlace& place, const FieldList::Field& field) {
+  const auto report = [](void* context, const FieldPlace& place, const FieldList::Field& field) {
     const Look& at = *static_cast<Look*>(context);
     if (at.goal.is_at(place, field.part)) each_field_name(field, at.f);
   };
-  FieldList list(&look, tell);
+  FieldList list(&look, report);
   list_fields(list, std::nullopt);
 }
 

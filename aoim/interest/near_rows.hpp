@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Subscription to the groups of near rows of channels.
+// Which near groups a peer joins. Each row of the table of channels whose updates have a recipient
+// tier of their own is a near row: in each cell it has a multicast group, its near group, for the
+// peers whose entities are closer than the row's distance.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +12,27 @@
 
 namespace reckon::aoim {
 
-/// Time [s] before a focus arrives at which groups of near rows are joined: a join takes up to
-/// 0.03, and what is there is sent within 0.1 after that.
+/// A near group is joined this long [s] before an entity of this peer can be within the row's
+/// distance of the group's cell: a join takes up to 0.03 s, and owners send the states of what is
+/// there within 0.1 s after that.
 inline constexpr double kNearAhead = 0.3;
-/// They are kept until the focus is farther than this times the row's end.
+/// It is left when the cell is farther away than this factor times the row's distance.
 inline constexpr double kNearLeave = 1.1;
 
-/// Settings of the subscription to the groups of a near row.
+/// Settings of the subscription to near groups: those for cells, with the two values above
+/// and without a cap on the groups.
 [[nodiscard]] SubscriptionConfig near_subscription(SubscriptionConfig cells) noexcept;
 
-/// The focus from which a near row is subscribed to. Updates of kept rows use the groups of the row
-/// after them, which include them at any stretch.
-/// @param row of those of the table that are not kept, 0 being the nearest
-/// @param focus with the sensing radius, or more if it stands for several; with less, it reaches no
-/// farther than that
-/// @param radius of sensing [m]  @param stretch see ChannelTable::fit
+/// The ball around an own entity that decides which near groups of one row are joined: those of the
+/// cells that it reaches. Its radius is the distance at which the row ends, divided by the stretch,
+/// and at most the sensing radius. Rows that are kept (Channel::kept) have no near groups: their
+/// updates go to those of the first row that is not kept. So the radius is at least the distance at
+/// which the kept rows end, which no stretch shortens.
+/// @param row number of the near row: 0 is the first row that is not kept
+/// @param focus by which cell groups are subscribed to. Its radius is the sensing radius, or more
+/// if it stands for several entities: the excess is added to the row's. If less, it is the limit.
+/// @param radius at which an entity senses others [m]
+/// @param stretch factor on distances that meets the receiver's budget, see ChannelTable::fit
 [[nodiscard]] Focus near_focus(const ChannelTable& table, std::size_t row, const Focus& focus,
                                double radius, double stretch) noexcept;
 

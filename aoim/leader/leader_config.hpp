@@ -12,24 +12,24 @@
 
 namespace reckon::aoim {
 
-/// Stands for the whole scene, whose leader assigns the groups.
+/// In place of a cell: the whole scene, whose leader assigns the groups.
 inline constexpr CellId kWholeScene{std::numeric_limits<std::int32_t>::min(),
                                     std::numeric_limits<std::int32_t>::min()};
 
-/// Tunables of leadership; defaults are those of the field.
+/// Tunables of leadership, with their defaults.
 struct LeaderConfig {
   bool on = false;  ///< whether cells have leaders
-  /// Whether states use the groups that the leader of the scene assigns; else those of the fixed
-  /// tile.
+  /// Whether states are sent to the groups that the leader of the scene assigns to cells; else each
+  /// cell has the group that CellPartition computes for it.
   bool hand_out = false;
-  /// Period of a leader's claim; after three missed ones its successor leads.
+  /// Period of a leader's claim. When `missed` claims in a row have not come, its successor leads.
   std::chrono::nanoseconds heartbeat = std::chrono::milliseconds(500);
-  std::int64_t missed = 3;
+  std::int64_t missed = 3;  ///< claims, as above
   /// Period of a member's role; a member counts as gone after 3.5 of these.
   std::chrono::nanoseconds member_beat = std::chrono::milliseconds(1000);
   /// Time for which a newcomer listens for a leader before it leads itself.
   std::chrono::nanoseconds listen = std::chrono::milliseconds(1600);
-  /// Additional wait of each candidate after the one before it.
+  /// Each candidate waits this much longer than the candidate before it.
   std::chrono::nanoseconds stagger = std::chrono::milliseconds(200);
   /// Most cells in which one peer takes part; it does not take part in further ones.
   std::size_t most_cells = 128;
@@ -52,11 +52,11 @@ struct LeaderConfig {
 
   /// Gap between two parts of a snapshot: 2,000 datagrams a second.
   std::chrono::nanoseconds part_gap = std::chrono::microseconds(500);
-  /// Newcomers whose requests are this close share a snapshot; their joins take this long too.
+  /// Newcomers whose requests come within this time share a snapshot. A join takes as long.
   std::chrono::nanoseconds collect = std::chrono::milliseconds(30);
   /// Gap before a request is repeated.
   std::chrono::nanoseconds ask_again = std::chrono::milliseconds(200);
-  /// A newcomer without its snapshot after this time asks the owners.
+  /// A newcomer that still has no snapshot after this time asks the owners of the entities.
   std::chrono::nanoseconds give_up = std::chrono::milliseconds(1000);
 };
 

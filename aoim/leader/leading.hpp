@@ -71,8 +71,8 @@ class Leading {
   /// Takes a datagram of this epoch, from a known peer at its own address.
   void receive(GroupIndex group, std::span<const std::byte> datagram, std::uint32_t sender,
                Nanoseconds now, Nanoseconds came);
-  /// Takes the Entity States that leaders relayed to us as a newcomer, as far as their owners are
-  /// known by now. The caller drops a state that is older than the owner's own.
+  /// Takes the Entity States that leaders relayed to us as a newcomer, except those of owners that
+  /// are not known yet. The caller drops a state that is older than one from the owner itself.
   [[nodiscard]] std::vector<RelayedState> take_relayed(Nanoseconds now);
   /// Whether take_relayed() has anything to examine.
   [[nodiscard]] bool has_relayed() const noexcept {
@@ -106,7 +106,7 @@ class Leading {
     bool joined = false;
   };
   std::vector<HandedOut> handed_out_;  // by group index - 1
-  std::vector<bool> unread_;  // cells whose leaders are still to be asked, by cell number - 1
+  std::vector<bool> unread_;  // whether a cell's leader is still to be asked, by cell number - 1
   std::vector<GroupIndex> join_, leave_;
   std::vector<CarriedBeacon> carried_;                         // of ours
   std::vector<std::pair<Nanoseconds, RelayedState>> relayed_;  // with the time of arrival

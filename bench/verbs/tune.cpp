@@ -18,6 +18,7 @@
 #include "reckon/bench/studies/tune/report.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/exercise/scene_folder.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/verbs/studies.hpp"
@@ -45,13 +46,6 @@ constexpr std::array kWebers{0.05, 0.1, 0.2};
 
 constexpr const char* kNothingDrawn =
     "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out";
-
-/// Before the work, so that nobody waits for a table that then has no picture.
-void check_plot(const std::string& path) {
-  if (!path.empty() && !std::ofstream(path, std::ios::app))
-    throw tools::UsageError(
-        fmt::format("{} cannot be written; name another file for --plot", path));
-}
 
 void write_plot(const std::string& path, const std::string& text) {
   if (path.empty()) return;
@@ -117,7 +111,7 @@ int tune_motion(const TuneWords& words, const tools::Console& console) {
     throw tools::UsageError(
         fmt::format("{}: no entity has two samples, so nothing can be foretold", words.file));
   const TuneOptions options = options_of(words, goal, summary.step, file.has_orientation);
-  check_plot(words.plot);
+  tools::check_writable(words.plot);
   bool stopped = false;
   const TuneTable table = tune(file.tracks, options, progress_on(console, stopped));
   if (isatty(fileno(console.err)) == 1) fmt::print(console.err, "\r\x1b[K");

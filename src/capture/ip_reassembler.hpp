@@ -29,10 +29,11 @@ enum class FragmentFate : std::uint8_t {
 /// Bounds of an IpReassembler.
 struct ReassemblyLimits {
   /// A datagram is given up this long after its first fragment, by the times of the frames. IPv4
-  /// identifiers repeat after 65,536 datagrams: more seconds confuse fast senders' datagrams.
+  /// identifiers repeat after 65,536 datagrams: a longer time would mix fragments of different
+  /// datagrams of a fast sender.
   std::chrono::nanoseconds age{std::chrono::seconds(5)};
   std::size_t octets{std::size_t{16} << 20};  ///< held; beyond them the oldest datagram is given up
-  std::size_t datagrams{4096};                ///< incomplete ones; likewise
+  std::size_t datagrams{4096};                ///< incomplete ones; beyond them likewise
 };
 
 /// Holds incomplete datagrams. Fragments come in any order; copies of them do no harm, also those
@@ -49,7 +50,7 @@ class IpReassembler {
   /// Gives up what is too old at the time of a frame. take() does it too.
   void advance(std::chrono::nanoseconds now);
   /// The oldest datagram that was given up and not yet returned: its octets up to the first gap.
-  /// False if there is none. To be emptied before the next take().
+  /// False if there is none. Call it until then before the next take().
   bool take_lost(SourceDatagram& out);
   [[nodiscard]] bool has_lost() const noexcept { return !lost_.empty(); }
   /// Gives up what is incomplete: nothing more will come.
@@ -79,11 +80,11 @@ class IpReassembler {
   struct Incomplete {
     Key key;
     SourceDatagram first;         ///< frame and time of the first fragment to come
-    LinkLayer layer{};            ///< of the head, and so is the link type
-    IpFragment head_fragment;     ///< whose frame gave the head: the one of offset 0, else any
+    LinkLayer layer{};            ///< of the frame that gave `head`, as is first's link type
+    IpFragment head_fragment;     ///< the fragment of that frame: at offset 0 if it has come
     std::vector<std::byte> head;  ///< octets of that frame before its fragment's own
     std::vector<std::byte> octets;
-    std::vector<Range> ranges;  ///< ascending, apart
+    std::vector<Range> ranges;  ///< ascending, with gaps between them
     std::vector<Piece> pieces;  ///< the fragments, as many as are remembered
     std::optional<std::size_t> end;
   };
@@ -112,7 +113,7 @@ class IpReassembler {
   bool build_part(const Incomplete& from);
 
   ReassemblyLimits limits_;
-  FragmentCounts counts_;             ///< all but those that wait
+  FragmentCounts counts_;             ///< without those that are incomplete
   std::list<Incomplete> incomplete_;  ///< the oldest first
   std::list<Incomplete> lost_;        ///< given up, not yet returned
   std::list<Finished> finished_;      ///< the oldest first

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 
 namespace reckon::peer {
@@ -19,8 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kLooks = 256;              // at a track
-constexpr double kFarthestRadius = 1e6;  // [m], the range of the key
+constexpr int kLooks = 256;  // at a track
 
 /// Something of a peer at the start.
 struct Placed {
@@ -65,7 +65,7 @@ void set_reach_by_extent(SceneFile& scene, const StatedReach& stated) {
     return;  // reported at its key
   }
   if (!(extent > AoimConfig{}.radius)) return;
-  const double radius = std::min(std::pow(10.0, std::ceil(std::log10(extent))), kFarthestRadius);
+  const double radius = std::min(std::pow(10.0, std::ceil(std::log10(extent))), kWorld);
   if (!stated.cell) aoim.cell = radius / 2;
   if (!stated.radius) aoim.radius = radius;
 }

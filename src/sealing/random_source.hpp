@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Source of boots and nonces.
+// Random numbers for sealing: those that identify a start of a peer (boots), and nonces.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,16 @@
 
 namespace reckon::peer {
 
-/// Fills the octets with random ones; false if it cannot.
+/// Fills the octets with random values. Returns false if the source fails.
 using RandomSource = bool (*)(std::span<std::byte>) noexcept;
 
-/// Octets of the kernel's random source, getrandom(2), combined with RDRAND if the CPU has it: two
-/// copies of one machine may get the same octets from their kernels for a time. 1 us.
+/// Octets of the kernel's random source, getrandom(2), combined with RDRAND if the CPU has it:
+/// the kernels of two copies of a virtual machine may give the same octets for some time. Takes 1
+/// us.
 [[nodiscard]] bool system_random(std::span<std::byte> out) noexcept;
 
-/// The random source has failed, and an exercise cannot be sealed without it. An error of neither
-/// usage nor the network.
+/// The random source has failed, and an exercise cannot be sealed without it. Neither the command
+/// line nor the network is at fault: the program ends with the status of an internal error.
 class RandomSourceError : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override {
@@ -27,7 +28,7 @@ class RandomSourceError : public std::exception {
   }
 };
 
-/// A number from that source.  @throws RandomSourceError
+/// A random number from `source`.  @throws RandomSourceError
 [[nodiscard]] std::uint64_t draw(RandomSource source);
 
 }  // namespace reckon::peer

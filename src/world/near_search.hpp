@@ -25,7 +25,8 @@ struct MovingBody {
   deadreckon::Pose pose;  ///< S
 };
 
-/// The remote hands within reach of each body, as probes. Hosts share places as in NearBodies.
+/// The remote hands within reach of each moving body, as probes. If there is no room
+/// for all, the hosts that they come from share the places, see NearBodies.
 class HandsNear {
  public:
   static constexpr std::size_t kMost = 4096;  ///< of all bodies together
@@ -46,23 +47,24 @@ class HandsNear {
     std::size_t body;
     deadreckon::ProbeState hand;
     Party party;
-    double depth;              // [m]
-    std::size_t of_host = 0;  // number of its host's before it
+    double depth;             // [m]
+    std::size_t of_host = 0;  // how many of the same host come before it
   };
   void leave_out() noexcept;
 
   std::vector<Found> found_;
 };
 
-/// The search among the rows that have a force model. Each is checked again only when it could be
-/// within reach: at its distance divided by the distance that its model and our hands can cover in
-/// a second. Our hands and bodies are assumed to move at kHandSpeed, and bodies to turn at
-/// kBodyTurn. While they are faster, checks come sooner, so that nothing is missed at any speed.
+/// The search among the rows that have a force model. A row that is out of reach is checked
+/// again only when it could have come within reach: after its distance divided by the speed at
+/// which its model and our hands can approach each other. Our hands and bodies are assumed to move
+/// at kHandSpeed, and bodies to turn at kBodyTurn. While they are faster, checks come sooner, so
+/// that nothing is missed at any speed.
 ///
-/// It follows the table row by row, like a RowColumn. One thread; allocates only at construction
-/// and in expect_bodies(). A step costs about 60 ns for each entity that is within reach, was moved
-/// by an update, or is due: of 10,000 distant ones 3 at 500 Hz. After a jump of a hand it is all of
-/// them.
+/// Rows are added and erased with those of the state table, as in a RowColumn. One thread;
+/// allocates only at construction and in expect_bodies(). A step costs about 60 ns for each entity
+/// that is within reach, was moved by an update, or is due. Of 10,000 distant entities about 3 are
+/// due in each step at 500 Hz, and after a jump of a hand all of them.
 class NearSearch {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -70,8 +72,8 @@ class NearSearch {
   /// [m/s], a brisk movement of an arm.
   static constexpr double kHandSpeed = 2.0;
   static constexpr double kBodyTurn = 1.0;  ///< [rad/s]
-  /// The farthest rows are checked again after half of this to all of it, even without a change,
-  /// and so not all in one step.
+  /// Rows so far away that they cannot come within reach in this time are checked again after half
+  /// of it to all of it: each after a different time, so that they are not due in one step.
   static constexpr Nanoseconds kHorizon = std::chrono::seconds(8);
 
   /// @param capacity rows of the table  @param reach [m] between surfaces, >= 0
@@ -94,8 +96,8 @@ class NearSearch {
             Nanoseconds now, std::span<NearBodies> found) noexcept {
     find(rows, probes, now, found, {}, no_hands_);
   }
-  /// The same, and the rows within reach of `bodies`, at most as many as expected; `hands` is
-  /// cleared first.
+  /// The same, and replaces `hands` by the remote hands within reach of `bodies`. There are at most
+  /// as many bodies as expect_bodies() has reserved room for.
   void find(std::span<const RemoteEntity> rows, std::span<const deadreckon::ProbeState> probes,
             Nanoseconds now, std::span<NearBodies> found, std::span<const MovingBody> bodies,
             HandsNear& hands) noexcept;
@@ -129,7 +131,7 @@ class NearSearch {
   double reach_;
   RowColumn<std::uint32_t> entry_of_;  // of each row: its place in the two below, or kNone
   RowColumn<std::uint32_t> row_of_;    // of each row with a model
-  DueColumn look_at_;                  // when to check each row with a model again, by hurry_
+  DueColumn look_at_;  // when to check each row with a model again, in the time of hurry_
   /// Time that runs faster while a hand or a body of ours is faster than assumed.
   Nanoseconds hurry_{0};
   Nanoseconds last_{0};

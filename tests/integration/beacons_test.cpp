@@ -129,6 +129,9 @@ TEST_F(FollowedTruck, IsSeenInEachCellThatItComesTo) {
   EXPECT_EQ(missing_, 0U);
   EXPECT_LT(worst_, kMost);
   EXPECT_EQ(field_.world_.count(kFollower, "datagrams_lost"), 0U);
+  EXPECT_THAT(field_.world_.notices(kOwner),
+              testing::Not(testing::Contains(testing::HasSubstr("another peer's"))))
+      << "the map of groups is only a moment behind the truck";
 }
 
 TEST_F(FollowedTruck, IsGoneWithItsOwner) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tests/support/declarations.hpp"
 
 namespace reckon::pdu {
@@ -39,6 +40,17 @@ TEST(PduTypes, HoldEveryStructWithATypeNumberOfAnyHeader) {
   }
   EXPECT_EQ(structs, PduTypes::kSize);
 }
+
+template <typename... T>
+void expect_own_headers(TypeList<T...>) {
+  const auto expect_own_header = []<typename Pdu>(const Pdu& pdu) {
+    EXPECT_EQ(pdu.header.pdu_type, Pdu::kPduType);
+    EXPECT_EQ(pdu.header.protocol_family, Pdu::kProtocolFamily) << snake_name(Pdu::kPduType);
+  };
+  (expect_own_header(T{}), ...);
+}
+
+TEST(PduTypes, HaveTheirTypeAndFamilyInANewHeader) { expect_own_headers(PduTypes{}); }
 
 TEST(PduTypes, SayUnknownForATypeWithoutAFieldTable) {
   std::array<std::byte, 12> octets{std::byte{7}, std::byte{1}, std::byte{200}};

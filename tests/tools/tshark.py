@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Captures made for a test, and tshark and `reckon inspect` run on them. Standard library only."""
+import argparse
 import json
 import os
 import pathlib
@@ -8,6 +9,8 @@ import re
 import shutil
 import struct
 import subprocess
+import sys
+import tempfile
 
 SKIP = 77  # exit status that ctest takes for "skipped"
 
@@ -94,3 +97,24 @@ class Tools:
         if not folder.is_dir():
             raise Skip(f"needs the reference captures in {folder}")
         return sorted(folder.glob("*.pcap"))
+
+
+def run_case(description, cases):
+    """Runs the case that the command line names, out of those by name; its exit status."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("case", choices=sorted(cases))
+    parser.add_argument("--plugin", required=True)
+    parser.add_argument("--reckon", required=True)
+    parser.add_argument("--samples", required=True)
+    parser.add_argument("--data")
+    options = parser.parse_args()
+    try:
+        with tempfile.TemporaryDirectory(prefix="reckon-tshark-") as folder:
+            cases[options.case](Tools(options, folder))
+    except Skip as reason:
+        print(f"skipped: {reason}")
+        return SKIP
+    except Failure as reason:
+        print(f"failed: {reason}", file=sys.stderr)
+        return 1
+    return 0

@@ -3,15 +3,13 @@
 """Fields of PDUs in `reckon inspect --where` against tshark's display filters, on the golden samples of every PDU type
 and on PDUs made for it. tshark without the plug-in is the judge: its own dissector of DIS.
   where_fields.py CASE --plugin reckon.lua --reckon PROGRAM --samples FOLDER"""
-import argparse
 import json
 import re
 import struct
 import subprocess
 import sys
-import tempfile
 
-from tshark import SKIP, Failure, Skip, Tools, check
+from tshark import check, run_case
 
 # A field of tshark, and ours of the same meaning.
 SAME = (
@@ -132,24 +130,5 @@ def descriptors(tools):
 CASES = {case.__name__: case for case in (fields, readings, descriptors)}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("case", choices=sorted(CASES))
-    parser.add_argument("--plugin", required=True)
-    parser.add_argument("--reckon", required=True)
-    parser.add_argument("--samples", required=True)
-    options = parser.parse_args()
-    try:
-        with tempfile.TemporaryDirectory(prefix="reckon-where-") as folder:
-            CASES[options.case](Tools(options, folder))
-    except Skip as reason:
-        print(f"skipped: {reason}")
-        return SKIP
-    except Failure as reason:
-        print(f"failed: {reason}", file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_case(__doc__, CASES))

@@ -3,15 +3,13 @@
 """The Wireshark plug-in: tshark reads captures with it, and what it shows is held against the octets
 themselves and against `reckon inspect`. One case per call:
   wireshark.py CASE --plugin reckon.lua --reckon PROGRAM --samples FOLDER [--data FOLDER]"""
-import argparse
 import math
 import random
 import struct
 import subprocess
 import sys
-import tempfile
 
-from tshark import SKIP, Failure, Skip, Tools, check
+from tshark import check, run_case
 
 OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell", "exchange", "compressed",
        "echo", "heard", "peer", "roles", "role", "group_map", "cell_group", "snapshot", "unicast")
@@ -352,25 +350,5 @@ CASES = {case.__name__: case for case in
          (bundles, inner, values, filters, damage, mutated, foreign, sessions, generated)}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("case", choices=sorted(CASES))
-    parser.add_argument("--plugin", required=True)
-    parser.add_argument("--reckon", required=True)
-    parser.add_argument("--samples", required=True)
-    parser.add_argument("--data")
-    options = parser.parse_args()
-    try:
-        with tempfile.TemporaryDirectory(prefix="reckon-wireshark-") as folder:
-            CASES[options.case](Tools(options, folder))
-    except Skip as reason:
-        print(f"skipped: {reason}")
-        return SKIP
-    except Failure as reason:
-        print(f"failed: {reason}", file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_case(__doc__, CASES))

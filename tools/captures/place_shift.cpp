@@ -4,14 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "reckon/tools/captures/number_list.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/tools/listener/listener.hpp"
+#include "reckon/tools/listener/origin_at.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -57,11 +56,8 @@ std::optional<PlaceShift> ShiftRequest::shift() const {
 }
 
 PlaceShift ShiftRequest::shift_from(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d up = local_frame_at(point).rotation().col(2);
-  Geodetic from{std::asin(std::clamp(up.z(), -1.0, 1.0)), std::atan2(point.y(), point.x()), {}};
-  const Eigen::Vector3d ground = deadreckon::geocentric_position(from.latitude, from.longitude, 0);
-  from.height = std::clamp((point - ground).dot(up), -kGreatestHeight, kGreatestHeight);
-  return between(from);
+  const peer::OriginConfig from = origin_at(point);
+  return between({from.latitude, from.longitude, from.height});
 }
 
 PlaceShift ShiftRequest::between(const Geodetic& from) const {

@@ -4,13 +4,19 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 namespace reckon::tools {
 
 void check_writable(const std::string& path) {
-  if (!path.empty() && !std::ofstream(path, std::ios::app))
+  if (path.empty()) return;
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
+  if (!std::ofstream(path, std::ios::app))
     throw UsageError(fmt::format("{}: cannot be written; name a file in a folder of yours", path));
+  if (is_new) std::filesystem::remove(path, ignored);
 }
 
 void write_output(const std::string& path, const std::string& text, const Console& console) {

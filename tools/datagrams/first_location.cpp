@@ -5,13 +5,14 @@
 #include <concepts>
 #include <string_view>
 
+#include "reckon/pdu/fixed_fields.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 
 namespace reckon::tools {
 namespace {
 
 /// Visitor: the first position in W among the fields of a PDU.
-class FirstLocation {
+class FirstLocation : public pdu::FixedFields {
  public:
   template <typename T>
   void operator()(std::string_view, const T& value) {
@@ -19,12 +20,6 @@ class FirstLocation {
       if (!location_.has_value()) location_ = value;
     }
   }
-  template <typename... Any>
-  void count(Any&&...) {}
-  template <typename... Any>
-  void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
 
   [[nodiscard]] const std::optional<pdu::WorldCoordinates>& location() const { return location_; }
 

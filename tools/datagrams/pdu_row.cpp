@@ -8,6 +8,7 @@
 #include <concepts>
 
 #include "reckon/pdu/finite.hpp"
+#include "reckon/pdu/fixed_fields.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/datagrams/zero_length.hpp"
@@ -19,7 +20,7 @@ using pdu::DecodeError;
 
 /// Visitor that stores the first entity ID among the fields of a PDU. Live entities have shorter
 /// IDs.
-class FirstId {
+class FirstId : public pdu::FixedFields {
  public:
   template <typename T>
   void operator()(std::string_view, const T& value) {
@@ -31,12 +32,6 @@ class FirstId {
       is_live_ = true;
     }
   }
-  template <typename... Any>
-  void count(Any&&...) {}
-  template <typename... Any>
-  void records(Any&&...) {}
-  template <typename... Any>
-  void walked(Any&&...) {}
 
   [[nodiscard]] const std::optional<pdu::EntityId>& id() const { return id_; }
   /// Whether it is an EntityId of 6 octets.

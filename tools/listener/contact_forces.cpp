@@ -8,7 +8,7 @@ namespace reckon::tools {
 
 using std::chrono::nanoseconds;
 
-ContactForces::Placed ContactForces::place(const HeardEntity& entity, const ReceivedModel& model,
+ContactForces::Placed ContactForces::place(const ReceivedEntity& entity, const ReceivedModel& model,
                                            nanoseconds time) {
   Placed placed{&entity.id,           &model.model,
                 entity.pose_at(time), {},
@@ -33,11 +33,11 @@ ContactForce ContactForces::between(const Placed& on, const Placed& by) {
   return out;
 }
 
-std::span<const ContactForce> ContactForces::forces_at(const Listener& heard, nanoseconds time) {
+std::span<const ContactForce> ContactForces::forces_at(const Listener& listener, nanoseconds time) {
   placed_.clear();
   forces_.clear();
-  for (const HeardEntity& entity : heard.entities())
-    if (const ReceivedModel* model = heard.model_of(entity))
+  for (const ReceivedEntity& entity : listener.entities())
+    if (const ReceivedModel* model = listener.model_of(entity))
       placed_.push_back(place(entity, *model, time));
   for (const Placed& on : placed_) {
     if (!on.is_probe) continue;
@@ -50,40 +50,40 @@ std::span<const ContactForce> ContactForces::forces_at(const Listener& heard, na
   return forces_;
 }
 
-Eigen::Vector3d ContactForces::force_on(const Listener& heard, const pdu::EntityId& id,
+Eigen::Vector3d ContactForces::force_on(const Listener& listener, const pdu::EntityId& id,
                                         nanoseconds time) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const HeardEntity* entity = heard.find_entity(id);
+  const ReceivedEntity* entity = listener.find_entity(id);
   if (entity == nullptr || !entity->is_haptic()) return sum;
-  const Placed on = place(*entity, *heard.model_of(*entity), time);
-  for (const HeardEntity& other : heard.entities())
+  const Placed on = place(*entity, *listener.model_of(*entity), time);
+  for (const ReceivedEntity& other : listener.entities())
     if (other.is_haptic() && &other != entity)
-      sum += between(on, place(other, *heard.model_of(other), time)).force;
+      sum += between(on, place(other, *listener.model_of(other), time)).force;
   return sum;
 }
 
-std::span<const ForceJump> ContactForces::jumps_of_datagram(const Listener& heard,
+std::span<const ForceJump> ContactForces::jumps_of_datagram(const Listener& listener,
                                                             nanoseconds time) {
   jumps_.clear();
-  for (const TouchedEntity& touched : heard.touched())
+  for (const TouchedEntity& touched : listener.touched())
     if (touched.known && !touched.refused && touched.before.is_haptic())
-      note_jumps(heard, touched, time);
+      note_jumps(listener, touched, time);
   return jumps_;
 }
 
-void ContactForces::note_jumps(const Listener& heard, const TouchedEntity& touched,
+void ContactForces::note_jumps(const Listener& listener, const TouchedEntity& touched,
                                nanoseconds time) {
-  const HeardEntity* entity = heard.find_entity(touched.id);
+  const ReceivedEntity* entity = listener.find_entity(touched.id);
   if (entity == nullptr || !entity->is_haptic()) return;
   const Placed before = place(touched.before, touched.model_before, time);
-  const Placed after = place(*entity, *heard.model_of(*entity), time);
+  const Placed after = place(*entity, *listener.model_of(*entity), time);
   const auto note = [&](const ContactForce& was, const ContactForce& is) {
     if (was.depth > 0 || is.depth > 0)
       jumps_.push_back({is.on, is.by, (is.force - was.force).norm()});
   };
-  for (const HeardEntity& other : heard.entities()) {
+  for (const ReceivedEntity& other : listener.entities()) {
     if (!other.is_haptic() || &other == entity) continue;
-    const Placed there = place(other, *heard.model_of(other), time);
+    const Placed there = place(other, *listener.model_of(other), time);
     note(between(before, there), between(after, there));
     note(between(there, before), between(there, after));
   }

@@ -38,14 +38,14 @@ class ContactForces {
   /// All pairs that touch at `time`, in the order of the models' entities. Good until the next
   /// call. A model that is no longer valid gives no force; ask the picture to forget the silent
   /// ones before.
-  [[nodiscard]] std::span<const ContactForce> forces_at(const Listener& heard,
+  [[nodiscard]] std::span<const ContactForce> forces_at(const Listener& listener,
                                                         std::chrono::nanoseconds time);
   /// Sum of the forces on one entity [N], east, north, up; zero where there is none.
-  [[nodiscard]] static Eigen::Vector3d force_on(const Listener& heard, const pdu::EntityId& id,
+  [[nodiscard]] static Eigen::Vector3d force_on(const Listener& listener, const pdu::EntityId& id,
                                                 std::chrono::nanoseconds time);
   /// How much the updates of the datagram at hand changed the forces of pairs that were known, at
   /// `time`; call it before Listener::end_datagram(). Good until the next call.
-  [[nodiscard]] std::span<const ForceJump> jumps_of_datagram(const Listener& heard,
+  [[nodiscard]] std::span<const ForceJump> jumps_of_datagram(const Listener& listener,
                                                              std::chrono::nanoseconds time);
 
  private:
@@ -60,11 +60,11 @@ class ContactForces {
     double reach;   // [m] of the model about its point; infinite for planes
   };
 
-  [[nodiscard]] static Placed place(const HeardEntity& entity, const ReceivedModel& model,
+  [[nodiscard]] static Placed place(const ReceivedEntity& entity, const ReceivedModel& model,
                                     std::chrono::nanoseconds time);
   [[nodiscard]] static bool may_touch(const Placed& on, const Placed& by);
   [[nodiscard]] static ContactForce between(const Placed& on, const Placed& by);
-  void note_jumps(const Listener& heard, const TouchedEntity& touched,
+  void note_jumps(const Listener& listener, const TouchedEntity& touched,
                   std::chrono::nanoseconds time);
 
   std::vector<Placed> placed_;

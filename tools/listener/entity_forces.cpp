@@ -34,32 +34,32 @@ double EntityForces::seconds_of(nanoseconds time) const noexcept {
   return pdu::to_seconds(time - start_.value_or(time));
 }
 
-ForcePredictor EntityForces::predictor_of(const Listener& heard,
-                                          const HeardEntity& entity) const noexcept {
+ForcePredictor EntityForces::predictor_of(const Listener& listener,
+                                          const ReceivedEntity& entity) const noexcept {
   ForcePredictor predictor;
-  if (const ReceivedModel* model = heard.model_of(entity)) {
+  if (const ReceivedModel* model = listener.model_of(entity)) {
     predictor.update(model->model, entity.state, seconds_of(model->since));
     predictor.update_entity(entity.state, seconds_of(entity.state_time));
   }
   return predictor;
 }
 
-void EntityForces::note_state(const Listener& heard, const StateUpdate& update) {
-  const HeardEntity& entity = heard.entities()[update.place];
+void EntityForces::note_state(const Listener& listener, const StateUpdate& update) {
+  const ReceivedEntity& entity = listener.entities()[update.place];
   if (!entity.is_haptic()) return;
-  rows_[entity.model].before = predictor_of(heard, entity);
+  rows_[entity.model].before = predictor_of(listener, entity);
   rows_[entity.model].updated = update.arrival;
 }
 
-bool EntityForces::note_model(const Listener& heard, const ModelUpdate& update) {
-  const HeardEntity& entity = heard.entities()[update.place];
+bool EntityForces::note_model(const Listener& listener, const ModelUpdate& update) {
+  const ReceivedEntity& entity = listener.entities()[update.place];
   const nanoseconds now = update.arrival;
   if (!start_.has_value()) start_ = now;
   if (!entity.is_haptic()) rows_.emplace_back();
   Row& row = entity.is_haptic() ? rows_[entity.model] : rows_.back();
 
   // The Entity State in front of it is of the same instant, and the same update.
-  const ForcePredictor current = predictor_of(heard, entity);
+  const ForcePredictor current = predictor_of(listener, entity);
   if (row.updated != now) row.before = current;
   row.updated = now;
   if (current.weight(seconds_of(now)) <= 0) return true;
@@ -68,7 +68,7 @@ bool EntityForces::note_model(const Listener& heard, const ModelUpdate& update) 
   after.update_entity(entity.state, seconds_of(entity.state_time));
   double jump = 0;
   double largest = 0;
-  for_probes(heard, entity, now, [&](const ProbeState& probe) {
+  for_probes(listener, entity, now, [&](const ProbeState& probe) {
     const Eigen::Vector3d was = row.before.predict(probe, seconds_of(now));
     const Eigen::Vector3d is = after.predict(probe, seconds_of(now));
     jump = std::max(jump, (is - was).norm());
@@ -79,21 +79,21 @@ bool EntityForces::note_model(const Listener& heard, const ModelUpdate& update) 
 }
 
 template <typename Look>
-void EntityForces::for_probes(const Listener& heard, const HeardEntity& entity, nanoseconds now,
-                              Look&& look) const {
+void EntityForces::for_probes(const Listener& listener, const ReceivedEntity& entity,
+                              nanoseconds now, Look&& look) const {
   for (const ReceivedModel& model :
-       heard.models().first(std::min(heard.models().size(), kMostProbes))) {
-    const HeardEntity& other = heard.entities()[model.owner];
+       listener.models().first(std::min(listener.models().size(), kMostProbes))) {
+    const ReceivedEntity& other = listener.entities()[model.owner];
     if (&other != &entity && model.is_probe()) look(model.probe_at(other.pose_at(now)));
   }
 }
 
-double EntityForces::contact(const Listener& heard, const HeardEntity& entity,
+double EntityForces::contact(const Listener& listener, const ReceivedEntity& entity,
                              nanoseconds now) const {
   double largest = 0;
   if (!entity.is_haptic()) return largest;
-  const ForcePredictor predictor = predictor_of(heard, entity);
-  for_probes(heard, entity, now, [&](const ProbeState& probe) {
+  const ForcePredictor predictor = predictor_of(listener, entity);
+  for_probes(listener, entity, now, [&](const ProbeState& probe) {
     largest = std::max(largest, predictor.predict(probe, seconds_of(now)).norm());
   });
   return largest;

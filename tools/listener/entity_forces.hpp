@@ -25,16 +25,16 @@ class EntityForces {
   static constexpr double kNewForce = 0.01;
 
   /// A state that will be taken: what its model foretold till now is remembered.
-  void note_state(const Listener& heard, const StateUpdate& update);
+  void note_state(const Listener& listener, const StateUpdate& update);
   /// A model that will be taken; returns whether it says something new.
-  [[nodiscard]] bool note_model(const Listener& heard, const ModelUpdate& update);
+  [[nodiscard]] bool note_model(const Listener& listener, const ModelUpdate& update);
   /// The listener is about to forget the entity of this model.
   void forget_model(std::size_t model);
 
   /// How the force of this model jumped at updates, in contact only [N].
   [[nodiscard]] const JumpHistogram& jumps(std::size_t model) const { return rows_[model].jumps; }
   /// The largest force [N] that the entity's model gives at the probe of another; 0 without one.
-  [[nodiscard]] double contact(const Listener& heard, const HeardEntity& entity,
+  [[nodiscard]] double contact(const Listener& listener, const ReceivedEntity& entity,
                                std::chrono::nanoseconds now) const;
 
  private:
@@ -44,12 +44,12 @@ class EntityForces {
     JumpHistogram jumps;
   };
   [[nodiscard]] double seconds_of(std::chrono::nanoseconds time) const noexcept;
-  [[nodiscard]] deadreckon::ForcePredictor predictor_of(const Listener& heard,
-                                                        const HeardEntity& entity) const noexcept;
+  [[nodiscard]] deadreckon::ForcePredictor predictor_of(
+      const Listener& listener, const ReceivedEntity& entity) const noexcept;
   /// Calls `look(probe)` for the probes of the others.
   template <typename Look>
-  void for_probes(const Listener& heard, const HeardEntity& entity, std::chrono::nanoseconds now,
-                  Look&& look) const;
+  void for_probes(const Listener& listener, const ReceivedEntity& entity,
+                  std::chrono::nanoseconds now, Look&& look) const;
 
   std::vector<Row> rows_;
   std::optional<std::chrono::nanoseconds> start_;  // the predictors' seconds are since then

@@ -39,7 +39,7 @@ void set_cause(EntityRow& row, UpdateCause cause) {
 
 }  // namespace
 
-double EntityRow::rate(const HeardEntity& entity, nanoseconds now) const noexcept {
+double EntityRow::rate(const ReceivedEntity& entity, nanoseconds now) const noexcept {
   if (entity.is_silent(now) || (entity.gone && entity.age(now) > kRateOfGone)) return 0;
   const auto count = static_cast<double>(entity.updates - window_updates[0]);
   const double span = to_seconds(entity.arrival - window_time[0]);
@@ -70,7 +70,7 @@ struct EntityTable::Counting : ListenerObserver {
     if (update.verdict == ReceiveVerdict::duplicate) ++row.duplicated;
     if (update.verdict != ReceiveVerdict::taken) return;
     if (watch != nullptr) watch->before_state(update);
-    const HeardEntity& last = table.entities()[update.place];
+    const ReceivedEntity& last = table.entities()[update.place];
     set_cause(row, update.is_first ? begin_anew(row, last, update) : compare(row, last, update));
     adopt(row, last, update);
   }
@@ -82,7 +82,7 @@ struct EntityTable::Counting : ListenerObserver {
 
   void receive_model(const ModelUpdate& update) {
     if (watch != nullptr) watch->before_model(table.entities()[update.place], update);
-    const bool is_new = table.forces_.note_model(table.heard_, update);
+    const bool is_new = table.forces_.note_model(table.listener_, update);
     if (!is_new || table.entities()[update.place].arrival != update.arrival) return;
     // Weaker causes of the Entity State in front give way.
     EntityRow& row = table.rows_[update.place];
@@ -104,14 +104,14 @@ struct EntityTable::Counting : ListenerObserver {
   }
 
   // Nothing can be compared with what was before.
-  static UpdateCause begin_anew(EntityRow& row, const HeardEntity& last,
+  static UpdateCause begin_anew(EntityRow& row, const ReceivedEntity& last,
                                 const StateUpdate& update) {
     row.window_time = {update.arrival, update.arrival};
     row.window_updates = {last.updates + 1, last.updates + 1};
     return UpdateCause::first;
   }
 
-  UpdateCause compare(EntityRow& row, const HeardEntity& last, const StateUpdate& update) const {
+  UpdateCause compare(EntityRow& row, const ReceivedEntity& last, const StateUpdate& update) const {
     const Innovation found = innovation(last.state, update.state, update.between);
     row.jump = found.jump;
     if (row.worst_frame == 0 || static_cast<float>(found.jump) > row.jumps.max()) {
@@ -126,7 +126,7 @@ struct EntityTable::Counting : ListenerObserver {
   }
 
   // Makes the update the entity's last one.
-  void adopt(EntityRow& row, const HeardEntity& last, const StateUpdate& update) const {
+  void adopt(EntityRow& row, const ReceivedEntity& last, const StateUpdate& update) const {
     row.last_is_bad = false;
     row.length = pdu.header.length;
     row.frame = pdu.frame;
@@ -134,7 +134,7 @@ struct EntityTable::Counting : ListenerObserver {
     row.sender = datagram.source;
     row.group = datagram.group;
     move_window(row, update.arrival, last.updates + 1);
-    table.forces_.note_state(table.heard_, update);
+    table.forces_.note_state(table.listener_, update);
   }
 
   EntityTable& table;
@@ -143,7 +143,7 @@ struct EntityTable::Counting : ListenerObserver {
   Watch* watch;  // null: nobody
 };
 
-EntityTable::EntityTable(std::size_t most_rows) : heard_(rules_for(most_rows)) {}
+EntityTable::EntityTable(std::size_t most_rows) : listener_(rules_for(most_rows)) {}
 
 EntityRow& EntityTable::row_at(std::size_t place) {
   if (place == rows_.size()) rows_.emplace_back();
@@ -154,12 +154,13 @@ void EntityTable::take_pdu(const PduRow& row, const peer::SourceDatagram& datagr
   if (!start_.has_value()) start_ = datagram.time;
   Counting counting(*this, row, datagram, watch);
   if (row.decoded)
-    return heard_.take_pdu(row.bytes, row.header, datagram.time, counting, row.entity_state);
+    return listener_.take_pdu(row.bytes, row.header, datagram.time, counting, row.entity_state);
   // Entity States alone make an entity known, so broken ones do too.
   if (row.status != PduStatus::error || !row.id.has_value() ||
       row.header.pdu_type != pdu::PduType::entity_state)
     return;
-  const std::size_t place = heard_.take_unreadable(row.header.exercise_id, *row.id, datagram.time);
+  const std::size_t place =
+      listener_.take_unreadable(row.header.exercise_id, *row.id, datagram.time);
   if (place == Listener::kNone) return;
   row_at(place).octets += row.bytes.size();
   counting.note_bad(place, row.rule);
@@ -169,32 +170,32 @@ template <typename IsOver>
 void EntityTable::drop_where(IsOver&& is_over) {
   // The last one moves into the hole, so the same place is looked at again.
   for (std::size_t i = 0; i < rows_.size();) {
-    const HeardEntity& entity = entities()[i];
+    const ReceivedEntity& entity = entities()[i];
     if (!is_over(entity)) {
       ++i;
       continue;
     }
     if (entity.is_haptic()) forces_.forget_model(entity.model);
-    heard_.forget_entity(i);
+    listener_.forget_entity(i);
     if (i + 1 != rows_.size()) rows_[i] = std::move(rows_.back());
     rows_.pop_back();
   }
 }
 
 void EntityTable::drop_gone(nanoseconds now) {
-  drop_where([now](const HeardEntity& entity) {
+  drop_where([now](const ReceivedEntity& entity) {
     return entity.gone && now - entity.gone_at > kGoneShown;
   });
 }
 
 void EntityTable::drop_silent(nanoseconds now, nanoseconds silence) {
-  drop_where([now, silence](const HeardEntity& entity) {
+  drop_where([now, silence](const ReceivedEntity& entity) {
     const bool is_dumb = !entity.has_state || entity.is_silent(now);
     return is_dumb && now - entity.arrival > silence;
   });
 }
 
-const JumpHistogram* EntityTable::force_jumps(const HeardEntity& entity) const noexcept {
+const JumpHistogram* EntityTable::force_jumps(const ReceivedEntity& entity) const noexcept {
   return entity.is_haptic() ? &forces_.jumps(entity.model) : nullptr;
 }
 

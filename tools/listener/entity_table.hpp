@@ -51,7 +51,8 @@ struct EntityRow {
 
   /// Updates a second of the row's entity over the last 5 to 10 s, or over the last 4 to 8 updates
   /// where these took longer; falls while none comes. 0 before the second update.
-  [[nodiscard]] double rate(const HeardEntity& entity, std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] double rate(const ReceivedEntity& entity,
+                            std::chrono::nanoseconds now) const noexcept;
   /// The last jumps, at most 64, oldest first [m].
   [[nodiscard]] std::vector<double> recent_jumps() const;
 };
@@ -71,7 +72,7 @@ class EntityTable {
   class Watch {
    public:
     virtual void before_state(const StateUpdate& update) = 0;
-    virtual void before_model(const HeardEntity& entity, const ModelUpdate& update) = 0;
+    virtual void before_model(const ReceivedEntity& entity, const ModelUpdate& update) = 0;
 
    protected:
     ~Watch() = default;
@@ -85,22 +86,24 @@ class EntityTable {
   /// Row numbers change.
   void drop_silent(std::chrono::nanoseconds now, std::chrono::nanoseconds silence);
 
-  [[nodiscard]] const Listener& heard() const noexcept { return heard_; }
+  [[nodiscard]] const Listener& listener() const noexcept { return listener_; }
   /// The picture's entities, and the row of each at the same place.
-  [[nodiscard]] std::span<const HeardEntity> entities() const noexcept { return heard_.entities(); }
+  [[nodiscard]] std::span<const ReceivedEntity> entities() const noexcept {
+    return listener_.entities();
+  }
   [[nodiscard]] std::span<const EntityRow> rows() const noexcept { return rows_; }
   /// Arrival of the first datagram; 0 before it.
   [[nodiscard]] std::chrono::nanoseconds start() const noexcept {
     return start_.value_or(std::chrono::nanoseconds{});
   }
   /// PDUs of entities for which there was no room.
-  [[nodiscard]] std::uint64_t others() const noexcept { return heard_.refusals().crowded; }
+  [[nodiscard]] std::uint64_t others() const noexcept { return listener_.refusals().crowded; }
   /// How the force of its model jumped [N]; null where it has none.
-  [[nodiscard]] const JumpHistogram* force_jumps(const HeardEntity& entity) const noexcept;
+  [[nodiscard]] const JumpHistogram* force_jumps(const ReceivedEntity& entity) const noexcept;
   /// The largest force [N] that its model gives at the probe of another haptic entity.
-  [[nodiscard]] double contact_force(const HeardEntity& entity,
+  [[nodiscard]] double contact_force(const ReceivedEntity& entity,
                                      std::chrono::nanoseconds now) const {
-    return forces_.contact(heard_, entity, now);
+    return forces_.contact(listener_, entity, now);
   }
 
  private:
@@ -110,7 +113,7 @@ class EntityTable {
   template <typename IsOver>
   void drop_where(IsOver&& is_over);
 
-  Listener heard_;
+  Listener listener_;
   std::vector<EntityRow> rows_;
   EntityForces forces_;
   std::optional<std::chrono::nanoseconds> start_;

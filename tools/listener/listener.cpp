@@ -11,6 +11,7 @@
 #include "reckon/pdu/management/entity_request.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tools/datagrams/survey.hpp"
+#include "reckon/tools/listener/origin_at.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -55,26 +56,6 @@ void drop_row(std::vector<Row>& rows, std::size_t place) {
 
 }  // namespace
 
-deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position) {
-  // Bowring: within 1e-9 rad up to satellites, which is all that axes need.
-  constexpr double kEquator = 6378137.0;
-  constexpr double kFlattening = 1 / 298.257223563;
-  constexpr double kPole = kEquator * (1 - kFlattening);
-  constexpr double kSquared = kFlattening * (2 - kFlattening);
-  constexpr double kSecondSquared = kSquared / (1 - kSquared);
-  const double axis = std::hypot(position.x(), position.y());
-  const double angle = std::atan2(position.z() * kEquator, axis * kPole);
-  const double sine = std::sin(angle);
-  const double cosine = std::cos(angle);
-  const double latitude =
-      std::atan2(position.z() + kSecondSquared * kPole * sine * sine * sine,
-                 std::max(0.0, axis - kSquared * kEquator * cosine * cosine * cosine));
-  const double up = std::sin(latitude);
-  const double height =
-      axis * std::cos(latitude) + position.z() * up - kEquator * std::sqrt(1 - kSquared * up * up);
-  return {latitude, std::atan2(position.y(), position.x()), std::clamp(height, -1e8, 1e8)};
-}
-
 Listener::Listener(const ListenerRules& rules)
     : rules_(rules), index_(std::min(rules.most_entities, kFirstKeys)) {
   if (rules_.frame == Frame::equator) frame_ = deadreckon::LocalFrame(0, 0, 0);
@@ -106,7 +87,7 @@ std::size_t Listener::admit(std::uint8_t exercise, const pdu::EntityId& id) {
     return kNone;
   }
   const std::size_t place = entities_.size();
-  HeardEntity& entity = entities_.emplace_back();
+  ReceivedEntity& entity = entities_.emplace_back();
   entity.key = key;
   entity.id = id;
   entity.exercise = exercise;
@@ -132,7 +113,7 @@ void Listener::drop_entity(std::size_t place) {
 }
 
 void Listener::drop_model(std::size_t place) {
-  entities_[models_[place].owner].model = HeardEntity::kNoModel;
+  entities_[models_[place].owner].model = ReceivedEntity::kNoModel;
   drop_row(models_, place);
   if (place < models_.size()) entities_[models_[place].owner].model = place;
 }
@@ -236,7 +217,7 @@ bool Listener::place_state(StateUpdate& update) {
 }
 
 void Listener::judge(StateUpdate& update) {
-  const HeardEntity& entity = entities_[update.place];
+  const ReceivedEntity& entity = entities_[update.place];
   update.error = convert(*update.pdu, update.state);
   update.verdict =
       update.error != ConversionError::none ? ReceiveVerdict::values : lay_on_time(update);
@@ -255,7 +236,7 @@ ConversionError Listener::convert(const pdu::EntityState& pdu, deadreckon::Kinem
 }
 
 ReceiveVerdict Listener::lay_on_time(StateUpdate& update) {
-  const HeardEntity& entity = entities_[update.place];
+  const ReceivedEntity& entity = entities_[update.place];
   const std::uint32_t timestamp = update.pdu->header.timestamp;
   if (rules_.timing == Timing::pace) {
     update.state_time = update.arrival;
@@ -275,7 +256,7 @@ ReceiveVerdict Listener::lay_on_time(StateUpdate& update) {
 }
 
 void Listener::settle(const StateUpdate& update) {
-  HeardEntity& entity = entities_[update.place];
+  ReceivedEntity& entity = entities_[update.place];
   if (update.verdict == ReceiveVerdict::taken) {
     return adopt(entity, update);
   }
@@ -290,7 +271,7 @@ void Listener::settle(const StateUpdate& update) {
 }
 
 // Makes the state the entity's newest.
-void Listener::adopt(HeardEntity& entity, const StateUpdate& update) const {
+void Listener::adopt(ReceivedEntity& entity, const StateUpdate& update) const {
   if (update.is_first)
     entity.pace.restart();
   else
@@ -306,7 +287,7 @@ void Listener::adopt(HeardEntity& entity, const StateUpdate& update) const {
   set_heartbeat(entity, update.heartbeat);
 }
 
-void Listener::set_heartbeat(HeardEntity& entity, double heartbeat) const noexcept {
+void Listener::set_heartbeat(ReceivedEntity& entity, double heartbeat) const noexcept {
   entity.heartbeat = heartbeat;
   if (rules_.holds) entity.hold_after = deadreckon::timeout(heartbeat);
 }
@@ -344,7 +325,7 @@ bool Listener::read_model(const pdu::PduHeader& header, const pdu::EntityId& id,
 }
 
 void Listener::adopt(const ModelUpdate& update) {
-  HeardEntity& entity = entities_[update.place];
+  ReceivedEntity& entity = entities_[update.place];
   if (!entity.is_haptic()) {
     entity.model = models_.size();
     models_.emplace_back();

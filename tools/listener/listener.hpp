@@ -23,7 +23,7 @@
 #include "reckon/peer/clocks/sender_clock.hpp"
 #include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/world/key_index.hpp"
-#include "reckon/tools/listener/heard_entity.hpp"
+#include "reckon/tools/listener/received_entity.hpp"
 #include "reckon/tools/listener/update_pace.hpp"
 
 namespace reckon::tools {
@@ -75,7 +75,7 @@ inline constexpr ListenerRules kCaptureRules{
     .frame = ListenerRules::Frame::equator,
     .uncoupled = true,
     .holds = true};
-/// All that is heard, good or bad, of streams of any make: to show who does what.
+/// All that is received, good or bad, of streams of any make: to show who does what.
 inline constexpr ListenerRules kMonitorRules{.most_entities = std::size_t{1} << 16,
                                              .timing = ListenerRules::Timing::pace,
                                              .frame = ListenerRules::Frame::geocentric,
@@ -131,7 +131,7 @@ struct TouchedEntity {
   pdu::EntityId id;
   bool known = false;    ///< the rest holds what was
   bool refused = false;  ///< its state: the model behind it is not taken either
-  HeardEntity before;
+  ReceivedEntity before;
   ReceivedModel model_before;  ///< where before.is_haptic()
 };
 
@@ -156,7 +156,7 @@ struct ListenerObserver {
 ///   Listener listener(kPeerRules);
 ///   listener.take_pdu(octets, header, arrival);  // each PDU of a datagram
 ///   listener.end_datagram();
-///   for (const HeardEntity& entity : listener.entities()) draw(entity.pose_at(now));
+///   for (const ReceivedEntity& entity : listener.entities()) draw(entity.pose_at(now));
 ///
 /// Any octets will do. Places of entities and models are dense, from 0; forget_*() moves the last
 /// one to the place that became free. One thread. Compressed States are restored: of the
@@ -193,20 +193,20 @@ class Listener {
   void forget_silent(std::chrono::nanoseconds time);
   void forget_entity(std::size_t place);
 
-  [[nodiscard]] std::span<const HeardEntity> entities() const noexcept { return entities_; }
+  [[nodiscard]] std::span<const ReceivedEntity> entities() const noexcept { return entities_; }
   [[nodiscard]] std::span<const ReceivedModel> models() const noexcept { return models_; }
   /// An entity; null where it is not known. The exercise counts by the rules.
-  [[nodiscard]] const HeardEntity* find_entity(const pdu::EntityId& id,
-                                               std::uint8_t exercise = 0) const noexcept {
+  [[nodiscard]] const ReceivedEntity* find_entity(const pdu::EntityId& id,
+                                                  std::uint8_t exercise = 0) const noexcept {
     const std::size_t place = place_of(exercise, id);
     return place == kNone ? nullptr : &entities_[place];
   }
   /// The place of an entity; kNone where it is not known.
   [[nodiscard]] std::size_t place_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept;
-  /// The same by HeardEntity::key.
+  /// The same by ReceivedEntity::key.
   [[nodiscard]] std::size_t place_of_key(std::uint64_t key) const noexcept;
   /// Its force model; null where it has none.
-  [[nodiscard]] const ReceivedModel* model_of(const HeardEntity& entity) const noexcept {
+  [[nodiscard]] const ReceivedModel* model_of(const ReceivedEntity& entity) const noexcept {
     return entity.is_haptic() ? &models_[entity.model] : nullptr;
   }
   /// What the datagram at hand is about, at most 128 of it.
@@ -237,11 +237,11 @@ class Listener {
                                                     deadreckon::KinematicState& out);
   [[nodiscard]] ReceiveVerdict lay_on_time(StateUpdate& update);
   void settle(const StateUpdate& update);
-  void adopt(HeardEntity& entity, const StateUpdate& update) const;
+  void adopt(ReceivedEntity& entity, const StateUpdate& update) const;
   [[nodiscard]] bool read_model(const pdu::PduHeader& header, const pdu::EntityId& id,
                                 const pdu::HapticRecord& record, ModelUpdate& update);
   void adopt(const ModelUpdate& update);
-  void set_heartbeat(HeardEntity& entity, double heartbeat) const noexcept;
+  void set_heartbeat(ReceivedEntity& entity, double heartbeat) const noexcept;
   void take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record);
   void take_removal(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival);
   template <typename Observer>
@@ -264,7 +264,7 @@ class Listener {
 
   ListenerRules rules_;
   std::optional<deadreckon::LocalFrame> frame_;
-  std::vector<HeardEntity> entities_;
+  std::vector<ReceivedEntity> entities_;
   std::vector<peer::SenderClock> clocks_;  // one an entity, where the timing asks for it
   std::vector<ReceivedModel> models_;
   peer::KeyIndex index_;
@@ -345,9 +345,5 @@ void Listener::take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds
     }
   }
 }
-
-/// The scene frame whose origin lies at a geocentric position [m], finite: east, north, up of the
-/// ellipsoid there. Height is cut to +-1e8 m.
-[[nodiscard]] deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position);
 
 }  // namespace reckon::tools

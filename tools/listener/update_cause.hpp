@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
-#include "reckon/tools/listener/heard_entity.hpp"
+#include "reckon/tools/listener/received_entity.hpp"
 #include "reckon/tools/listener/update_pace.hpp"
 
 namespace reckon::tools {

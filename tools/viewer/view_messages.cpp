@@ -272,7 +272,7 @@ ViewStage::Text ViewStage::next_scenery(Watcher& watcher) {
   if (is_past(watcher)) fill(world_for(watcher, time), time, rows);
   const auto& entities = is_past(watcher) ? rows.entities : live_rows().entities;
   if (tells_groups) {
-    const HeardGroups& heard = world_for(watcher, time).groups();
+    const ReceivedGroups& heard = world_for(watcher, time).groups();
     return renew(watcher.groups,
                  groups_->message(heard, history_.roster(), entities, time, history_.start()));
   }

@@ -3,10 +3,10 @@
 #include "reckon/tools/viewer/view_stage.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/listener/origin_at.hpp"
 #include "reckon/tools/viewer/protocol/short_messages.hpp"
 
 namespace reckon::tools {
@@ -33,20 +33,6 @@ void forget_old(Rows& rows, nanoseconds span) {
   while (rows.size() > 1 && rows.front().time < oldest) rows.pop_front();
 }
 
-/// Where a frame's origin lies on the ellipsoid.
-peer::OriginConfig origin_of(const deadreckon::LocalFrame& frame) {
-  constexpr double kEquator = 6378137.0;
-  constexpr double kFlattening = 1 / 298.257223563;
-  constexpr double kSquared = kFlattening * (2 - kFlattening);
-  const Eigen::Vector3d up = frame.rotation().col(2);
-  const Eigen::Vector3d& at = frame.origin();
-  peer::OriginConfig origin;
-  origin.latitude = std::asin(std::clamp(up.z(), -1.0, 1.0));
-  origin.longitude = std::atan2(up.y(), up.x());
-  origin.height = at.dot(up) - kEquator * std::sqrt(1 - kSquared * up.z() * up.z());
-  return origin;
-}
-
 }  // namespace
 
 ViewStage::ViewStage(const StageOptions& options)
@@ -56,7 +42,7 @@ ViewStage::ViewStage(const StageOptions& options)
     origin_ = scene.origin;
     frame_.emplace(origin_.latitude, origin_.longitude, origin_.height);
     thresholds_.emplace(scene);
-    cells_ = std::make_unique<HeardCells>(scene.aoim);
+    cells_ = std::make_unique<SubscribedCells>(scene.aoim);
     if (DrawnGroups::has_any(scene)) groups_ = std::make_unique<DrawnGroups>(scene);
     solids_ = drawn_solids(scene.scene);
     set_touch({});
@@ -75,8 +61,8 @@ nanoseconds ViewStage::live_end() const noexcept {
 void ViewStage::find_frame() {
   if (frame_) return;
   if (const auto place = history_.live().first_place()) {
-    frame_ = local_frame_at(*place);
-    origin_ = origin_of(*frame_);
+    origin_ = origin_at(*place);
+    frame_.emplace(origin_.latitude, origin_.longitude, origin_.height);
   }
 }
 
@@ -250,13 +236,13 @@ void ViewStage::heed(Watcher& watcher, const PageRequest& request) {
 // Pictures
 // ------------------------------------------------------------------------------------------------
 
-const HeardWorld& ViewStage::world_for(Watcher& watcher, Time time) {
+const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
   if (!is_past(watcher)) return history_.live();
   history_.seek(watcher.cursor, time);
   return watcher.cursor->world();
 }
 
-void ViewStage::fill(const HeardWorld& world, Time time, PictureRows& rows) {
+void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   rows.entities.clear();
   rows.hands.clear();
   rows.contacts.clear();
@@ -270,10 +256,10 @@ void ViewStage::fill(const HeardWorld& world, Time time, PictureRows& rows) {
   add_hands(time, rows);
 }
 
-void ViewStage::add_contacts(const HeardWorld& world, Time time, PictureRows& rows) {
-  const Listener& heard = world.table().heard();
-  if (heard.models().empty() || heard.models().size() > kMostHaptic) return;
-  for (const ContactForce& force : contacts_.forces_at(heard, time)) {
+void ViewStage::add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows) {
+  const Listener& listener = world.table().listener();
+  if (listener.models().empty() || listener.models().size() > kMostHaptic) return;
+  for (const ContactForce& force : contacts_.forces_at(listener, time)) {
     if (rows.contacts.size() >= kMostPictureRows) return;
     const std::uint16_t felt = history_.roster().slot_of(force.by);
     const std::uint16_t feeling = history_.roster().slot_of(force.on);

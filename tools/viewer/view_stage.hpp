@@ -22,9 +22,9 @@
 #include "reckon/tools/viewer/peers_reception.hpp"
 #include "reckon/tools/viewer/protocol/picture.hpp"
 #include "reckon/tools/viewer/scenery/drawn_groups.hpp"
-#include "reckon/tools/viewer/scenery/heard_cells.hpp"
 #include "reckon/tools/viewer/scenery/shown_thresholds.hpp"
 #include "reckon/tools/viewer/scenery/solid_shapes.hpp"
+#include "reckon/tools/viewer/scenery/subscribed_cells.hpp"
 #include "reckon/tools/viewer/viewer_controls.hpp"
 #include "reckon/tools/viewer/watcher.hpp"
 #include "reckon/tools/viewer/web/web_socket.hpp"
@@ -125,7 +125,7 @@ class ViewStage {
   void show_at(Watcher& watcher, Time time, PlayState state) const;
   [[nodiscard]] Time shown_time(const Watcher& watcher) const;
   [[nodiscard]] bool is_past(const Watcher& watcher) const noexcept;
-  [[nodiscard]] const HeardWorld& world_for(Watcher& watcher, Time time);
+  [[nodiscard]] const ReceivedWorld& world_for(Watcher& watcher, Time time);
 
   [[nodiscard]] Text next_text(Watcher& watcher);
   [[nodiscard]] Text next_regular_text(Watcher& watcher);
@@ -141,8 +141,8 @@ class ViewStage {
   [[nodiscard]] bool wants_picture(const Watcher& watcher) const;
   [[nodiscard]] Text next_picture(Watcher& watcher);
   [[nodiscard]] std::uint16_t flags_for(const Watcher& watcher, Time time) const;
-  void fill(const HeardWorld& world, Time time, PictureRows& rows);
-  void add_contacts(const HeardWorld& world, Time time, PictureRows& rows);
+  void fill(const ReceivedWorld& world, Time time, PictureRows& rows);
+  void add_contacts(const ReceivedWorld& world, Time time, PictureRows& rows);
   [[nodiscard]] const HandFrame* hands_at(Time time) const;
   void add_hands(Time time, PictureRows& rows) const;
   [[nodiscard]] const PictureRows& live_rows();
@@ -152,8 +152,8 @@ class ViewStage {
   std::optional<deadreckon::LocalFrame> frame_;
   peer::OriginConfig origin_;
   std::optional<ShownThresholds> thresholds_;
-  std::unique_ptr<HeardCells> cells_;    // null where none are known
-  std::unique_ptr<DrawnGroups> groups_;  // null where the scene has none
+  std::unique_ptr<SubscribedCells> cells_;  // null where none are known
+  std::unique_ptr<DrawnGroups> groups_;     // null where the scene has none
   Text touch_;
   std::vector<DrawnSolid> solids_;
   std::deque<HandFrame> hands_;

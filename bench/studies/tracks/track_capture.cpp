@@ -28,16 +28,16 @@ using deadreckon::LocalFrame;
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-struct Heard {
+struct ReceivedUpdate {
   double captured = 0;  // [s] since the first Entity State
   double stamped = 0;   // [s] since the entity's first, by its own clock
   KinematicState state;
 };
 
-struct HeardEntity {
+struct ReceivedEntity {
   std::string name;
   std::uint32_t timestamp = 0;
-  std::vector<Heard> updates;
+  std::vector<ReceivedUpdate> updates;
 };
 
 /// The plane that touches the sphere below `point`, with its origin there.
@@ -49,7 +49,7 @@ LocalFrame frame_at(const Vector3d& point) {
 
 /// Whether the sender's stamps can be taken at their word: they grow from nearly every update to
 /// the next, and are as long as the capture within 5 % and half a second.
-bool stamps_run(const std::vector<Heard>& updates) {
+bool stamps_run(const std::vector<ReceivedUpdate>& updates) {
   std::size_t grew = 0;
   for (std::size_t i = 1; i < updates.size(); ++i)
     grew += updates[i].stamped > updates[i - 1].stamped;
@@ -94,9 +94,9 @@ class StateCollector {
     for (const auto& [key, entity] : entities_) {
       const bool by_stamps = stamps_run(entity.updates);
       const double start = entity.updates.front().captured;
-      for (const Heard& heard : entity.updates) {
-        const double time = by_stamps ? start + heard.stamped : heard.captured;
-        builder.add(entity.name, {motion_sample(heard.state, time), true, true, true});
+      for (const ReceivedUpdate& received : entity.updates) {
+        const double time = by_stamps ? start + received.stamped : received.captured;
+        builder.add(entity.name, {motion_sample(received.state, time), true, true, true});
       }
     }
   }
@@ -131,7 +131,7 @@ class StateCollector {
 
   void add(const pdu::EntityState& pdu, const KinematicState& state, double captured) {
     const pdu::EntityId& id = pdu.entity_id;
-    HeardEntity& entity = entities_[Key{id.site, id.application, id.entity}];
+    ReceivedEntity& entity = entities_[Key{id.site, id.application, id.entity}];
     const std::uint32_t stamp = pdu.header.timestamp;
     if (entity.updates.empty())
       entity.name = fmt::format("{}:{}:{}", id.site, id.application, id.entity);
@@ -146,7 +146,7 @@ class StateCollector {
   std::optional<LocalFrame> frame_;
   Vector3d origin_ = Vector3d::Zero();
   nanoseconds start_{};
-  std::map<Key, HeardEntity> entities_;
+  std::map<Key, ReceivedEntity> entities_;
   std::size_t updates_ = 0;
   std::uint64_t refused_ = 0;
 };

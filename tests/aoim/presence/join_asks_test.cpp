@@ -20,7 +20,7 @@ std::uint64_t asked_utc(nanoseconds now) {
   return 1'000'000'000'000u + static_cast<std::uint64_t>(now.count());
 }
 
-// Cells asked about at `now`, with their instants.
+// The cells of the requests that are due at `now`, each with the time that identifies its request.
 std::map<CellId, std::uint64_t> asked(JoinAsks& asks, nanoseconds now, bool announcing = true) {
   std::map<CellId, std::uint64_t> cells;
   for (const JoinAsks::Question& question : asks.take_due(now, asked_utc(now), announcing))
@@ -91,14 +91,14 @@ TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
                            {first, 128}, {first + 1, 128}, {first + 2, 44}}));
 }
 
-// Several steps at one instant are usual where a program moves the clock. Peers would take the
-// second question for the first one.
+// A program that moves the clock itself often makes several steps at one instant. Two requests with
+// the same time would be one request to their receivers, and the second would have no answer.
 TEST(JoinAsks, GiveTheQuestionsOfOneInstantTimesOfTheirOwn) {
   JoinAsks asks(16);
   ReceivedAsks heard;
   asks.join(kAskedGroup, kAskedCell, true, seconds(1));
   static_cast<void>(asked(asks, seconds(1)));
-  for (const int second : {2, 3, 4}) {  // the third time is the last
+  for (const int second : {2, 3, 4}) {  // each request is repeated three times at most
     EXPECT_TRUE(heard.note(11, asked(asks, seconds(second)).at(kAskedCell)));
     asks.join(kSecondGroup, kSecondCell, true, seconds(second));
     EXPECT_TRUE(heard.note(11, asked(asks, seconds(second), false).at(kSecondCell)));

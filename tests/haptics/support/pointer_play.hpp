@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What pointers do, good and bad: a play for each seed, in samples over time.
+// Sequences of pointer samples for tests, usual and hostile ones: one for each seed.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,10 @@
 
 namespace reckon::haptics {
 
-/// Samples of one seed: of jumps over the whole screen, once a second, each millisecond, with
-/// stalls, with numbers that are none, many at one instant, the older after the newer, let go and
-/// taken again, or all of that in turn.
+/// The samples of one seed, whose kind is the seed modulo kKinds: jumps over the whole screen; one
+/// sample a second; one a millisecond; pauses of up to 0.9 s; NaN, infinities and huge numbers; ten
+/// at one instant; out of order; a button that is released and pressed again; or each time one of
+/// these at random.
 class PointerPlay {
  public:
   enum class Kind : std::uint8_t {
@@ -37,7 +38,7 @@ class PointerPlay {
     to_ = point();
   }
 
-  /// Calls put(PointerSample) for what comes at this millisecond.
+  /// Calls put(PointerSample) for each sample that is due at this millisecond.
   template <class Put>
   void at(int ms, Put&& put) {
     if (ms < next_) return;
@@ -75,7 +76,7 @@ class PointerPlay {
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
   void wait(int ms, int for_ms) { next_ = ms + for_ms; }
 
-  /// [m]: a screen is 0.6 m; one in twenty is far off it.
+  /// A random point [m]: on a screen of 0.6 m, or, one in twenty, up to 50 m away.
   Eigen::Vector3d point() {
     const double half = unit() < 0.05 ? 50.0 : 0.3;
     return half * Eigen::Vector3d(2 * unit() - 1, 2 * unit() - 1, 2 * unit() - 1);
@@ -96,7 +97,7 @@ class PointerPlay {
     return p;
   }
 
-  /// Of a stroke of 32 samples: of each four the last comes first.
+  /// The next point of a straight stroke of 32, of which each four come in reverse order.
   Eigen::Vector3d overtaken() {
     const double way = static_cast<double>(sent_ ^ 3U) / 31.0;
     if (++sent_ == 32) {

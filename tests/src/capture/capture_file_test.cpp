@@ -16,6 +16,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/tests/src/support/made_frames.hpp"
+#include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::peer {
@@ -222,6 +223,31 @@ TEST(LiveGroups, HandOutWhatIsSentToThem) {
   EXPECT_LT(clock.utc_now() - datagram.time, 5s);
   source->stop();
   EXPECT_EQ(source->next(datagram, 20s), SourceEvent::end);
+}
+
+TEST(LiveGroups, CountWhatComesOverEachInterface) {
+  RECKON_IN_OWN_NETWORK([] {
+    test::make_cable();
+    const SteadyClock clock;
+    const GroupAddress group = IpEndpoint::v4(0xefc04d01, 31098);
+    const auto source = open_groups({"", {group}});
+    UdpMulticastOptions options;
+    SourceDatagram datagram;
+    const std::map<std::string, std::uint64_t> expected{{"a0", 2}, {"lo", 1}};
+    for (const auto& [name, count] : expected) {
+      options.interface = name;
+      UdpMulticast sender(options, clock);
+      for (std::uint64_t i = 0; i < count; ++i) {
+        ASSERT_TRUE(sender.send(group, std::vector<std::byte>(33 + i)));
+        ASSERT_EQ(source->next(datagram, 1s), SourceEvent::datagram) << name;
+        EXPECT_EQ(datagram.interface, name);
+      }
+    }
+    std::map<std::string, std::uint64_t> counted;
+    for (const ListenedInterface& one : source->report().interfaces)
+      if (one.datagrams > 0) counted[one.name] = one.datagrams;
+    EXPECT_EQ(counted, expected);
+  });
 }
 
 TEST(LiveInterface, CapturesUdpOfTheInterface) {

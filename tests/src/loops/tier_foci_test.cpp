@@ -22,7 +22,7 @@ TEST(TierFoci, OfTiersByDistanceAreWhatEntitiesSenseAndOfTheTouchTierWhatCanBeTo
   for (std::size_t tier = 0; tier < tiers.count(); ++tier) {
     const auto of_tier = foci[tier]({owned, {&sensed, 1}, {}, {}});
     if (tiers.kind(tier).is_urgent) {
-      EXPECT_TRUE(of_tier.empty());  // no entity of ours, and none near
+      EXPECT_TRUE(of_tier.empty());  // without hands of our own nothing can be touched
     } else {
       EXPECT_EQ(of_tier.data(), &sensed) << tier;
     }

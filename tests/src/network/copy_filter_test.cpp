@@ -35,6 +35,13 @@ TEST_F(CopiesOfADatagram, AreThoseOfOtherInterfaces) {
   EXPECT_FALSE(is_copy(kEth1, "b"));
 }
 
+TEST_F(CopiesOfADatagram, ComeOverInterfacesWithHighNumbersToo) {
+  constexpr unsigned kVeth = 32 + kEth0, kBridge = 63 + kEth0;
+  EXPECT_FALSE(is_copy(kEth0, "a"));
+  EXPECT_TRUE(is_copy(kVeth, "a"));
+  EXPECT_TRUE(is_copy(kBridge, "a"));
+}
+
 TEST_F(CopiesOfADatagram, AreNotEqualOnesOfTheSameInterface) {
   EXPECT_FALSE(is_copy(kEth0, "a"));
   EXPECT_FALSE(is_copy(kEth0, "a")) << "sent twice";

@@ -34,6 +34,22 @@ TEST(SceneExtent, ASceneWithoutAreaOfInterestSensesAllItsEntities) {
   }
 }
 
+TEST(SceneExtent, TheRadiusIsAtMostAThousandKilometres) {
+  const std::string behind =
+      "[[entity]]\nmarking = \"C\"\ntype = \"1.1.225.1\"\nposition = [-1e6, 0, 0]\n";
+  const AoimConfig aoim = aoim_of(two_trucks(1e6, behind));  // 2000 km in all
+  EXPECT_EQ(aoim.radius, 1e6);
+  EXPECT_EQ(aoim.cell, 5e5);
+  EXPECT_EQ(aoim_of(two_trucks(30, "[aoim]\nradius = \"1000 km\"\n")).radius, 1e6);
+  try {
+    (void)aoim_of(two_trucks(30, "[aoim]\nradius = \"1001 km\"\n"));
+    FAIL() << "a radius of 1001 km is taken";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("'radius' is 1001 km; it must be 10 mm to 1000 km"));
+  }
+}
+
 TEST(SceneExtent, WhatTheFileStatesStays) {
   const AoimConfig cell = aoim_of(two_trucks(30, "[aoim]\ncell = \"7 m\"\n"));
   EXPECT_EQ(cell.cell, 7);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>
@@ -313,6 +314,17 @@ TEST(ExerciseMap, SaysWhatItCannotMap) {
   EXPECT_THAT(map.summary(), HasSubstr("5 PDUs mapped\n1 PDU not mapped: damaged"));
   EXPECT_THAT(map.summary(), HasSubstr("with places that cannot be moved: live entities, grids"));
   EXPECT_EQ(map_of({}, {}, "").summary(), "");
+}
+
+TEST(ExerciseMap, CountsEachPduWithAPlaceThatCannotBeMoved) {
+  for (const auto& [name, places] : std::map<std::string, std::size_t>{
+           {"fire", 0}, {"gridded_data", 1}, {"compressed_states", 1}, {"cell_snapshot", 1}}) {
+    ExerciseMap map = map_of({}, {}, "10,20=30,40");
+    Octets octets = test::sample_octets(name);
+    map.apply(octets);
+    EXPECT_EQ(map.counts().mapped, 1U) << name;
+    EXPECT_EQ(map.counts().places, places) << name;
+  }
 }
 
 TEST(ExerciseMap, MapsAPduWithoutALengthIfLenient) {

@@ -55,7 +55,7 @@ class Ear {
     hear(octets, time);
   }
   [[nodiscard]] const EntityRow& row(std::size_t place = 0) const { return table.rows()[place]; }
-  [[nodiscard]] const HeardEntity& entity(std::size_t place = 0) const {
+  [[nodiscard]] const ReceivedEntity& entity(std::size_t place = 0) const {
     return table.entities()[place];
   }
 
@@ -316,7 +316,7 @@ TEST(EntityTable, FindsEveryOneOfManyEntities) {
   for (std::uint16_t i = 1; i <= 5000; ++i) ear.hear(0, aircraft(0, 0, 0, i));
   for (std::uint16_t i = 1; i <= 5000; ++i) ear.hear(1, aircraft(1, 0, 0, i));
   ASSERT_EQ(ear.table.rows().size(), 5000U);
-  for (const HeardEntity& entity : ear.table.entities()) EXPECT_EQ(entity.updates, 2U);
+  for (const ReceivedEntity& entity : ear.table.entities()) EXPECT_EQ(entity.updates, 2U);
 }
 
 /// By the rules of a peer, as the view `haptics` asks for the forces of each pair.
@@ -345,7 +345,7 @@ TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
       if (jump.by.entity == ball.entity)
         jumps[ball.entity] = std::max(jumps[ball.entity], jump.size);
     listener.end_datagram();
-    for (const HeardEntity& entity : ear.table.entities()) {
+    for (const ReceivedEntity& entity : ear.table.entities()) {
       double expected = 0;
       for (const ContactForce& force : forces.forces_at(listener, after(time)))
         if (force.by == entity.id) expected = std::max(expected, force.force.norm());
@@ -354,7 +354,7 @@ TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
     }
   }
   EXPECT_GT(largest, 5);
-  for (const HeardEntity& entity : ear.table.entities()) {
+  for (const ReceivedEntity& entity : ear.table.entities()) {
     const JumpHistogram* found = ear.table.force_jumps(entity);
     ASSERT_NE(found, nullptr);
     EXPECT_NEAR(found->max(), jumps[entity.id.entity], 2e-3);

@@ -106,7 +106,7 @@ TEST(Listener, RefusesImpossibleNumbersByAnyRules) {
     EXPECT_EQ(listener.refusals().values, 1U);
     // Only who shows what was bad keeps the entity, without a state or a model.
     ASSERT_EQ(listener.entities().size(), rules.keeps ? 1U : 0U);
-    for (const HeardEntity& entity : listener.entities())
+    for (const ReceivedEntity& entity : listener.entities())
       EXPECT_FALSE(entity.has_state || entity.is_haptic());
     take(listener, Ball{.time = kStart + seconds(1)}, kStart + seconds(1));
     ASSERT_EQ(listener.entities().size(), 1U);
@@ -214,7 +214,7 @@ TEST(Listener, LetsSilentEntitiesStandStillWherePeersDoAndFrozenOnesAlways) {
     frozen.appearance = pdu::kAppearanceFrozen;
     take(listener, frozen, kStart);
     const auto path = [&](std::size_t place, nanoseconds until) {
-      const HeardEntity& entity = listener.entities()[place];
+      const ReceivedEntity& entity = listener.entities()[place];
       return (entity.pose_at(kStart + until).position - entity.pose_at(kStart).position).norm();
     };
     constexpr double kUnit = 2e-6;  // [m] within a timestamp's unit
@@ -290,7 +290,7 @@ TEST(Listener, KeepsPlacesAndModelsTogetherUnderRandomComingAndGoing) {
     ASSERT_EQ(listener.entities().size(), stiffness.size());
     std::size_t models = 0;
     for (const auto& [entity, k1] : stiffness) {
-      const HeardEntity* found = listener.find_entity({1, 2, entity}, kExercise);
+      const ReceivedEntity* found = listener.find_entity({1, 2, entity}, kExercise);
       ASSERT_NE(found, nullptr);
       ASSERT_EQ(found->is_haptic(), k1 > 0);
       if (k1 == 0) continue;

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -39,13 +40,18 @@ class Receiver {
     std::array<peer::Datagram, 32> batch;
     while (link_.wait(100ms)) {
       const std::size_t count = link_.receive(batch);
-      for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t i = 0; i < count; ++i) {
         out.emplace_back(batch[i].bytes.begin(), batch[i].bytes.end());
+        senders_.insert(batch[i].sender.text());
+      }
     }
     return out;
   }
+  /// The endpoints from which all of that came.
+  [[nodiscard]] const std::set<std::string>& senders() const { return senders_; }
 
  private:
+  std::set<std::string> senders_;
   peer::SteadyClock clock_;
   peer::UdpMulticast link_;
 };
@@ -59,6 +65,7 @@ TEST(Replay, ReachesTheSocketsOfThisHost) {
   EXPECT_THAT(result.err, HasSubstr("replayed 20 datagrams"));
   EXPECT_THAT(result.err, HasSubstr("asked 1x, got "));
   EXPECT_EQ(receiver.take().size(), 20U);
+  EXPECT_EQ(receiver.senders().size(), 1U) << "one sender, from one port";
 }
 
 TEST(Replay, KeepsTheTimesOfTheCapture) {

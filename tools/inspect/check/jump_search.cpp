@@ -35,7 +35,7 @@ bool is_wild(const KinematicState& before, const KinematicState& now, double int
 }
 
 /// By the timestamps, however fast they run against the arrivals (a replay without pauses).
-std::optional<double> stated_interval(const HeardEntity& last, const StateUpdate& update) {
+std::optional<double> stated_interval(const ReceivedEntity& last, const StateUpdate& update) {
   const std::uint32_t before = timestamp_of(last.octets);
   const std::uint32_t now = timestamp_of(update.octets);
   if (pdu::is_absolute(before) != pdu::is_absolute(now)) return std::nullopt;
@@ -135,7 +135,7 @@ JumpSearch::Fit JumpSearch::fit(const KinematicState& before, const KinematicSta
 }
 
 void JumpSearch::compare(Row& row, const StateUpdate& update, const Jump& here, const Tell& tell) {
-  const HeardEntity& last = heard_.entities()[update.place];
+  const ReceivedEntity& last = heard_.entities()[update.place];
   const double arrived = std::max(last.age(update.arrival), 0.0);
   const Intervals passed{stated_interval(last, update).value_or(arrived), arrived};
   if (row.suspect != nullptr) return decide(row, update, passed, here, tell);

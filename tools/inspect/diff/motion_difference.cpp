@@ -108,8 +108,8 @@ void MotionDifference::compare_now() {
 }
 
 void MotionDifference::compare_poses() {
-  for (const HeardEntity& entity : a_.capture.poses().entities()) {
-    const HeardEntity* other = b_.capture.poses().find_entity(entity.id);
+  for (const ReceivedEntity& entity : a_.capture.poses().entities()) {
+    const ReceivedEntity* other = b_.capture.poses().find_entity(entity.id);
     if (other == nullptr) continue;
     const EntityKey key{entity.id.site, entity.id.application, entity.id.entity};
     if (!poses_.contains(key) && poses_.size() == kMostRows) continue;

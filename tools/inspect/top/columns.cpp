@@ -76,9 +76,9 @@ std::string endpoint(const peer::IpEndpoint& endpoint) {
 
 /// "2.31 N  k1 500 N/m  b 4 N s/m  mu 0.3/0.2  r 10 mm".
 void append_force(std::string& out, const Cell& cell) {
-  const ReceivedModel* heard = cell.table.heard().model_of(cell.entity);
-  if (heard == nullptr) return;
-  const deadreckon::ForceModel& model = heard->model;
+  const ReceivedModel* received = cell.table.listener().model_of(cell.entity);
+  if (received == nullptr) return;
+  const deadreckon::ForceModel& model = received->model;
   const auto to = std::back_inserter(out);
   fmt::format_to(to, "{:.2f} N  k1 {:g}", cell.table.contact_force(cell.entity, cell.now),
                  model.k1);
@@ -133,8 +133,8 @@ std::string sent(const Cell& cell) {
 }
 template <auto Get>
 std::string of_model(const Cell& cell) {
-  const ReceivedModel* heard = cell.table.heard().model_of(cell.entity);
-  return heard == nullptr ? "" : number(Get(heard->model));
+  const ReceivedModel* received = cell.table.listener().model_of(cell.entity);
+  return received == nullptr ? "" : number(Get(received->model));
 }
 std::string jump(const Cell& cell, double value) {
   return cell.row.jumps.count() == 0 ? "" : number(value);

@@ -22,7 +22,7 @@ struct TopCell {
       : table(all), entity(all.entities()[place]), row(all.rows()[place]), now(when) {}
 
   const EntityTable& table;
-  const HeardEntity& entity;
+  const ReceivedEntity& entity;
   const EntityRow& row;
   std::chrono::nanoseconds now;
 };

@@ -85,7 +85,7 @@ std::vector<std::string> bar_plot(std::span<const double> values, std::size_t ro
 }
 
 std::vector<ScreenLine> entity_pane(const TopCell& cell, std::size_t columns) {
-  const HeardEntity& entity = cell.entity;
+  const ReceivedEntity& entity = cell.entity;
   const EntityRow& row = cell.row;
   const std::vector<std::string> cells = top_cells(cell);
   const pdu::EntityState pdu = entity.entity_state();

@@ -88,7 +88,7 @@ std::string row_text(const std::vector<std::string>& cells,
 }
 
 /// Applies the filter to the last Entity State of an entity in a source that began at `start`.
-bool passes(const Filter& filter, const HeardEntity& entity, const EntityRow& counts,
+bool passes(const Filter& filter, const ReceivedEntity& entity, const EntityRow& counts,
             std::chrono::nanoseconds start) {
   PduRow row;
   row.frame = counts.frame;
@@ -328,7 +328,7 @@ void TopScreen::pane(const TopData& data, ScreenSize size, std::vector<ScreenLin
   if (pane_ == Pane::bundles) lines = bundles_pane(data);
   if (pane_ == Pane::faults) lines = faults_pane(data);
   if (pane_ == Pane::entity) {
-    const std::size_t place = data.entities.heard().place_of_key(followed_);
+    const std::size_t place = data.entities.listener().place_of_key(followed_);
     if (place == Listener::kNone)
       lines.push_back({"the entity is gone"});
     else

@@ -12,6 +12,7 @@
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
@@ -35,7 +36,7 @@ constexpr double kSameCurve = 0.02;
 constexpr std::string_view kBeforeGate =
     "Forces that the models on the wire give, before the receivers' gates and without friction.";
 
-std::string marking_of(const HeardEntity& entity) {
+std::string marking_of(const ReceivedEntity& entity) {
   std::string text;
   for (const char letter : entity.entity_state().marking.text) {
     if (letter == '\0') break;
@@ -69,8 +70,7 @@ HapticsView::HapticsView(const InspectOptions& options, const PlotCanvas& canvas
       step_(options.step.value_or(kStep)),
       canvas_(canvas) {
   if (step_ < kLeastStep) throw UsageError("--step is too small; give 100us or more");
-  if (!svg_.empty() && !std::ofstream(svg_, std::ios::app))
-    throw UsageError(fmt::format("{} cannot be written; name another file for --svg", svg_));
+  check_writable(svg_);
 }
 
 void HapticsView::begin(std::string& out) {
@@ -143,7 +143,7 @@ void HapticsView::datagram(const peer::SourceDatagram& datagram, nanoseconds, st
 void HapticsView::remember_updated() {
   for (const TouchedEntity& touched : heard_.touched()) {
     const pdu::EntityId& id = touched.id;
-    const HeardEntity* entity = heard_.find_entity(id);
+    const ReceivedEntity* entity = heard_.find_entity(id);
     if (entity == nullptr || !entity->is_haptic()) continue;
     const ReceivedModel& heard = *heard_.model_of(*entity);
     const std::array<std::uint16_t, 3> key{id.site, id.application, id.entity};

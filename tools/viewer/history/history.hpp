@@ -14,14 +14,14 @@
 
 #include "reckon/peer/capture/datagram_source.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
-#include "reckon/tools/viewer/history/heard_world.hpp"
+#include "reckon/tools/viewer/history/received_world.hpp"
 #include "reckon/tools/viewer/history/roster.hpp"
 #include "reckon/tools/viewer/history/traffic_numbers.hpp"
 
 namespace reckon::tools {
 
 struct HistoryOptions {
-  /// How long what was heard is kept; none: all of it, until `octets` are full.
+  /// How long what was received is kept; none: all of it, until `octets` are full.
   std::optional<std::chrono::nanoseconds> span = std::chrono::seconds(60);
   /// Of datagrams and worlds. A live history that would take more is shorter.
   std::size_t octets = std::size_t{64} << 20;
@@ -38,13 +38,13 @@ class History {
   /// A world at some instant of the history.
   class Cursor {
    public:
-    [[nodiscard]] const HeardWorld& world() const noexcept { return world_; }
+    [[nodiscard]] const ReceivedWorld& world() const noexcept { return world_; }
     [[nodiscard]] std::chrono::nanoseconds time() const noexcept { return time_; }
 
    private:
     friend class History;
-    explicit Cursor(const HeardWorld& world) : world_(world) {}
-    HeardWorld world_;
+    explicit Cursor(const ReceivedWorld& world) : world_(world) {}
+    ReceivedWorld world_;
     std::chrono::nanoseconds time_{};
     std::uint64_t segment_ = 0;  // number of the one whose datagrams are being taken
     std::size_t next_ = 0;       // of them
@@ -60,8 +60,8 @@ class History {
   /// Says when the source began, where that is before its first datagram.
   void begin_at(std::chrono::nanoseconds time);
 
-  /// The world after all that was heard.
-  [[nodiscard]] const HeardWorld& live() const noexcept { return live_; }
+  /// The world after all that was received.
+  [[nodiscard]] const ReceivedWorld& live() const noexcept { return live_; }
   [[nodiscard]] Roster& roster() noexcept { return roster_; }
   [[nodiscard]] const Roster& roster() const noexcept { return roster_; }
   [[nodiscard]] const TrafficNumbers& numbers() const noexcept { return numbers_; }
@@ -96,8 +96,8 @@ class History {
     peer::Portion portion{};
   };
   struct Segment {
-    explicit Segment(const HeardWorld& before) : world(before) {}
-    HeardWorld world;  // before its first datagram
+    explicit Segment(const ReceivedWorld& before) : world(before) {}
+    ReceivedWorld world;  // before its first datagram
     Time first{};
     std::vector<Entry> entries;
     std::vector<std::byte> octets;
@@ -116,7 +116,7 @@ class History {
 
   HistoryOptions options_;
   Roster roster_;
-  HeardWorld live_;
+  ReceivedWorld live_;
   TrafficNumbers numbers_;
   DatagramInspector inspector_;
   std::deque<std::unique_ptr<Segment>> segments_;

@@ -95,14 +95,14 @@ std::uint16_t Roster::place(std::uint64_t key) {
   return slot;
 }
 
-std::uint16_t Roster::admit(const Listener& heard, const StateUpdate& update) {
-  const HeardEntity& entity = heard.entities()[update.place];
+std::uint16_t Roster::admit(const Listener& listener, const StateUpdate& update) {
+  const ReceivedEntity& entity = listener.entities()[update.place];
   const std::uint16_t slot = place(entity.key);
   if (slot == kNoNumber) return slot;
   Entry& entry = entries_[slot];
-  // What is heard again, to show the past, says nothing new.
-  if (update.arrival < entry.heard) return slot;
-  entry.heard = update.arrival;
+  // What is replayed to show the past has nothing new.
+  if (update.arrival < entry.received) return slot;
+  entry.received = update.arrival;
   entry.id = entity.id;
   by_id_[entity_key(0, entity.id)] = slot;
   changed_ |= renew(entry.side, update.octets, kSideAt);
@@ -115,7 +115,7 @@ void Roster::note_model(std::uint64_t key, double radius, std::chrono::nanosecon
   const std::uint16_t slot = slot_of(key);
   if (slot == kNoNumber) return;
   Entry& entry = entries_[slot];
-  if (arrival < entry.heard || (entry.haptic && entry.radius == radius)) return;
+  if (arrival < entry.received || (entry.haptic && entry.radius == radius)) return;
   entry.haptic = true;
   entry.radius = radius;
   changed_ = true;
@@ -124,7 +124,7 @@ void Roster::note_model(std::uint64_t key, double radius, std::chrono::nanosecon
 void Roster::forget_before(std::chrono::nanoseconds time) {
   for (std::size_t slot = 0; slot < entries_.size(); ++slot) {
     Entry& entry = entries_[slot];
-    if (entry.key == 0 || entry.heard >= time) continue;
+    if (entry.key == 0 || entry.received >= time) continue;
     slots_.erase(entry.key);
     const auto named = by_id_.find(entity_key(0, entry.id));
     if (named != by_id_.end() && named->second == slot) by_id_.erase(named);

@@ -28,10 +28,10 @@ class Roster {
 
   /// The slot of an entity that the listener knows; a new one where it has none, kNoNumber where
   /// there is no room. Keeps what the newest state says of it.
-  std::uint16_t admit(const Listener& heard, const StateUpdate& update);
+  std::uint16_t admit(const Listener& listener, const StateUpdate& update);
   /// Notes the force model of an entity that has a slot, unless a newer state is known.
   void note_model(std::uint64_t key, double radius, std::chrono::nanoseconds arrival);
-  /// By HeardEntity::key; kNoNumber where it has none.
+  /// By ReceivedEntity::key; kNoNumber where it has none.
   [[nodiscard]] std::uint16_t slot_of(std::uint64_t key) const noexcept;
   /// The same by ID alone, of whatever exercise.
   [[nodiscard]] std::uint16_t slot_of(const pdu::EntityId& id) const noexcept;
@@ -47,7 +47,7 @@ class Roster {
   [[nodiscard]] bool is_haptic(std::uint16_t slot) const noexcept {
     return key_at(slot) != 0 && entries_[slot].haptic;
   }
-  /// Frees the slots of those that were last heard before `time`.
+  /// Frees the slots of those whose last update came before `time`.
   void forget_before(std::chrono::nanoseconds time);
 
   /// Begins another epoch where something has changed. @return whether it did
@@ -73,7 +73,7 @@ class Roster {
     bool haptic = false;
     bool published = false;
     double radius = 0;  // [m] of its force model
-    std::chrono::nanoseconds heard{};
+    std::chrono::nanoseconds received{};
   };
   [[nodiscard]] std::uint16_t place(std::uint64_t key);
   void append_entry(std::string& out, std::size_t slot) const;

@@ -26,7 +26,7 @@ void TrafficNumbers::pdu(const PduRow& row, const peer::SourceDatagram& datagram
     part.delays.push_back(pdu::to_seconds(pdu::trailer_age(trailer.send_time, datagram.time)));
 }
 
-void TrafficNumbers::datagram(const peer::SourceDatagram& datagram, const HeardJumps& jumps) {
+void TrafficNumbers::datagram(const peer::SourceDatagram& datagram, const UpdateJumps& jumps) {
   Part& part = parts_[part_];
   part.octets += datagram.bytes.size();
   part.lost += loss_.datagram(datagram);

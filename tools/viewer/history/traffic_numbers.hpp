@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "reckon/tools/datagrams/trailer_loss.hpp"
-#include "reckon/tools/viewer/history/heard_world.hpp"
+#include "reckon/tools/viewer/history/received_world.hpp"
 
 namespace reckon::tools {
 
@@ -34,7 +34,7 @@ class TrafficNumbers {
   /// A PDU of the datagram at hand.
   void pdu(const PduRow& row, const peer::SourceDatagram& datagram);
   /// Ends the datagram.
-  void datagram(const peer::SourceDatagram& datagram, const HeardJumps& jumps);
+  void datagram(const peer::SourceDatagram& datagram, const UpdateJumps& jumps);
   /// Time has come to `now`: adds a sample where one is due.
   void pass(std::chrono::nanoseconds now);
   void forget_before(std::chrono::nanoseconds time);
@@ -46,7 +46,7 @@ class TrafficNumbers {
   struct Part {
     std::uint64_t pdus = 0, octets = 0, received = 0;
     std::int64_t lost = 0;
-    HeardJumps jumps;
+    UpdateJumps jumps;
     std::vector<double> delays;  // [s], at most kMostDelays
   };
   static constexpr std::size_t kParts = 4;

@@ -50,7 +50,8 @@ std::string DrawnGroups::name_of(std::uint32_t tag) const {
   return known == names_.end() ? fmt::format("beacon {:08x}", tag) : known->second;
 }
 
-std::optional<aoim::Position> DrawnGroups::place_of(const HeardBeacon& beacon, const Roster& roster,
+std::optional<aoim::Position> DrawnGroups::place_of(const ReceivedBeacon& beacon,
+                                                    const Roster& roster,
                                                     std::span<const EntityMark> marks) const {
   const aoim::GroupIndex number = cells_.group(aoim::CellId{beacon.cell.column, beacon.cell.row});
   for (const EntityMark& mark : marks) {
@@ -63,24 +64,24 @@ std::optional<aoim::Position> DrawnGroups::place_of(const HeardBeacon& beacon, c
   return std::nullopt;
 }
 
-std::string DrawnGroups::message(const HeardGroups& heard, const Roster& roster,
+std::string DrawnGroups::message(const ReceivedGroups& received, const Roster& roster,
                                  std::span<const EntityMark> marks, nanoseconds time,
                                  nanoseconds start) const {
   struct Placed {
     std::uint32_t tag;
-    const HeardBeacon& beacon;
+    const ReceivedBeacon& beacon;
     aoim::Position centre;
   };
   std::vector<Placed> beacons;
-  for (const auto& [tag, beacon] : heard.beacons()) {
-    if (time - beacon.heard > HeardGroups::kBeaconKept) continue;
+  for (const auto& [tag, beacon] : received.beacons()) {
+    if (time - beacon.received > ReceivedGroups::kBeaconKept) continue;
     if (const auto centre = place_of(beacon, roster, marks))
       beacons.push_back({tag, beacon, *centre});
   }
   std::string out;
   JsonObject(out)
       .text("type", "groups")
-      .array("groups", heard.shared_at(time), append_group)
+      .array("groups", received.shared_at(time), append_group)
       .array("beacons", beacons,
              [&](std::string& text, const Placed& one) {
                const pdu::SimulationAddress& owner = one.beacon.owner;
@@ -89,7 +90,7 @@ std::string DrawnGroups::message(const HeardGroups& heard, const Roster& roster,
                    .text("peer", fmt::format("{}:{}", owner.site, owner.application))
                    .decimals("x", one.centre.x, 3)
                    .decimals("y", one.centre.y, 3)
-                   .decimals("heard", pdu::to_seconds(one.beacon.heard - start), 3)
+                   .decimals("heard", pdu::to_seconds(one.beacon.received - start), 3)
                    .end();
              })
       .end();

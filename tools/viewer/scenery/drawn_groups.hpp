@@ -12,7 +12,7 @@
 
 #include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
-#include "reckon/tools/viewer/history/heard_groups.hpp"
+#include "reckon/tools/viewer/history/received_groups.hpp"
 #include "reckon/tools/viewer/history/roster.hpp"
 
 namespace reckon::tools {
@@ -29,14 +29,14 @@ class DrawnGroups {
   /// The message, as of `time`. A beacon is in the cell of an entity of its owner, for where
   /// groups are handed out a cell goes by a number that others far away have as well.
   /// @param marks entities then  @param start of the source
-  [[nodiscard]] std::string message(const HeardGroups& heard, const Roster& roster,
+  [[nodiscard]] std::string message(const ReceivedGroups& received, const Roster& roster,
                                     std::span<const EntityMark> marks,
                                     std::chrono::nanoseconds time,
                                     std::chrono::nanoseconds start) const;
 
  private:
   [[nodiscard]] std::string name_of(std::uint32_t tag) const;
-  [[nodiscard]] std::optional<aoim::Position> place_of(const HeardBeacon& beacon,
+  [[nodiscard]] std::optional<aoim::Position> place_of(const ReceivedBeacon& beacon,
                                                        const Roster& roster,
                                                        std::span<const EntityMark> marks) const;
 

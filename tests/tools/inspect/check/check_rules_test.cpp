@@ -179,6 +179,30 @@ TEST(InspectCheck, FiresEachRuleOnItsFaultAloneAndOnce) {
   }
 }
 
+TEST(InspectCheck, NamesTheOctetOfTheField) {
+  // As IEEE 1278.1 lays out an Entity State PDU.
+  const std::map<std::string, int> octets{
+      {"W-FAMILY", 3}, {"W-TIMESTAMP-ORDER", 4}, {"W-TIMESTAMP-TOLERANCE", 4},
+      {"W-SIZE", 8},   {"W-COUPLED", 10},        {"W-ID", 12},
+      {"W-SIDE", 18},  {"W-KIND", 20},           {"W-DOMAIN", 21},
+      {"W-DRM", 88},   {"I-UNNAMED", 22},        {"W-STATIC-MOVES", 36},
+      {"E-COUNT", 19}, {"W-LOCATION", 48},       {"W-NOT-FINITE", 56}};
+  std::size_t compared = 0;
+  for (const Planted& fault : planted()) {
+    const auto expected = octets.find(fault.code);
+    if (expected == octets.end()) continue;
+    CaptureBuilder capture;
+    drive(capture);
+    fault.plant(capture);
+    for (const json& finding : check(capture.path()).findings) {
+      if (finding["rule"] != fault.code) continue;
+      EXPECT_EQ(finding["at"], expected->second) << fault.code;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, octets.size());
+}
+
 TEST(InspectCheck, HasAPlantedFaultForEveryRuleThatOctetsCanBreak) {
   std::set<std::string_view> rules;
   for (const CheckRule& rule : check_rules()) rules.insert(rule.code);

@@ -52,12 +52,12 @@ std::vector<Eigen::Vector3d> shown_by_table(const std::vector<Sent>& all, nanose
     });
   }
   std::vector<Eigen::Vector3d> places;
-  for (const HeardEntity& entity : table.entities())
+  for (const ReceivedEntity& entity : table.entities())
     places.push_back(frame().scene_from_world(entity.pose_at(time).position));
   return places;
 }
 
-std::vector<EntityMark> marks_of(const HeardWorld& world, const History& history,
+std::vector<EntityMark> marks_of(const ReceivedWorld& world, const History& history,
                                  nanoseconds time) {
   std::vector<EntityMark> marks;
   world.add_marks(time, history.start(), history.roster(), frame(), marks);
@@ -223,7 +223,7 @@ TEST(GroupTiers, TellNearAndContactGroupsFromThoseOfCells) {
   EXPECT_EQ(GroupTiers().of(group_number(24)).number, 0) << "no scene, no knowledge";
 }
 
-TEST(HeardGroups, KnowWhoWasHeardOfLateInAContactGroup) {
+TEST(ReceivedGroups, KnowWhoWasHeardOfLateInAContactGroup) {
   HistoryOptions options = whole();
   options.tiers = three_tiers();
   History history(options);
@@ -271,22 +271,22 @@ Sent roles(std::uint32_t tag, std::int32_t column, std::uint16_t flags, double t
   return sent;
 }
 
-TEST(HeardGroups, KnowTheCellOfABeaconUntilItLeaves) {
+TEST(ReceivedGroups, KnowTheCellOfABeaconUntilItLeaves) {
   History history(whole());
   take(history, {roles(7, 3, 0, 0), roles(7, 4, 0, 1), roles(7, 3, pdu::kRoleLeaves, 1.1)});
   const auto& beacons = history.live().groups().beacons();
   ASSERT_EQ(beacons.size(), 1U) << "it has left another cell";
   EXPECT_EQ(beacons.at(7).cell.column, 4);
   EXPECT_EQ(beacons.at(7).owner, (pdu::SimulationAddress{1, 2}));
-  EXPECT_EQ(beacons.at(7).heard, kStart + seconds(1));
+  EXPECT_EQ(beacons.at(7).received, kStart + seconds(1));
   take(history, {roles(7, 4, pdu::kRoleLeaves, 2)});
   EXPECT_TRUE(beacons.empty());
 }
 
-TEST(HeardGroups, HaveRoomForSoManyBeaconsAndForNewOnesWhenTheOldAreSilent) {
+TEST(ReceivedGroups, HaveRoomForSoManyBeaconsAndForNewOnesWhenTheOldAreSilent) {
   History history(whole());
   for (std::uint32_t tag = 1; tag <= 2000; ++tag) take(history, {roles(tag, 0, 0, 0.001 * tag)});
-  EXPECT_EQ(history.live().groups().beacons().size(), HeardGroups::kMostBeacons);
+  EXPECT_EQ(history.live().groups().beacons().size(), ReceivedGroups::kMostBeacons);
   take(history, {roles(5000, 0, 0, 60)});
   EXPECT_TRUE(history.live().groups().beacons().contains(5000));
 }

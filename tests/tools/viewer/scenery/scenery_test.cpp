@@ -14,9 +14,9 @@
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 #include "reckon/tools/viewer/history/history.hpp"
 #include "reckon/tools/viewer/scenery/drawn_groups.hpp"
-#include "reckon/tools/viewer/scenery/heard_cells.hpp"
 #include "reckon/tools/viewer/scenery/shown_thresholds.hpp"
 #include "reckon/tools/viewer/scenery/solid_shapes.hpp"
+#include "reckon/tools/viewer/scenery/subscribed_cells.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -36,8 +36,8 @@ EntityMark mark_at(std::uint16_t slot, float x, float y) {
   return mark;
 }
 
-TEST(HeardCells, SayWhoHearsTheCellOfTheOneThatIsFollowed) {
-  HeardCells cells(squares());
+TEST(SubscribedCells, SayWhoHearsTheCellOfTheOneThatIsFollowed) {
+  SubscribedCells cells(squares());
   std::vector<EntityMark> marks{mark_at(1, 5, 5), mark_at(2, 16, 5), mark_at(3, 95, 5)};
   cells.place(marks);
   EXPECT_NE(marks[0].cell, marks[1].cell);
@@ -59,8 +59,8 @@ TEST(HeardCells, SayWhoHearsTheCellOfTheOneThatIsFollowed) {
   EXPECT_EQ(heard, 9U);  // 12 m about the middle of a cell of 10 m
 }
 
-TEST(HeardCells, HaveNoNumberForAPlaceThatIsNone) {
-  HeardCells cells(squares());
+TEST(SubscribedCells, HaveNoNumberForAPlaceThatIsNone) {
+  SubscribedCells cells(squares());
   std::vector<EntityMark> marks{mark_at(1, std::numeric_limits<float>::quiet_NaN(), 0)};
   cells.place(marks);
   EXPECT_EQ(marks[0].cell, kNoNumber);
@@ -114,13 +114,13 @@ TEST(DrawnGroups, PutABeaconInTheCellOfItsOwnersEntityUnderItsName) {
   ASSERT_TRUE(history.take(trucks::datagram_of(sent)));
   const std::vector<EntityMark> marks{mark_at(7, 5, 5), mark_at(0, 23, -4)};
   const aoim::CellPartition cells = peer::cells_of(scene.aoim);
-  HeardGroups heard{GroupTiers(scene.network, scene.aoim)};
-  heard.take_roles(roles("gate", same_number(cells, {2, -1})), seconds(105));
-  heard.take_roles(roles("stranger", {2, -1}), seconds(104));
-  heard.take_roles(roles("ferry", {2, -1}), seconds(100));
-  heard.take_roles(roles("nowhere", {0, 0}), seconds(105));
+  ReceivedGroups received{GroupTiers(scene.network, scene.aoim)};
+  received.take_roles(roles("gate", same_number(cells, {2, -1})), seconds(105));
+  received.take_roles(roles("stranger", {2, -1}), seconds(104));
+  received.take_roles(roles("ferry", {2, -1}), seconds(100));
+  received.take_roles(roles("nowhere", {0, 0}), seconds(105));
   const auto message = nlohmann::json::parse(
-      DrawnGroups(scene).message(heard, history.roster(), marks, seconds(106), seconds(100)));
+      DrawnGroups(scene).message(received, history.roster(), marks, seconds(106), seconds(100)));
   EXPECT_EQ(message["type"], "groups");
   ASSERT_EQ(message["beacons"].size(), 2U) << "one is silent, one where its owner has nothing";
   for (const auto& beacon : message["beacons"]) {
@@ -137,12 +137,12 @@ TEST(DrawnGroups, SayWhoSharesAGroup) {
   const peer::SceneFile scene =
       peer::parse_scene_file("[aoim]\npool = 4\n[[aoim.tier]]\nto = \"touch\"\n", "touch.toml");
   ASSERT_TRUE(DrawnGroups::has_any(scene));
-  HeardGroups heard{GroupTiers(scene.network, scene.aoim)};
+  ReceivedGroups received{GroupTiers(scene.network, scene.aoim)};
   for (const std::uint16_t slot : {std::uint16_t{3}, std::uint16_t{8}})
-    heard.note_update(slot, peer::IpEndpoint::v4(0xEFC00106, 3000), {});
+    received.note_update(slot, peer::IpEndpoint::v4(0xEFC00106, 3000), {});
   const History history(HistoryOptions{});
   const auto message =
-      nlohmann::json::parse(DrawnGroups(scene).message(heard, history.roster(), {}, {}, {}));
+      nlohmann::json::parse(DrawnGroups(scene).message(received, history.roster(), {}, {}, {}));
   EXPECT_EQ(message["groups"],
             nlohmann::json::parse(R"([{"tier":"contact","group":6,"slots":[3,8]}])"));
   EXPECT_FALSE(DrawnGroups::has_any(peer::parse_scene_file("[aoim]\npool = 4\n", "plain.toml")));

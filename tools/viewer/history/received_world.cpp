@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/viewer/history/heard_world.hpp"
+#include "reckon/tools/viewer/history/received_world.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,41 +19,41 @@ std::uint16_t group_number(const peer::IpEndpoint& group) {
   return static_cast<std::uint16_t>(group.octets[end - 2] << 8 | group.octets[end - 1]);
 }
 
-std::uint8_t side_of(const HeardEntity& entity) {
+std::uint8_t side_of(const ReceivedEntity& entity) {
   constexpr std::size_t kSideAt = 18;
   return std::to_integer<std::uint8_t>(entity.octets[kSideAt]);
 }
 
 }  // namespace
 
-/// What the table tells of an update before it takes it.
-struct HeardWorld::Watching final : EntityTable::Watch {
-  Watching(HeardWorld& the_world, const peer::GroupAddress& the_group, Roster& the_roster,
+/// What the table reports of an update before it takes it.
+struct ReceivedWorld::Watching final : EntityTable::Watch {
+  Watching(ReceivedWorld& the_world, const peer::GroupAddress& the_group, Roster& the_roster,
            nanoseconds the_start)
       : world(the_world), group(the_group), roster(the_roster), start(the_start) {}
   void before_state(const StateUpdate& update) override {
     world.note_update(update, group, roster, start);
   }
-  void before_model(const HeardEntity& entity, const ModelUpdate& update) override {
+  void before_model(const ReceivedEntity& entity, const ModelUpdate& update) override {
     roster.note_model(entity.key, update.model.radius, update.arrival);
   }
-  HeardWorld& world;
+  ReceivedWorld& world;
   const peer::GroupAddress& group;
   Roster& roster;
   nanoseconds start;
 };
 
-void HeardWorld::take_pdu(const PduRow& row, const peer::SourceDatagram& datagram, Roster& roster,
-                          nanoseconds start) {
+void ReceivedWorld::take_pdu(const PduRow& row, const peer::SourceDatagram& datagram,
+                             Roster& roster, nanoseconds start) {
   if (row.decoded && row.header.pdu_type == pdu::PduType::cell_roles)
     return groups_.take_roles(row.bytes, datagram.time);
   Watching watching(*this, datagram.group, roster, start);
   table_.take_pdu(row, datagram, &watching);
 }
 
-void HeardWorld::note_update(const StateUpdate& update, const peer::GroupAddress& group,
-                             Roster& roster, nanoseconds start) {
-  const std::uint16_t slot = roster.admit(table_.heard(), update);
+void ReceivedWorld::note_update(const StateUpdate& update, const peer::GroupAddress& group,
+                                Roster& roster, nanoseconds start) {
+  const std::uint16_t slot = roster.admit(table_.listener(), update);
   if (slot == kNoNumber) return;
   groups_.note_update(slot, group, update.arrival);
   if (slot >= errors_.size()) errors_.resize(slot + std::size_t{1});
@@ -73,26 +73,26 @@ void HeardWorld::note_update(const StateUpdate& update, const peer::GroupAddress
   jumps_.worst = std::max(jumps_.worst, jump);
 }
 
-std::optional<Eigen::Vector3d> HeardWorld::first_place() const {
-  for (const HeardEntity& entity : table_.entities())
+std::optional<Eigen::Vector3d> ReceivedWorld::first_place() const {
+  for (const ReceivedEntity& entity : table_.entities())
     if (entity.has_state) return entity.state.position;
   return std::nullopt;
 }
 
-std::size_t HeardWorld::weight() const noexcept {
+std::size_t ReceivedWorld::weight() const noexcept {
   constexpr std::size_t kModel = 400;
-  return table_.entities().size() * (sizeof(HeardEntity) + sizeof(EntityRow)) +
-         table_.heard().models().size() * (sizeof(ReceivedModel) + kModel) +
+  return table_.entities().size() * (sizeof(ReceivedEntity) + sizeof(EntityRow)) +
+         table_.listener().models().size() * (sizeof(ReceivedModel) + kModel) +
          errors_.size() * sizeof(deadreckon::ConvergingError) + groups_.weight();
 }
 
-void HeardWorld::add_marks(nanoseconds time, nanoseconds start, const Roster& roster,
-                           const deadreckon::LocalFrame& frame,
-                           std::vector<EntityMark>& out) const {
+void ReceivedWorld::add_marks(nanoseconds time, nanoseconds start, const Roster& roster,
+                              const deadreckon::LocalFrame& frame,
+                              std::vector<EntityMark>& out) const {
   const double seconds = pdu::to_seconds(time - start);
   const auto entities = table_.entities();
   for (std::size_t i = 0; i < entities.size() && out.size() < kMostPictureRows; ++i) {
-    const HeardEntity& entity = entities[i];
+    const ReceivedEntity& entity = entities[i];
     if (!entity.has_state || entity.gone || entity.is_silent(time)) continue;
     const std::uint16_t slot = roster.slot_of(entity.key);
     if (!roster.is_published(slot)) continue;

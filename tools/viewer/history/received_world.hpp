@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The world as it is heard at one instant: the listener's table of entities, and beside it how far
-// what is shown still is from what is predicted, and by which groups they are heard. A copy is the
-// world at that instant.
+// The world as received up to one instant: the listener's table of entities, what is left of their
+// convergence, and the groups that brought their updates. A copy keeps the world of that instant.
 #pragma once
 
 #include <chrono>
@@ -14,24 +13,24 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/tools/listener/entity_table.hpp"
-#include "reckon/tools/viewer/history/heard_groups.hpp"
+#include "reckon/tools/viewer/history/received_groups.hpp"
 #include "reckon/tools/viewer/history/roster.hpp"
 #include "reckon/tools/viewer/protocol/picture.hpp"
 
 namespace reckon::tools {
 
-/// How far updates were off the prediction, since it was asked last.
-struct HeardJumps {
+/// How far updates were off the prediction, since the last call of take_jumps().
+struct UpdateJumps {
   std::size_t count = 0;
   double sum = 0, worst = 0;  ///< [m]
 };
 
 /// One thread. Allocates as entities come. Some 0.5 us a state.
-class HeardWorld {
+class ReceivedWorld {
  public:
   /// @param most entities
-  HeardWorld(std::size_t most, const deadreckon::ConvergenceSettings& settings,
-             const GroupTiers& tiers)
+  ReceivedWorld(std::size_t most, const deadreckon::ConvergenceSettings& settings,
+                const GroupTiers& tiers)
       : table_(most), settings_(settings), groups_(tiers) {}
 
   /// Takes one PDU as the inspector found it.
@@ -45,10 +44,10 @@ class HeardWorld {
   }
 
   [[nodiscard]] const EntityTable& table() const noexcept { return table_; }
-  [[nodiscard]] const HeardGroups& groups() const noexcept { return groups_; }
-  /// Where the first entity is that was heard; geocentric [m].
+  [[nodiscard]] const ReceivedGroups& groups() const noexcept { return groups_; }
+  /// Position of the first entity with a state; geocentric [m].
   [[nodiscard]] std::optional<Eigen::Vector3d> first_place() const;
-  [[nodiscard]] HeardJumps take_jumps() noexcept { return std::exchange(jumps_, {}); }
+  [[nodiscard]] UpdateJumps take_jumps() noexcept { return std::exchange(jumps_, {}); }
   /// Octets that a copy takes, about.
   [[nodiscard]] std::size_t weight() const noexcept;
 
@@ -66,8 +65,8 @@ class HeardWorld {
   EntityTable table_;
   deadreckon::ConvergenceSettings settings_;
   std::vector<deadreckon::ConvergingError> errors_;  // by slot
-  HeardJumps jumps_;
-  HeardGroups groups_;
+  UpdateJumps jumps_;
+  ReceivedGroups groups_;
 };
 
 }  // namespace reckon::tools

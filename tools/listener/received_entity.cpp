@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/listener/heard_entity.hpp"
+#include "reckon/tools/listener/received_entity.hpp"
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
@@ -11,20 +11,22 @@ namespace reckon::tools {
 
 using std::chrono::nanoseconds;
 
-double HeardEntity::age(nanoseconds now) const noexcept { return pdu::to_seconds(now - arrival); }
+double ReceivedEntity::age(nanoseconds now) const noexcept {
+  return pdu::to_seconds(now - arrival);
+}
 
-bool HeardEntity::is_silent(nanoseconds now) const noexcept {
+bool ReceivedEntity::is_silent(nanoseconds now) const noexcept {
   return has_state && !gone && age(now) > deadreckon::timeout(heartbeat);
 }
 
-deadreckon::Pose HeardEntity::pose_at(nanoseconds time) const noexcept {
+deadreckon::Pose ReceivedEntity::pose_at(nanoseconds time) const noexcept {
   const peer::StateAge age(time - state_time, hold_after, false);
   deadreckon::Pose pose = deadreckon::extrapolate(state, age.tau);
   age.hold(pose);
   return pose;
 }
 
-pdu::EntityState HeardEntity::entity_state() const noexcept {
+pdu::EntityState ReceivedEntity::entity_state() const noexcept {
   pdu::EntityState pdu;
   if (has_state) (void)decode(octets, pdu);
   return pdu;

@@ -18,7 +18,7 @@
 namespace reckon::tools {
 
 /// One entity, some 450 octets.
-struct HeardEntity {
+struct ReceivedEntity {
   static constexpr std::size_t kNoModel = ~std::size_t{0};
 
   std::uint64_t key = 0;  ///< entity_key; without the exercise where the rules say so

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a listener hears beside states: who was updated by which near or contact group, and in which
-// cell each beacon is.
+// What a listener receives beside states: which near or contact group brought updates of whom, and
+// in which cell each beacon is.
 #pragma once
 
 #include <array>
@@ -24,15 +24,15 @@ struct SharedGroup {
   std::vector<std::uint16_t> slots;  ///< ascending
 };
 
-struct HeardBeacon {
+struct ReceivedBeacon {
   pdu::CellIndex cell;
   pdu::SimulationAddress owner;
-  std::chrono::nanoseconds heard{};
+  std::chrono::nanoseconds received{};
 };
 
 /// A copy is what was known at that instant. One thread. Any octets will do; allocates for new
 /// slots and beacons, within bounds.
-class HeardGroups {
+class ReceivedGroups {
  public:
   /// A group that carried nothing of an entity for so long is not shown as its own.
   static constexpr std::chrono::nanoseconds kLately = std::chrono::seconds(3);
@@ -40,7 +40,7 @@ class HeardGroups {
   static constexpr std::chrono::nanoseconds kBeaconKept = std::chrono::seconds(3);
   static constexpr std::size_t kMostBeacons = 256;
 
-  explicit HeardGroups(const GroupTiers& tiers) : tiers_(tiers) {}
+  explicit ReceivedGroups(const GroupTiers& tiers) : tiers_(tiers) {}
 
   /// An update of the entity at a slot came by this group.
   void note_update(std::uint16_t slot, const peer::GroupAddress& group,
@@ -50,8 +50,8 @@ class HeardGroups {
 
   /// All that carried something within kLately before `time`, by number.
   [[nodiscard]] std::vector<SharedGroup> shared_at(std::chrono::nanoseconds time) const;
-  /// By tag; some of them may not have been heard for longer than kBeaconKept.
-  [[nodiscard]] const std::map<std::uint32_t, HeardBeacon>& beacons() const noexcept {
+  /// By tag; the last report of some may be older than kBeaconKept.
+  [[nodiscard]] const std::map<std::uint32_t, ReceivedBeacon>& beacons() const noexcept {
     return beacons_;
   }
   /// Octets, about.
@@ -66,7 +66,7 @@ class HeardGroups {
 
   GroupTiers tiers_;
   std::vector<Tiers> slots_;
-  std::map<std::uint32_t, HeardBeacon> beacons_;  // by tag
+  std::map<std::uint32_t, ReceivedBeacon> beacons_;  // by tag
 };
 
 }  // namespace reckon::tools

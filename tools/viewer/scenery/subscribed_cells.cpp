@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/viewer/scenery/heard_cells.hpp"
+#include "reckon/tools/viewer/scenery/subscribed_cells.hpp"
 
 #include <algorithm>
 
@@ -28,10 +28,10 @@ std::string_view shape_of(aoim::CellScheme scheme) {
 
 }  // namespace
 
-HeardCells::HeardCells(const peer::AoimConfig& config)
+SubscribedCells::SubscribedCells(const peer::AoimConfig& config)
     : cells_(peer::cells_of(config)), radius_(config.radius) {}
 
-std::uint16_t HeardCells::number_of(aoim::CellId cell) {
+std::uint16_t SubscribedCells::number_of(aoim::CellId cell) {
   const auto known = numbers_.find(cell);
   if (known != numbers_.end()) return known->second;
   if (by_number_.size() >= kMostCells) return kNoNumber;
@@ -41,51 +41,51 @@ std::uint16_t HeardCells::number_of(aoim::CellId cell) {
   return number;
 }
 
-void HeardCells::place(std::span<EntityMark> marks) {
+void SubscribedCells::place(std::span<EntityMark> marks) {
   for (EntityMark& mark : marks)
     if (mark.position.allFinite()) mark.cell = number_of(cells_.cell(place_of(mark)));
 }
 
-std::vector<std::uint16_t> HeardCells::cells_heard(const EntityMark& mark) {
-  std::vector<std::uint16_t> heard;
+std::vector<std::uint16_t> SubscribedCells::cells_subscribed(const EntityMark& mark) {
+  std::vector<std::uint16_t> subscribed;
   cells_.visit([&](const auto& scheme) {
     // Of a scene with cells far smaller than the radius the count would say nothing.
-    if (scheme.cells_bound(radius_) > kMostTold) return;
+    if (scheme.cells_bound(radius_) > kMostSent) return;
     scheme.for_each_cell_within(place_of(mark), radius_, [&](aoim::CellId cell, double) {
-      heard.push_back(number_of(cell));
+      subscribed.push_back(number_of(cell));
     });
   });
-  return heard;
+  return subscribed;
 }
 
-bool HeardCells::hears(const EntityMark& mark, std::uint16_t cell) const {
+bool SubscribedCells::is_subscribed(const EntityMark& mark, std::uint16_t cell) const {
   if (cell >= by_number_.size() || !mark.position.allFinite()) return false;
   return cells_.visit([&](const auto& scheme) {
     return scheme.distance(by_number_[cell], place_of(mark)) <= radius_;
   });
 }
 
-std::string HeardCells::message(std::span<const EntityMark> marks, std::uint16_t follow) {
-  std::map<std::uint16_t, std::vector<std::uint16_t>> told;  // cell -> slots that hear it
+std::string SubscribedCells::message(std::span<const EntityMark> marks, std::uint16_t follow) {
+  std::map<std::uint16_t, std::vector<std::uint16_t>> subscribers;  // of each cell, by slot
   const auto has_room = [&](std::uint16_t cell) {
-    return cell != kNoNumber && (told.size() < kMostTold || told.contains(cell));
+    return cell != kNoNumber && (subscribers.size() < kMostSent || subscribers.contains(cell));
   };
   const auto followed = std::ranges::find(marks, follow, &EntityMark::slot);
   if (followed != marks.end()) {
-    for (const std::uint16_t cell : cells_heard(*followed))
-      if (has_room(cell)) told[cell].push_back(follow);
+    for (const std::uint16_t cell : cells_subscribed(*followed))
+      if (has_room(cell)) subscribers[cell].push_back(follow);
     for (const EntityMark& mark : marks)
-      if (mark.slot != follow && has_room(followed->cell) && hears(mark, followed->cell))
-        told[followed->cell].push_back(mark.slot);
+      if (mark.slot != follow && has_room(followed->cell) && is_subscribed(mark, followed->cell))
+        subscribers[followed->cell].push_back(mark.slot);
   }
   for (const EntityMark& mark : marks)
-    if (has_room(mark.cell)) told[mark.cell];
+    if (has_room(mark.cell)) subscribers[mark.cell];
   std::string out;
   JsonObject(out)
       .text("type", "cells")
       .text("shape", shape_of(cells_.scheme()))
       .decimals("size", cells_.finest(), 4)
-      .array("cells", told,
+      .array("cells", subscribers,
              [this](std::string& text, const auto& row) {
                const aoim::Position centre = cells_.visit(
                    [&](const auto& scheme) { return scheme.centre(by_number_[row.first]); });
