@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
-#include "reckon/deadreckon/motion/drm.hpp"
 
 namespace reckon::deadreckon {
 
@@ -24,7 +24,7 @@ void ForcePredictor::update_entity(const KinematicState& entity, double now) noe
 }
 
 Pose ForcePredictor::entity(double now) const noexcept {
-  return extrapolate(entity_, now - entity_time_);
+  return extrapolate_trusted(entity_, now - entity_time_);
 }
 
 double ForcePredictor::weight(double now) const noexcept {

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 
@@ -68,14 +69,22 @@ void ModelChoice::note(const MotionSample& truth, const Thresholds& thresholds,
   bool chosen_sends = false;
   for (std::size_t i = 0; i < rivals_.size(); ++i) {
     Rival& rival = rivals_[i];
-    const Pose seen = extrapolate(rival.sent, truth.time - rival.time);
-    if (!is_off(truth, seen, thresholds, rule)) continue;
+    if (!is_due(rival, truth, thresholds, rule)) continue;
     rival = {kinematic_state(truth, kChosenModels[i]), truth.time, rival.updates + 1};
     chosen_sends = chosen_sends || i == chosen_;
   }
   decide();
   if (!chosen_sends) return;
   for (Rival& rival : rivals_) rival.updates *= settings_.memory;
+}
+
+// As in UpdatePolicy::decide().
+bool ModelChoice::is_due(const Rival& rival, const MotionSample& truth,
+                         const Thresholds& thresholds, const SendRule& rule) noexcept {
+  const double age = truth.time - rival.time;
+  if (is_off(truth, extrapolate(rival.sent, age), thresholds, rule)) return true;
+  return is_beyond_trust(rival.sent, age) &&
+         is_off(truth, extrapolate_trusted(rival.sent, age), thresholds, rule);
 }
 
 void ModelChoice::decide() noexcept {

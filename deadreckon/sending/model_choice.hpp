@@ -55,14 +55,16 @@ class ModelChoice {
   [[nodiscard]] pdu::DeadReckoningAlgorithm chosen() const noexcept;
 
  private:
-  void start(const MotionSample& truth, const Thresholds& thresholds) noexcept;
-  void decide() noexcept;
-
   struct Rival {
     KinematicState sent;
     double time = 0;
     double updates = 0;  // decaying count
   };
+
+  void start(const MotionSample& truth, const Thresholds& thresholds) noexcept;
+  void decide() noexcept;
+  [[nodiscard]] static bool is_due(const Rival& rival, const MotionSample& truth,
+                                   const Thresholds& thresholds, const SendRule& rule) noexcept;
 
   ModelChoiceSettings settings_;
   std::array<Rival, kChosenModels.size()> rivals_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 
@@ -71,15 +72,22 @@ SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_erro
   if (!has_sent_) return SendReason::first;
   if (event_) return SendReason::event;
 
-  // Negated, so that a NaN prediction is corrected too.
-  const Pose seen = predicted(now);
-  const PoseError error{truth.position - seen.position, truth.velocity};
-  if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;
-  const double angle = angle_between(truth.orientation, seen.orientation);
-  if (!(angle <= thresholds_.angle)) return SendReason::orientation;
+  SendReason reason = error_of(extrapolate(sent_, now - sent_time_), truth);
+  if (reason == SendReason::none && is_beyond_trust(sent_, now - sent_time_))
+    reason = error_of(predicted(now), truth);
+  if (reason != SendReason::none) return reason;
   const double force = std::max(thresholds_.force, thresholds_.weber * true_force);
   if (!(force_error <= force)) return SendReason::force;
   return now - sent_time_ >= wait_ ? SendReason::heartbeat : SendReason::none;
+}
+
+// The error of what a viewer sees, if it is above a threshold. Negated, so that a NaN prediction is
+// corrected too.
+SendReason UpdatePolicy::error_of(const Pose& seen, const Pose& truth) const noexcept {
+  const PoseError error{truth.position - seen.position, truth.velocity};
+  if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;
+  const double angle = angle_between(truth.orientation, seen.orientation);
+  return angle <= thresholds_.angle ? SendReason::none : SendReason::orientation;
 }
 
 void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReason reason) noexcept {
@@ -103,7 +111,7 @@ double UpdatePolicy::aligned(double now) const noexcept {
 }
 
 Pose UpdatePolicy::predicted(double now) const noexcept {
-  return extrapolate(sent_, now - sent_time_);
+  return extrapolate_trusted(sent_, now - sent_time_);
 }
 
 }  // namespace reckon::deadreckon

@@ -96,9 +96,11 @@ class UpdatePolicy {
   /// An abrupt event (collision, new surface, appearance): the next decide() returns it.
   void event() noexcept { event_ = true; }
 
-  /// Whether to send at `now`. `truth` is the entity's actual pose, `force_error` the result of
-  /// ForcePredictor::error [N], `true_force` the size of the owner's own force [N], for
-  /// Thresholds::weber. A truth that is not finite is never sent: `none`.
+  /// Whether to send at `now`. Both predictions have to be within the thresholds: that of Reckon
+  /// peers and, for viewers of other programs, that of the standard without a limit. `truth` is the
+  /// entity's actual pose, `force_error` the result of ForcePredictor::error [N], `true_force` the
+  /// size of the owner's own force [N], for Thresholds::weber. A truth that is not finite is never
+  /// sent: `none`.
   [[nodiscard]] SendReason decide(const Pose& truth, double now, double force_error = 0,
                                   double true_force = 0) const noexcept;
 
@@ -107,7 +109,8 @@ class UpdatePolicy {
   void sent(const KinematicState& as_received, double now,
             SendReason reason = SendReason::event) noexcept;
 
-  /// The prediction of peers at `now`, before their convergence. Valid after the first sent().
+  /// The prediction of Reckon peers at `now`, extrapolate_trusted(), before their convergence.
+  /// Valid after the first sent().
   [[nodiscard]] Pose predicted(double now) const noexcept;
 
   [[nodiscard]] const Thresholds& thresholds() const noexcept { return thresholds_; }
@@ -120,6 +123,7 @@ class UpdatePolicy {
   [[nodiscard]] double phase() const noexcept { return phase_; }
 
  private:
+  [[nodiscard]] SendReason error_of(const Pose& seen, const Pose& truth) const noexcept;
   [[nodiscard]] double aligned(double now) const noexcept;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 

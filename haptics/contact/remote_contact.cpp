@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -135,7 +135,8 @@ deadreckon::Pose RemoteContact::stated_pose() const noexcept {
 deadreckon::Pose RemoteContact::pose_now(double before) const noexcept {
   if (blow_.behind() > 0) return blow_.pose(predicted_at_, before);
   const double age = seconds_between(hand_.state_time, predicted_at_) - before;
-  return hand_.has_device ? hand_pose(hand_.state, age) : deadreckon::extrapolate(hand_.state, age);
+  return hand_.has_device ? hand_pose(hand_.state, age)
+                          : deadreckon::extrapolate_trusted(hand_.state, age);
 }
 
 ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,

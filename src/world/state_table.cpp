@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/state_age.hpp"
@@ -41,7 +42,9 @@ deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::Adaptive
 
 deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
   const StateAge age = age_of(*this, now);
-  deadreckon::Pose pose = deadreckon::extrapolate(state, age.tau);
+  // A program without trailers watches the standard's prediction, so that one holds for its own.
+  deadreckon::Pose pose = epoch != 0 ? deadreckon::extrapolate_trusted(state, age.tau)
+                                     : deadreckon::extrapolate(state, age.tau);
   age.hold(pose);
   return pose;
 }

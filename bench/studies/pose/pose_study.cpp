@@ -8,7 +8,7 @@
 
 #include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
-#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/deadreckon/sending/model_choice.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
@@ -118,7 +118,7 @@ class Viewer {
                                                : told(now);
   }
   [[nodiscard]] Pose told(double now) const {
-    return deadreckon::extrapolate(newest_.state, now - newest_.sent);
+    return deadreckon::extrapolate_trusted(newest_.state, now - newest_.sent);
   }
 
   Prediction prediction_;

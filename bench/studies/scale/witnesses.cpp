@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::bench {
@@ -80,7 +80,7 @@ struct Witnesses::Witness {
   /// Shown as a peer does: where its prediction is within the radius of a focus.
   [[nodiscard]] std::optional<Eigen::Vector3d> show(Known& row, double time) {
     if (!row.is_heard()) return std::nullopt;
-    const Eigen::Vector3d at = deadreckon::extrapolate(row.state, time - row.time).position;
+    const Eigen::Vector3d at = deadreckon::extrapolate_trusted(row.state, time - row.time).position;
     row.shown = aoim::is_accepted(interest.judge({at.x(), at.y(), at.z()}, 0, 0, row.shown));
     return row.shown ? std::optional(at) : std::nullopt;
   }

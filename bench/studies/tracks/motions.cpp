@@ -20,6 +20,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kGravity = 9.81;  // [m/s^2]
 
 /// The same numbers on every machine, unlike the distributions of the standard library.
 class Draw {
@@ -207,7 +208,6 @@ Wave wave(double size, double omega, double t) {
 
 /// Nose along the path, banked so that lift and weight make the turn.
 Attitude coordinated(const Wave& x, const Wave& y, const Wave& z) {
-  constexpr double kGravity = 9.81;
   const double level2 = x.rate * x.rate + y.rate * y.rate, level = std::sqrt(level2);
   const double level_rate = (x.rate * x.second + y.rate * y.second) / level;
   const double cross = x.rate * y.second - y.rate * x.second;
@@ -302,6 +302,36 @@ Track jump(double seconds, std::uint64_t) {
   });
 }
 
+/// Acceleration as an owner takes it from the velocities of its samples: in that of a bounce it is
+/// hundreds of m/s^2.
+Track bounce(double seconds, std::uint64_t seed) {
+  static constexpr double kKept = 0.8, kSlow = 1;
+  Draw draw(seed);
+  const auto thrown = [&] {
+    const double x = draw.between(-2, 2), y = draw.between(-2, 2), z = draw.between(3, 7);
+    return Vector3d(x, y, z);
+  };
+  Vector3d from = Vector3d::Zero(), velocity = thrown(), before = velocity;
+  double begin = 0;
+  return sampled(seconds, [&](double t) {
+    bool bounces = false;
+    for (double flight = 0; t - begin >= (flight = 2 * velocity.z() / kGravity); bounces = true) {
+      from += flight * Vector3d(velocity.x(), velocity.y(), 0);
+      begin += flight;
+      velocity.z() *= kKept;
+      if (velocity.z() < kSlow) velocity = thrown();
+    }
+    MotionSample s;
+    const Vector3d fall(0, 0, -kGravity);
+    s.position = from + (t - begin) * velocity + (t - begin) * (t - begin) / 2 * fall;
+    s.velocity = velocity + (t - begin) * fall;
+    s.acceleration = bounces ? Vector3d((s.velocity - before) * kMotionRate) : fall;
+    before = s.velocity;
+    set_attitude(s, {});
+    return s;
+  });
+}
+
 constexpr std::array<double, 6> kWalker{0.05, 0.1, 0.2, 0.5, 1, 2};
 constexpr std::array<double, 6> kVehicle{0.1, 0.2, 0.5, 1, 2, 5};
 constexpr std::array<double, 6> kHand{0.0005, 0.001, 0.0025, 0.005, 0.01, 0.02};
@@ -318,6 +348,8 @@ constexpr std::array kMotions{
     Motion{"hover", "at rest, with noise on the rates that are told", kWalker, hover},
     Motion{"hand", "reaches of 10 cm at up to 1 m/s, with pauses", kHand, hand},
     Motion{"jump", "5 m/s, moved by 50 m at once every 7 s", kVehicle, jump},
+    Motion{"bounce", "a ball thrown at 3 to 7 m/s, bouncing; rates from its samples", kWalker,
+           bounce},
 };
 
 }  // namespace

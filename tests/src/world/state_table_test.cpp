@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <map>
 #include <random>
 #include <set>
 
+#include "reckon/deadreckon/motion/acceleration_trust.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::peer {
@@ -75,6 +77,28 @@ class Twins {
   std::mt19937 random_;
   std::uint64_t stamp_ = 0;
 };
+
+// A bounce of 600 m/s^2 whose next update is lost.
+RemoteEntity bounced(std::uint32_t epoch) {
+  RemoteEntity row;
+  row.epoch = epoch;
+  row.state.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  row.state.velocity = {0, 0, 5};
+  row.state.acceleration = {0, 0, 600};
+  return row;
+}
+
+TEST(RemoteEntity, OfAPeerIsNotAcceleratedForEver) {
+  const RemoteEntity row = bounced(1);
+  const deadreckon::Pose pose = row.predicted(std::chrono::seconds(1));
+  EXPECT_EQ(pose.position, deadreckon::extrapolate_trusted(row.state, 1).position);
+  EXPECT_LT(pose.position.z(), 6);
+}
+
+TEST(RemoteEntity, OfAnotherProgramIsExtrapolatedByTheStandard) {
+  const RemoteEntity row = bounced(0);
+  EXPECT_EQ(row.predicted(std::chrono::seconds(1)).position.z(), 305);
+}
 
 TEST(StateTable, BehavesAsAMapUnderRandomInsertsAndErases) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
