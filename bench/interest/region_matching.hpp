@@ -51,8 +51,8 @@ struct RegionMatch {
 ///
 /// One thread. Memory is kept between calls: at most 24 D + 24 octets a region and 0.3 MiB.
 /// Cost on a busy 2.6 GHz core, a million regions in the plane: 75 ns a region where few overlap,
-/// and 4 ns a pair where many do (docs/area_of_interest_mechanisms.md). Where all small regions lie in one
-/// corner of very large ones, up to the product of both counts is compared.
+/// and 4 ns a pair where many do (docs/area_of_interest_mechanisms.md). Where all small regions lie
+/// in one corner of very large ones, up to the product of both counts is compared.
 template <std::size_t D>
 class RegionMatcher {
   static_assert(D >= 1 && D <= 3);

@@ -27,8 +27,8 @@ struct ScaleSetting {
   std::size_t peers = 64;  ///< 1 .. 65,534; entities are dealt out evenly, neighbours together
   CrowdPlan crowd{kMixedGait, 6400};  ///< at least one entity a peer, 65,534 at most
   double radius = 200;                ///< of interest [m], about each entity
-  double rate = 30;     ///< ticks a second: decisions to send, and looks at what is shown
-  double seconds = 5;   ///< measured, after kWarmUp
+  double rate = 30;    ///< ticks a second: decisions to send, and looks at what is shown
+  double seconds = 5;  ///< measured, after kWarmUp
   deadreckon::Thresholds thresholds;
   double heartbeat = 55;       ///< [s]
   double first_heartbeat = 1;  ///< silence after which a change is said again, as peers do [s]
