@@ -177,7 +177,7 @@ TEST(Budget, ShowsTheFarOnesAgainWhenTheCrowdRests) {
 }
 
 TEST(Budget, BindsBesideTiersToo) {
-  for (const double budget : {12'000.0, 5000.0}) {
+  for (const double budget : {12'000.0, 7000.0}) {
     Town place(town(true), budget, kStreet);
     place.run(90s);
     const double heard = place.heard(100s);

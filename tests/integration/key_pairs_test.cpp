@@ -46,7 +46,7 @@ constexpr Switch kSwitches[]{
     {"aoim", "leaders = true"},
     {"aoim", "leaders = true\nhand_out = true"},
     {"aoim", "pool = 5"},
-    {"aoim", "groups = 12"},
+    {"aoim", "groups = 61"},
     {"aoim", "budget = \"1 MB\""},
     {"aoim", "kinds = \"platform\""},
     {"aoim", "aura = \"100 m\""},

@@ -76,7 +76,8 @@ bool excludes_itself(const std::string& text) {
   const bool apart = says("\"touch\"") || says("own_group");
   if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
   if (says("own_group") && says("compression = \"residual\"")) return true;
-  return (says("interop = true") && (compressed || led)) ||
+  const bool budgeted = says("budget") && !says("budget = \"0 B\"");
+  return (says("interop = true") && (compressed || led || budgeted)) ||
          (led && (compressed || says("farthest"))) || (says("hand_out = true") && !led);
 }
 
