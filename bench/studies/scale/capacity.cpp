@@ -16,7 +16,6 @@ namespace reckon::bench {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kDisPeers = 65'534;  // that DIS can number
 constexpr double kLeastPower = 0.02;  // below, a quantity does not grow
 
 /// What a peer uses up.
@@ -73,8 +72,9 @@ Capacity capacity_of(const ScaleRow& small, const ScaleRow& large, const HostLim
     out.peers = at;
     out.limit = use.words;
   }
-  if (out.peers > kDisPeers) {
-    out.peers = kUnbounded;
+  const double farthest = kFarthest * static_cast<double>(large.counts.peers);
+  if (out.peers > farthest) {
+    out.peers = farthest;
     out.limit = {};
   }
   out.entities = out.peers * entities_a_peer(large);
@@ -92,9 +92,12 @@ std::string rounded(double value) {
 }
 
 std::string carries(const Capacity& one) {
-  if (std::isinf(one.peers))
-    return fmt::format("as many peers as DIS can number ({})", rounded(kDisPeers));
-  return fmt::format("some {} peers with {} entities", rounded(one.peers), rounded(one.entities));
+  const std::string size =
+      fmt::format("{} peers with {} entities", rounded(one.peers), rounded(one.entities));
+  if (one.limit.empty())
+    return fmt::format("{} at least, where no limit\n  is near; --peers sweeps farther.\n", size);
+  return fmt::format("some {};\n  {} limits first{}.\n", size, one.limit,
+                     one.within ? "" : ", extrapolated");
 }
 
 }  // namespace
@@ -122,18 +125,13 @@ std::vector<Capacity> capacities(std::span<const ScaleRow> rows, const HostLimit
 
 std::string capacity_text(std::span<const Capacity> capacities, const HostLimits& limits) {
   if (capacities.empty()) return {};
-  const auto sentence = [&](std::string_view with, const Capacity& one) {
-    std::string out = fmt::format("{}: {}", with, carries(one));
-    if (!one.limit.empty()) out += fmt::format(";\n  {} limits first", one.limit);
-    return out + (std::isinf(one.peers) || one.within ? ".\n" : ", extrapolated.\n");
-  };
   return fmt::format(
              "What a LAN of {:g} Gbit/s carries, {:g} % of it and {:g} % of a core for each peer, "
              "{:.1f} us a datagram:\n",
              1e-9 * limits.link, 100 * limits.link_share, 100 * limits.core_share,
              1e6 * limits.datagram) +
-         sentence("- with all mechanisms", capacities.back()) +
-         sentence("- with dead reckoning alone", capacities[1]);
+         "- with all mechanisms: " + carries(capacities.back()) +
+         "- with dead reckoning alone: " + carries(capacities[1]);
 }
 
 std::string capacity_json(std::span<const Capacity> capacities) {

@@ -32,12 +32,15 @@ inline constexpr double kUpdateCost = 0.3e-6;
 /// CPU of receiving, of all peers of a row together [s].
 [[nodiscard]] double receive_cpu(const ScaleCounts& counts, const HostLimits& limits);
 
+/// Beyond so many times the largest exercise nothing is extrapolated.
+inline constexpr double kFarthest = 30;
+
 /// How far a mechanism goes.
 struct Capacity {
   std::size_t mechanism = 0;
-  double peers = 0;        ///< most; infinite where nothing grows
+  double peers = 0;        ///< most; where no limit is near, kFarthest times the sweep's
   double entities = 0;     ///< at as many a peer as in the sweep
-  std::string_view limit;  ///< what is reached first, in words
+  std::string_view limit;  ///< what is reached first, in words; empty: no limit is near
   bool within = false;     ///< the limit is within the sweep, else beyond its last exercise
 };
 

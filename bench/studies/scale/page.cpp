@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <span>
@@ -51,10 +52,19 @@ std::string picture(const ScaleReport& report, const Picture& drawn) {
     sizes.insert(row.counts.entities);
     peers.insert(row.counts.peers);
   }
-  const bool over_entities = sizes.size() > 1;
+  // In the usual sweep both grow together: one line.
+  const bool together = std::ranges::all_of(report.rows, [&](const ScaleRow& row) {
+    return std::abs(static_cast<double>(row.counts.entities) *
+                        static_cast<double>(report.rows.front().counts.peers) -
+                    static_cast<double>(report.rows.front().counts.entities) *
+                        static_cast<double>(row.counts.peers)) < 0.5;
+  });
+  const bool over_entities = sizes.size() > 1 && !together;
   LogPlot plot;
   plot.title = drawn.title;
-  plot.x = over_entities ? "entities in the world" : "peers";
+  plot.x = over_entities ? "entities in the world"
+           : together    ? "peers, with as many entities each"
+                         : "peers";
   plot.y = drawn.axis;
   if (over_entities && peers.size() > 1) {
     for (std::size_t piece = 0; const std::size_t count : peers)

@@ -185,7 +185,7 @@ TEST(ScaleCapacity, IsTheLinkWhereThatIsFullFirst) {
   EXPECT_EQ(found.back().limit, "the link of a host");
 }
 
-TEST(ScaleCapacity, HasNoBoundWhereNothingGrowsAndIsNotGuessedFromOneSize) {
+TEST(ScaleCapacity, IsNotGuessedFarBeyondTheSweepNorFromOneSize) {
   const HostLimits limits{1e9, 0.5, 0.5, 1e-6};
   std::vector<ScaleRow> rows = exercise_of(10, 0);
   EXPECT_TRUE(capacities(rows, limits).empty());
@@ -193,9 +193,9 @@ TEST(ScaleCapacity, HasNoBoundWhereNothingGrowsAndIsNotGuessedFromOneSize) {
   for (const ScaleRow& row : exercise_of(20, 0)) rows.push_back(row);
   for (ScaleRow& row : rows) row.counts.send_cpu *= static_cast<double>(row.counts.peers);
   const auto found = capacities(rows, limits);
-  EXPECT_TRUE(std::isinf(found.back().peers));
-  EXPECT_THAT(capacity_json(found), HasSubstr("\"peers\":null"));
-  EXPECT_THAT(capacity_text(found, limits), HasSubstr("as many peers as DIS can number"));
+  EXPECT_DOUBLE_EQ(found.back().peers, 20 * kFarthest);
+  EXPECT_EQ(found.back().limit, "");
+  EXPECT_THAT(capacity_text(found, limits), HasSubstr("600 peers with 60,000 entities at least"));
   for (ScaleRow& row : rows) row.counts.entities += row.counts.peers == 20 ? 500 : 0;
   EXPECT_TRUE(capacities(rows, limits).empty()) << "other peers have other numbers of entities";
 }
