@@ -203,16 +203,16 @@ TEST(ScaleCapacity, IsNotGuessedFarBeyondTheSweepNorFromOneSize) {
 TEST(ScaleSummary, FitsInto80ColumnsAndSaysWhatEachMechanismBought) {
   std::vector<ScaleRow> rows = exercise_of(10, 1);
   for (const ScaleRow& row : exercise_of(60'000, 1)) rows.push_back(row);
-  rows.back().counts.heard_datagrams /= 3;
+  rows.back().counts.heard_datagrams /= 2;
   rows.back().counts.pose.p99 = 123.456;
   const std::string text = scale_summary(rows);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
   EXPECT_THAT(text, HasSubstr("60000 peers with 6000000 entities"));
-  EXPECT_THAT(text, HasSubstr("+ compression: heard 3 x less"));
+  EXPECT_THAT(text, HasSubstr("+ compression: heard 2 x less"));
   EXPECT_THAT(text, HasSubstr("pose 123 m"));
   EXPECT_THAT(text, HasSubstr("All mechanisms together"));
-  EXPECT_THAT(text, HasSubstr("From 6000000 entities on each peer hears 2e+03 times as much.\n"));
+  EXPECT_THAT(text, HasSubstr("From 6000000 entities on each peer hears 3e+03 times as much.\n"));
   for (ScaleRow& row : rows) row.counts.groups = row.setting.grid.pool;
   EXPECT_THAT(scale_summary(rows), HasSubstr("cells share the groups"));
 }
