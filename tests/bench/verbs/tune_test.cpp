@@ -30,9 +30,11 @@ class Tune : public testing::Test {
     file << "t_s,id,x_m,y_m,vx_mps,vy_mps\n";
     // A sample a second: however small the threshold, the way of a second stays unseen, which
     // makes the knee.
-    for (int t = 0; t < 600; ++t)
-      file << t << ",a," << 20 * std::cos(t / 6.0) << ',' << 20 * std::sin(t / 4.0) << ','
-           << -20.0 / 6 * std::sin(t / 6.0) << ',' << 5 * std::cos(t / 4.0) << '\n';
+    for (int t = 0; t < 600; ++t) {
+      const double slow = t / 5.0, quick = t / 3.0;
+      file << t << ",a," << 30 * std::cos(slow) + 6 * std::sin(quick) << ',' << 20 * std::sin(slow)
+           << ',' << -6 * std::sin(slow) + 2 * std::cos(quick) << ',' << 4 * std::cos(slow) << '\n';
+    }
   }
   [[nodiscard]] ProgramResult run(std::vector<std::string> words) const {
     words.insert(words.begin(), {"tune", path_});
