@@ -66,9 +66,9 @@ constexpr Switch kSwitches[]{
      5.0},
     {"network", "compression = \"compact\""},
     {"network", "compression = \"residual\""},
-    {"network", "[network.bundle]\nhold = \"50 ms\""},
+    {"network", "[network.bundle]\nhold = \"50 ms\"", 1.3},  // it comes later by that
     {"network", "[network.bundle]\nmax = \"512 B\""},
-    {"network", "[network.bundle]\nupdates = 2\nhold = \"20 ms\""},
+    {"network", "[network.bundle]\nupdates = 2\nhold = \"20 ms\"", 1.3},
     {"network", "allow_management = \"anyone\""},
     {"dead_reckoning", "algorithm = \"static\""},
     {"dead_reckoning", "algorithm = \"fpw\""},
@@ -171,6 +171,7 @@ class Yard {
     stands.position = place;
     federates_.join(scene_).register_object(description(), stands);
   }
+  [[nodiscard]] double speed() const { return pace_; }  ///< of the fastest [m/s]
   void drive() { begins_ = federates_.now(); }
   void halt() { begins_.reset(); }
 
@@ -268,8 +269,9 @@ void try_pair(const Switch& a, const Switch& b, const peer::SceneFile& scene, st
   yard.drive();
   yard.run(20s);
   EXPECT_EQ(yard.take_fewest(), 4u) << "in motion";
-  // The threshold, the way until a change of motion arrives, and converging.
-  EXPECT_LE(yard.take_worst(), a.coarser * b.coarser * (kThreshold + 0.25)) << "in motion";
+  // The threshold, and the way until a change of motion has arrived and is shown.
+  const double unseen = 0.05 + 0.1 * yard.speed();
+  EXPECT_LE(yard.take_worst(), a.coarser * b.coarser * (kThreshold + unseen)) << "in motion";
   yard.halt();
   yard.run(20s);
   const std::uint64_t stopped = yard.updates();
@@ -300,7 +302,7 @@ TEST(KeyPairs, RestSilentlyMoveRightlyAndShowAllToNewcomers) {
   std::size_t runs = std::getenv("RECKON_SOAK") != nullptr ? pairs.size() : 24;
   if (seeds != nullptr) runs = std::stoul(seeds);
   std::size_t excluded = 0;
-  for (std::size_t run = 0; run < runs && !testing::Test::HasFailure(); ++run) {
+  for (std::size_t run = 0; run < runs; ++run) {
     const auto& [i, j] = pairs[run % pairs.size()];
     const auto scene = scene_of_two(kSwitches[i], kSwitches[j]);
     if (!scene) {
