@@ -80,7 +80,7 @@ constexpr Switch kSwitches[]{
     {"dead_reckoning", "rule = \"seen_from\"\nviewer_distance = \"100 m\""},
     {"convergence", "curve = \"snap\""},
     {"convergence", "curve = \"quintic\""},
-    {"convergence", "prediction = \"adaptive\"", 2.0},  // the owner's threshold bounds no other
+    {"convergence", "prediction = \"adaptive\"", 2.5},  // the owner's threshold bounds no other
 };
 
 bool has(std::string_view text, std::string_view part) {
