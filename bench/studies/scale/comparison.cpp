@@ -45,8 +45,13 @@ double number(std::string_view line, std::string_view key, std::string_view wher
   return value;
 }
 
-double notable(std::string_view measure) {
-  return measure.find("cpu") == measure.npos ? kNotable : kNotableCpu;
+bool is_cpu(std::string_view measure) { return measure.find("cpu") != measure.npos; }
+
+double notable(std::string_view measure) { return is_cpu(measure) ? kNotableCpu : kNotable; }
+
+/// What the kernel of this host takes is measured anew at each start, and is no change of ours.
+bool is_of_host(std::string_view measure) {
+  return measure == "receive_cpu_share" || measure == "cpu_share";
 }
 
 bool is_of(const BaseRow& base, const ScaleRow& row) {
@@ -59,17 +64,20 @@ bool has_base(const ScaleRow& row, std::span<const BaseRow> base) {
 }
 
 /// The value of the base that is nearest to `now`: `now` itself between two of them; none where the
-/// base lacks the row.
+/// base lacks the row, or the runs to judge it by.
 std::optional<double> nearest_of_base(const ScaleRow& row, std::string_view measure, double now,
                                       std::span<const BaseRow> base) {
   std::optional<double> least, most;
+  std::size_t runs = 0;
   for (const BaseRow& other : base) {
     if (!is_of(other, row)) continue;
+    ++runs;
     const double value = other.values.find(measure)->second;
     least = std::min(least.value_or(value), value);
     most = std::max(most.value_or(value), value);
   }
-  if (!least) return std::nullopt;
+  // Of one run nobody knows how much its CPU time varies.
+  if (!least || (is_cpu(measure) && runs < 2)) return std::nullopt;
   return std::clamp(now, *least, *most);
 }
 
@@ -107,6 +115,7 @@ std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows, std::span<co
   std::vector<ScaleChange> changes;
   for (const ScaleRow& row : rows) {
     for (const ScaleMeasure& measure : scale_measures()) {
+      if (is_of_host(measure.name)) continue;
       const double now = measure.of(row);
       const auto before = nearest_of_base(row, measure.name, now, base);
       if (!before) continue;

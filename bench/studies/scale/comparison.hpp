@@ -34,7 +34,9 @@ struct ScaleChange {
 };
 
 /// Numbers that are outside what the base has, which may hold several runs of an exercise, by more
-/// than 2 %, CPU by more than 10 %; the largest change first. `before` is the nearest of the base.
+/// than 2 %; the largest change first. CPU of the library's code counts where the base has two runs
+/// or more, and differs by more than 10 %; that of the kernel does not count. `before` is the
+/// nearest of the base.
 [[nodiscard]] std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows,
                                                   std::span<const BaseRow> base);
 

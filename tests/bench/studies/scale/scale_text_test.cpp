@@ -115,6 +115,20 @@ TEST(ScaleText, TakesWhatRepeatedRunsOfTheBaseHaveForNoise) {
   EXPECT_DOUBLE_EQ(changes.front().ratio(), 1.25);
 }
 
+TEST(ScaleText, JudgesCpuOnlyByRepeatedRunsAndNeverTheKernelsPart) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("base.json");
+  std::ofstream(file) << scale_json(std::vector{row_of(1, 60)});
+  ScaleRow slow = row_of(1, 60);
+  slow.counts.send_cpu *= 3;
+  slow.counts.receive_cpu = 1;
+  EXPECT_TRUE(changes_of(std::vector{slow}, read_scale_rows(file)).empty());
+  std::ofstream(file, std::ios::app) << scale_json(std::vector{row_of(1, 60)});
+  const auto changes = changes_of(std::vector{slow}, read_scale_rows(file));
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes.front().measure, "send_cpu_share");
+}
+
 TEST(ScaleText, RefusesABaseOfOtherExercises) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("base.json");
