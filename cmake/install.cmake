@@ -10,28 +10,28 @@ foreach(component ${RECKON_COMPONENTS})
   get_target_property(doors reckon_${component} RECKON_PUBLIC_HEADERS)
   list(APPEND public_headers ${doors})
   install(TARGETS reckon_${component} EXPORT reckon-${component}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT reckon-${component} NAMESPACE reckon:: DESTINATION ${package})
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(EXPORT reckon-${component} NAMESPACE reckon:: DESTINATION ${package} COMPONENT dev)
 endforeach()
 
 install(CODE "set(headers \"${public_headers}\")
 set(from \"${reckon_include}\")
-set(to \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
-install(SCRIPT cmake/install_headers.cmake)
+set(to \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")" COMPONENT dev)
+install(SCRIPT cmake/install_headers.cmake COMPONENT dev)
 
 configure_package_config_file(cmake/reckonConfig.cmake.in ${PROJECT_BINARY_DIR}/reckonConfig.cmake
   INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/reckonConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES cmake/dependencies.cmake ${PROJECT_BINARY_DIR}/reckonConfig.cmake
-  ${PROJECT_BINARY_DIR}/reckonConfigVersion.cmake DESTINATION ${package})
+  ${PROJECT_BINARY_DIR}/reckonConfigVersion.cmake DESTINATION ${package} COMPONENT dev)
 
 # The .pc files find their prefix from where they lie, so that a staged tree can be used or moved.
 file(RELATIVE_PATH pc_up /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
 # reckon_pkg_config(NAME PART REQUIRES LIBS CFLAGS)
 function(reckon_pkg_config pc_name pc_part pc_requires pc_libs pc_cflags)
   configure_file(cmake/component.pc.in ${PROJECT_BINARY_DIR}/${pc_name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/${pc_name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(FILES ${PROJECT_BINARY_DIR}/${pc_name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endfunction()
 set(deadreckon_requires eigen3)
 set(haptics_requires openmesh)
@@ -48,15 +48,19 @@ foreach(component ${RECKON_COMPONENTS})
 endforeach()
 reckon_pkg_config(reckon "" reckon-peer "" "")
 
-install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/scenes)
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
-install(FILES tools/wireshark/reckon.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/wireshark)
+install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/scenes COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # Debian has it
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc OPTIONAL)
+install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.xml")
+install(FILES tools/wireshark/reckon.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/wireshark COMPONENT program)
 if(RECKON_BUILD_TOOLS AND NOT CMAKE_CROSSCOMPILING)
-  install(FILES ${PROJECT_BINARY_DIR}/reckon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${PROJECT_BINARY_DIR}/reckon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT man)  # compressed for Debian
   install(FILES ${PROJECT_BINARY_DIR}/reckon.bash RENAME reckon
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
   install(FILES ${PROJECT_BINARY_DIR}/reckon.zsh RENAME _reckon
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-  install(FILES ${PROJECT_BINARY_DIR}/reckon.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+  install(FILES ${PROJECT_BINARY_DIR}/reckon.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    COMPONENT program)
 endif()
-install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

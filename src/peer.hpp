@@ -120,6 +120,9 @@ class Peer {
   /// thread.
   [[nodiscard]] bool is_reading_held_up() const noexcept { return read_.is_full(); }
 
+  /// Whether the last read_step() took a datagram whose delay can be felt; read thread.
+  [[nodiscard]] bool has_taken_felt() const noexcept { return read_.has_taken_felt(); }
+
   /// Whether what arrives may be felt, so that its delay counts: a body is within reach of a hand
   /// or a moving body of this peer; model thread.
   [[nodiscard]] bool has_near() const noexcept { return model_.has_near(); }

@@ -64,6 +64,9 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
       clock_(clock),
       options_(options),
       duty_(peer.servo_period()),
+      read_times_(peer.servo_period()),
+      model_times_(peer.servo_period()),
+      write_times_(peer.servo_period()),
       memory_locked_(options.lock_memory && lock_memory()),
       felt_(peer.has_devices()),
       servo_(options.servo) {
@@ -144,13 +147,23 @@ void PeerThreads::run_read(Priority& priority) noexcept {
       room_.wait(nanoseconds::max());
       continue;
     }
-    if (peer_.read_step(clock_.now()) > 0) news_.notify();
+    const nanoseconds begun = clock_.now();
+    const bool any = peer_.read_step(begun) > 0;
+    if (any) announce_arrivals();
+    read_times_.record(begun, clock_.now());
     if (peer_.is_reading_held_up()) {
       room_.wait(nanoseconds::max());
     } else {
       peer_.link().wait(kRetry);
     }
   }
+}
+
+// What cannot be felt waits for the servo's next step where each is news; the model loop waits no
+// longer than kPace for that.
+void PeerThreads::announce_arrivals() noexcept {
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (peer_.has_taken_felt() || !paced_.load(std::memory_order_relaxed)) news_.notify();
 }
 
 void PeerThreads::run_model(Priority& priority) noexcept {
@@ -161,11 +174,13 @@ void PeerThreads::run_model(Priority& priority) noexcept {
     peer_.model_step(begun, clock_.utc_now());
     const nanoseconds ended = clock_.now(), took = ended - begun;
     send_out();
+    model_times_.record(begun, clock_.now());
     if (peer_.has_near() || peer_.has_inbound()) urgent_until_ = ended + kUrgent;
     choose_reader(ended);
     // The kernel's own thread, which delivers what arrives, is an ordinary one.
     if (priority && priority->held() && took > kLongPass)
       std::this_thread::sleep_for(std::min(took, kLongestRest));
+    std::atomic_thread_fence(std::memory_order_seq_cst);
     if (!peer_.has_inbound()) wait_for_work(begun, taken);
   }
 }
@@ -207,12 +222,14 @@ void PeerThreads::wait_for_work(nanoseconds begun, std::size_t taken) noexcept {
   const nanoseconds now = clock_.now();
   const nanoseconds until = std::max(peer_.next_step(), now + kLeastSleep);
   const nanoseconds together = std::min(std::max(begun + kTogether, now + kLeastSleep), until);
+  const bool paced = paced_.load(std::memory_order_relaxed);
+  const nanoseconds of_servo = paced ? std::min(until, now + kPace) : until;
   if (!reads_in_model_loop()) {
-    news_.wait(until - now);
+    note_pace(news_.wait(of_servo - now));
   } else if (taken > 1) {
     news_.wait(together - now);  // more will have come
-  } else if (paced_) {
-    note_pace(news_.wait(std::min(until, now + kPace) - now));
+  } else if (paced) {
+    note_pace(news_.wait(of_servo - now));
   } else {
     wait_at_link(std::min(until - now, kRetry), together);
   }
@@ -233,7 +250,7 @@ void PeerThreads::wait_at_link(nanoseconds timeout, nanoseconds together) noexce
 // The servo's steps pace the model loop as long as each is news.
 void PeerThreads::note_pace(bool news) noexcept {
   const nanoseconds now = clock_.now();
-  paced_ = news && now - last_news_ < kPace;
+  paced_.store(news && now - last_news_ < kPace, std::memory_order_relaxed);
   if (news) last_news_ = now;
 }
 
@@ -242,7 +259,9 @@ void PeerThreads::run_write(Priority& priority) noexcept {
     leave_time(priority);
     {
       const std::lock_guard own(sending_);
+      const nanoseconds begun = clock_.now();
       peer_.write_step();
+      write_times_.record(begun, clock_.now());
     }
     ready_.wait(nanoseconds::max());
   }

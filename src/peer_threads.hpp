@@ -43,7 +43,8 @@ struct PeerThreadsOptions {
 /// Peer::next_step() says. Waking a thread costs more than a datagram, so one thread does all where
 /// a delay is not felt: while no body is within reach of a hand and passes are short, the model
 /// loop itself reads and sends. It then takes what arrives within 1 ms together. Otherwise the
-/// reader waits at the link and wakes the model loop for each arrival, and the writer sends.
+/// reader waits at the link and wakes the model loop for each arrival that can be felt, and the
+/// writer sends; what else arrives waits for the next step of a servo that paces the model loop.
 class PeerThreads {
  public:
   /// @param peer, clock outlive the threads. @throws std::system_error with the remedy where a
@@ -62,6 +63,12 @@ class PeerThreads {
 
   /// Lateness, step time and missed periods of the servo, readable while it runs.
   [[nodiscard]] const DutyCycle& servo_duty() const noexcept { return duty_; }
+  /// What passes of the loops take, waiting for a processor included, readable while they run. One
+  /// that is longer than a period of the servo is an overrun. Passes of the model loop contain
+  /// reading and sending where it does both.
+  [[nodiscard]] const PassTimes& read_times() const noexcept { return read_times_; }
+  [[nodiscard]] const PassTimes& model_times() const noexcept { return model_times_; }
+  [[nodiscard]] const PassTimes& write_times() const noexcept { return write_times_; }
   /// The thread that serves the servo, also after stop(); null for a peer without a device.
   [[nodiscard]] const ServoThread* servo() const noexcept { return servo_; }
   /// Whether that thread got real-time priority.
@@ -79,6 +86,7 @@ class PeerThreads {
   void run_model(Priority& priority) noexcept;
   void run_write(Priority& priority) noexcept;
   void leave_time(Priority& priority) noexcept;
+  void announce_arrivals() noexcept;
   std::size_t read_in_model_loop(std::chrono::nanoseconds now) noexcept;
   void send_out() noexcept;
   void choose_reader(std::chrono::nanoseconds now) noexcept;
@@ -93,6 +101,7 @@ class PeerThreads {
   const Clock& clock_;
   PeerThreadsOptions options_;
   DutyCycle duty_;
+  PassTimes read_times_, model_times_, write_times_;
   bool memory_locked_;
   const bool felt_;  // the peer has a device, so these threads are urgent
   std::atomic<bool> stop_{false};
@@ -104,7 +113,7 @@ class PeerThreads {
   std::mutex sending_;                // of what is queued for the link
   // Of the model loop.
   std::chrono::nanoseconds urgent_until_{0}, next_look_{0}, last_news_{0};
-  bool paced_ = false;  // by the servo
+  std::atomic<bool> paced_{false};  // by the servo
   std::unique_ptr<ServoThread> own_servo_;
   ServoThread* servo_ = nullptr;
   std::optional<std::size_t> seat_;  // at servo_

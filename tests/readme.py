@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs each line of the README's blocks of commands as a reader pastes it: in a folder with nothing but scenes/, with the
-built program in the PATH. readme.py ROOT RECKON [--planted]
+"""Runs each line of the blocks of commands of the README and of docs/first_steps, once, as a reader pastes it: in a folder
+with nothing but scenes/, with the built program in the PATH. readme.py ROOT RECKON [--planted]
 
 What speaks to a network gets --iface lo, and what does not end by itself is interrupted. With --planted lines are added
 that a reader could not run, each of which is to be found."""
@@ -86,7 +86,10 @@ class Reader:
 
 def main():
     root, reckon = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    lines = list(lines_of((root / "README.md").read_text()))
+    pages = [root / "README.md", *sorted((root / "docs/first_steps").glob("*.md"))]
+    lines = []
+    for page in pages:
+        lines += [words for words in lines_of(page.read_text()) if words not in lines]
     planted = [shlex.split(line) for line in PLANTED] if "--planted" in sys.argv else []
     if len(lines) < 15:
         sys.exit(f"failed: only {len(lines)} lines are found")

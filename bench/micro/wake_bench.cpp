@@ -174,30 +174,47 @@ class BareReceiver {
   std::thread thread_;
 };
 
-/// A running peer of a plain DIS exercise that hears all, with a device far from everything or
-/// none.
-class HearingPeer {
+/// What the peers under test touch.
+enum class Near : std::uint8_t {
+  no_device,  ///< one peer, which feels nothing
+  nothing,    ///< one peer with a device far from everything
+  each_other  ///< two peers whose hands are in reach of each other
+};
+
+/// Running peers of a plain DIS exercise that hear all.
+class HearingPeers {
  public:
-  HearingPeer(const SceneFile& scene, bool device)
-      : hand_(Eigen::Vector3d(0, 0, 500)), joined_(options_of(scene, device ? &hand_ : nullptr)) {
-    joined_.run();
+  HearingPeers(const SceneFile& scene, Near near) {
+    for (std::size_t i = 0; i < (near == Near::each_other ? 2 : 1); ++i) {
+      hands_[i].emplace(Eigen::Vector3d(0.1 * static_cast<double>(i), 0, 500));
+      joined_[i].emplace(options_of(scene, i, near == Near::no_device ? nullptr : &*hands_[i]));
+      joined_[i]->run();
+      ++count_;
+    }
   }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  /// By all of them.
   [[nodiscard]] std::uint64_t received() const {
-    return joined_.peer().counters().find("datagrams_in")->value();
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < count_; ++i)
+      sum += joined_[i]->peer().counters().find("datagrams_in")->value();
+    return sum;
   }
 
  private:
-  static FederateOptions options_of(const SceneFile& scene, haptics::HapticDevice* device) {
+  static FederateOptions options_of(const SceneFile& scene, std::size_t index,
+                                    haptics::HapticDevice* device) {
     FederateOptions options;
-    options.name = "wake";
+    options.name = index == 0 ? "wake" : "other";
     options.scene = scene;
     options.interface = "lo";
     options.loops = FederateLoops::threads;
     if (device != nullptr) options.devices.push_back({.device = device, .marking = {}});
     return options;
   }
-  bench::SteppedHand hand_;
-  JoinedPeer joined_;
+  std::array<std::optional<bench::SteppedHand>, 2> hands_;
+  std::array<std::optional<JoinedPeer>, 2> joined_;
+  std::size_t count_ = 0;
 };
 
 struct Spent {
@@ -222,7 +239,7 @@ Spent spend(const Receiver& receiver, std::string_view threads, Traffic& traffic
   return spent;
 }
 
-void whole_peer(benchmark::State& state, bool device) try {
+void whole_peer(benchmark::State& state, Near near) try {
   static_cast<void>(Cable::instance());  // a namespace of our own
   const double rate = static_cast<double>(state.range(0));
   const SceneFile scene = parse_scene_file(kScene, "wake_bench");
@@ -236,19 +253,19 @@ void whole_peer(benchmark::State& state, bool device) try {
       const Spent spent = spend(receiver, "bare", traffic, rate);
       bare = spent.cpu_ns / static_cast<double>(std::max<std::size_t>(spent.received, 1));
     }
-    const HearingPeer peer(scene, device);
-    std::this_thread::sleep_for(milliseconds(200));
+    const HearingPeers peers(scene, near);
+    std::this_thread::sleep_for(milliseconds(near == Near::each_other ? 1500 : 200));
     traffic.send(5'000, kIntroduction);
-    const double idle = spend(peer, "rk-", traffic, 0).cpu_ns;
-    const Spent spent = spend(peer, "rk-", traffic, rate);
-    sent += spent.sent;
+    const double idle = spend(peers, "rk-", traffic, 0).cpu_ns;
+    const Spent spent = spend(peers, "rk-", traffic, rate);
+    sent += spent.sent * peers.count();
     received += spent.received;
     const double each =
         (spent.cpu_ns - idle) / static_cast<double>(std::max<std::size_t>(spent.received, 1));
     bare_us.add(1e-3 * bare);
     peer_us.add(1e-3 * each);
     over_bare.add(each / bare);
-    idle_percent.add(100 * idle /
+    idle_percent.add(100 * idle / static_cast<double>(peers.count()) /
                      std::chrono::duration<double, std::nano>(kTurn + milliseconds(20)).count());
   }
   bare_us.report(state, "bare_us");
@@ -260,8 +277,13 @@ void whole_peer(benchmark::State& state, bool device) try {
   state.SkipWithError(error.what());
 }
 
-BENCHMARK_CAPTURE(whole_peer, no_device, false)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
-BENCHMARK_CAPTURE(whole_peer, device, true)->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
+void at_each_rate(benchmark::internal::Benchmark* bench) {
+  bench->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
+}
+
+BENCHMARK_CAPTURE(whole_peer, no_device, Near::no_device)->Apply(at_each_rate);
+BENCHMARK_CAPTURE(whole_peer, device, Near::nothing)->Apply(at_each_rate);
+BENCHMARK_CAPTURE(whole_peer, touch, Near::each_other)->Apply(at_each_rate);
 
 }  // namespace
 }  // namespace reckon::peer

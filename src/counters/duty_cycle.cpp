@@ -74,4 +74,10 @@ std::uint64_t DutyCycle::overruns() const noexcept {
   return overruns_.load(std::memory_order_relaxed);
 }
 
+void PassTimes::record(std::chrono::nanoseconds started,
+                       std::chrono::nanoseconds finished) noexcept {
+  times_.add(finished - started);
+  if (finished - started > limit_) overruns_.fetch_add(1, std::memory_order_relaxed);
+}
+
 }  // namespace reckon::peer

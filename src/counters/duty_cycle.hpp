@@ -71,4 +71,25 @@ class DutyCycle {
   std::atomic<std::uint64_t> overruns_{0};
 };
 
+/// The passes of a loop that runs when there is work. As DutyCycle, by one thread and any.
+class PassTimes {
+ public:
+  /// @param limit a longer pass is an overrun
+  explicit PassTimes(std::chrono::nanoseconds limit) noexcept : limit_(limit) {}
+
+  /// Records a pass. Only by the loop's thread; some 5 ns.
+  void record(std::chrono::nanoseconds started, std::chrono::nanoseconds finished) noexcept;
+
+  [[nodiscard]] std::chrono::nanoseconds limit() const noexcept { return limit_; }
+  [[nodiscard]] std::uint64_t overruns() const noexcept {
+    return overruns_.load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] const DurationHistogram& times() const noexcept { return times_; }
+
+ private:
+  std::chrono::nanoseconds limit_;
+  DurationHistogram times_;
+  std::atomic<std::uint64_t> overruns_{0};
+};
+
 }  // namespace reckon::peer

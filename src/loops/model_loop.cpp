@@ -97,6 +97,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   touch_.consider(pass_);
   consider_others();
   touch_.publish_contacts(pass_);
+  touch_.publish_felt_sources();
   view_.publish_shown(remote_, now);
   emit(false);
   if (guest_ != nullptr) guest_->end_pass(*this);

@@ -34,6 +34,7 @@ struct ModelWiring {
   DatagramTap* tap = nullptr;      ///< receives the fate of each datagram; may be null
   DatagramRing* urgent = nullptr;  ///< datagrams of the urgent tier, taken first; may be null
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
+  haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< likewise
 };
 
 }  // namespace reckon::peer

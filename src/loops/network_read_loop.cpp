@@ -50,8 +50,10 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
   }
   retry_joins(now);
   if (known_.update()) budget_.know(known_.read());
+  static_cast<void>(felt_.update());
   budget_.look(now);
 
+  taken_felt_ = false;
   std::size_t taken = 0;
   for (;;) {
     const std::size_t wanted = std::min(batch_.size(), room());
@@ -117,9 +119,10 @@ bool NetworkReadLoop::take_datagram(const Datagram& datagram,
   }
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
   if (!is_wanted(datagram, came)) return false;
-  const bool fits = ring_of(datagram.group)
-                        .push(datagram.group, came, datagram.bytes, datagram.sender, datagram.boot);
+  DatagramRing& ring = ring_of(datagram.group);
+  const bool fits = ring.push(datagram.group, came, datagram.bytes, datagram.sender, datagram.boot);
   if (!fits) drop(DatagramFate::too_long, datagram, too_long_);
+  taken_felt_ = taken_felt_ || (fits && felt_.read().contains(datagram.sender));
   return fits;
 }
 

@@ -17,6 +17,7 @@
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/datagram_gate.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
+#include "reckon/peer/loops/felt_sources.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
 #include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/link.hpp"
@@ -59,11 +60,15 @@ class NetworkReadLoop {
   /// Whether the last step ended because the ring was full: then wait for the model loop, not for
   /// the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
+  /// Whether the last step took a datagram whose delay can be felt.
+  [[nodiscard]] bool has_taken_felt() const noexcept { return taken_felt_; }
   /// Senders that were muted or are received again, oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
   /// Source addresses of members, which the model loop publishes when they change; one writer
   /// thread.
   [[nodiscard]] haptics::TripleBuffer<KnownSources>& known() noexcept { return known_; }
+  /// Sources of what can be felt, likewise.
+  [[nodiscard]] haptics::TripleBuffer<FeltSources>& felt() noexcept { return felt_; }
 
  private:
   static constexpr std::size_t kBatch = 64;
@@ -84,10 +89,12 @@ class NetworkReadLoop {
   std::optional<UrgentRing> urgent_;
   haptics::SpscRing<MutedSender> muted_{64};
   haptics::TripleBuffer<KnownSources> known_;
+  haptics::TripleBuffer<FeltSources> felt_;
   SenderBudget budget_{muted_};
   bool pressed_ = false;  ///< less than half of the ring is free
   std::array<Datagram, kBatch> batch_{};
   bool full_ = false;
+  bool taken_felt_ = false;
   std::optional<GroupAddress> base_;
   std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
   std::chrono::nanoseconds next_retry_{0};

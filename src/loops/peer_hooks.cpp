@@ -63,7 +63,7 @@ struct HookRow {
 
 // THE list, in the order of the calls.
 // clang-format off
-constexpr HookRow kRows[]{
+constexpr HookRow kHookRows[]{
     {always, channels},
     {has_budget, budget},
     {always, known_sources},
@@ -79,7 +79,7 @@ void add(std::vector<Hook>& hooks, Hook& hook) {
 }  // namespace
 
 HookList::HookList(const ModelWiring& wiring) {
-  for (const HookRow& row : kRows) {
+  for (const HookRow& row : kHookRows) {
     if (!row.is_on(wiring.scene)) continue;
     PeerHooks hooks = row.make(wiring);
     add(look_, hooks.look);

@@ -50,7 +50,8 @@ TouchStage::TouchStage(const ModelWiring& wiring, std::uint32_t epoch, const Tou
       aoim_(parts.aoim),
       sender_(parts.sender),
       time_(parts.time),
-      counted_(parts.counted) {}
+      counted_(parts.counted),
+      felt_sources_(wiring.felt) {}
 
 void TouchStage::add_hand(EntityNumber number,
                           haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
@@ -202,6 +203,10 @@ void TouchStage::publish_contacts(const Pass& pass) noexcept {
     const OwnedEntity& hand = *owned_.find(hands_[i].hand());
     peer::publish_contacts(hands_[i], hand.id(), near_[i], hand.is_frozen(), sources);
   }
+}
+
+void TouchStage::publish_felt_sources() noexcept {
+  felt_sources_.publish(bodies_in_reach(), hands_near_.size() > 0, remote_);
 }
 
 void TouchStage::note_accounts(const Inbound& update, const Pass& pass) noexcept {

@@ -16,6 +16,7 @@
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
+#include "reckon/peer/loops/felt_sources.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/notice.hpp"
@@ -68,6 +69,8 @@ class TouchStage {
   void consider(const Pass& pass) noexcept;
   /// Publishes the bodies nearby to the servos.
   void publish_contacts(const Pass& pass) noexcept;
+  /// Publishes which sources send what hands can feel.
+  void publish_felt_sources() noexcept;
   /// Records what is published to the servo of this device, see Peer::trace_contacts().
   void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
     if (device < hands_.size()) hands_[device].trace_contacts(ring);
@@ -132,6 +135,7 @@ class TouchStage {
   EnergyBooks books_;
   std::uint16_t impacts_ = 0;
   double power_given_j_ = 0.0;
+  FeltSourcesPublisher felt_sources_;
 };
 
 }  // namespace reckon::peer

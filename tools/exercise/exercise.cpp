@@ -322,11 +322,8 @@ ServoReport Exercise::servo_report() const {
     const peer::PeerThreads* threads = member->joined->threads();
     if (threads == nullptr) continue;
     const peer::DutyCycle& duty = threads->servo_duty();
-    const peer::Percentiles late = peer::percentiles(duty.lateness());
-    report.lateness.p50 = std::max(report.lateness.p50, late.p50);
-    report.lateness.p99 = std::max(report.lateness.p99, late.p99);
-    report.lateness.p999 = std::max(report.lateness.p999, late.p999);
-    report.lateness.max = std::max(report.lateness.max, late.max);
+    report.lateness = worst(report.lateness, peer::percentiles(duty.lateness()));
+    report.loops.add(loops_of(*threads));
     report.steps += duty.steps();
     report.missed += duty.missed();
     report.thread = servo_text(*threads);

@@ -22,6 +22,7 @@
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/servo_thread.hpp"
+#include "reckon/tools/exercise/loop_report.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
 #include "reckon/tools/exercise/notice_digest.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -54,6 +55,7 @@ struct ServoReport {
   peer::Percentiles lateness;
   std::uint64_t steps = 0;
   std::uint64_t missed = 0;
+  LoopReports loops;   ///< the worst of each
   std::string thread;  ///< how the thread that serves them keeps time; empty in simulated time
 };
 

@@ -86,7 +86,8 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       out,
       R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
       R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
-      R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
+      R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"loops":{},)"
+      R"("pose_jump_m":{},"force_jump_n":{},)"
       R"("energy_min_j":{:.6g},"late_cost_j":{:.6g},"loan_j":{:.6g},"trips":{},"hands":{})",
       view.own.site, view.own.application, view.own.entity, seconds,
       seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", pdu::to_seconds(seen)), view.entities,
@@ -94,7 +95,7 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       static_cast<double>(counter(peer, "octets_out")) / seconds,
       static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
       spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
-      spread_json(peer.model().remote().pose_jumps().spread()),
+      loops_json(loops_of(run.threads)), spread_json(peer.model().remote().pose_jumps().spread()),
       spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
       ports_of(view).late_cost, ports_of(view).loan_most, ports_of(view).trips,
       hands_json(hands_of(view)));
@@ -136,6 +137,7 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
   spread_row(out, "force jump", peer.model().remote().force_jumps().spread(), 1.0, "N");
   spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
              fmt::format("us  ({} of {} steps missed)", duty.missed(), duty.steps()));
+  print_loops(out, loops_of(run.threads));
   fmt::print(out, "  servo thread               {}\n", servo_text(run.threads));
   fmt::print(out, "  energy                     never below {:.1e} J\n", ports_of(view).energy_min);
   if (ports_of(view).loan_most > 0)

@@ -167,7 +167,7 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       out,
       R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
       R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
-      R"("missed_steps":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
+      R"("missed_steps":{},"loops":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
       R"("energy_min_j":{:.6g},"late_cost_j":{:.6g},"loan_j":{:.6g},)"
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
       R"("entity_contact_s":{:.6g},)"
@@ -177,9 +177,9 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
       cost.octets, cost.raw_packets, cost.raw_octets,
       spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
-      exercise.unmeasured_steps(), errors_json(cost.pose), errors_json(cost.force),
-      errors_json(cost.possible_force), cost.energy_min, cost.late_cost, measured.loan_most(),
-      cost.seconds, measured.touching_hands(), measured.touching_scene(),
+      loops_json(cost.servo.loops), exercise.unmeasured_steps(), errors_json(cost.pose),
+      errors_json(cost.force), errors_json(cost.possible_force), cost.energy_min, cost.late_cost,
+      measured.loan_most(), cost.seconds, measured.touching_hands(), measured.touching_scene(),
       measured.touching_entities(), measured.peak_force(), measured.trips(),
       exercise.total("datagrams_lost"), exercise.total("send_checks"),
       exercise.total("updates_out"), exercise.total("own_octets"), hands_json(hands_of(exercise)),
@@ -208,6 +208,7 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
   if (cost.servo.steps > 0) {
     spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
                fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
+    print_loops(out, cost.servo.loops);
     fmt::print(out, "  servo thread               {}\n", cost.servo.thread);
   }
   if (exercise.unmeasured_steps() > 0)

@@ -101,5 +101,15 @@ TEST(DutyCycle, RecordsWithoutAllocating) {
   EXPECT_EQ(cycle.steps(), 1000u);
 }
 
+TEST(PassTimes, CountsPassesThatTakeLongerThanTheLimit) {
+  PassTimes passes(1ms);
+  passes.record(5ms, 5ms + 20us);
+  passes.record(7ms, 8ms);         // just as long as it may
+  passes.record(9ms, 11ms + 4us);  // longer
+  EXPECT_EQ(passes.times().count(), 3u);
+  EXPECT_EQ(passes.overruns(), 1u);
+  EXPECT_EQ(passes.times().max(), 2004us);
+}
+
 }  // namespace
 }  // namespace reckon::peer

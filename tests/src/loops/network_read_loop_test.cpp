@@ -245,5 +245,23 @@ TEST(NetworkReadLoop, KeepsWhatIsFeltInARingOfItsOwn) {
   EXPECT_GT(link.waiting(), 0u);
 }
 
+TEST_F(ReadLoop, SaysWhichArrivalsCanBeFelt) {
+  const auto put = [&](const IpEndpoint& from) {
+    link_.put(kPool.address(0), numbered(0), from);
+    return loop_.step(nanoseconds(1)) > 0 && loop_.has_taken_felt();
+  };
+  const IpEndpoint near = IpEndpoint::v4(0x0a000001, 3000), far = IpEndpoint::v4(0x0a000001, 3001);
+  EXPECT_TRUE(put(far)) << "before the model loop has looked all may be felt";
+  FeltSources felt;
+  felt.all = false;
+  felt.sources[felt.count++] = near;
+  loop_.felt().write(felt);
+  EXPECT_FALSE(put(far));
+  EXPECT_TRUE(put(near));
+  EXPECT_TRUE(put({})) << "a link without sender addresses";
+  EXPECT_EQ(loop_.step(nanoseconds(2)), 0u);
+  EXPECT_FALSE(loop_.has_taken_felt()) << "nothing has come";
+}
+
 }  // namespace
 }  // namespace reckon::peer

@@ -20,10 +20,11 @@ namespace reckon::test {
 /// For any threads. wait() heeds no timeout but zero: what is to be noticed has to wake it.
 class ManualLink final : public peer::Link {
  public:
-  /// Something arrives.
-  void put(const peer::GroupAddress& group, std::vector<std::byte> octets) {
+  /// Something arrives, without a sender's address where none is given.
+  void put(const peer::GroupAddress& group, std::vector<std::byte> octets,
+           const peer::IpEndpoint& sender = {}) {
     const std::lock_guard lock(mutex_);
-    waiting_.emplace_back(group, std::move(octets));
+    waiting_.push_back({group, std::move(octets), sender});
     changed_.notify_all();
   }
   [[nodiscard]] std::size_t waiting() const {
@@ -81,9 +82,10 @@ class ManualLink final : public peer::Link {
     for (std::size_t i = 0; i < count; ++i) {
       taken_.push_back(std::move(waiting_.front()));
       waiting_.pop_front();
-      out[i] = {taken_.back().first, {}, {}, std::chrono::nanoseconds::max()};  // just now
+      const Waiting& taken = taken_.back();
+      out[i] = {taken.group, taken.sender, {}, std::chrono::nanoseconds::max()};  // just now
     }
-    for (std::size_t i = 0; i < count; ++i) out[i].bytes = taken_[i].second;
+    for (std::size_t i = 0; i < count; ++i) out[i].bytes = taken_[i].octets;
     changed_.notify_all();
     return count;
   }
@@ -118,7 +120,11 @@ class ManualLink final : public peer::Link {
   [[nodiscard]] peer::LinkStatistics statistics() const noexcept override { return {}; }
 
  private:
-  using Waiting = std::pair<peer::GroupAddress, std::vector<std::byte>>;
+  struct Waiting {
+    peer::GroupAddress group;
+    std::vector<std::byte> octets;
+    peer::IpEndpoint sender;
+  };
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   std::deque<Waiting> waiting_;

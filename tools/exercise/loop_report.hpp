@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What passes of the read, model and write loops take, for the reports of verbs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "reckon/peer/counters/duty_cycle.hpp"
+#include "reckon/peer/peer_threads.hpp"
+
+namespace reckon::tools {
+
+/// Passes of one loop.
+struct LoopReport {
+  peer::Percentiles took;
+  std::uint64_t passes = 0;
+  std::uint64_t overruns = 0;  ///< longer than a period of the servo
+};
+
+/// The three loops of a peer, or of several.
+struct LoopReports {
+  static constexpr std::array<std::string_view, 3> kNames{"read", "model", "write"};
+  std::array<LoopReport, kNames.size()> all{};  ///< as kNames
+
+  /// Takes the worst times of both, and sums.
+  void add(const LoopReports& other);
+};
+[[nodiscard]] LoopReports loops_of(const peer::PeerThreads& threads);
+
+/// The larger of each.
+[[nodiscard]] peer::Percentiles worst(const peer::Percentiles& a, const peer::Percentiles& b);
+
+/// Rows below spread_heading(), without loops that have not run.
+void print_loops(std::FILE* out, const LoopReports& loops);
+/// {"read":{"passes":..,"us":{..},"overruns":..},"model":{..},"write":{..}}
+[[nodiscard]] std::string loops_json(const LoopReports& loops);
+
+}  // namespace reckon::tools
