@@ -150,6 +150,9 @@ void declare_scale_flags(tools::CommandLine& line, ScaleWords& words) {
   line.option("--whole", words.whole,
               "scale: all peers whole too, beside the model: simulated, or as processes on lo, on "
               "a lan of network namespaces (root), or on several hosts");
+  line.option("--drawn", words.drawn,
+              "scale: so many exercises drawn by --seed instead: whole simulated peers beside the "
+              "model, and status 1 where they differ by more than their bars");
   line.option("--hosts", words.hosts,
               "scale: where --whole hosts starts them over ssh, as in a,b=eth1: HOST or "
               "HOST=INTERFACE");
@@ -162,9 +165,10 @@ void declare_scale_flags(tools::CommandLine& line, ScaleWords& words) {
   line.option("--port", words.port, "scale: UDP port of --share");
   line.flag("--hands", words.hands,
             "scale: hands in contact too: what they send, against a stream of each servo step");
-  line.flag("--many-hands", words.many_hands,
-            "scale: 64 peers with a hand each, 4 of them touching: what all send over a whole run "
-            "with and without dead reckoning of the force");
+  line.flag(
+      "--many-hands", words.many_hands,
+      "scale: as many peers as --peers (64 at most) with a hand each, 4 of them touching: what "
+      "all send over a whole run with and without dead reckoning of the force");
   line.flag("--wide", words.wide, "scale: tables with all columns, one for each exercise");
   line.option("--compare", words.compare,
               "scale: what has changed against this file, which --json wrote");

@@ -58,4 +58,15 @@ double Audiences::next(std::size_t audience) const noexcept {
   return next;
 }
 
+bool is_shown_moving(const deadreckon::UpdatePolicy& inmost, const Audiences* audiences,
+                     std::size_t audience, double now) noexcept {
+  constexpr double kSoon = 0.1;  // [s]
+  const auto predicted = [&](double time) {
+    return audience == 0 || audiences == nullptr ? inmost.predicted(time)
+                                                 : audiences->predicted(audience, time);
+  };
+  const deadreckon::Pose here = predicted(now), soon = predicted(now + kSoon);
+  return soon.position != here.position || soon.orientation.coeffs() != here.orientation.coeffs();
+}
+
 }  // namespace reckon::peer

@@ -114,4 +114,11 @@ class Audiences {
   std::chrono::nanoseconds look_again_ = std::chrono::nanoseconds::min();
 };
 
+/// Whether the receivers of a tier predict any motion from `now` [s] on: what has stopped is at
+/// rest for them only when they know. @param inmost the policy of the entity  @param audiences null
+/// where all are one tier
+[[nodiscard]] bool is_shown_moving(const deadreckon::UpdatePolicy& inmost,
+                                   const Audiences* audiences, std::size_t audience,
+                                   double now) noexcept;
+
 }  // namespace reckon::peer

@@ -182,14 +182,7 @@ bool OwnedEntity::is_resting() const noexcept {
 }
 
 bool OwnedEntity::is_shown_moving(std::size_t audience, nanoseconds now) const noexcept {
-  constexpr double kSoon = 0.1;  // [s]
-  const auto predicted = [&](double time) {
-    return audience == 0 || !audiences_ ? policy_.predicted(time)
-                                        : audiences_->predicted(audience, time);
-  };
-  const double time = pdu::to_seconds(now);
-  const deadreckon::Pose here = predicted(time), soon = predicted(time + kSoon);
-  return soon.position != here.position || soon.orientation.coeffs() != here.orientation.coeffs();
+  return peer::is_shown_moving(policy_, audiences(), audience, pdu::to_seconds(now));
 }
 
 EntityTruth OwnedEntity::truth_at(nanoseconds now) const noexcept {

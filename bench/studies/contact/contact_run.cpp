@@ -74,7 +74,7 @@ double stiffest_hand(const peer::SceneFile& scene) {
 
 ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
                        const std::vector<haptics::HandScript>& scripts, double seconds,
-                       std::size_t recorded) {
+                       std::size_t recorded, const std::function<bool(double)>& go_on) {
   tools::ExerciseOptions options;
   options.peers = peers;
   options.simulated_time = true;
@@ -89,7 +89,13 @@ ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
   exercise.on_step([&](std::size_t peer, std::size_t device, const auto& step) {
     if (device == 0) recorder.add(peer, step);
   });
-  exercise.run(pdu::from_seconds(seconds));
+  // In slices that end where a whole run collects, so that it is the same run.
+  constexpr std::chrono::milliseconds kSlice(100);
+  const std::chrono::nanoseconds end = pdu::from_seconds(seconds);
+  for (std::chrono::nanoseconds done{0}; done < end; done += kSlice) {
+    if (go_on && !go_on(std::chrono::duration<double>(done) / end)) break;
+    exercise.run(std::min<std::chrono::nanoseconds>(kSlice, end - done));
+  }
   recorder.finish();
   const auto rate = [&](std::string_view counter) {
     return static_cast<double>(exercise.total(counter)) / seconds;

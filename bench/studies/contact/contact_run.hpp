@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
@@ -45,10 +46,12 @@ struct ContactRun {
 /// Runs `peers` of the scene for so long [s]. @param scripts move the hands in the place of the
 /// scene's operators; none: those do. The same every time but for servo_step_ns. 50 ms or so for
 /// a second of two peers. @param recorded so many of the first hands are in the record; 0: all.
+/// @param go_on asked ten times a simulated second; false ends the run, of which nothing is good.
 /// @throws what Exercise throws.
 [[nodiscard]] ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
                                      const std::vector<haptics::HandScript>& scripts,
-                                     double seconds, std::size_t recorded = 0);
+                                     double seconds, std::size_t recorded = 0,
+                                     const std::function<bool(double share)>& go_on = {});
 
 /// The devices of these peers under the same hands, where each feels the springs [N/m] of all
 /// others where they are at that instant: no network, no prediction, no port.

@@ -13,6 +13,7 @@
 
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
+#include "reckon/aoim/presence/heard_list_sender.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
@@ -42,8 +43,9 @@ struct LightPeer {
   LightPeer(const ScaleSetting& setting, const ScaleDesign& design, const OwnedRange& range,
             const aoim::CellPartition& cells, std::uint32_t peer, std::size_t near_rows);
 
-  /// Announces itself, with as many whom it hears as a peer would list.
-  void announce(const ScaleSetting& setting, std::chrono::nanoseconds now);
+  /// Announces itself where that is due, and says whom it hears when a peer would, with as many as
+  /// it would list: with an announcement, or as a sign of life between two.
+  void announce(const ScaleSetting& setting, bool is_due, std::chrono::nanoseconds now);
   /// Says that it has joined so many cells.
   void tell_membership(pdu::MembershipAction action, std::size_t cells,
                        std::chrono::nanoseconds now);
@@ -52,12 +54,19 @@ struct LightPeer {
   aoim::Aggregator aggregator;
   std::optional<aoim::Subscription> subscription;
   std::vector<aoim::Subscription> nears;  ///< of the near rows
+  std::chrono::nanoseconds said{};        ///< when its last datagram left
 
  private:
   template <typename Pdu>
   void add_control(const Pdu& pdu, std::chrono::nanoseconds now);
 
+  /// With a Time Exchange, as peers do.
+  void add_presence(const ScaleSetting& setting, std::chrono::nanoseconds now);
+  void add_list(const ScaleSetting& setting, std::chrono::nanoseconds now);
+
   pdu::SimulationAddress simulation_;
+  aoim::HeardListSender lists_;
+  std::optional<std::chrono::nanoseconds> announced_;
   std::uint32_t quorum_;  // of a bundle
 };
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/world/audiences.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -23,7 +24,8 @@ void LightRows::set_tiers(LightEntity& entity, const deadreckon::KinematicState&
   const std::size_t all = entity.audiences->last();
   do entity.audiences->note_sent(all, state, told, reason, true);
   while (reason == SendReason::heartbeat &&
-         entity.audiences->next(all) - told < 0.99 * entity.policy.heartbeat());
+         entity.audiences->next(all) - told <
+             0.99 * entity.policy.heartbeat() - entity.policy.step());
 }
 
 // The near row of which somebody asks for the entity; near_rows() where nobody does.
@@ -75,7 +77,9 @@ LightRows::Due LightRows::choose(const LightEntity& entity, const deadreckon::Po
     if (reason == SendReason::none || row < audiences.served()) continue;
     const bool by_distance = reason == SendReason::position || reason == SendReason::orientation;
     const aoim::Channel& channel = channels_.audiences()[row];
-    const double rate = moves ? channel.active_hz : channel.passive_hz;
+    const bool rests =
+        !moves && !peer::is_shown_moving(entity.policy, entity.audiences.get(), row, time);
+    const double rate = rests ? channel.passive_hz : channel.active_hz;
     if (by_distance && time - told(row) < 1 / rate) continue;
     const bool is_outmost = due.reason == SendReason::none;
     if (is_outmost) due.row = row;

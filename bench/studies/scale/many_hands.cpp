@@ -30,8 +30,9 @@ Eigen::Vector3d place_of_hand(std::size_t place) {
 }
 
 /// Two and two make the visit of contact_scenes(); the others go to and fro by 5 cm in 2 to 5 s.
-haptics::HandTarget target_of(std::size_t hand, double time, const ContactScene& visit) {
-  if (hand < kManyTouching) {
+haptics::HandTarget target_of(std::size_t hand, std::size_t touching, double time,
+                              const ContactScene& visit) {
+  if (hand < touching) {
     haptics::HandTarget target = visit.path(hand % 2, time);
     target.position += place_of_hand(hand / 2);
     return target;
@@ -45,21 +46,28 @@ haptics::HandTarget target_of(std::size_t hand, double time, const ContactScene&
   return target;
 }
 
-ManyHandsRow run_at(double threshold, const peer::ImpairmentLaw& network, std::uint64_t seed) {
+/// All in pairs, as far as there are so many.
+std::size_t touching_of(std::size_t peers) { return std::min(kManyTouching, peers / 2 * 2); }
+
+ManyHandsRow run_at(double threshold, std::size_t peers, const peer::ImpairmentLaw& network,
+                    std::uint64_t seed, const std::function<bool(double)>& go_on) {
+  const std::size_t touching = touching_of(peers);
   const ContactScene& visit = *std::ranges::find(contact_scenes(), "visit", &ContactScene::name);
   peer::SceneFile scene = scene_of(visit);
-  scene.operators.resize(kManyHands);
+  scene.operators.resize(peers);
   scene.dead_reckoning.thresholds.force = threshold;
   scene.impairment.law = network;
   scene.impairment.seed = seed;
   scene.hash = peer::scene_hash(scene);
   std::vector<haptics::HandScript> scripts;
-  for (std::size_t hand = 0; hand < kManyHands; ++hand)
-    scripts.emplace_back([hand, &visit](double time) { return target_of(hand, time, visit); });
-  const ContactRun run = run_contact(scene, kManyHands, scripts, visit.seconds, kManyTouching);
+  for (std::size_t hand = 0; hand < peers; ++hand)
+    scripts.emplace_back(
+        [hand, touching, &visit](double time) { return target_of(hand, touching, time, visit); });
+  const ContactRun run = run_contact(scene, peers, scripts, visit.seconds, touching, go_on);
   const double shown = std::min(scene.hand.k1, stiffest_hand(scene));
-  return {threshold, run.packets_per_s, run.octets_per_s,
-          error_at_instant(run.record, {shown, 2 * scene.hand.radius})};
+  return {threshold,        peers,
+          touching,         run.packets_per_s,
+          run.octets_per_s, error_at_instant(run.record, {shown, 2 * scene.hand.radius})};
 }
 
 std::string fewer_by(double raw, double sent) {
@@ -70,18 +78,24 @@ std::string millinewtons(double value) { return fmt::format("{} mN", number_text
 
 }  // namespace
 
-RawStream raw_stream_of_many() {
-  const double packets = kServoHz * static_cast<double>(kManyHands);
+RawStream raw_stream_of(std::size_t peers) {
+  const double packets = kServoHz * static_cast<double>(peers);
   return {packets, packets * kRawDatagram};
 }
 
-std::vector<ManyHandsRow> run_many_hands(const peer::ImpairmentLaw& network, std::uint64_t seed,
+std::vector<ManyHandsRow> run_many_hands(std::size_t peers, const peer::ImpairmentLaw& network,
+                                         std::uint64_t seed,
                                          const std::function<bool(double)>& go_on) {
   std::vector<ManyHandsRow> rows;
   for (const double threshold : kManyThresholds) {
-    const double done = static_cast<double>(rows.size()) / kManyThresholds.size();
-    if (go_on && !go_on(done)) return rows;
-    rows.push_back(run_at(threshold, network, seed));
+    bool stopped = false;
+    ManyHandsRow row = run_at(threshold, peers, network, seed, [&](double share) {
+      const double done = (static_cast<double>(rows.size()) + share) / kManyThresholds.size();
+      stopped = go_on && !go_on(done);
+      return !stopped;
+    });
+    if (stopped) break;
+    rows.push_back(row);
   }
   return rows;
 }
@@ -95,7 +109,9 @@ std::string many_hands_text(std::span<const ManyHandsRow> rows) {
                           {"FEWER", kRight},
                           {"FORCE p50", kRight},
                           {"FORCE p99", kRight}});
-  const RawStream raw = raw_stream_of_many();
+  if (rows.empty()) return {};
+  const std::size_t peers = rows.front().peers, touching = rows.front().touching;
+  const RawStream raw = raw_stream_of(peers);
   for (const ManyHandsRow& row : rows)
     table.add({millinewtons(row.threshold), number_text(row.packets_per_s),
                fewer_by(raw.packets_per_s, row.packets_per_s), number_text(row.octets_per_s),
@@ -104,21 +120,22 @@ std::string many_hands_text(std::span<const ManyHandsRow> rows) {
   table.add({"each step", number_text(raw.packets_per_s), "1.0 x",
              fmt::format("{:.0f}", raw.octets_per_s), "1.0 x", "-", "-"});
   return fmt::format(
-      "{} peers with a hand each, {} of them touching two by two for 8 of 22 s, the others "
-      "moving\n{}{}: without dead reckoning of the force, each change of it is told. Each step: "
+      "{} peers with a hand each, {} of them touching two by two for 8 of 22 s{}\n{}{}: without "
+      "dead reckoning of the force, each change of it is told. Each step: "
       "pose and force in\na datagram of {:g} octets a servo step. FORCE: felt against stiffness x "
       "overlap at that instant.\n",
-      kManyHands, kManyTouching, table.text(), millinewtons(kManyThresholds.back()), kRawDatagram);
+      peers, touching, touching < peers ? ", the others moving" : "", table.text(),
+      millinewtons(kManyThresholds.back()), kRawDatagram);
 }
 
 std::string many_hands_json(std::span<const ManyHandsRow> rows) {
-  const RawStream raw = raw_stream_of_many();
   std::string out;
-  for (const ManyHandsRow& row : rows)
+  for (const ManyHandsRow& row : rows) {
+    const RawStream raw = raw_stream_of(row.peers);
     tools::JsonObject(out)
         .text("kind", "many_hands")
-        .value("peers", kManyHands)
-        .value("touching", kManyTouching)
+        .value("peers", row.peers)
+        .value("touching", row.touching)
         .value("threshold_n", row.threshold)
         .value("packets_per_s", row.packets_per_s)
         .value("bytes_per_s", row.octets_per_s)
@@ -127,6 +144,7 @@ std::string many_hands_json(std::span<const ManyHandsRow> rows) {
         .value("force_error_p50_n", row.error.p50)
         .value("force_error_p99_n", row.error.p99)
         .end("\n");
+  }
   return out;
 }
 

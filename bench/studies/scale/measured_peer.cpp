@@ -337,7 +337,8 @@ double log_slope(std::span<const double> x, std::span<const double> y) {
     sxx += u * u;
     sxy += u * v;
   }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  const double spread = n * sxx - sx * sx;
+  return spread > 1e-12 * n * sxx ? (n * sxy - sx * sy) / spread : 0;
 }
 
 }  // namespace reckon::bench

@@ -14,15 +14,14 @@ void NotedUpdates::add(const SentUpdate& update, std::span<const std::byte> stat
   std::copy_n(state.begin(), std::min(state.size(), noted.octets.size()), noted.octets.begin());
 }
 
-void NotedUpdates::tell(Witnesses& witnesses, const deadreckon::LocalFrame& frame,
-                        const Crowd& crowd) {
+void NotedUpdates::tell(Witnesses& witnesses, const deadreckon::LocalFrame& frame) {
   for (const Noted& noted : noted_) {
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
     if (pdu::decode(noted.octets, pdu) != pdu::DecodeError::none ||
         from_wire(pdu, frame, state) != deadreckon::ConversionError::none)
       continue;
-    witnesses.send(noted.update, state, crowd);
+    witnesses.send(noted.update, state);
   }
   noted_.clear();
 }

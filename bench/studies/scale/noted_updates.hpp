@@ -20,7 +20,7 @@ class NotedUpdates {
   /// @param state an encoded Entity State
   void add(const SentUpdate& update, std::span<const std::byte> state);
   /// Tells what was added, and forgets it.
-  void tell(Witnesses& witnesses, const deadreckon::LocalFrame& frame, const Crowd& crowd);
+  void tell(Witnesses& witnesses, const deadreckon::LocalFrame& frame);
 
  private:
   struct Noted {

@@ -5,8 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "reckon/bench/studies/scale/drawn.hpp"
+#include "reckon/bench/studies/scale/many_hands.hpp"
 #include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -106,10 +110,64 @@ std::vector<Track> read_tracks(const ScaleWords& words, double length) {
   return tracks;
 }
 
+/// What is measured, in simulated time [s].
+double length_of(const ScaleWords& words) {
+  const double seconds = words.length ? pdu::to_seconds(*words.length) : ScaleSetting().seconds;
+  if (!(seconds >= kShortest && seconds <= kLongest))
+    throw tools::UsageError("--for: bench scale takes 1s to 1h of simulated time");
+  return seconds;
+}
+
 /// @throws UsageError with the first flag that says nothing here
 void check_used(bool given, std::string_view flag, bool used, std::string_view by) {
   if (given && !used)
     throw tools::UsageError(fmt::format("{}: is for {}; leave it out, or give that", flag, by));
+}
+
+/// --drawn: what may stand beside it is the seed, and how all is told.
+ScalePlan read_drawn_plan(const ScaleWords& words) {
+  if (*words.drawn < 1 || *words.drawn > kMostDrawn)
+    throw tools::UsageError(fmt::format("--drawn: give 1 to {} exercises", kMostDrawn));
+  const ScaleWords plain;
+  const auto refuse = [](bool given, std::string_view flag) {
+    if (given)
+      throw tools::UsageError(
+          fmt::format("{}: --drawn draws exercises of its own; leave one of the two out", flag));
+  };
+  refuse(!words.file.empty(), "FILE");
+  refuse(words.peers != plain.peers, "--peers");
+  refuse(words.radius != plain.radius, "--radius");
+  refuse(words.threshold != plain.threshold, "--threshold");
+  refuse(words.rate != plain.rate, "--rate");
+  for (const auto& [word, flag] : std::array<std::pair<const std::string*, std::string_view>, 14>{
+           {{&words.entities, "--entities"},
+            {&words.movement, "--movement"},
+            {&words.scheme, "--scheme"},
+            {&words.cell, "--cell"},
+            {&words.pool, "--pool"},
+            {&words.density, "--density"},
+            {&words.jitter, "--jitter"},
+            {&words.loss, "--loss"},
+            {&words.compare, "--compare"},
+            {&words.report, "--report"},
+            {&words.whole, "--whole"},
+            {&words.hosts, "--hosts"},
+            {&words.ssh, "--ssh"},
+            {&words.share, "--share"}}})
+    refuse(!word->empty(), flag);
+  refuse(words.delay.has_value(), "--delay");
+  refuse(words.port.has_value(), "--port");
+  refuse(words.measure, "--measure");
+  refuse(words.hands, "--hands");
+  refuse(words.many_hands, "--many-hands");
+  refuse(words.wide, "--wide");
+  ScalePlan plan;
+  plan.drawn = true;
+  for (std::size_t number = 0; number < *words.drawn; ++number) {
+    plan.settings.push_back(drawn_exercise(words.seed.value_or(1), number));
+    if (words.length) plan.settings.back().seconds = length_of(words);
+  }
+  return plan;
 }
 
 /// What is said of several hosts.
@@ -134,10 +192,9 @@ void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
 }  // namespace
 
 ScalePlan read_scale_plan(const ScaleWords& words) {
+  if (words.drawn) return read_drawn_plan(words);
   ScaleSetting base;
-  if (words.length) base.seconds = pdu::to_seconds(*words.length);
-  if (!(base.seconds >= kShortest && base.seconds <= kLongest))
-    throw tools::UsageError("--for: bench scale takes 1s to 1h of simulated time");
+  base.seconds = length_of(words);
   if (!(words.rate >= 1 && words.rate <= 1000))
     throw tools::UsageError("--rate: give 1 to 1000 ticks a second");
   base.rate = words.rate;
@@ -178,7 +235,10 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
       plan.settings.back().fresh = plan.meeting != Meeting::none || plan.share;
       check_meeting(plan.settings.back(), plan.meeting);
       if (plan.meeting == Meeting::hosts) check_hosts(plan.settings.back(), plan.hosts);
+      plan.hands = std::max(plan.hands, std::min(peers, kManyHands));
     }
+  if (words.many_hands && plan.hands < 2)
+    throw tools::UsageError("--many-hands: one peer touches nobody; take --peers 2 or more");
   return plan;
 }
 

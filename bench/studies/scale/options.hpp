@@ -35,15 +35,16 @@ struct ScaleWords {
   std::optional<std::uint64_t> seed;
   std::optional<std::chrono::nanoseconds> length;  ///< 5 s
   std::string report;
-  std::string compare;                ///< JSON Lines of an earlier run
-  std::string whole;                  ///< where whole peers meet, see read_meeting(); empty: none
-  std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
-  std::string ssh;                    ///< words; empty: of HostsPlan
-  std::string share;                  ///< of one host, see read_host_share(); empty: none
-  std::optional<std::uint64_t> port;  ///< of its peers
-  bool measure = false;               ///< one whole peer too
-  bool hands = false;                 ///< hands in contact too
-  bool many_hands = false;            ///< and hands among many
+  std::string compare;                 ///< JSON Lines of an earlier run
+  std::string whole;                   ///< where whole peers meet, see read_meeting(); empty: none
+  std::string hosts;                   ///< for Meeting::hosts, see read_hosts()
+  std::string ssh;                     ///< words; empty: of HostsPlan
+  std::string share;                   ///< of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;   ///< of its peers
+  bool measure = false;                ///< one whole peer too
+  bool hands = false;                  ///< hands in contact too
+  bool many_hands = false;             ///< and hands among many
+  std::optional<std::uint64_t> drawn;  ///< so many exercises by the seed instead
   bool json = false;
   bool wide = false;  ///< all columns
 };
@@ -54,7 +55,9 @@ struct ScalePlan {
   Meeting meeting = Meeting::none;     ///< of whole peers
   HostsPlan hosts;                     ///< of Meeting::hosts
   std::optional<HostShare> share;      ///< this alone is run, of the first setting
+  bool drawn = false;                  ///< the settings are drawn_exercise()s, and run both ways
   std::vector<ScaleSetting> settings;  ///< peers times entities, entities fastest
+  std::size_t hands = 0;  ///< among many: as many as the largest has peers, kManyHands at most
 };
 
 /// @throws UsageError with the word and the remedy, or what reading the file throws.

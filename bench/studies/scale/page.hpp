@@ -8,6 +8,7 @@
 
 #include "reckon/bench/studies/scale/capacity.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
+#include "reckon/bench/studies/scale/drawn.hpp"
 #include "reckon/bench/studies/scale/hands.hpp"
 #include "reckon/bench/studies/scale/many_hands.hpp"
 #include "reckon/bench/studies/scale/measured_text.hpp"
@@ -24,6 +25,7 @@ struct ScaleReport {
   std::vector<ScaleRow> rows;
   MeasuredReport measured;      ///< without runs where none was asked for
   std::vector<WholeRow> whole;  ///< likewise
+  std::vector<WholeRow> drawn;  ///< of --drawn, without all others
   std::vector<HandsRow> hands;  ///< likewise
   std::vector<ManyHandsRow> many_hands;
   std::vector<BaseRow> base;  ///< of --compare

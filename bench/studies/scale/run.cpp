@@ -5,6 +5,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <functional>
 #include <thread>
@@ -86,8 +87,20 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
       }))
     return false;
   return !words.many_hands || sweep.next([&](const ScaleProgress& progress) {
-    report.many_hands = run_many_hands(any.network, any.seed, progress);
+    report.many_hands = run_many_hands(plan.hands, any.network, any.seed, progress);
   });
+}
+
+/// False where it was stopped.
+bool run_drawn_plan(const ScalePlan& plan, ScaleReport& report, const tools::Console& console) {
+  Sweep sweep(plan.settings.size(), console);
+  for (const ScaleSetting& setting : plan.settings)
+    if (!sweep.next([&](const ScaleProgress& progress) {
+          WholeRow row = run_drawn(setting, progress);
+          if (!console.stopped()) report.drawn.push_back(std::move(row));
+        }))
+      return false;
+  return true;
 }
 
 /// "2026-11-26 12:00 UTC, reckon 0.1.0, 2 cores of Intel ..".
@@ -121,6 +134,9 @@ std::string scale_findings(const ScaleReport& report, bool json, bool wide) {
       report.whole, [&] { return whole_json(report.whole); },
       [&] { return whole_text(report.whole); });
   add(
+      report.drawn, [&] { return drawn_json(report.drawn); },
+      [&] { return drawn_text(report.drawn); });
+  add(
       report.hands, [&] { return hands_json(report.hands); },
       [&] { return hands_text(report.hands); });
   add(
@@ -143,12 +159,13 @@ int bench_scale(const ScaleWords& words, const std::string& command,
   ScaleReport report;
   report.command = command;
   report.circumstances = circumstances();
-  report.limits.datagram = peer_read_cost(measure_read_cost());
+  if (!plan.drawn) report.limits.datagram = peer_read_cost(measure_read_cost());
   if (!words.compare.empty()) {
     report.base = read_scale_rows(words.compare);
     check_same_exercises(plan.settings, report.base, words.compare);
   }
-  const bool whole = run_all(plan, words, report, console);
+  const bool whole =
+      plan.drawn ? run_drawn_plan(plan, report, console) : run_all(plan, words, report, console);
   if (!whole) report.base.clear();  // what is missing is no difference
   const std::string out = scale_findings(report, words.json, words.wide);
   if (!whole)
@@ -157,7 +174,8 @@ int bench_scale(const ScaleWords& words, const std::string& command,
                            : ": only runs that had ended are reported");
   fmt::print(console.out, "{}", out);
   if (!out.empty()) tools::write_output(words.report, scale_page(report), console);
-  const bool differs = !changes_of(report.rows, report.base).empty();
+  const bool differs =
+      !changes_of(report.rows, report.base).empty() || std::ranges::any_of(report.drawn, is_beyond);
   return tools::exit_status(differs ? tools::ExitCode::findings : tools::ExitCode::good);
 }
 

@@ -62,6 +62,8 @@ void divide_by_crowd(ScaleSetting& setting) {
   setting.tree.cells = peer::divided_by(scale_cells(setting), places);
 }
 
+bool shares_one_group(const ScaleSetting& setting) noexcept { return setting.grid.pool == 1; }
+
 ScaleChannels scale_channels(const ScaleSetting& setting) {
   const auto usual = aoim::default_channels();
   ScaleChannels cut;
@@ -73,7 +75,7 @@ ScaleChannels scale_channels(const ScaleSetting& setting) {
   }
   cut.near_rows = aoim::ChannelTable(cut.rows).inner_rows();
   const bool has_room = setting.grid.pool * (cut.near_rows + 1) <= aoim::kMaximumPool;
-  if (has_room && cut.near_rows > 0) return cut;
+  if (has_room && cut.near_rows > 0 && !shares_one_group(setting)) return cut;
   return {{usual.begin(), usual.end()}, 0};
 }
 

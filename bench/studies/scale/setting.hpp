@@ -11,6 +11,7 @@
 #include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/bench/studies/scale/crowd.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/tracks/track.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
@@ -22,16 +23,21 @@
 
 namespace reckon::bench {
 
+/// Simulated before anything is counted [s]: longer than a round of introductions.
+inline constexpr double kWarmUp = 3;
+
 /// The same for all rows of a table.
 struct ScaleSetting {
   std::size_t peers = 64;  ///< 1 .. 65,534; entities are dealt out evenly, neighbours together
   CrowdPlan crowd{kMixedGait, 6400};  ///< at least one entity a peer, 65,534 at most
   double radius = 200;                ///< of interest [m], about each entity
-  double rate = 30;    ///< ticks a second: decisions to send, and looks at what is shown
-  double seconds = 5;  ///< measured, after kWarmUp
+  double rate = 30;          ///< ticks a second: decisions to send, and looks at what is shown
+  double seconds = 5;        ///< measured, after warm_up
+  double warm_up = kWarmUp;  ///< [s]; of processes always kWarmUp
   deadreckon::Thresholds thresholds;
   double heartbeat = 55;       ///< [s]
   double first_heartbeat = 1;  ///< silence after which a change is said again, as peers do [s]
+  bool converges = true;  ///< what witnesses show, to what they predict, as peers do; else at once
   bool fresh = false;   ///< all is told first at the start; else as if the exercise had lasted long
   double hold = 0.005;  ///< of a bundle [s]
   /// Of a quad-tree its cell size is what no cell's side is shorter than.
@@ -43,6 +49,8 @@ struct ScaleSetting {
   std::size_t witnesses = 64;  ///< peers whose picture of the world is looked at; the others alike
   std::uint64_t seed = 1;
   std::uint16_t port = 3000;  ///< UDP, of real processes
+  /// Of whole peers; what comes before areas they always do.
+  ScaleDesign whole = design_of(kMechanisms.size() - 1);
 };
 
 /// @throws UsageError where the peers cannot have so many entities, with the remedy
@@ -52,6 +60,9 @@ void check_scale_setting(const ScaleSetting& setting);
 [[nodiscard]] peer::AoimConfig scale_cells(const ScaleSetting& setting);
 /// Divides the square around the crowd by where it is at the start. For set-up, up to some seconds.
 void divide_by_crowd(ScaleSetting& setting);
+/// Whether all cells are one group (a pool of 1): what grows without areas of interest. Contact and
+/// near groups, which need a group of each cell, are off then.
+[[nodiscard]] bool shares_one_group(const ScaleSetting& setting) noexcept;
 /// The channels of a setting.
 struct ScaleChannels {
   std::vector<aoim::Channel> rows;
@@ -67,7 +78,8 @@ struct ScaleChannels {
   }
 };
 /// The usual ones as far as the radius reaches, the row that holds its end being the last, with
-/// groups for the near rows; where these would be too many or there is none, all, without groups.
+/// groups for the near rows; where these would be too many, there is none or shares_one_group(),
+/// all, without groups.
 [[nodiscard]] ScaleChannels scale_channels(const ScaleSetting& setting);
 /// The form that states are compressed in: what is not predicted, or where near groups are heard by
 /// some alone, what differs from the last key.
@@ -81,9 +93,6 @@ struct OwnedRange {
 
 /// Where the origin of the plane stands, latitude and longitude [rad], height [m].
 inline constexpr std::array kScaleOrigin{0.85, 0.15, 500.0};
-
-/// Simulated before anything is counted [s]: longer than a round of introductions.
-inline constexpr double kWarmUp = 3;
 
 /// What one row counted: sums over `seconds` and all peers, unless said otherwise.
 struct ScaleCounts {

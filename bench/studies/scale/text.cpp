@@ -120,7 +120,20 @@ std::string measure_text(const ScaleMeasure& measure, double value) {
   return value >= 1e6 ? fmt::format("{:.3g} M", 1e-6 * value) : number_text(value);
 }
 
+namespace {
+
+/// What --pool 1 is; else nothing.
+std::string one_group_text(std::span<const ScaleRow> rows) {
+  const auto one = [](const ScaleRow& row) { return shares_one_group(row.setting); };
+  if (std::ranges::none_of(rows, one)) return {};
+  return "\n--pool 1: all cells are one group, so this is what grows without areas of\n"
+         "interest. Contact and near groups, which need a group of each cell, are off.\n";
+}
+
+}  // namespace
+
 std::string scale_text(std::span<const ScaleRow> rows) {
+  const std::span<const ScaleRow> all = rows;
   std::string out;
   while (!rows.empty()) {
     std::size_t count = 1;
@@ -140,6 +153,7 @@ std::string scale_text(std::span<const ScaleRow> rows) {
                        table.text());
     rows = rows.subspan(count);
   }
+  out += one_group_text(all);
   out +=
       "SENT, HEARD: datagrams with those of control; B with headers of UDP and IPv4. WANTED: "
       "updates "
@@ -243,7 +257,7 @@ std::string scale_summary(std::span<const ScaleRow> rows) {
   }
   if (count > 1)
     out += fmt::format("\nAll mechanisms together\n{}{}", sizes.text(), knee_text(rows));
-  return out +
+  return out + one_group_text(rows) +
          "\nHEARD: datagrams, with those of control; WANTED: of the updates heard;\n"
          "POSE: error p99; SHOWN: after coming within the radius, p99;\n"
          "CPU: of a core, with the kernel's part. --wide has all columns.\n";

@@ -74,7 +74,7 @@ class WatchedLink final : public peer::Link {
 peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) {
   peer::FederateOptions options;
   options.name = "whole";
-  options.scene = scale_scene(setting);
+  options.scene = scale_scene(setting, setting.whole);
   options.site = kSite;
   options.application = static_cast<std::uint16_t>(peer + 1);
   return options;
@@ -157,6 +157,15 @@ struct WholePeer::MeasuredFederate {
     }
   }
 
+  /// All that waits.
+  void pass() {
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const std::uint64_t heard = counted("datagrams_in");
+      federate.step();
+      if (counted("datagrams_in") == heard && !federate.peer().has_inbound()) break;
+    }
+  }
+
   /// One that may be shown, or has to be.
   void look_at(std::uint32_t e, double time, Crowd& crowd) {
     const Attendance there = attendance ? attendance(owners[e], time) : Attendance::present;
@@ -232,11 +241,14 @@ void WholePeer::step(double time, Crowd& crowd) {
   for (std::size_t i = 0; i < s.handles.size(); ++i)
     s.federate.update_attributes(
         s.handles[i], s.truth(s.owned.first + static_cast<std::uint32_t>(i), time, crowd));
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const std::uint64_t heard = s.counted("datagrams_in");
-    s.federate.step();
-    if (s.counted("datagrams_in") == heard && !s.federate.peer().has_inbound()) break;
-  }
+  s.pass();
+  s.cpu += thread_cpu() - begun;
+}
+
+void WholePeer::serve() {
+  MeasuredFederate& s = *measured_;
+  const double begun = thread_cpu();
+  s.pass();
   s.cpu += thread_cpu() - begun;
 }
 

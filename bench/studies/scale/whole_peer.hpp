@@ -103,6 +103,8 @@ class WholePeer {
   /// Tells where its own are at `time` [s since begin], sends, and takes what has arrived.
   /// @param crowd as it is then
   void step(double time, Crowd& crowd);
+  /// Sends what is due, and takes what has arrived, between two steps.
+  void serve();
   /// Compares what is shown with what is true.
   void look(double time, Crowd& crowd);
   /// From here on it is counted.

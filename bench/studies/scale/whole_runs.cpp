@@ -61,7 +61,7 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
   for (std::size_t p = 0; p < setting.peers; ++p)
     peers.push_back(std::make_unique<WholePeer>(setting, p, network.link(p), clock, kBegin,
                                                 static_cast<std::uint32_t>(p + 1)));
-  const std::size_t warm = ticks_until(setting, kWarmUp);
+  const std::size_t warm = ticks_until(setting, setting.warm_up);
   const std::size_t ticks = warm + ticks_until(setting, setting.seconds);
   double time = 0;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
@@ -74,6 +74,11 @@ WholeRun run_simulated(const ScaleSetting& setting, const ScaleProgress& progres
     }
     if (is_look(setting, tick))
       for (const auto& peer : peers) peer->look(time, crowd);
+    // What waits for company leaves in time, not with the next tick.
+    if (setting.hold < 1 / setting.rate) {
+      clock.set(kBegin + pdu::from_seconds(time + setting.hold));
+      for (const auto& peer : peers) peer->serve();
+    }
     if (progress && !progress(static_cast<double>(tick + 1) / static_cast<double>(ticks))) break;
   }
   WholeRun run;

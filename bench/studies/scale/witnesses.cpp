@@ -6,8 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include "reckon/bench/studies/scale/whole_peer.hpp"
 #include "reckon/deadreckon/motion/acceleration_trust.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -32,9 +35,10 @@ struct Witnesses::Witness {
   };
   /// An entity that is near or may come.
   struct Known : Told {
-    std::vector<Told> behind;  ///< by near row, the newest by a row behind it
-    double inside = kNever;    ///< since when it is within the radius
-    bool near = false;         ///< of the last gather()
+    deadreckon::ConvergingError error;  ///< what is shown less what is predicted
+    std::vector<Told> behind;           ///< by near row, the newest by a row behind it
+    double inside = kNever;             ///< since when it is within the radius
+    bool near = false;                  ///< of the last gather()
     bool shown = false;
 
     [[nodiscard]] bool is_heard() const { return time > -kNever; }
@@ -53,6 +57,8 @@ struct Witnesses::Witness {
   std::vector<double> heard_from;  ///< by group
   std::unordered_map<std::uint32_t, Known> known;
   std::vector<Arrival> under_way;
+  deadreckon::ConvergenceSettings convergence{};
+  double now = 0;  ///< of the last take()
 
   [[nodiscard]] bool is_inside(const aoim::Position& place, const Crowd& crowd,
                                double radius) const {
@@ -60,8 +66,21 @@ struct Witnesses::Witness {
       if (squared_distance(crowd.position(i), place) <= radius * radius) return true;
     return false;
   }
+  [[nodiscard]] deadreckon::Pose predicted(const Known& row, double time) const {
+    return deadreckon::extrapolate_trusted(row.state, time - row.time);
+  }
+  /// Another state is believed from `time` on; what is shown converges to it, as peers' does.
+  void believe(Known& row, const Told& told, double time) {
+    const bool goes_on = row.is_heard() && row.shown && told.time > -kNever;
+    const deadreckon::Pose shown =
+        goes_on ? row.error.shown(predicted(row, time), time) : deadreckon::Pose();
+    static_cast<Told&>(row) = told;
+    row.error.snap();
+    if (goes_on) row.error.restart(convergence, shown, predicted(row, time), time);
+  }
   /// Newest wins.
   void take(double time) {
+    now = time;
     std::erase_if(under_way, [&](const Arrival& arrival) {
       if (arrival.at > time) return false;
       const auto found = known.find(arrival.entity);
@@ -69,20 +88,23 @@ struct Witnesses::Witness {
       Known& row = found->second;
       for (std::size_t near = 0; near < std::min(arrival.row, row.behind.size()); ++near)
         if (arrival.time >= row.behind[near].time) row.behind[near] = arrival.told;
-      if (arrival.time >= row.time) static_cast<Told&>(row) = arrival.told;
+      if (arrival.time >= row.time) believe(row, arrival.told, time);
       return true;
     });
   }
   void leave(aoim::GroupIndex group, std::size_t near_row) {
     for (auto& [entity, row] : known)
-      if (row.is_heard() && row.group == group) static_cast<Told&>(row) = row.behind[near_row];
+      if (row.is_heard() && row.group == group) believe(row, Told(row.behind[near_row]), now);
+  }
+  [[nodiscard]] bool is_taken(const Eigen::Vector3d& at, bool is_shown) {
+    return aoim::is_accepted(interest.judge({at.x(), at.y(), at.z()}, 0, 0, is_shown));
   }
   /// Shown as a peer does: where its prediction is within the radius of a focus.
   [[nodiscard]] std::optional<Eigen::Vector3d> show(Known& row, double time) {
     if (!row.is_heard()) return std::nullopt;
-    const Eigen::Vector3d at = deadreckon::extrapolate_trusted(row.state, time - row.time).position;
-    row.shown = aoim::is_accepted(interest.judge({at.x(), at.y(), at.z()}, 0, 0, row.shown));
-    return row.shown ? std::optional(at) : std::nullopt;
+    const deadreckon::Pose at = predicted(row, time);
+    row.shown = is_taken(at.position, row.shown);
+    return row.shown ? std::optional(row.error.shown(at, time).position) : std::nullopt;
   }
 };
 
@@ -93,7 +115,7 @@ struct Witnesses::Observations {
   /// By entity, bits of the witnesses that may care, number modulo 64.
   std::vector<std::uint64_t> near;
   double radius = 0;
-  std::vector<double> ends;  ///< of the near rows that have groups [m]
+  std::size_t near_rows = 0;  ///< that have groups
   std::uint64_t wanted = 0, missed = 0, lost = 0, looks = 0, unseen = 0;
   std::unique_ptr<peer::ErrorHistogram> pose;
   std::unique_ptr<peer::DurationHistogram> discovery;
@@ -102,7 +124,10 @@ struct Witnesses::Observations {
 Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
                      std::span<const aoim::Channel> near)
     : observations_(std::make_unique<Observations>()) {
-  for (const aoim::Channel& row : near) observations_->ends.push_back(row.farthest);
+  const deadreckon::ConvergenceSettings convergence =
+      setting.converges ? peer::remote_settings(scale_scene(setting)).convergence.settings
+                        : deadreckon::ConvergenceSettings{deadreckon::ConvergenceCurve::snap};
+  observations_->near_rows = near.size();
   observations_->radius = setting.radius;
   observations_->of_peer.assign(owned.size(), std::numeric_limits<std::uint32_t>::max());
   const std::size_t count = std::min(setting.witnesses, owned.size());
@@ -116,7 +141,9 @@ Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> ow
          aoim::Interest(aoim::InterestConfig{}),
          std::vector<double>(setting.grid.pool * (1 + near.size()) + 1, kNever),
          {},
-         {}});
+         {},
+         convergence,
+         0});
     observations_->witnesses.back().heard_from[0] = 0;
   }
   observations_->near.assign(setting.crowd.entities, 0);
@@ -175,7 +202,7 @@ void Witnesses::gather(double time, const Crowd& crowd, double reach,
       observations_->near[i] |= std::uint64_t{1} << (w % 64);
       if (!is_new) continue;
       const HeardBefore before = heard(i);
-      row->second.behind.resize(observations_->ends.size());
+      row->second.behind.resize(observations_->near_rows);
       if (witness.heard_from[before.group.value] > time) continue;
       static_cast<Witness::Told&>(row->second) = {before.state, time, before.group};
       std::ranges::fill(row->second.behind, static_cast<const Witness::Told&>(row->second));
@@ -189,16 +216,16 @@ bool Witnesses::is_near(std::uint32_t entity) const noexcept {
   return observations_->near[entity] != 0;
 }
 
-void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState& state,
-                     const Crowd& crowd) {
+void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState& state) {
   for (std::size_t w = 0; w < size(); ++w) {
     if ((observations_->near[update.entity] >> (w % 64) & 1) == 0) continue;
     Witness& witness = observations_->witnesses[w];
-    if (witness.peer == update.sender || !witness.known.contains(update.entity)) continue;
-    const double reach = update.pool > 0
-                             ? std::min(observations_->radius, observations_->ends[update.pool - 1])
-                             : observations_->radius;
-    const bool wanted = witness.is_inside(crowd.position(update.entity), crowd, reach);
+    if (witness.peer == update.sender) continue;
+    const auto known = witness.known.find(update.entity);
+    if (known == witness.known.end()) continue;
+    // Who is not near has not joined what is for those alone who are.
+    if (update.pool > 0 && witness.heard_from[update.group.value] == kNever) continue;
+    const bool wanted = witness.is_taken(state.position, known->second.shown);
     observations_->wanted += wanted;
     // Lost or late as its datagram is.
     const peer::Fate fate =
@@ -212,7 +239,7 @@ void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState&
       observations_->lost += wanted;
       continue;
     }
-    const std::size_t row = update.pool > 0 ? update.pool - 1 : observations_->ends.size();
+    const std::size_t row = update.pool > 0 ? update.pool - 1 : observations_->near_rows;
     witness.under_way.push_back(
         {arrives, update.time, update.entity, row, {state, update.time, update.group}});
   }

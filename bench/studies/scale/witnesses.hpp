@@ -43,7 +43,7 @@ class Witnesses {
  public:
   /// @param owned by peer. Witnesses are spread evenly over the peers. @throws
   /// std::invalid_argument for a network that cannot be.
-  /// @param near rows that have groups: what is said by one is for those alone who are so near
+  /// @param near rows that have groups
   Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
             std::span<const aoim::Channel> near = {});
   ~Witnesses();
@@ -69,7 +69,7 @@ class Witnesses {
   /// Whether any witness could care: then send() is to be told.
   [[nodiscard]] bool is_near(std::uint32_t entity) const noexcept;
   /// An update whose state, as decoded, is `state`.
-  void send(const SentUpdate& update, const deadreckon::KinematicState& state, const Crowd& crowd);
+  void send(const SentUpdate& update, const deadreckon::KinematicState& state);
   /// Takes what has arrived by `time`, and looks at what is shown then.
   void look(double time, Crowd& crowd);
 

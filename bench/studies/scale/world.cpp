@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "reckon/aoim/interest/focus_cover.hpp"
+#include "reckon/aoim/presence/join_asks.hpp"
 #include "reckon/bench/studies/scale/light_peer.hpp"
 #include "reckon/bench/studies/scale/light_rows.hpp"
 #include "reckon/bench/studies/scale/light_states.hpp"
@@ -22,6 +23,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/peer/world/audiences.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
@@ -57,9 +59,9 @@ class World {
   }
 
   ScaleCounts run(const ScaleProgress& progress) {
-    const auto ticks =
-        static_cast<std::size_t>(std::llround((kWarmUp + setting_.seconds) * setting_.rate));
-    const auto warm = static_cast<std::size_t>(std::llround(kWarmUp * setting_.rate));
+    const auto ticks = static_cast<std::size_t>(
+        std::llround((setting_.warm_up + setting_.seconds) * setting_.rate));
+    const auto warm = static_cast<std::size_t>(std::llround(setting_.warm_up * setting_.rate));
     std::size_t counted = 0;
     for (std::size_t tick = 0; tick < ticks; ++tick) {
       if (tick == warm) begin_counting();
@@ -94,6 +96,9 @@ class World {
             setting_.thresholds, deadreckon::jittered_heartbeat(setting_.heartbeat, id),
             setting_.first_heartbeat, deadreckon::kDefaultSendRule, deadreckon::kEventRepeat),
         group_at(e), nanoseconds(0)};
+    const deadreckon::HeartbeatGrid grid =
+        deadreckon::heartbeat_grid(setting_.heartbeat, id.simulation());
+    owned.policy.align_heartbeats(grid.step, grid.phase);
     if (design_.compression)
       owned.compressor = std::make_unique<peer::StateCompressor>(scale_compression(setting_));
     // As if the exercise had lasted long: what stands was told at any time within a heartbeat.
@@ -105,7 +110,8 @@ class World {
     const auto reason = is_old ? deadreckon::SendReason::heartbeat : deadreckon::SendReason::first;
     if (states_.encode(e, pdu) && states_.decode(pdu, state)) do
         owned.policy.sent(state, -since, reason);
-      while (is_old && owned.policy.silence() < owned.policy.heartbeat());
+      while (is_old &&
+             owned.policy.silence() < 0.99 * owned.policy.heartbeat() - owned.policy.step());
     owned.told = -since;
     if (rows_.near_rows() > 0)
       rows_.set_tiers(owned, state, -since, reason, setting_.first_heartbeat);
@@ -144,14 +150,34 @@ class World {
       counts_.interest_cpu += thread_cpu() - begun;
     }
     const double begun = thread_cpu();
+    if (setting_.fresh && design_.areas) introduce_all(tick);
     introduction_.expire(now_);
     for (std::uint32_t p = 0; p < members_.size(); ++p) {
-      if (is_tick_of(tick, kAnnouncePeriod, p)) members_[p].announce(setting_, now_);
+      members_[p].announce(setting_, is_tick_of(tick, kAnnouncePeriod, p), now_);
       send(p);
     }
     counts_.send_cpu += thread_cpu() - begun;
-    noted_.tell(witnesses_, states_.frame(), crowd_);
+    noted_.tell(witnesses_, states_.frame());
     witnesses_.look(time_, crowd_);
+  }
+
+  /// Where all begin together: each is heard by the others a tick later, and its joins, which
+  /// nobody knew it for at once, with a later announcement.
+  void introduce_all(std::size_t tick) {
+    constexpr double kJoinsHeard = pdu::to_seconds(aoim::JoinAsks::kSaidAgain);
+    if (tick == 1) introduction_.begin(aoim::kBaseGroup, now_);
+    if (tick == 0 || !is_first_from(tick, kJoinsHeard)) return;
+    for (LightPeer& member : members_) {
+      for (std::size_t row = 0; row <= rows_.near_rows(); ++row) {
+        const auto& cells = row < rows_.near_rows() ? member.nears[row] : *member.subscription;
+        for (const GroupIndex cell : cells.joined())
+          introduction_.begin(rows_.group(row, cell), now_);
+        member.tell_membership(pdu::MembershipAction::join, cells.joined().size(), now_);
+      }
+    }
+  }
+  [[nodiscard]] bool is_first_from(std::size_t tick, double time) const {
+    return time_ >= time && static_cast<double>(tick - 1) / setting_.rate < time;
   }
 
   void gather() {
@@ -258,7 +284,9 @@ class World {
       return false;
     if (now_ < owned.held_until) return true;
     const aoim::Channel& channel = others_.channel(e, crowd_);
-    const double rate = crowd_.speed(e) > 0 ? channel.active_hz : channel.passive_hz;
+    const bool rests =
+        !(crowd_.speed(e) > 0) && !peer::is_shown_moving(owned.policy, nullptr, 0, time_);
+    const double rate = rests ? channel.passive_hz : channel.active_hz;
     const nanoseconds due = owned.last_sent + pdu::from_seconds(1 / rate);
     if (channel.kept || now_ >= due) return false;
     owned.held_until = std::min(due, now_ + pdu::from_seconds(kFociPeriod));
@@ -322,6 +350,7 @@ class World {
     const std::uint64_t all = listeners_.of(group);
     const std::uint64_t listeners = all - (hears_itself && all > 0);
     ++datagrams_;
+    members_[p].said = pdu::from_seconds(left_);
     ++counts_.datagrams;
     counts_.octets += datagram.size() + peer::kUdpIpv4Headers;
     counts_.updates += updates;

@@ -306,6 +306,7 @@ TEST(PeerCosts, SlopesArePowers) {
   const std::vector<double> x{1, 10, 100}, y{3, 3 * std::sqrt(10.0), 30};
   EXPECT_NEAR(log_slope(x, y), 0.5, 1e-12);
   EXPECT_EQ(log_slope(std::span(x).first(1), std::span(y).first(1)), 0);
+  EXPECT_EQ(log_slope(std::vector<double>{80, 80}, std::vector<double>{20, 30}), 0);
 }
 
 HandsRow hands_at(std::string_view scene, double threshold, double touching, double whole,
@@ -332,6 +333,30 @@ TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
   EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
 }
 
+TEST(ScaleHands, AmongFourAreAllTouchingAndEndBetweenRuns) {
+  int asked = 0;
+  const auto rows = run_many_hands(4, {}, 1, [&](double) { return ++asked < 230; });
+  ASSERT_EQ(rows.size(), 1U) << "the second was stopped in its first second";
+  EXPECT_EQ(rows[0].peers, 4U);
+  EXPECT_EQ(rows[0].touching, 4U);
+  EXPECT_GT(rows[0].packets_per_s, 4);
+  EXPECT_GT(raw_stream_of(4).packets_per_s, 25 * rows[0].packets_per_s);
+  EXPECT_THAT(many_hands_text(rows), HasSubstr("4 peers with a hand each, 4 of them touching"));
+  EXPECT_THAT(many_hands_text(rows), Not(HasSubstr("the others moving")));
+}
+
+TEST(ScaleHands, AmongManyAreAsManyAsThereArePeers) {
+  ScaleWords words;
+  EXPECT_EQ(read_scale_plan(words).hands, 64U);
+  words.peers = "4,8";
+  EXPECT_EQ(read_scale_plan(words).hands, 8U);
+  words.peers = "200";
+  EXPECT_EQ(read_scale_plan(words).hands, kManyHands);
+  words.peers = "1";
+  words.many_hands = true;
+  EXPECT_THROW(static_cast<void>(read_scale_plan(words)), tools::UsageError);
+}
+
 // As `bench scale --many-hands` is left by Ctrl-C in its last runs, or in its first.
 TEST(ScaleFindings, TellWhatWasRunUntilTheStudyWasStopped) {
   ScaleReport report;
@@ -340,7 +365,7 @@ TEST(ScaleFindings, TellWhatWasRunUntilTheStudyWasStopped) {
   report.rows = {row_of(0, 600)};
   EXPECT_THAT(scale_findings(report, false), HasSubstr("EACH PEER"));
   EXPECT_THAT(scale_findings(report, false), Not(HasSubstr("FORCE SENT AT")));
-  report.many_hands = {{0.015, 700, 90'000, {}}};
+  report.many_hands = {{0.015, 64, 4, 700, 90'000, {}}};
   EXPECT_THAT(scale_findings(report, false), HasSubstr("15 mN"));
   std::istringstream lines(scale_findings(report, true));
   std::string row, many;

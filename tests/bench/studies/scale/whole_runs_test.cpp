@@ -9,9 +9,12 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "reckon/bench/studies/scale/drawn.hpp"
+#include "reckon/bench/studies/scale/measured_peer.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/whole_text.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -128,6 +131,102 @@ TEST(WholePeers, SayAndHearWhatTheModelSays) {
   EXPECT_NEAR(ratio(whole.updates, model.updates), 1, 0.15);
   EXPECT_NEAR(ratio(whole.datagrams, model.datagrams), 1, 0.15);
   EXPECT_NEAR(ratio(whole.heard_datagrams, model.heard_datagrams), 1, 0.15);
+}
+
+// The slope without areas: all that is sent to cells comes to all.
+TEST(WholePeers, ShareOneGroupWhereThePoolIsOne) {
+  ScaleSetting setting = small_setting();
+  setting.grid.pool = 1;
+  const WholeRun run = run_whole_peers(setting, Meeting::simulated);
+  EXPECT_EQ(run.counts.groups, setting.peers);
+  EXPECT_EQ(run.counts.overdue, 0U);
+  const auto others = static_cast<double>(setting.peers - 1);
+  EXPECT_NEAR(static_cast<double>(run.counts.heard_updates),
+              others * static_cast<double>(run.counts.updates),
+              0.1 * others * static_cast<double>(run.counts.updates));
+  EXPECT_GT(run_measured_peer(setting, design_of(kMechanisms.size() - 1)).datagrams, 0U);
+}
+
+// What stops is told as soon as what moves would be: the light peers' rate is the whole ones'.
+TEST(WholePeers, AndTheModelTellWhatHasStopped) {
+  constexpr std::size_t kCount = 100;
+  std::vector<Track> tracks(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {  // go 4 s each, then stand for 5
+    const double x = 40.0 * static_cast<double>(i % 10), y = 40.0 * static_cast<double>(i / 10);
+    for (const double second : {0.0, 4.0, 9.0}) {
+      deadreckon::MotionSample sample;
+      sample.time = second;
+      sample.position = {x + 10 * std::min(second, 4.0), y, 0};
+      tracks[i].samples.push_back(sample);
+    }
+  }
+  ScaleSetting setting = small_setting();
+  setting.crowd = {"vehicles", kCount, 100, 1, tracks};
+  for (const std::size_t pool : {256, 1000}) {  // with near groups and without
+    setting.grid.pool = pool;
+    const ScaleCounts whole = run_whole_peers(setting, Meeting::simulated).as_row();
+    const ScaleCounts model = run_world(setting, design_of(kMechanisms.size() - 1));
+    EXPECT_NEAR(static_cast<double>(model.updates) / static_cast<double>(whole.updates), 1, 0.15)
+        << pool;
+    EXPECT_LT(model.pose.p99, 1.2 * whole.pose.p99) << pool;
+  }
+}
+
+TEST(WholePeers, ThatRestSayWhomTheyHearBetweenAnnouncements) {
+  ScaleSetting setting = small_setting();
+  setting.crowd.movement = "rest";
+  setting.seconds = 20;
+  const ScaleCounts whole = run_whole_peers(setting, Meeting::simulated).as_row();
+  const ScaleCounts model = run_world(setting, design_of(kMechanisms.size() - 1));
+  EXPECT_GT(whole.datagrams, 18 * setting.seconds) << "two a second, less those with states";
+  EXPECT_NEAR(static_cast<double>(model.datagrams), static_cast<double>(whole.datagrams),
+              0.1 * static_cast<double>(whole.datagrams));
+}
+
+TEST(DrawnExercises, AreThoseOfTheirSeed) {
+  std::set<std::size_t> pools;
+  bool tiers = false, plain = false;
+  for (std::size_t number = 0; number < 100; ++number) {
+    const ScaleSetting one = drawn_exercise(3, number), again = drawn_exercise(3, number);
+    EXPECT_EQ(one.peers, again.peers);
+    EXPECT_EQ(one.crowd.entities, again.crowd.entities);
+    EXPECT_EQ(one.crowd.seed, again.crowd.seed);
+    EXPECT_GE(one.peers, 8U);
+    EXPECT_LE(one.peers, 64U);
+    EXPECT_NO_THROW(check_scale_setting(one));
+    pools.insert(one.grid.pool);
+    tiers |= one.whole.channels;
+    plain |= !one.whole.channels && !one.whole.compression;
+  }
+  EXPECT_GT(pools.size(), 3U);
+  EXPECT_TRUE(tiers && plain);
+  EXPECT_NE(drawn_exercise(4, 0).crowd.seed, drawn_exercise(3, 0).crowd.seed);
+}
+
+TEST(DrawnExercises, AreBeyondWhereAnyMeasureIs) {
+  WholeRow row;
+  row.run.setting = row.model.setting = drawn_exercise(1, 0);
+  row.run.counts.seconds = row.model.counts.seconds = 1;
+  row.model.counts.peers = row.model.counts.witnesses = row.run.setting.peers;
+  row.run.counts.datagrams = row.model.counts.datagrams = 1000;
+  EXPECT_FALSE(is_beyond(row));
+  EXPECT_NE(drawn_text(std::span(&row, 1)).find("The model holds in all 1"), std::string::npos);
+  row.run.counts.datagrams = 1090;
+  EXPECT_NEAR(difference_of(row, kDrawnBars[0]), 0.09, 1e-9);
+  EXPECT_FALSE(is_beyond(row));
+  row.run.counts.datagrams = 1110;
+  EXPECT_TRUE(is_beyond(row));
+  EXPECT_NE(drawn_text(std::span(&row, 1)).find("+11 %!"), std::string::npos);
+  EXPECT_NE(drawn_json(std::span(&row, 1)).find("\"beyond\":true"), std::string::npos);
+}
+
+TEST(DrawnExercises, AreRunBothWays) {
+  ScaleSetting setting = drawn_exercise(1, 0);
+  setting.seconds = 1;
+  const WholeRow row = run_drawn(setting);
+  EXPECT_GT(row.run.counts.datagrams, 0U);
+  EXPECT_GT(row.model.counts.datagrams, 0U);
+  EXPECT_EQ(row.model.counts.entities, setting.crowd.entities);
 }
 
 TEST(WholePeers, AreProcessesThatHearEachOther) {

@@ -25,6 +25,7 @@ ScaleSetting small_setting() {
   setting.crowd.movement = "vehicles";
   setting.seconds = 4;
   setting.rate = 20;
+  setting.converges = false;  // so that what is shown is what was predicted
   return setting;
 }
 
@@ -153,13 +154,15 @@ TEST(ScaleWorld, AreasSpareWhatIsFarAndKeepWhatIsNear) {
   EXPECT_GE(areas.updates, all.updates);
 }
 
-// Each update sent, each peer, each of its entities: who of the others is within the radius?
-TEST(ScaleWorld, CountsTheWantedAsBruteForceDoes) {
+// Each update sent, each peer, each of its entities: who of the others is within the radius? All of
+// these take it, and of the others only who has it shown and keeps it a tenth longer, about foci
+// that cover several of its own.
+TEST(ScaleWorld, CountsTheWantedBetweenWhatBruteForceDoes) {
   ScaleSetting setting = small_setting();
   setting.seconds = 2;
   setting.radius = 60;
   Crowd crowd(setting.crowd);
-  std::uint64_t wanted = 0;
+  std::uint64_t within = 0, kept = 0;
   double at = -1;
   const auto owner = [&](std::size_t entity) {
     std::size_t peer = 0;
@@ -173,17 +176,22 @@ TEST(ScaleWorld, CountsTheWantedAsBruteForceDoes) {
     pdu::EntityState pdu;
     if (pdu::decode(datagram, pdu) != pdu::DecodeError::none) return;
     const std::size_t entity = sender * 240 / 12 + pdu.entity_id.entity - 1;
-    std::set<std::size_t> peers;
-    for (std::size_t other = 0; other < crowd.size(); ++other)
-      if (distance(crowd.position(other), crowd.position(entity)) <= setting.radius)
-        peers.insert(owner(other));
-    peers.erase(sender);
-    wanted += peers.size();
+    const auto takers = [&](double radius) {
+      std::set<std::size_t> peers;
+      for (std::size_t other = 0; other < crowd.size(); ++other)
+        if (distance(crowd.position(other), crowd.position(entity)) <= radius)
+          peers.insert(owner(other));
+      peers.erase(sender);
+      return peers.size();
+    };
+    within += takers(0.98 * setting.radius);  // foci are a tenth of a second old
+    kept += takers(1.3 * setting.radius);
   };
   const ScaleCounts counts = run_world(setting, design_of(0), {}, tap);
   EXPECT_EQ(counts.witnesses, 12U);
-  EXPECT_EQ(counts.wanted, wanted);
-  EXPECT_GT(wanted, 1000U);
+  EXPECT_GE(counts.wanted, within);
+  EXPECT_LE(counts.wanted, kept);
+  EXPECT_GT(within, 1000U);
 }
 
 TEST(ScaleWorld, LosesTheShareThatTheNetworkLoses) {
