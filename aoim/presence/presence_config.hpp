@@ -61,9 +61,9 @@ struct PresenceConfig {
   /// Most pending claims to IDs of other peers; default 256. Further claimants are considered when
   /// they announce themselves again.
   std::size_t claims = 256;
-  /// Most peers of one list; default 256. A peer that receives more sends them in parts of `part`,
-  /// default 192, at least 2. A list and an announcement then fit one datagram.
-  std::size_t most_listed = 256, part = 192;
+  /// Most peers of one list; default 240. A peer that receives more sends them in parts of `part`,
+  /// default 192, at least 2. An announcement, a Time Exchange and a list then fit one datagram.
+  std::size_t most_listed = 240, part = 192;
 
   /// @throws std::invalid_argument for a heartbeat or number of misses that is not positive, or
   /// lists without room for one, parts of them for two.

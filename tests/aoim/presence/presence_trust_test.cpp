@@ -6,6 +6,11 @@
 #include <algorithm>
 #include <set>
 
+#include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/reckon/peers_heard.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
+#include "reckon/pdu/reckon/time_exchange.hpp"
 #include "reckon/tests/aoim/support/segment.hpp"
 
 namespace reckon::aoim {
@@ -270,6 +275,20 @@ PresenceConfig in_parts() {
   config.most_listed = 4;
   config.part = 3;
   return config;
+}
+
+// Else each of 244 to 256 peers would send all others two datagrams a second.
+TEST(PresenceParts, AndAWholeListFitTheDatagramOfAnAnnouncementAndATimeExchange) {
+  const PresenceConfig config;
+  const AggregatorConfig bundle;
+  const std::size_t room = bundle.payload_limit - bundle.reserved - pdu::kDatagramTrailerSize;
+  constexpr std::size_t kFixed = pdu::kFixedSize<pdu::Presence> +
+                                 pdu::kFixedSize<pdu::TimeExchange> +
+                                 pdu::kFixedSize<pdu::PeersHeard>;
+  constexpr std::size_t kEpoch = pdu::kFixedSize<pdu::PeerEpoch>;
+  constexpr std::size_t kEcho = pdu::kFixedSize<pdu::TimeEcho>;
+  EXPECT_LE(kFixed + 8 * kEcho + config.most_listed * kEpoch, room);
+  EXPECT_LE(kFixed + 24 * kEcho + config.part * kEpoch, room);
 }
 
 TEST(PresenceParts, FollowEachOtherUntilAllWhomItHearsAreTold) {
