@@ -27,13 +27,11 @@ void JoinAsks::leave(GroupIndex group) noexcept {
 std::span<const JoinAsks::Question> JoinAsks::take_due(nanoseconds now, std::uint64_t utc,
                                                        bool announcing) {
   due_.clear();
-  // Peers know a request by its time, so no two have the same, also in two steps at one instant.
-  std::uint64_t first = utc;
-  for (const Joined& joined : joined_) first = std::max(first, joined.since + 1);
-  std::erase_if(joined_, [](const Joined& joined) { return joined.left == 0; });
   std::size_t fresh = 0;
+  std::uint64_t time = 0;
   const auto ask_anew = [&](Joined& joined) {
-    joined.since = first + fresh++ / kMostCells;
+    if (fresh++ % kMostCells == 0) time = take_time(utc);
+    joined.since = time;
     due_.push_back({joined.cell, joined.since});
   };
   for (Joined& joined : joined_) {
@@ -51,9 +49,15 @@ std::span<const JoinAsks::Question> JoinAsks::take_due(nanoseconds now, std::uin
       joined.left = is_silent ? joined.left - 1 : 0;
     }
   }
+  std::erase_if(joined_, [](const Joined& joined) { return joined.left == 0; });
   std::ranges::sort(due_, {}, &Question::since);
   has_new_ = false;
   return due_;
+}
+
+std::uint64_t JoinAsks::take_time(std::uint64_t utc) noexcept {
+  last_time_ = std::max(utc, last_time_ + 1);
+  return last_time_;
 }
 
 nanoseconds JoinAsks::next_repetition() const noexcept {

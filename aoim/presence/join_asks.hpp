@@ -47,6 +47,9 @@ class JoinAsks {
 
   /// Whether a new request is due.
   [[nodiscard]] bool has_new() const noexcept { return has_new_; }
+  /// The time of one more request at `utc` [ns], later than all others: peers know a request by it,
+  /// and there may be several at one instant, from several steps too.
+  [[nodiscard]] std::uint64_t take_time(std::uint64_t utc) noexcept;
   /// When an announcement must repeat a request; max if none must.
   [[nodiscard]] std::chrono::nanoseconds next_repetition() const noexcept;
   /// The cells to request now; valid until the next call. @param utc in ns @param announcing
@@ -67,6 +70,7 @@ class JoinAsks {
   std::vector<Joined> joined_;        // cells with requests to come
   std::vector<std::uint8_t> silent_;  // by group
   std::vector<Question> due_;
+  std::uint64_t last_time_ = 0;  // of take_time()
   bool has_new_ = false;
 };
 

@@ -87,14 +87,13 @@ void JoinAnnouncer::send_asks(bool announcing, nanoseconds now, const ControlSta
 
 // Membership PDUs with joined cells and no left ones.
 void JoinAnnouncer::send_once(std::size_t tier, const ControlStamp& stamp, const Send& send) {
-  std::uint64_t announced = 0;  // makes requests of the same instant differ
   std::span<const std::byte> rest(once_[tier]);
   while (!rest.empty()) {
     const auto cells = rest.first(std::min(rest.size(), JoinAsks::kMostCells * kCellSize));
     rest = rest.subspan(cells.size());
     pdu::CellMembership membership;
     state_tier(tier, tiers_, membership);
-    membership.since = static_cast<std::uint64_t>(stamp.utc.count()) + announced++;
+    membership.since = asks_.take_time(static_cast<std::uint64_t>(stamp.utc.count()));
     membership.cells = cells;
     send_membership(membership, stamp, send);
   }

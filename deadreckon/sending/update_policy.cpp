@@ -75,6 +75,7 @@ SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_erro
   SendReason reason = error_of(extrapolate(sent_, now - sent_time_), truth);
   if (reason == SendReason::none && is_beyond_trust(sent_, now - sent_time_))
     reason = error_of(predicted(now), truth);
+  if (reason == SendReason::none && next_look_ > 0) reason = error_until(now + next_look_);
   if (reason != SendReason::none) return reason;
   const double force = std::max(thresholds_.force, thresholds_.weber * true_force);
   if (!(force_error <= force)) return SendReason::force;
@@ -88,6 +89,12 @@ SendReason UpdatePolicy::error_of(const Pose& seen, const Pose& truth) const noe
   if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;
   const double angle = angle_between(truth.orientation, seen.orientation);
   return angle <= thresholds_.angle ? SendReason::none : SendReason::orientation;
+}
+
+// By how much the prediction of Reckon peers will then have left the standard's, which holds now.
+SendReason UpdatePolicy::error_until(double next) const noexcept {
+  if (!is_beyond_trust(sent_, next - sent_time_)) return SendReason::none;
+  return error_of(predicted(next), extrapolate(sent_, next - sent_time_));
 }
 
 void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReason reason) noexcept {

@@ -93,6 +93,11 @@ class UpdatePolicy {
     phase_ = phase;
   }
 
+  /// Where decide() is called seldom: the time until its next call [s], >= 0; default 0. It then
+  /// sends before an acceleration ceases to be trusted, if the prediction of Reckon peers would
+  /// have left the standard's by a threshold until then.
+  void look_again_after(double seconds) noexcept { next_look_ = seconds; }
+
   /// An abrupt event (collision, new surface, appearance): the next decide() returns it.
   void event() noexcept { event_ = true; }
 
@@ -124,6 +129,7 @@ class UpdatePolicy {
 
  private:
   [[nodiscard]] SendReason error_of(const Pose& seen, const Pose& truth) const noexcept;
+  [[nodiscard]] SendReason error_until(double next) const noexcept;
   [[nodiscard]] double aligned(double now) const noexcept;
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -134,6 +140,7 @@ class UpdatePolicy {
   double event_repeat_;
   double wait_;                  // silence until the next repetition
   double step_ = 0, phase_ = 0;  // [s], see align_heartbeats
+  double next_look_ = 0;         // [s], see look_again_after
   KinematicState sent_;
   double sent_time_ = 0;
   bool has_sent_ = false;

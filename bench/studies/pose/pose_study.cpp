@@ -38,6 +38,8 @@ class Owner {
   /// The state to send at this sample as peers decode it, or nothing.
   std::optional<KinematicState> step(const MotionSample& truth) {
     if (!setting_.model) choice_.note(truth, setting_.thresholds, *setting_.rule);
+    if (looked_) policy_.look_again_after(truth.time - *looked_);
+    looked_ = truth.time;
     const SendReason reason = reason_to_send(truth);
     if (reason == SendReason::none) return std::nullopt;
     const KinematicState state =
@@ -81,7 +83,8 @@ class Owner {
   const PoseSetting& setting_;
   deadreckon::UpdatePolicy policy_;
   deadreckon::ModelChoice choice_;
-  std::optional<double> last_;
+  std::optional<double> last_;    // sent at [s]
+  std::optional<double> looked_;  // [s]
 };
 
 /// Shows one entity from what arrives.

@@ -193,15 +193,16 @@ struct FallSeen {
   double reckon = 0, standard = 0;  // largest errors [m]
 };
 
-// An owner without repetitions, 1 kHz, thresholds of 0.1 m.
-FallSeen fall(double seconds, double first) {
+// An owner without repetitions, thresholds of 0.1 m. Errors are those before an update.
+FallSeen fall(double seconds, double first, double step = 1e-3, bool looks_ahead = false) {
   Thresholds thresholds;
   thresholds.position = 0.1;
   UpdatePolicy policy(thresholds, 1000);
+  if (looks_ahead) policy.look_again_after(step);
   FallSeen seen;
   KinematicState sent;
   double since = 0;
-  for (double t = first; t < first + seconds; t += 1e-3) {
+  for (double t = first; t < first + seconds; t += step) {
     const MotionSample truth = falling(t);
     if (seen.updates > 0) {
       const auto error = [&](const Pose& pose) { return (pose.position - truth.position).norm(); };
@@ -229,6 +230,14 @@ TEST(AccelerationTrust, OfAFreeFallFromRestBothKindsOfViewersSeeTheThreshold) {
 
 TEST(AccelerationTrust, AFallThatIsUnderWayNeedsNoUpdateForFourTimesItsAge) {
   EXPECT_EQ(fall(3.9, 1.0).updates, 1);
+}
+
+TEST(AccelerationTrust, AnOwnerThatLooksOnceASecondSendsBeforeItEnds) {
+  const FallSeen late = fall(20, 1, 1), ahead = fall(20, 1, 1, true);
+  EXPECT_GT(late.reckon, 9) << "trusted for 4 s, seen after 5";
+  EXPECT_LT(ahead.reckon, 1e-9);
+  EXPECT_LT(ahead.standard, 1e-9);
+  EXPECT_EQ(ahead.updates, late.updates);
 }
 
 TEST(AccelerationTrust, ASteadyTurnCostsNoUpdateMoreInAnyModel) {
