@@ -7,6 +7,8 @@
 // of its own.
 #include <benchmark/benchmark.h>
 #include <net/if.h>
+#include <pthread.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +18,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,6 +30,7 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/servo_thread.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -277,6 +281,64 @@ void whole_peer(benchmark::State& state, Near near) try {
   state.SkipWithError(error.what());
 }
 
+/// A thread that steps a device each millisecond, at the priority of a servo, and does nothing
+/// else.
+class BareServo {
+ public:
+  BareServo()
+      : thread_([this](const std::stop_token& stop) {
+          const sched_param priority{ServoThread::kPriority};
+          pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+          const SteadyClock clock;
+          for (auto due = std::chrono::steady_clock::now(); !stop.stop_requested();
+               due += milliseconds(1)) {
+            std::this_thread::sleep_until(due);
+            const nanoseconds now = clock.now();
+            benchmark::DoNotOptimize(hand_.read(now));
+            hand_.write(Eigen::Vector3d::Zero(), now);
+          }
+        }) {
+    pthread_setname_np(thread_.native_handle(), "bare");
+  }
+
+ private:
+  bench::SteppedHand hand_{Eigen::Vector3d(0, 0, 500)};
+  std::jthread thread_;
+};
+
+/// CPU of threads so named in a turn without traffic [% of a core].
+double idle_percent_of(std::string_view threads) {
+  std::this_thread::sleep_for(milliseconds(200));
+  const double begin = cpu_of_threads(threads);
+  std::this_thread::sleep_for(kTurn);
+  return 100 * (cpu_of_threads(threads) - begin) /
+         std::chrono::duration<double, std::nano>(kTurn).count();
+}
+
+// The servo of a peer whose hand rests far from everything, beside that thread.
+void resting_servo(benchmark::State& state) try {
+  static_cast<void>(Cable::instance());
+  const SceneFile scene = parse_scene_file(kScene, "wake_bench");
+  bench::Blocks bare_percent, servo_percent, over_bare;
+  for (auto _ : state) {
+    double bare = 0;
+    {
+      const BareServo servo;
+      bare = idle_percent_of("bare");
+    }
+    const HearingPeers peers(scene, Near::nothing);
+    const double servo = idle_percent_of("rk-servo");
+    bare_percent.add(bare);
+    servo_percent.add(servo);
+    over_bare.add(servo / bare);
+  }
+  bare_percent.report(state, "bare_percent");
+  servo_percent.report(state, "servo_percent");
+  over_bare.report(state, "over_bare");
+} catch (const std::exception& error) {
+  state.SkipWithError(error.what());
+}
+
 void at_each_rate(benchmark::internal::Benchmark* bench) {
   bench->Arg(500)->Arg(5'000)->Arg(50'000)->UseRealTime();
 }
@@ -284,6 +346,7 @@ void at_each_rate(benchmark::internal::Benchmark* bench) {
 BENCHMARK_CAPTURE(whole_peer, no_device, Near::no_device)->Apply(at_each_rate);
 BENCHMARK_CAPTURE(whole_peer, device, Near::nothing)->Apply(at_each_rate);
 BENCHMARK_CAPTURE(whole_peer, touch, Near::each_other)->Apply(at_each_rate);
+BENCHMARK(resting_servo)->UseRealTime();
 
 }  // namespace
 }  // namespace reckon::peer
