@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "reckon/peer/awake_processors.hpp"
 #include "reckon/peer/thread_name.hpp"
 
 namespace reckon::peer {
@@ -92,17 +93,23 @@ std::string ServoThread::describe() const {
   const auto early = std::chrono::duration_cast<microseconds>(spin_.load()).count();
   if (early == 0)
     return fmt::format("SCHED_FIFO {}, wakes when a step is due{}", kPriority, remedy);
-  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins near what can be felt", kPriority,
-                     early);
+  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins near what can be felt{}",
+                     kPriority, early,
+                     AwakeProcessors::is_allowed() ? "; processors stay awake then" : "");
 }
 
 void ServoThread::run(std::optional<RealTimePriority>& priority) noexcept {
+  std::optional<AwakeProcessors> awake;
+  if (real_time_) awake.emplace();
   while (!stop_.load(std::memory_order_relaxed)) {
     Seat* const next = next_due();
     const nanoseconds left = next == nullptr ? nanoseconds::max() : next->due - clock_.now();
     if (left > kTimeToTell || next->untold) tell();
     if (priority) leave_time(*priority);
-    const nanoseconds spin = is_urgent() ? spin_.load(std::memory_order_relaxed) : nanoseconds(0);
+    const bool urgent = next != nullptr && is_urgent();
+    if (awake)
+      awake->keep(urgent && real_time_, next == nullptr ? nanoseconds::max() : clock_.now());
+    const nanoseconds spin = urgent ? spin_.load(std::memory_order_relaxed) : nanoseconds(0);
     if (left > spin) {
       changed_.wait(next == nullptr ? left : left - spin);
     } else {
