@@ -3,14 +3,13 @@
 #include "reckon/peer/awake_processors.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -18,45 +17,32 @@ namespace {
 using namespace std::chrono_literals;
 
 // A file in the place of the kernel's: what is asked of it, in turn [us].
-class Requests {
- public:
-  Requests() {
-    std::string name = std::filesystem::temp_directory_path() / "reckon_requests_XXXXXX";
-    close(mkstemp(name.data()));
-    path_ = name;
-  }
-  ~Requests() { std::filesystem::remove(path_); }
-  Requests(const Requests&) = delete;
-  Requests& operator=(const Requests&) = delete;
-
-  [[nodiscard]] const char* path() const { return path_.c_str(); }
-  [[nodiscard]] std::vector<std::int32_t> made() const {
-    std::ifstream file(path_, std::ios::binary);
-    std::vector<std::int32_t> all;
-    for (std::int32_t one = 0; file.read(reinterpret_cast<char*>(&one), sizeof one);)
-      all.push_back(one);
-    return all;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+std::vector<std::int32_t> requests_in(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::int32_t> all;
+  for (std::int32_t one = 0; file.read(reinterpret_cast<char*>(&one), sizeof one);)
+    all.push_back(one);
+  return all;
+}
 
 TEST(AwakeProcessors, AreAskedForWhileNeededAndForASecondMore) {
-  const Requests requests;
-  AwakeProcessors awake(requests.path());
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("requests");
+  std::ofstream{path};
+  const auto made = [&] { return requests_in(path); };
+  AwakeProcessors awake(path.c_str());
   awake.keep(false, 1ms);
-  EXPECT_TRUE(requests.made().empty()) << "before anything is needed";
+  EXPECT_TRUE(made().empty()) << "before anything is needed";
   for (auto now = 1ms; now < 500ms; now += 1ms) awake.keep(true, now);
-  EXPECT_EQ(requests.made(), std::vector<std::int32_t>{0});
+  EXPECT_EQ(made(), std::vector<std::int32_t>{0});
   awake.keep(false, 1400ms);
-  EXPECT_EQ(requests.made(), std::vector<std::int32_t>{0}) << "it may be needed again soon";
+  EXPECT_EQ(made(), std::vector<std::int32_t>{0}) << "it may be needed again soon";
   awake.keep(false, 1500ms);
-  EXPECT_EQ(requests.made(), (std::vector<std::int32_t>{0, 2'000'000'000}));
+  EXPECT_EQ(made(), (std::vector<std::int32_t>{0, 2'000'000'000}));
   awake.keep(true, 1501ms);
-  EXPECT_EQ(requests.made(), (std::vector<std::int32_t>{0, 2'000'000'000, 0}));
+  EXPECT_EQ(made(), (std::vector<std::int32_t>{0, 2'000'000'000, 0}));
   awake.keep(false, std::chrono::nanoseconds::max());
-  EXPECT_EQ(requests.made().back(), 2'000'000'000) << "nobody is left who could need it";
+  EXPECT_EQ(made().back(), 2'000'000'000) << "nobody is left who could need it";
 }
 
 TEST(AwakeProcessors, AreLeftAloneWhereNobodyMayAsk) {
