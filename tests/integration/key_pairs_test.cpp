@@ -34,10 +34,14 @@ using std::chrono::nanoseconds;
 struct Switch {
   std::string_view table, text;
   double coarser = 1.0;  ///< factor of the error that receivers may have
+  double later = 0.0;    ///< a change is shown by so much later [s]
 };
 
 constexpr double kThreshold = 0.2, kCell = 10.0;  // [m]
 constexpr double kHeartbeat = 5.0;                // [s]
+
+// An update waits in a bundle for so long, and the shown pose converges to it half as long again.
+constexpr double shown_after(double hold) { return 1.5 * hold; }
 
 // THE list. A key that stands in two switches makes no pair.
 constexpr Switch kSwitches[]{
@@ -68,9 +72,9 @@ constexpr Switch kSwitches[]{
      5.0},
     {"network", "compression = \"compact\""},
     {"network", "compression = \"residual\""},
-    {"network", "[network.bundle]\nhold = \"50 ms\"", 1.3},  // it comes later by that
+    {"network", "[network.bundle]\nhold = \"50 ms\"", 1.0, shown_after(0.05)},
     {"network", "[network.bundle]\nmax = \"512 B\""},
-    {"network", "[network.bundle]\nupdates = 2\nhold = \"20 ms\"", 1.3},
+    {"network", "[network.bundle]\nupdates = 2\nhold = \"20 ms\"", 1.0, shown_after(0.02)},
     {"network", "allow_management = \"anyone\""},
     {"dead_reckoning", "algorithm = \"static\""},
     {"dead_reckoning", "algorithm = \"fpw\""},
@@ -273,7 +277,7 @@ void try_pair(const Switch& a, const Switch& b, const peer::SceneFile& scene, st
   yard.run(20s);
   EXPECT_EQ(yard.take_fewest(), 4u) << "in motion";
   // The threshold, and the way until a change of motion has arrived and is shown.
-  const double unseen = 0.05 + 0.1 * yard.speed();
+  const double unseen = 0.05 + (0.1 + a.later + b.later) * yard.speed();
   EXPECT_LE(yard.take_worst(), a.coarser * b.coarser * (kThreshold + unseen)) << "in motion";
   yard.halt();
   yard.run(20s);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/peer/awake_processors.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
@@ -100,6 +101,19 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
   return needs;
 }
 
+// Whether processors can be kept awake while something can be felt.
+peer::Finding examine_waking() {
+  const std::string file = peer::AwakeProcessors::kRequests;
+  if (peer::AwakeProcessors::is_allowed())
+    return {peer::FindingLevel::ok,
+            file + " may be written: processors stay awake while something can be felt", ""};
+  return {peer::FindingLevel::note,
+          file +
+              " may not be written: processors may sleep while something is felt, and wake the "
+              "servo late",
+          "sudo setfacl -m u:$USER:w " + file + ", or run as root"};
+}
+
 peer::SceneFile scene_of(const DoctorOptions& options) {
   if (options.scene.empty()) return {};
   if (options.ipv6) throw UsageError("--ipv6: the scene sets the address family; leave --ipv6 out");
@@ -142,7 +156,8 @@ int run_doctor(Arguments arguments, const Console& console) {
   const peer::InterfaceChoice choice = choose(
       options.interface.empty() ? scene.network.iface : options.interface, needs.pool.base().is_v6);
   fmt::print(console.err, "{}", choice.explanation);
-  const std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
+  std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
+  findings.push_back(examine_waking());
 
   for (const peer::Finding& finding : findings) {
     if (options.json)

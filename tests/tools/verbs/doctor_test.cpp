@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,13 @@ TEST(Doctor, PrintsOneFindingALineWithItsRemedyBelow) {
   EXPECT_THAT(result.out, HasSubstr("note  lo is loopback"));
   EXPECT_THAT(result.out, HasSubstr("\n      fix: "));
   EXPECT_THAT(result.err, HasSubstr(" failed\n"));
+}
+
+TEST(Doctor, SaysWhetherProcessorsCanBeKeptAwake) {
+  const auto result = run_reckon({"doctor", "--iface", "lo"});
+  const bool may = access("/dev/cpu_dma_latency", W_OK) == 0;
+  EXPECT_THAT(result.out, HasSubstr(may ? "/dev/cpu_dma_latency may be written: "
+                                        : "/dev/cpu_dma_latency may not be written: "));
 }
 
 TEST(Doctor, LooksAtTheGroupAndThePortOfTheScene) {
