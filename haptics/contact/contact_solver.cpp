@@ -34,6 +34,12 @@ FrictionCone* cone_of(PlannedEffects& effects) {
   return cone;
 }
 
+bool has_follower(const PlannedEffects& effects) {
+  bool has = false;
+  effects.for_each([&]<class Effect>(const Effect&) { has |= FollowsPlace<Effect>; });
+  return has;
+}
+
 // The objects whose planes carry load. A walk that needs more moves than one step has may end
 // without load. Then the object of a plane that it met holds the point, or else `other`.
 std::size_t holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t other,
@@ -70,8 +76,9 @@ ContactSolver::ContactSolver(const EffectPlan& plan, double radius, double patch
   noted_.resize(count);
   states_.reserve(count);
   for (const PlannedObject& object : plan.objects()) {
-    states_.push_back(
-        {SurfaceContactPoint(radius), object.effects, false, {}, 0, Vector3d::Zero()});
+    states_.push_back({SurfaceContactPoint(radius), object.effects});
+    states_.back().follows = has_follower(object.effects);
+    any_follows_ |= states_.back().follows;
     cones_.push_back(cone_of(states_.back().effects));
   }
 }
@@ -93,14 +100,30 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   return sum(device);
 }
 
-ContactResult ContactSolver::step(const Vector3d& device) noexcept {
+ContactResult ContactSolver::step(const Vector3d& device, double dt) noexcept {
   if (!usable(device)) return nothing();
   if (!started_) return reset(device);
+  if (any_follows_) follow_place(dt);
   find_near(device);
   settle(device);
   for (const std::uint32_t i : near_) states_[i].started_inside &= contacts_[i].in_contact;
   last_device_ = device;
   return sum(device);
+}
+
+// An object that was touched just now begins at its place, without sliding.
+void ContactSolver::follow_place(double dt) noexcept {
+  for (const std::uint32_t i : touched_) {
+    ObjectState& state = states_[i];
+    if (!state.follows) continue;
+    const Vector3d place = plan_.objects()[i].place_of(scp_);
+    const bool slid = cones_[i]->sliding();
+    const SlidingPlace now{place, slid ? (place - state.place).norm() / dt : 0.0, dt};
+    state.place = place;
+    state.effects.for_each([&]<class Effect>(Effect& effect) {
+      if constexpr (FollowsPlace<Effect>) effect.follow(now);
+    });
+  }
 }
 
 // The SCP never moves farther from the device than it is. A touched object may be left on a path
@@ -215,7 +238,7 @@ void ContactSolver::settle_on_one(std::uint32_t index, const Vector3d& device) n
   if (!point.in_contact()) return;
   contacts_[index].normal = object.orientation * point.normal();
   contacts_[index].scp = scp_;
-  note_patch(index, point.triangle());
+  note_touch(index, point.triangle());
   feel(index, point.scp(), local);
 }
 
@@ -239,7 +262,7 @@ void ContactSolver::settle_among(const Vector3d& device) noexcept {
     contacts_[share.object].normal = share.push.normalized();
     contacts_[share.object].scp = scp_;
     const Vector3d local = object.to_object(device);
-    note_patch(share.object, share.triangle);
+    note_touch(share.object, share.triangle);
     feel(share.object, local + object.orientation.transpose() * share.way, local);
     FrictionCone* cone = cones_[share.object];
     if (cone != nullptr) cone->set_sliding(walk.sliding && !walk.p.isZero(0.0));
@@ -254,21 +277,22 @@ SurfaceFeel ContactSolver::goal_of(std::uint32_t index) const noexcept {
 
 void ContactSolver::apply(std::uint32_t index, const SurfaceFeel& feel) noexcept {
   PlannedEffects& effects = states_[index].effects;
-  effects.of<SpringDamper>().adjust(feel.surface);
-  if (auto& friction = effects.of<StickSlipFriction>()) friction->adjust(feel.friction);
+  effects.find<SpringDamper>()->adjust(feel.surface);
+  if (auto* friction = effects.find<StickSlipFriction>()) friction->adjust(feel.friction);
 }
 
 // A new contact begins with the patch below it. An existing one changes to it gradually.
-void ContactSolver::note_patch(std::uint32_t index, std::uint32_t triangle) noexcept {
-  const SurfacePatches* patches = plan_.objects()[index].patches.get();
-  if (patches == nullptr) return;
+void ContactSolver::note_touch(std::uint32_t index, std::uint32_t triangle) noexcept {
+  const PlannedObject& object = plan_.objects()[index];
   ObjectState& state = states_[index];
-  contacts_[index].patch = patches->of_triangle[triangle];
-  if (state.touched_at + 1 < step_ || state.touched_at == 0) {
-    state.blend.begin(goal_of(index));
-    apply(index, state.blend.now());
-  }
+  state.began = state.touched_at == 0 || state.touched_at + 1 < step_;
   state.touched_at = step_;
+  if (object.is_mesh()) contacts_[index].triangle = triangle;
+  if (object.patches == nullptr) return;
+  contacts_[index].patch = object.patches->of_triangle[triangle];
+  if (!state.began) return;
+  state.blend.begin(goal_of(index));
+  apply(index, state.blend.now());
 }
 
 ContactResult ContactSolver::follow_patches(double dt, double energy) noexcept {
@@ -315,12 +339,25 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
   });
 }
 
+EffectContact ContactSolver::seen_by(std::uint32_t index, const Vector3d& velocity,
+                                     double dt) const noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  const ObjectContact& contact = contacts_[index];
+  EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
+                     contact.depth, dt,          contact.in_contact};
+  if (!object.effects.has_declared()) return seen;
+  seen.place = object.place_of(contact.scp);
+  seen.axes = object.orientation;
+  seen.triangle = contact.triangle;
+  seen.patch = contact.patch;
+  seen.began = states_[index].began;
+  return seen;
+}
+
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt) noexcept {
   Vector3d total = Vector3d::Zero();
   for (const std::uint32_t i : near_) {
-    const ObjectContact& contact = contacts_[i];
-    const EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
-                             contact.depth, dt,          contact.in_contact};
+    const EffectContact seen = seen_by(i, velocity, dt);
     states_[i].effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (GivesForce<Effect>) total += effect.force(seen);
     });

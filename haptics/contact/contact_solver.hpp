@@ -30,6 +30,7 @@ struct ObjectContact {
   double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
   double depth = 0.0;                                ///< [m], this object's share of |device - scp|
   std::uint32_t patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
+  std::uint32_t triangle = EffectContact::kNoTriangle;  ///< of a mesh, below the SCP
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
 };
@@ -80,7 +81,8 @@ class ContactSolver {
   /// One that is not finite or beyond 1e9 m gives no force and the last scp, and changes nothing.
   /// The first call resets. No allocation. Examines the objects touched before and those no farther
   /// from the device than the SCP was: logarithmic in all others.
-  ContactResult step(const Eigen::Vector3d& device) noexcept;
+  /// @param dt [s] > 0, since the last step: for friction that depends on the sliding speed
+  ContactResult step(const Eigen::Vector3d& device, double dt = 0.001) noexcept;
 
   /// Changes to the patches below the SCP, as PatchBlend does: the contacts stay and their springs
   /// change. A new contact begins with its patch at once. No allocation.
@@ -109,9 +111,12 @@ class ContactSolver {
     SurfaceContactPoint point;  // while this object alone is within reach
     PlannedEffects effects;
     bool started_inside = false;
-    PatchBlend blend;                                   // of a mesh with patches
-    std::uint64_t touched_at = 0;                       // step of the last touch
+    PatchBlend blend{};                                 // of a mesh with patches
+    std::uint64_t touched_at = 0;                       // step of the last touch; 0: none
     Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs end, its own axes
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();    // of the SCP, for effects that follow it
+    bool follows = false;                               // it has such an effect
+    bool began = false;                                 // its contact is new in this step
   };
 
   [[nodiscard]] bool within_reach(std::uint32_t index,
@@ -121,14 +126,17 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t overlapped(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] bool push_out(Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] Eigen::Vector3d search_outside(const Eigen::Vector3d& device) const noexcept;
+  void follow_place(double dt) noexcept;
   void settle(const Eigen::Vector3d& device) noexcept;
   void settle_on_one(std::uint32_t index, const Eigen::Vector3d& device) noexcept;
   void settle_among(const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] SurfaceFeel goal_of(std::uint32_t index) const noexcept;
   void apply(std::uint32_t index, const SurfaceFeel& feel) noexcept;
-  void note_patch(std::uint32_t index, std::uint32_t triangle) noexcept;
+  void note_touch(std::uint32_t index, std::uint32_t triangle) noexcept;
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
+  [[nodiscard]] EffectContact seen_by(std::uint32_t index, const Eigen::Vector3d& velocity,
+                                      double dt) const noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 
@@ -143,7 +151,8 @@ class ContactSolver {
   std::vector<std::uint32_t> reached_;  // of these, objects that the SCP may meet
   std::vector<std::uint32_t> touched_;  // of these, objects in contact
   std::vector<std::uint64_t> noted_;    // per object, the step at which it was put into near_
-  std::uint64_t step_ = 0;
+  std::uint64_t step_ = 1;
+  bool any_follows_ = false;
   std::uint32_t alone_ = kNobody;                          // object whose own SCP is the newest
   Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();          // S
   Eigen::Vector3d last_device_ = Eigen::Vector3d::Zero();  // S, of the last finite step

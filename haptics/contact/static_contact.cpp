@@ -11,12 +11,15 @@ namespace {
 
 constexpr double kRampSeconds = 0.1;
 constexpr double kFadeSeconds = 0.5;
+constexpr double kRegionShare = 1.0 / 3.0;  // of the cap of walls
 constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
 
 }  // namespace
 
 StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double radius)
-    : solver_(plan, radius, stiffness_cap), cap_(stiffness_cap) {}
+    : solver_(plan, radius, stiffness_cap),
+      regions_(plan, kRegionShare * stiffness_cap),
+      cap_(stiffness_cap) {}
 
 void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
   result_ = solver_.reset(device);
@@ -25,6 +28,7 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
   gain_ = result_.in_contact ? 0.0 : 1.0;
   fades_in_ = result_.in_contact;
   force_.setZero();
+  regions_.reset(device);
 }
 
 void StaticContact::measure_stiffness() noexcept {
@@ -35,9 +39,15 @@ void StaticContact::measure_stiffness() noexcept {
 }
 
 void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept {
+  settle_walls(device, dt, port);
+  regions_.settle(device, dt, port);
+}
+
+void StaticContact::settle_walls(const Eigen::Vector3d& device, double dt,
+                                 EnergyPort& port) noexcept {
   const double before = stored();
   const Eigen::Vector3d force = result_.force;
-  result_ = solver_.step(device);
+  result_ = solver_.step(device, dt);
   measure_stiffness();
   port.book(before - stored());
   if (port.reads_in_steps()) {
@@ -96,7 +106,8 @@ void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
 
 // The effects' forces belong to no storage, and the port limits them. Here they are limited so that
 // the sum never pulls the hand to the surface.
-void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
+void StaticContact::load_walls(const Eigen::Vector3d& velocity, double dt,
+                               PortLoad& load) noexcept {
   extra_.setZero();
   force_ = gain_ * result_.force;
   if (result_.objects.empty()) return;
@@ -114,10 +125,16 @@ void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& l
   load.extra += extra_;
 }
 
+void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
+  load_walls(velocity, dt, load);
+  regions_.load(velocity, dt, load);
+}
+
 void StaticContact::attenuate(double factor, EnergyPort& port) noexcept {
   const double keep = std::clamp(factor, 0.0, 1.0);
   scale_gain(keep, port);
   force_ *= keep;
+  regions_.attenuate(keep, port);
 }
 
 }  // namespace reckon::haptics

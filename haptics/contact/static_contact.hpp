@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walls of a device: scales the contact solver's force so that the sampled wall stays passive
-// for this device, and books the storage of its springs.
+// The static scene of a device, walls and regions: scales the contact solver's force so that the
+// sampled wall stays passive for this device, and books the storage of its springs.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/haptics/contact/region_forces.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
 
 namespace reckon::haptics {
@@ -21,7 +22,8 @@ namespace reckon::haptics {
 /// step: settle, load, shown, attenuate.
 class StaticContact {
  public:
-  /// @param plan outlives this object  @param stiffness_cap [N/m] of any object
+  /// @param plan outlives this object  @param stiffness_cap [N/m] of any object; regions together
+  /// have a third of it besides, see static_cap()
   /// @param radius of the probe [m], >= 0
   StaticContact(const EffectPlan& plan, double stiffness_cap, double radius = 0.0);
 
@@ -63,15 +65,19 @@ class StaticContact {
     return (most_gain() - gain_) * result_.force;
   }
   [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
+  [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
 
  private:
   [[nodiscard]] double most_gain() const noexcept;
+  void settle_walls(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept;
+  void load_walls(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
   void scale_gain(double factor, EnergyPort& port) noexcept;
   void follow_patches(double dt, EnergyPort& port) noexcept;
   void raise_gain(double dt, EnergyPort& port) noexcept;
   void measure_stiffness() noexcept;
 
   ContactSolver solver_;
+  RegionForces regions_;
   double cap_;
   ContactResult result_;
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();  // [m], position of the device

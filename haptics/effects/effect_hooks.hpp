@@ -4,13 +4,17 @@
 // parameters and at least one hook. Callers find the hooks by these concepts alone.
 //
 //   cone()                                       holds the surface contact point (SCP)
-//   spring_force(), stored_energy(), stiffness() stores energy between device and SCP
+//   follow(place)                                the same, by where the SCP is and how fast it
+//   slides spring_force(), stored_energy(), stiffness() stores energy between device and SCP
 //   force(contact), damping()                    any other force on the device
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstdint>
+#include <limits>
 #include <string_view>
 #include <type_traits>
 
@@ -19,8 +23,17 @@
 
 namespace reckon::haptics {
 
-/// The contact with one object, as input of its effects, frame S.
+/// Where the SCP of a touched object is.
+struct SlidingPlace {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the object's axes
+  double slip = 0.0;                                ///< speed of the SCP on the surface [m/s], >= 0
+  double dt = 0.001;                                ///< [s], since the last step
+};
+
+/// The contact with one object, as input of its effects, frame S unless stated.
 struct EffectContact {
+  static constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
+
   Eigen::Vector3d device = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();       ///< [m]; the device point if free
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, out of the solid; zero if free
@@ -29,6 +42,22 @@ struct EffectContact {
   double depth = 0.0;                                  ///< |device - scp| [m]
   double dt = 0.001;                                   ///< [s], hold time of the force
   bool in_contact = false;
+  // Set for objects with declared effects alone:
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< the SCP in the object's axes [m]
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< the object's axes -> S
+  /// Of the object at the SCP [m/s]; zero, for objects do not move.
+  Eigen::Vector3d object_velocity = Eigen::Vector3d::Zero();
+  std::uint32_t triangle = kNoTriangle;  ///< of a mesh, below the SCP
+  std::uint32_t patch = 0;               ///< of a mesh, number in SurfacePatches; 0: none
+  bool began = false;                    ///< the contact is new in this step
+
+  /// Of the springs, out of the solid [N] >= 0.
+  [[nodiscard]] double normal_force() const noexcept { return std::max(spring.dot(normal), 0.0); }
+  /// Velocity of the device over the surface [m/s], normal to `normal`.
+  [[nodiscard]] Eigen::Vector3d slip() const noexcept {
+    const Eigen::Vector3d over = velocity - object_velocity;
+    return over - normal.dot(over) * normal;
+  }
 };
 
 /// Limits the motion of the SCP; at most one effect of an object may have this hook.
@@ -36,6 +65,14 @@ template <class Effect>
 concept HoldsContactPoint = requires(Effect& effect) {
   { effect.cone() }
   noexcept->std::same_as<FrictionCone&>;
+};
+
+/// Holds the contact point by where it is: told of the place before the SCP moves.
+template <class Effect>
+concept FollowsPlace = HoldsContactPoint<Effect> &&
+    requires(Effect& effect, const SlidingPlace& place) {
+  { effect.follow(place) }
+  noexcept->std::same_as<void>;
 };
 
 /// Stores energy: a function of |device - scp| that falls with it. Its force is the gradient of the
@@ -77,11 +114,13 @@ concept AlwaysThere = requires {
   requires Effect::kAlways;
 };
 
-/// Has a name, takes its parameters from its table, and is copied for each contact without a throw.
+/// Has a name, takes its parameters from its table, and is copied for each contact without a throw:
+/// it owns no memory.
 template <class Effect>
 concept DescribedEffect = std::derived_from<Effect, CountedEffect<Effect>> &&
     std::constructible_from<Effect, const typename Effect::Parameters&> &&
-    std::is_nothrow_copy_assignable_v<Effect> && requires(const Effect& effect) {
+    std::is_copy_assignable_v<Effect> && std::is_trivially_destructible_v<Effect> &&
+    requires(const Effect& effect) {
   { Effect::kName } -> std::convertible_to<std::string_view>;
   { Effect::kKey } -> std::convertible_to<std::string_view>;
   { Effect::kCost } -> std::convertible_to<std::string_view>;
@@ -98,6 +137,7 @@ concept HookedEffect = HoldsContactPoint<Effect> || StoresEnergy<Effect> || Give
 /// Each hook whose name it has is complete and has the right types.
 template <class Effect>
 concept WholeHooks = (HoldsContactPoint<Effect> || !requires { &Effect::cone; }) &&
+                     (FollowsPlace<Effect> || !requires { &Effect::follow; }) &&
                      (StoresEnergy<Effect> || !(
                                                   requires { &Effect::spring_force; } ||
                                                   requires { &Effect::stored_energy; } ||

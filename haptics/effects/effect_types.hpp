@@ -9,19 +9,25 @@
 #include <type_traits>
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
+#include "reckon/haptics/effects/place_friction.hpp"
 #include "reckon/haptics/effects/spring_damper.hpp"
 #include "reckon/haptics/effects/stick_slip_friction.hpp"
+#include "reckon/haptics/effects/stribeck_friction.hpp"
+#include "reckon/haptics/effects/surface_drag.hpp"
+#include "reckon/haptics/effects/tap_vibration.hpp"
+#include "reckon/haptics/effects/texture.hpp"
 
 namespace reckon::haptics {
 
-using EffectTypes = std::tuple<SpringDamper, StickSlipFriction>;
+using EffectTypes = std::tuple<SpringDamper, StickSlipFriction, PlaceFriction, StribeckFriction,
+                               Texture, SurfaceDrag, TapVibration>;
 
 /// Calls f(std::type_identity<Effect>{}) once per effect, in the order of the list.
-template <class F>
+template <class Types = EffectTypes, class F>
 constexpr void for_each_effect(F&& f) {
   [&]<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
     (f(std::type_identity<Effects>{}), ...);
-  }(std::type_identity<EffectTypes>{});
+  }(std::type_identity<Types>{});
 }
 
 /// Compile-time check that the effect can be declared and run.
@@ -29,8 +35,8 @@ template <class Effect>
 struct CheckedEffect {
   static_assert(DescribedEffect<Effect>,
                 "an effect is a CountedEffect of itself with Parameters, kName, kKey, kCost, "
-                "kParameters, parameters() and a constructor from its Parameters: see "
-                "DescribedEffect in effect_hooks.hpp");
+                "kParameters, parameters() and a constructor from its Parameters, and owns no "
+                "memory (std::vector, std::string): see DescribedEffect in effect_hooks.hpp");
   static_assert(HookedEffect<Effect>,
                 "an effect has a hook, else nothing would simulate it: cone(), or spring_force() "
                 "with stored_energy() and stiffness(), or force() with damping(); each noexcept. "

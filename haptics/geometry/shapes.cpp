@@ -84,6 +84,11 @@ double HalfSpace::distance_below(const Vector3d& p) const noexcept { return norm
 
 double HalfSpace::clearance() const noexcept { return kPlaneClearance; }
 
+Vector3d HalfSpace::nearest_inside(const Vector3d& p) const noexcept {
+  const double over = normal_.dot(p);
+  return over > 0.0 ? Vector3d(p - over * normal_) : p;
+}
+
 Eigen::AlignedBox3d HalfSpace::bounds() const noexcept {
   const Vector3d all = Vector3d::Constant(std::numeric_limits<double>::max());
   return {-all, all};
@@ -167,6 +172,11 @@ bool Ball::sweep(const Vector3d& origin, const Vector3d& step, double radius,
 double Ball::distance_below(const Vector3d& p) const noexcept { return p.norm() - radius_; }
 
 double Ball::clearance() const noexcept { return 2.0 * kRelativeClearance * radius_; }
+
+Vector3d Ball::nearest_inside(const Vector3d& p) const noexcept {
+  const double distance = p.norm();
+  return distance > radius_ ? Vector3d((radius_ / distance) * p) : p;
+}
 
 Eigen::AlignedBox3d Ball::bounds() const noexcept {
   return {Vector3d::Constant(-radius_), Vector3d::Constant(radius_)};
@@ -280,6 +290,10 @@ double Block::distance_below(const Vector3d& p) const noexcept {
 }
 
 double Block::clearance() const noexcept { return clearance_; }
+
+Vector3d Block::nearest_inside(const Vector3d& p) const noexcept {
+  return p.cwiseMax(-half_).cwiseMin(half_);
+}
 
 Eigen::AlignedBox3d Block::bounds() const noexcept { return {-half_, half_}; }
 

@@ -50,6 +50,8 @@ class HalfSpace {
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
   /// Greatest error of a settled SCP by rounding [m].
   [[nodiscard]] double clearance() const noexcept;
+  /// The nearest point of the solid; p itself inside.
+  [[nodiscard]] Eigen::Vector3d nearest_inside(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:
@@ -70,6 +72,7 @@ class Ball {
                            double radius, SweepHit& hit) const noexcept;
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] double clearance() const noexcept;
+  [[nodiscard]] Eigen::Vector3d nearest_inside(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:
@@ -92,6 +95,7 @@ class Block {
                            double radius, SweepHit& hit) const noexcept;
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] double clearance() const noexcept;
+  [[nodiscard]] Eigen::Vector3d nearest_inside(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
   [[nodiscard]] double size() const noexcept { return 2.0 * half_.norm(); }
 

@@ -39,6 +39,34 @@ double PlannedObject::stiffness() const noexcept {
   return sum;
 }
 
+Eigen::Vector3d PlannedRegion::beyond(const Eigen::Vector3d& place) const noexcept {
+  return std::visit(
+      [&](const auto& s) -> Eigen::Vector3d {
+        if constexpr (std::is_same_v<std::decay_t<decltype(s)>, std::monostate>) {
+          return Eigen::Vector3d::Zero();
+        } else {
+          return place - s.nearest_inside(place);
+        }
+      },
+      shape);
+}
+
+double PlannedRegion::stiffness() const noexcept {
+  double sum = 0.0;
+  effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (StoresRegionEnergy<Effect>) sum += effect.stiffness();
+  });
+  return sum;
+}
+
+double PlannedRegion::damping() const noexcept {
+  double sum = 0.0;
+  effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (GivesRegionForce<Effect>) sum += effect.damping();
+  });
+  return sum;
+}
+
 double PlannedObject::damping() const noexcept {
   double sum = most_beyond(patches.get(), &Surface::damping);
   effects.for_each([&]<class Effect>(const Effect& effect) {
@@ -113,50 +141,74 @@ void check_one_holder(const PlannedEffects& effects) {
 }
 
 PlannedEffects plan_effects(const DeclaredEffects& declared) {
-  const PlannedEffects effects =
-      PlannedEffects::filled([&]<class Effect>(std::type_identity<Effect>) {
-        using Slot = PlannedEffects::Slot<Effect>;
-        const typename Effect::Parameters* parameters = declared.find<Effect>();
-        if constexpr (AlwaysThere<Effect>) {
-          return Slot(*parameters);
-        } else {
-          return parameters == nullptr ? Slot() : Slot(std::in_place, *parameters);
-        }
-      });
+  PlannedEffects effects(declared);
   check_one_holder(effects);
   return effects;
 }
 
 // If only patches have friction, the object still needs the effect that holds the contact point.
 void hold_for(const SurfacePatches& patches, PlannedEffects& effects) {
-  auto& friction = effects.of<StickSlipFriction>();
   const bool rough = std::ranges::any_of(patches.patches, [](const PlannedPatch& patch) {
     return patch.feel.friction.static_coefficient > 0.0;
   });
-  if (rough && !friction) friction.emplace(patches.feel_of(0).friction);
+  if (rough && effects.find<StickSlipFriction>() == nullptr) {
+    effects.add<StickSlipFriction>(patches.feel_of(0).friction);
+    check_one_holder(effects);
+  }
+}
+
+Eigen::Quaterniond checked_orientation(const ObjectPose& pose) {
+  const Eigen::Quaterniond& q = pose.orientation;
+  if (!pose.position.allFinite() || !q.coeffs().allFinite() || !(q.norm() > 0.0)) {
+    throw std::invalid_argument("pose must be finite, with an orientation that is not zero");
+  }
+  return q.normalized();
 }
 
 PlannedObject plan_object(const SceneObject& object) {
-  const Eigen::Quaterniond& q = object.pose.orientation;
-  if (!object.pose.position.allFinite() || !q.coeffs().allFinite() || !(q.norm() > 0.0)) {
-    throw std::invalid_argument("pose must be finite, with an orientation that is not zero");
-  }
+  const Eigen::Quaterniond orientation = checked_orientation(object.pose);
   PlannedObject planned{object.name,
                         make_shape(object.shape),
-                        q.normalized().toRotationMatrix(),
+                        orientation.toRotationMatrix(),
                         object.pose.position,
+                        Vector3d::Zero(),
                         {},
                         plan_effects(object.effects),
                         nullptr};
   // A mesh whose vertices are far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
-    planned.position += planned.orientation * (*mesh)->origin();
+    planned.origin = (*mesh)->origin();
+    planned.position += planned.orientation * planned.origin;
     planned.patches = plan_patches(object, **mesh);
     if (planned.patches) hold_for(*planned.patches, planned.effects);
   } else if (!object.patches.empty()) {
     throw std::invalid_argument("only a mesh has patches; take them out");
   }
   planned.bounds = place_bounds(planned);
+  return planned;
+}
+
+PlannedRegion plan_region(const SceneRegion& region) {
+  const Eigen::Quaterniond orientation = checked_orientation(region.pose);
+  PlannedRegion planned{region.name,
+                        {},
+                        orientation.toRotationMatrix(),
+                        region.pose.position,
+                        PlannedRegionEffects(region.effects)};
+  if (!region.shape) {
+    if (region.effects.find<BorderSpring>() != nullptr)
+      throw std::invalid_argument("what is everywhere has no border; give it a shape");
+    return planned;
+  }
+  if (const auto* plane = std::get_if<PlaneShape>(&*region.shape)) {
+    planned.shape = HalfSpace(*plane);
+  } else if (const auto* sphere = std::get_if<SphereShape>(&*region.shape)) {
+    planned.shape = Ball(*sphere);
+  } else if (const auto* box = std::get_if<BoxShape>(&*region.shape)) {
+    planned.shape = Block(*box);
+  } else {
+    throw std::invalid_argument("a region is a plane, a sphere, a box, or everywhere");
+  }
   return planned;
 }
 
@@ -210,6 +262,11 @@ PlanStage contact_stage(const PlannedObject& object) {
           "logarithmic in " + std::to_string(report.triangles) + " triangles"};
 }
 
+PlanStage region_stage(const PlannedRegion& region) {
+  constexpr const char* kNames[] = {"everywhere", "below a plane", "in a sphere", "in a box"};
+  return {"region", region.name, kNames[region.shape.index()], "a few multiplications"};
+}
+
 PlanStage patch_stage(const std::string& object, const PlannedPatch& patch, std::size_t id) {
   const Surface& surface = patch.feel.surface;
   const Friction& friction = patch.feel.friction;
@@ -224,16 +281,22 @@ PlanStage patch_stage(const std::string& object, const PlannedPatch& patch, std:
 }  // namespace
 
 EffectPlan::EffectPlan(const Scene& scene) {
-  objects_.reserve(scene.objects.size());
-  for (const SceneObject& object : scene.objects) {
+  const auto named = [](const char* what, const std::string& name, auto&& plan) {
+    const std::string where = std::string(what) + " \"" + name + "\": ";
     try {
-      objects_.push_back(plan_object(object));
+      return plan();
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("object \"" + object.name + "\": " + error.what());
+      throw std::invalid_argument(where + error.what());
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error("object \"" + object.name + "\": " + error.what());
+      throw std::runtime_error(where + error.what());
     }
-  }
+  };
+  objects_.reserve(scene.objects.size());
+  for (const SceneObject& object : scene.objects)
+    objects_.push_back(named("object", object.name, [&] { return plan_object(object); }));
+  regions_.reserve(scene.regions.size());
+  for (const SceneRegion& region : scene.regions)
+    regions_.push_back(named("region", region.name, [&] { return plan_region(region); }));
   plant_tree();
 }
 
@@ -258,7 +321,11 @@ void EffectPlan::plant_tree() {
 }
 
 bool EffectPlan::has_within(const Eigen::Vector3d& at, double reach) const noexcept {
-  bool found = false;
+  bool found = std::ranges::any_of(regions_, [&](const PlannedRegion& region) {
+    const Eigen::Vector3d place = region.orientation.transpose() * (at - region.position);
+    const bool acts_outside = region.effects.find<BorderSpring>() != nullptr;
+    return acts_outside || region.beyond(place).norm() <= reach;
+  });
   const Eigen::Vector3d room = Eigen::Vector3d::Constant(reach);
   visit_near({at - room, at + room}, [&](std::uint32_t index) {
     const PlannedObject& object = objects_[index];
@@ -288,6 +355,12 @@ std::vector<PlanStage> EffectPlan::stages() const {
         if (kTurn<Effect> == turn) stages.push_back(effect_stage(object.name, effect));
       });
     }
+  }
+  for (const PlannedRegion& region : regions_) {
+    stages.push_back(region_stage(region));
+    region.effects.for_each([&]<class Effect>(const Effect& effect) {
+      stages.push_back(effect_stage(region.name, effect));
+    });
   }
   return stages;
 }

@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "reckon/haptics/effects/effect_slots.hpp"
+#include "reckon/haptics/effects/effect_set.hpp"
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/scene/scene.hpp"
@@ -27,6 +29,8 @@ struct PlannedObject {
   /// Origin of the shape's axes [m], S. It differs from the object's origin if a mesh has a
   /// SurfaceMesh::origin().
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  /// Of the shape's axes in the object's own [m], of the same orientation.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::AlignedBox3d bounds;  ///< S; unbounded for a plane
   PlannedEffects effects;      ///< as declared; contacts copy them
   /// Patches of a mesh, or null. With patches, `effects` are those of triangles in no patch.
@@ -40,15 +44,38 @@ struct PlannedObject {
   [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
     return orientation.transpose() * (p_S - position);
   }
+  /// In the object's own axes, as its file or scene has them [m].
+  [[nodiscard]] Eigen::Vector3d place_of(const Eigen::Vector3d& p_S) const noexcept {
+    return to_object(p_S) + origin;
+  }
+  [[nodiscard]] bool is_mesh() const noexcept {
+    return std::holds_alternative<std::shared_ptr<const SurfaceMesh>>(shape);
+  }
   [[nodiscard]] Eigen::Vector3d to_scene(const Eigen::Vector3d& p_object) const noexcept {
     return orientation * p_object + position;
   }
 };
 
-/// One stage of the servo step for one object.
+/// One region for the servo.
+struct PlannedRegion {
+  std::string name;
+  std::variant<std::monostate, HalfSpace, Ball, Block> shape;  ///< none: everywhere
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();   ///< region -> S
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();          ///< of its origin [m], S
+  PlannedRegionEffects effects;                                ///< as declared; devices copy them
+
+  /// From the nearest place inside to `place`, both in its axes [m]; zero inside.
+  [[nodiscard]] Eigen::Vector3d beyond(const Eigen::Vector3d& place) const noexcept;
+  /// Curvature of all its potentials together, at most [N/m].
+  [[nodiscard]] double stiffness() const noexcept;
+  /// Damping of the device that its effects reserve [N s/m].
+  [[nodiscard]] double damping() const noexcept;
+};
+
+/// One stage of the servo step for one object or region.
 struct PlanStage {
-  std::string name;        ///< "contact" or the effect's name
-  std::string object;      ///< the object's name
+  std::string name;        ///< "contact", "region" or the effect's name
+  std::string object;      ///< the object's or region's name
   std::string parameters;  ///< "stiffness 800 N/m, damping 0 N s/m", or the shape
   std::string cost;        ///< class, e.g. "logarithmic in 5184 triangles"
 };
@@ -61,8 +88,14 @@ class EffectPlan {
   /// @throws std::invalid_argument or std::runtime_error naming the object, the value and the
   /// remedy.
   explicit EffectPlan(const Scene& scene);
+  /// Of parts of another plan; meshes are shared.
+  EffectPlan(std::vector<PlannedObject> objects, std::vector<PlannedRegion> regions)
+      : objects_(std::move(objects)), regions_(std::move(regions)) {
+    plant_tree();
+  }
 
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
+  [[nodiscard]] const std::vector<PlannedRegion>& regions() const noexcept { return regions_; }
   /// Calls visit(index) once for each object whose bounds meet `box` [m, S]. It also visits objects
   /// that have no bounds, or an effect that acts at a distance. Any order, no allocation;
   /// logarithmic in the objects with bounds.
@@ -73,7 +106,8 @@ class EffectPlan {
       for (std::uint32_t i = first; i < first + count; ++i) visit(in_tree_[tree_.order()[i]]);
     });
   }
-  /// Whether a surface, or an effect that acts at a distance, is within `reach` [m] of `at` [m, S].
+  /// Whether a surface, a region, or an effect that acts at a distance, is within `reach` [m] of
+  /// `at` [m, S].
   /// Surely true where one is; logarithmic in the objects out of reach.
   [[nodiscard]] bool has_within(const Eigen::Vector3d& at, double reach) const noexcept;
   /// Stiffness of the stiffest surface [N/m]; 0 without objects. Compared with the device's passive
@@ -86,6 +120,7 @@ class EffectPlan {
   void plant_tree();
 
   std::vector<PlannedObject> objects_;
+  std::vector<PlannedRegion> regions_;
   std::vector<std::uint32_t> always_;   // indices of objects, ascending
   std::vector<std::uint32_t> in_tree_;  // indices of the others, by their number in the tree
   BoundingVolumeTree tree_;

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/effects/effect_slots.hpp"
+#include "reckon/haptics/effects/effect_declarations.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
+#include "reckon/haptics/regions/region_types.hpp"
 
 namespace reckon::haptics {
 
@@ -38,9 +39,18 @@ struct SceneObject {
   std::vector<SurfacePatch> patches;  ///< of a mesh; other triangles have `effects`
 };
 
+/// A part of space in which effects act; nothing solid.
+struct SceneRegion {
+  std::string name;
+  std::optional<Shape> shape;  ///< a plane (below it), sphere or box; none: everywhere
+  ObjectPose pose;
+  DeclaredRegionEffects effects;
+};
+
 struct Scene {
   std::string name;
   std::vector<SceneObject> objects;
+  std::vector<SceneRegion> regions{};
 };
 
 }  // namespace reckon::haptics

@@ -12,6 +12,7 @@
 namespace reckon::haptics {
 namespace {
 
+constexpr double kMostRegionShare = 0.25;  // of the stiffness that is left for objects
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is reserved for remote hands
 
 void require(bool good, const std::string& text) {
@@ -69,7 +70,13 @@ double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double per
   for (const PlannedObject& object : plan.objects()) {
     damping = std::max(damping, object.damping());
   }
-  const double cap = per_damping * (share - std::min(damping, 0.5 * share));
+  double stiffness = 0.0;
+  for (const PlannedRegion& region : plan.regions()) {
+    damping += region.damping();
+    stiffness += region.stiffness();
+  }
+  const double whole = per_damping * (share - std::min(damping, 0.5 * share));
+  const double cap = whole - std::min(stiffness, kMostRegionShare * whole);
   return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
 }
 

@@ -94,6 +94,10 @@ void ServoLoop::step(nanoseconds now) noexcept {
   if (enabled && static_.share() < 1.0) {
     tally_.walls.note(static_.share(), static_.asked(), step_.dt);
   }
+  const RegionForces& regions = static_.regions();
+  if (enabled && regions.share() < 1.0) {
+    tally_.effects.note(regions.share(), regions.asked(), step_.dt);
+  }
   const double scale = enabled ? safety_.scale(force, step_.velocity) : 0.0;
   note_limit(force, scale);
   if (scale < 1.0) port_.attenuate(scale);

@@ -5,36 +5,16 @@
 
 #include <numbers>
 #include <set>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
-#include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/peer/scene/effect_reader.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 #include "reckon/peer/scene/solid_section.hpp"
 
 namespace reckon::peer {
 namespace {
-
-/// The parameters of an effect, from the effect's own table.
-template <class Effect>
-void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Parameters& values) {
-  for (const auto& row : Effect::kParameters) table.number(row.key, values.*row.field);
-  try {
-    const Effect checked(values);  // checks beyond single rows
-  } catch (const std::invalid_argument& error) {
-    owner.problem(Effect::kKey, error.what());
-  }
-}
-
-/// One effect of an object.
-template <class Effect>
-void read_effect(TomlReader& object_table, haptics::SceneObject& object) {
-  auto table = object_table.table(Effect::kKey);
-  if (table) read_parameters<Effect>(object_table, *table, object.effects.declare<Effect>());
-}
 
 /// A patch inherits the values that it does not give from the object.
 void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
@@ -74,8 +54,7 @@ void check_object(TomlReader& table, haptics::SceneObject& object) {
   check_shape(table, object.shape);
   check_solid(table, object);
   object.pose.orientation = read_orientation(table);
-  haptics::for_each_effect(
-      [&]<class Effect>(std::type_identity<Effect>) { read_effect<Effect>(table, object); });
+  read_effects(table, object.effects);
   read_patches(table, object);
 }
 

@@ -109,6 +109,7 @@ void check_file(TomlReader& file, SceneFile& out) {
                                         object.name));
     }
   }
+  read_regions(file, out);
   read_devices(file, out);
   read_entities(file, out);
   set_reach_by_extent(out, {file.has("aoim", "cell"), file.has("aoim", "radius")});

@@ -116,10 +116,11 @@ void add_values(Hash& hash, const typename Effect::Parameters& values) {
   for (const auto& row : Effect::kParameters) hash.fact(row.key, values.*row.field);
 }
 
-template <class Effect>
-void add_effect(Hash& hash, const haptics::SceneObject& object) {
-  const auto* values = object.effects.find<Effect>();
-  if (values != nullptr) add_values<Effect>(hash, *values);
+template <class Types>
+void add_effects_of(Hash& hash, const haptics::EffectDeclarations<Types>& effects) {
+  haptics::for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {
+    if (const auto* values = effects.template find<Effect>()) add_values<Effect>(hash, *values);
+  });
 }
 
 /// In the order of their names, because the order in a file means nothing.
@@ -168,9 +169,16 @@ void add(Hash& hash, const haptics::SceneObject& object) {
   std::visit([&](const auto& shape) { add(hash, shape); }, object.shape);
   hash.fact("position", object.pose.position);
   add(hash, object.pose.orientation);
-  haptics::for_each_effect(
-      [&]<class Effect>(std::type_identity<Effect>) { add_effect<Effect>(hash, object); });
+  add_effects_of(hash, object.effects);
   add_patches(hash, object.patches);
+}
+
+void add(Hash& hash, const haptics::SceneRegion& region) {
+  hash.fact("region", region.name);
+  if (region.shape) std::visit([&](const auto& shape) { add(hash, shape); }, *region.shape);
+  hash.fact("position", region.pose.position);
+  add(hash, region.pose.orientation);
+  add_effects_of(hash, region.effects);
 }
 
 }  // namespace
@@ -196,6 +204,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
     hash.fact("compression", word_of(file.network.compression));
   }
   for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
+  for (const haptics::SceneRegion& region : file.scene.regions) add(hash, region);
   return hash.value();
 }
 

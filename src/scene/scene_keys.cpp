@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/regions/region_types.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
@@ -63,6 +64,14 @@ void add_effects(Keys& keys) {
       [&]<class Effect>(std::type_identity<Effect>) { add_effect_table<Effect>(keys, "object"); });
   haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
     add_effect_keys<Effect>(keys, "object", true);
+  });
+}
+
+void add_region_effects(Keys& keys) {
+  haptics::for_each_region_effect(
+      [&]<class Effect>(std::type_identity<Effect>) { add_effect_table<Effect>(keys, "region"); });
+  haptics::for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
+    add_effect_keys<Effect>(keys, "region", true);
   });
 }
 

@@ -188,12 +188,15 @@ Section<OperatorConfig> operator_section() {
 
 const Section<SceneFile>& file_section() {
   const auto objects = [](const SceneFile& file) { return file.scene.objects; };
+  const auto regions = [](const SceneFile& file) { return file.scene.regions; };
   const auto devices = [](const SceneFile& file) { return file.devices; };
   const auto entities = [](const SceneFile& file) { return file.entities; };
   static const Section<SceneFile> section{
       {
           {"scene", std::identity(), scene_section(), "the world: its name and its place on Earth"},
           {"object", objects, object_section(), "one thing to touch; none is an empty world"},
+          {"region", regions, region_section(),
+           "a part of space, or all of it, in which a device feels a force and touches nothing"},
           {"hand", &SceneFile::hand, hand_section(),
            "the force model of this peer's own hand, which others feel"},
           {"operator", &SceneFile::operators, operator_section(),

@@ -24,6 +24,7 @@ struct TouchModel : deadreckon::ForceModel {
 /// Tables that a file may have repeatedly.
 [[nodiscard]] Section<haptics::SceneObject> object_section();
 [[nodiscard]] Section<haptics::SurfacePatch> patch_section();
+[[nodiscard]] Section<haptics::SceneRegion> region_section();
 [[nodiscard]] Section<OperatorConfig> operator_section();
 [[nodiscard]] Section<Outage> outage_section();
 [[nodiscard]] Section<EntityConfig> entity_section();
@@ -44,6 +45,8 @@ struct TouchModel : deadreckon::ForceModel {
 void add_effects(std::vector<SceneKey>& keys);
 /// Adds those of the effects that a patch may change.
 void add_patch_effects(std::vector<SceneKey>& keys);
+/// Adds those of the effects of regions.
+void add_region_effects(std::vector<SceneKey>& keys);
 
 // Reads what depends on several keys, and reports contradictions.
 void check_file(TomlReader& table, SceneFile& file);
@@ -59,6 +62,8 @@ void check_tiers(TomlReader& aoim, const Tiers& tiers);
 /// Reports what of [aoim] excludes other parts of the file.
 void check_aoim_of(TomlReader& file, const SceneFile& scene);
 
+/// Reads the tables [[region]].
+void read_regions(TomlReader& file, SceneFile& out);
 // Reads the tables [[entity]] and [[device]], which use values from elsewhere in the file.
 void read_entities(TomlReader& file, SceneFile& out);
 void read_devices(TomlReader& file, SceneFile& out);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -12,9 +14,11 @@
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/regions/region_types.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/scene_costs.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_peers.hpp"
 #include "reckon/tools/verbs/scene_settings.hpp"
@@ -25,10 +29,10 @@ namespace {
 
 using peer::format_quantity;
 
-/// An effect that an object lacks, and the line that would add it.
+/// An effect that objects or regions lack, and the line that would add it.
 struct LeftOut {
   std::string effect;
-  std::string object;
+  std::vector<std::string> objects;  ///< that lack it; none: no region has it
   std::string declaration;
 };
 
@@ -43,23 +47,32 @@ std::string declaration_of() {
   return fmt::format("{} = {{ {} }}", Effect::kKey, inside);
 }
 
-/// All pairs of effect and object that are not in the plan.
-std::vector<LeftOut> left_out(const LoadedScene& scene,
-                              const std::vector<haptics::PlanStage>& stages) {
+/// All effects that are not everywhere in the plan.
+std::vector<LeftOut> left_out(const haptics::Scene& scene) {
   std::vector<LeftOut> rows;
-  const auto has = [&](std::string_view stage, const std::string& object) {
-    for (const haptics::PlanStage& row : stages) {
-      if (row.name == stage && row.object == object) return true;
-    }
-    return false;
-  };
   haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
-    for (const haptics::SceneObject& object : scene.file.scene.objects) {
-      if (has(Effect::kName, object.name)) continue;
-      rows.push_back({std::string(Effect::kName), object.name, declaration_of<Effect>()});
-    }
+    LeftOut row{std::string(Effect::kName), {}, declaration_of<Effect>()};
+    for (const haptics::SceneObject& object : scene.objects)
+      if (object.effects.find<Effect>() == nullptr) row.objects.push_back(object.name);
+    if (!row.objects.empty()) rows.push_back(std::move(row));
+  });
+  haptics::for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
+    const bool has = std::ranges::any_of(scene.regions, [](const haptics::SceneRegion& region) {
+      return region.effects.find<Effect>() != nullptr;
+    });
+    if (!has) rows.push_back({std::string(Effect::kName), {}, declaration_of<Effect>()});
   });
   return rows;
+}
+
+/// "table, ball and 3 more".
+std::string where_of(const LeftOut& row) {
+  constexpr std::size_t kNamed = 2;
+  if (row.objects.empty()) return "a [[region]]";
+  const std::size_t named = std::min(row.objects.size(), kNamed);
+  std::string text = fmt::format("{}", fmt::join(std::span(row.objects).first(named), ", "));
+  if (row.objects.size() > named) text += fmt::format(" and {} more", row.objects.size() - named);
+  return text;
 }
 
 bool is_spring(std::string_view stage) {
@@ -111,27 +124,53 @@ TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
   return table;
 }
 
+constexpr auto kRight = TextTable::Align::right;
+
+/// "31 ns"; nothing for what was not measured.
+std::string time_text(double seconds) {
+  if (seconds < 0) return "";
+  return fmt::format("{:.0f} ns", 1e9 * seconds);
+}
+
+/// What a servo step takes of this host, and whether it can be had.
+std::string step_text(const StageCosts& costs) {
+  constexpr double kStep = 1e-3, kMost = 0.5;  // [s], and the share of it that is left to the servo
+  const std::string what = costs.dearest_object.empty()
+                               ? std::string("a step")
+                               : fmt::format("a step that touches {}", costs.dearest_object);
+  const std::string text =
+      fmt::format("measured here: {} takes {:.2g} us of 1,000 ({:.0f} ns without any stage)", what,
+                  1e6 * costs.dearest, 1e9 * costs.empty);
+  if (costs.dearest < kMost * kStep) return text;
+  return text + "; this host cannot do that at 1 kHz: leave out the dearest stages above";
+}
+
 }  // namespace
 
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   const std::vector<SceneDevice> devices = devices_in(scene.file, scene.plan);
   const auto stages = stages_of(scene, devices);
   fmt::print(out, "{}   hash {}\n\n", scene.file.name, hash_text(scene.file.hash));
-  TextTable run({{"EACH SERVO STEP"}, {"OBJECT"}, {"WITH"}, {"COST"}});
-  for (const haptics::PlanStage& stage : stages) {
-    run.add({stage.name, stage.object, stage.parameters, stage.cost});
+  const StageCosts costs = measure_stages(scene, scene.file.hand.contact_radius);
+  TextTable run({{"EACH SERVO STEP"}, {"OBJECT"}, {"WITH"}, {"TAKES", kRight}, {"COST"}});
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const haptics::PlanStage& stage = stages[i];
+    run.add({stage.name, stage.object, stage.parameters, time_text(costs.stages[i]), stage.cost});
   }
   if (run.empty())
     fmt::print(out, "nothing to touch: a servo step only reads and writes the device\n");
-  if (!run.empty()) run.print(out);
+  if (!run.empty()) {
+    run.print(out);
+    fmt::print(out, "\n{}\n", step_text(costs));
+  }
 
   TextTable absent({{"LEFT OUT: NO COST"}, {"OBJECT"}, {"TO HAVE IT, WRITE"}});
-  for (const LeftOut& row : left_out(scene, stages)) {
-    absent.add({row.effect, row.object, row.declaration});
+  for (const LeftOut& row : left_out(scene.file.scene)) {
+    absent.add({row.effect, where_of(row), row.declaration});
   }
   fmt::print(out, "\n");
   if (!absent.empty()) absent.print(out);
-  if (absent.empty() && !run.empty()) fmt::print(out, "nothing is left out\n");
+  if (absent.empty()) fmt::print(out, "nothing is left out\n");
 
   const TextTable meshes = meshes_as_table(mesh_facts(scene));
   if (!meshes.empty()) fmt::print(out, "\n");
@@ -165,20 +204,23 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
       .text("hash", hash_text(scene.file.hash))
       .value("stages", stages.size())
       .end("\n");
-  for (const haptics::PlanStage& stage : stages) {
+  const StageCosts costs = measure_stages(scene, scene.file.hand.contact_radius);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const bool known = costs.stages[i] >= 0;
     JsonObject(text)
         .text("kind", "stage")
-        .text("stage", stage.name)
-        .text("object", stage.object)
-        .text("parameters", stage.parameters)
-        .text("cost", stage.cost)
+        .text("stage", stages[i].name)
+        .text("object", stages[i].object)
+        .text("parameters", stages[i].parameters)
+        .text("cost", stages[i].cost)
+        .number("takes_s", known ? std::optional(costs.stages[i]) : std::nullopt)
         .end("\n");
   }
-  for (const LeftOut& row : left_out(scene, stages)) {
+  for (const LeftOut& row : left_out(scene.file.scene)) {
     JsonObject(text)
         .text("kind", "left_out")
         .text("effect", row.effect)
-        .text("object", row.object)
+        .array("objects", row.objects, append_json_string)
         .text("declaration", row.declaration)
         .end("\n");
   }

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "reckon/haptics/effects/effect_slots.hpp"
+#include "reckon/haptics/effects/effect_set.hpp"
 #include "reckon/tests/support/places.hpp"
 
 namespace reckon::haptics {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One slot for each effect of the list in an object: its parameters in a scene, the effect itself
-// in a plan. An effect that is not declared is never constructed.
+// The effects that a scene declares for an object: one slot for each effect of the list, with its
+// parameters. An effect that is not declared is never constructed, see EffectSet.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,15 @@
 
 namespace reckon::haptics {
 
-/// One slot per effect, in the order of the list: a Kept<Effect> for an effect that is kAlways,
-/// else a std::optional of it.
-template <template <class> class Kept>
-class EffectSlots {
+/// One slot per effect, in the order of the list: its parameters if it is kAlways, else a
+/// std::optional of them. @tparam Types std::tuple of the effects
+template <class Types>
+class EffectDeclarations {
  public:
   template <class Effect>
+  using Kept = typename Effect::Parameters;
+  template <class Effect>
   using Slot = std::conditional_t<AlwaysThere<Effect>, Kept<Effect>, std::optional<Kept<Effect>>>;
-
-  EffectSlots() = default;
-
-  /// Fills each slot with the result of make(std::type_identity<Effect>{}), a Slot<Effect>.
-  template <class Make>
-  [[nodiscard]] static EffectSlots filled(Make&& make) {
-    return [&]<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
-      return EffectSlots(Slots{make(std::type_identity<Effects>{})...});
-    }(std::type_identity<EffectTypes>{});
-  }
 
   template <class Effect>
   [[nodiscard]] Slot<Effect>& of() noexcept {
@@ -56,11 +48,7 @@ class EffectSlots {
     return *held(of<Effect>());
   }
 
-  /// Calls f(kept) for each declared effect, in the order of the list.
-  template <class F>
-  void for_each(F&& f) {
-    std::apply([&](auto&... slots) { (visit(slots, f), ...); }, slots_);
-  }
+  /// Calls f(parameters) for each declared effect, in the order of the list.
   template <class F>
   void for_each(F&& f) const {
     std::apply([&](const auto&... slots) { (visit(slots, f), ...); }, slots_);
@@ -81,16 +69,13 @@ class EffectSlots {
       return at;
     }
   };
-  using Slots = typename Rooms<EffectTypes>::Slots;
+  using Slots = typename Rooms<Types>::Slots;
 
   template <class Effect>
   static consteval std::size_t index_of() {
-    static_assert(Rooms<EffectTypes>::template kListed<Effect>,
-                  "this effect has no row in EffectTypes");
-    return Rooms<EffectTypes>::template index<Effect>();
+    static_assert(Rooms<Types>::template kListed<Effect>, "this effect has no row in the list");
+    return Rooms<Types>::template index<Effect>();
   }
-
-  explicit EffectSlots(Slots slots) : slots_(std::move(slots)) {}
 
   template <class T>
   static T* held(T& slot) noexcept {
@@ -113,13 +98,7 @@ class EffectSlots {
   Slots slots_;
 };
 
-/// The parameters of an effect.
-template <class Effect>
-using ParametersOf = typename Effect::Parameters;
-
-/// The effects that a scene declares for an object.
-using DeclaredEffects = EffectSlots<ParametersOf>;
-/// The effects of an object, ready to run; a copy has its own state.
-using PlannedEffects = EffectSlots<std::type_identity_t>;
+/// Of an object.
+using DeclaredEffects = EffectDeclarations<EffectTypes>;
 
 }  // namespace reckon::haptics

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a device feels of the regions of a scene: their potentials are booked whole, as those of
+// walls are, and their other forces are held as far as the ledger covers them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+namespace reckon::haptics {
+
+/// All regions of a plan. Each region's potential is shown with a gain. It falls to what the ledger
+/// covers where the potential would take more, as when the hand enters a region that draws it in,
+/// and rises in 100 ms as the port pays. Order of calls within a step: settle, load, attenuate.
+/// One thread; allocates only at construction. Nothing for a plan without regions.
+class RegionForces {
+ public:
+  /// @param plan outlives this object  @param stiffness_cap [N/m] of all potentials together
+  RegionForces(const EffectPlan& plan, double stiffness_cap);
+
+  /// Restarts at `device` [m, S]: every region is entered anew, and its potential fades in.
+  void reset(const Eigen::Vector3d& device) noexcept;
+  /// Moves to `device` [m, S] after a sample of `dt` [s], and books what was stored or released.
+  void settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept;
+  /// Adds the forces to be held. @param velocity of the device [m/s, S]  @param dt [s], of the next
+  /// sample
+  void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
+  /// Scales the potentials by `factor` in [0, 1].
+  void attenuate(double factor, EnergyPort& port) noexcept;
+
+  /// Force of the potentials that is shown [N, S].
+  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
+  [[nodiscard]] double stored() const noexcept;
+  /// Least share of a potential that the ledger allows, [0, 1].
+  [[nodiscard]] double share() const noexcept { return share_; }
+  /// Force of the potentials if nothing were short [N].
+  [[nodiscard]] double asked() const noexcept { return asked_; }
+
+ private:
+  struct State {
+    PlannedRegionEffects effects;
+    RegionPoint point;
+    RegionPotential sum{};  // of its potentials, in the region's axes
+    double gain = 0.0;
+  };
+
+  void move(std::size_t index, const Eigen::Vector3d& device) noexcept;
+  void sum_up() noexcept;
+  [[nodiscard]] double most_gain() const noexcept;
+  static void scale_gain(State& state, double factor, EnergyPort& port) noexcept;
+  static bool raise_gain(State& state, double most, double dt, EnergyPort& port) noexcept;
+
+  const EffectPlan& plan_;
+  std::vector<State> states_;
+  double cap_;
+  bool begins_ = true;
+  Eigen::Vector3d at_ = Eigen::Vector3d::Zero();     // [m], of the device
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  // [N]
+  double share_ = 1.0, asked_ = 0.0;
+};
+
+}  // namespace reckon::haptics

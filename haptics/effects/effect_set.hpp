@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The effects of an object, ready to run. Effects that are always there are members; of the others
+// only the declared ones exist, so that a longer list of effects costs an object nothing.
+#pragma once
+
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "reckon/haptics/effects/effect_declarations.hpp"
+#include "reckon/haptics/effects/effect_types.hpp"
+
+namespace reckon::haptics {
+
+/// A copy has its own state. Assignment between copies of one set does not allocate.
+/// @tparam Types std::tuple of the effects
+template <class Types>
+class EffectSet {
+ public:
+  /// The effects that are always there, with their defaults.
+  EffectSet() : EffectSet(EffectDeclarations<Types>()) {}
+  /// @throws std::invalid_argument when an effect refuses its parameters.
+  explicit EffectSet(const EffectDeclarations<Types>& declared)
+      : always_(Parts<Types>::always(declared)) {
+    for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {
+      if constexpr (!AlwaysThere<Effect>) {
+        if (const auto* parameters = declared.template find<Effect>()) add<Effect>(*parameters);
+      }
+    });
+  }
+
+  /// The effect; null if it is not declared.
+  template <class Effect>
+  [[nodiscard]] Effect* find() noexcept {
+    return find_in<Effect>(*this);
+  }
+  template <class Effect>
+  [[nodiscard]] const Effect* find() const noexcept {
+    return find_in<Effect>(*this);
+  }
+  /// Declares an effect that is not declared yet; allocates.
+  template <class Effect>
+  void add(const typename Effect::Parameters& parameters) {
+    declared_.emplace_back(std::in_place_type<Effect>, parameters);
+  }
+  /// Whether there are other effects than those that are always there.
+  [[nodiscard]] bool has_declared() const noexcept { return !declared_.empty(); }
+
+  /// Calls f(effect) for each effect: those that are always there, then the declared ones.
+  template <class F>
+  void for_each(F&& f) {
+    visit(*this, f);
+  }
+  template <class F>
+  void for_each(F&& f) const {
+    visit(*this, f);
+  }
+
+ private:
+  template <class List>
+  struct Parts;
+  template <class... Effects>
+  struct Parts<std::tuple<Effects...>> {
+    template <class Effect, bool always>
+    using If = std::conditional_t<AlwaysThere<Effect> == always, std::tuple<Effect>, std::tuple<>>;
+    template <class List>
+    struct Of;
+    template <class... Some>
+    struct Of<std::tuple<Some...>> {
+      using Variant = std::variant<Some...>;
+      static std::tuple<Some...> make([[maybe_unused]] const EffectDeclarations<Types>& declared) {
+        return std::tuple<Some...>(Some(*declared.template find<Some>())...);
+      }
+    };
+    using Always = decltype(std::tuple_cat(std::declval<If<Effects, true>>()...));
+    using Declared =
+        typename Of<decltype(std::tuple_cat(std::declval<If<Effects, false>>()...))>::Variant;
+    static Always always(const EffectDeclarations<Types>& declared) {
+      return Of<Always>::make(declared);
+    }
+  };
+  using Always = typename Parts<Types>::Always;
+  using Declared = typename Parts<Types>::Declared;
+
+  template <class Effect, class Self>
+  static auto* find_in(Self& self) noexcept {
+    using Found = std::conditional_t<std::is_const_v<Self>, const Effect, Effect>;
+    if constexpr (AlwaysThere<Effect>) {
+      return &std::get<Effect>(self.always_);
+    } else {
+      for (auto& one : self.declared_)
+        if (Found* found = std::get_if<Effect>(&one)) return found;
+      return static_cast<Found*>(nullptr);
+    }
+  }
+  template <class Self, class F>
+  static void visit(Self& self, F& f) {
+    std::apply([&](auto&... effects) { (f(effects), ...); }, self.always_);
+    for (auto& one : self.declared_) std::visit(f, one);
+  }
+
+  Always always_;
+  std::vector<Declared> declared_;
+};
+
+/// Of an object.
+using PlannedEffects = EffectSet<EffectTypes>;
+
+}  // namespace reckon::haptics

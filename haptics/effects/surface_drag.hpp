@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Viscous drag along a surface, as of a film of oil. A scene file sets it with `drag = {..}` of an
+// object.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+#include "reckon/haptics/effects/effect_hooks.hpp"
+#include "reckon/haptics/effects/effect_parameter.hpp"
+
+namespace reckon::haptics {
+
+/// Of a film on a surface.
+struct Film {
+  double viscosity = 2.0;  ///< [N s/m]
+};
+
+/// F = -viscosity times the velocity along the surface, while in contact, whatever the pressure.
+class SurfaceDrag : public CountedEffect<SurfaceDrag> {
+ public:
+  using Parameters = Film;
+  static constexpr bool kInContactOnly = true;
+  static constexpr std::string_view kName = "surface_drag";
+  static constexpr std::string_view kKey = "drag";
+  static constexpr std::string_view kCost = "a few multiplications";
+  static constexpr std::array<EffectParameter<Film>, 1> kParameters{{
+      {"viscosity", "N s/m", &Film::viscosity, 0.0, 100.0, 2.0,
+       "Force against motion along the surface, per m/s; higher feels stickier and takes stiffness "
+       "from the walls, at most half of it."},
+  }};
+
+  /// @throws std::invalid_argument when the value is out of the table's range.
+  explicit SurfaceDrag(const Film& film) : film_(film) { check_parameters(kParameters, film); }
+
+  /// Hook: the drag [N].
+  [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) const noexcept {
+    if (!contact.in_contact) return Eigen::Vector3d::Zero();
+    return -film_.viscosity * contact.slip();
+  }
+
+  /// Hook: its coefficient [N s/m].
+  [[nodiscard]] double damping() const noexcept { return film_.viscosity; }
+
+  [[nodiscard]] const Film& parameters() const noexcept { return film_; }
+
+ private:
+  Film film_;
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The hooks of an effect of a region: a part of space, or all of it, in which a device feels a
+// force without touching anything.
+//
+//   potential(point)          stores energy, as a spring does
+//   force(point), damping()   any other force on the device
+#pragma once
+
+#include <Eigen/Core>
+#include <concepts>
+
+#include "reckon/haptics/effects/effect_hooks.hpp"
+
+namespace reckon::haptics {
+
+/// The device in a region, once a servo step.
+struct RegionPoint {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< in the region's axes [m]
+  Eigen::Vector3d beyond = Eigen::Vector3d::Zero();    ///< from the nearest place inside [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< in the region's axes [m/s]
+  double dt = 0.001;                                   ///< [s], hold time of the force
+  bool inside = true;
+  bool entered = false;  ///< it was not inside one step before, or the servo has just begun
+};
+
+/// A potential at a point.
+struct RegionPotential {
+  double energy = 0.0;                              ///< [J] >= 0
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< -grad energy [N], in the region's axes
+  double stiffness = 0.0;                           ///< [N/m], upper bound of its curvature
+};
+
+/// Stores energy. The energy may fall by itself, as where friction slides, but never grow without a
+/// motion of the device against the force, except where it enters the region: then its share begins
+/// at what the device's ledger covers. Called once a step, inside or not.
+template <class Effect>
+concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
+                                      const RegionPoint& point) {
+  { effect.potential(point) }
+  noexcept->std::same_as<RegionPotential>;
+  { fixed.stiffness() }
+  noexcept->std::same_as<double>;
+};
+
+/// Gives any other force [N, region's axes], as far as the device's ledger covers it. damping() [N
+/// s/m] is the part of the device's own damping that it reserves.
+template <class Effect>
+concept GivesRegionForce = requires(Effect& effect, const Effect& fixed, const RegionPoint& point) {
+  { effect.force(point) }
+  noexcept->std::same_as<Eigen::Vector3d>;
+  { fixed.damping() }
+  noexcept->std::same_as<double>;
+};
+
+template <class Effect>
+concept HookedRegionEffect = StoresRegionEnergy<Effect> || GivesRegionForce<Effect>;
+
+}  // namespace reckon::haptics

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads the tables of effects by their own tables of parameters. Private to the scene reader.
+#pragma once
+
+#include <stdexcept>
+#include <type_traits>
+
+#include "reckon/haptics/effects/effect_declarations.hpp"
+#include "reckon/peer/scene/toml_reader.hpp"
+
+namespace reckon::peer {
+
+/// The parameters of an effect.
+template <class Effect>
+void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Parameters& values) {
+  for (const auto& row : Effect::kParameters) table.number(row.key, values.*row.field);
+  try {
+    const Effect checked(values);  // checks beyond single rows
+  } catch (const std::invalid_argument& error) {
+    owner.problem(Effect::kKey, error.what());
+  }
+}
+
+/// All effects of a list that an object or region declares.
+template <class Types>
+void read_effects(TomlReader& owner, haptics::EffectDeclarations<Types>& effects) {
+  haptics::for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {
+    if (auto table = owner.table(Effect::kKey))
+      read_parameters<Effect>(owner, *table, effects.template declare<Effect>());
+  });
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Effects of a surface against their closed forms, on a turned box and on a turned mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kPeriod = 0.001;
+constexpr double kStiffness = 1000.0;
+
+/// A slab of 200 x 200 x 40 mm, as a box or as the same mesh, turned and moved in S.
+enum class As { box, mesh };
+
+class Slab {
+ public:
+  explicit Slab(As as) {
+    object_.name = "slab";
+    object_.effects.of<SpringDamper>() = {kStiffness, 0.0};
+    object_.pose.position = {0.3, -0.2, 1.1};
+    object_.pose.orientation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()));
+    if (as == As::box) {
+      object_.shape = BoxShape{{0.2, 0.2, 0.04}};
+    } else {
+      object_.shape = MeshShape{write_slab(), 0.0, false};
+    }
+  }
+  DeclaredEffects& effects() { return object_.effects; }
+  [[nodiscard]] Vector3d in_scene(const Vector3d& place) const {
+    return object_.pose.orientation * place + object_.pose.position;
+  }
+  [[nodiscard]] Vector3d turned(const Vector3d& way) const {
+    return object_.pose.orientation * way;
+  }
+  [[nodiscard]] EffectPlan plan() const { return EffectPlan(Scene{"", {object_}}); }
+
+ private:
+  std::filesystem::path write_slab() {
+    const std::filesystem::path file = folder_.file("slab.off");
+    std::ofstream out(file);
+    out << "OFF\n8 12 0\n";
+    for (int i = 0; i < 8; ++i)
+      out << (i & 1 ? 0.1 : -0.1) << ' ' << (i & 2 ? 0.1 : -0.1) << ' ' << (i & 4 ? 0.02 : -0.02)
+          << '\n';
+    out << "3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n"
+           "3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n";
+    return file;
+  }
+
+  test::ScratchFolder folder_;
+  SceneObject object_;
+};
+
+/// Presses at `at` (x, y of the slab's axes) by 2 mm, from above.
+constexpr double kDepth = 0.002, kNormalForce = kStiffness * kDepth;
+Vector3d pressed(double x, double y) { return {x, y, 0.02 - kDepth}; }
+
+class SurfaceEffects : public testing::TestWithParam<As> {};
+INSTANTIATE_TEST_SUITE_P(Slabs, SurfaceEffects, testing::Values(As::box, As::mesh),
+                         [](const auto& slab) { return slab.param == As::box ? "box" : "mesh"; });
+
+TEST_P(SurfaceEffects, TextureIsTheSlopeTimesTheNormalForce) {
+  Slab slab(GetParam());
+  slab.effects().declare<Texture>() = {4e-5, 0.003, 0.005, 0.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-0.08, 0.08);
+  for (int i = 0; i < 200; ++i) {
+    const double x = any(random), y = any(random);
+    solver.step(slab.in_scene({x, y, 0.03}));
+    solver.step(slab.in_scene(pressed(x, y)));
+    const Vector3d force = solver.effect_force(Vector3d::Zero(), kPeriod);
+    const double kx = 2 * kPi / 0.003, ky = 2 * kPi / 0.005;
+    const Vector3d slope(-4e-5 * kx * std::sin(kx * x) * std::cos(ky * y),
+                         -4e-5 * ky * std::cos(kx * x) * std::sin(ky * y), 0);
+    // A clearance of 1e-7 of the size moves the place, and with it the phase.
+    EXPECT_LT((force - slab.turned(-kNormalForce * slope)).norm(), 1e-6 + 1e-4 * slope.norm()) << i;
+  }
+}
+
+// Four samples in a wave show it whole, two or fewer nothing.
+TEST_P(SurfaceEffects, TextureFadesWhereSamplesWouldShowNoise) {
+  Slab slab(GetParam());
+  slab.effects().declare<Texture>() = {4e-5, 0.004, 0.0, 0.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0.001, 0, 0.03}));
+  solver.step(slab.in_scene(pressed(0.001, 0)));
+  const auto size = [&](double speed) {
+    return solver.effect_force(slab.turned({0, speed, 0}), kPeriod).norm();
+  };
+  const double whole = size(0.0);
+  EXPECT_GT(whole, 0.05);
+  EXPECT_NEAR(size(1.0), whole, 1e-12);
+  EXPECT_NEAR(size(4.0 / 3.0), 0.5 * whole, 1e-9);
+  EXPECT_EQ(size(2.0), 0.0);
+  EXPECT_EQ(size(50.0), 0.0);
+}
+
+TEST_P(SurfaceEffects, DragIsAgainstTheMotionAlongTheSurfaceAlone) {
+  Slab slab(GetParam());
+  slab.effects().declare<SurfaceDrag>() = {3.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  EXPECT_EQ(solver.effect_force(slab.turned({0.2, 0, 0}), kPeriod), Vector3d::Zero());
+  solver.step(slab.in_scene(pressed(0, 0)));
+  const Vector3d force = solver.effect_force(slab.turned({0.2, -0.1, 0.7}), kPeriod);
+  EXPECT_LT((force - slab.turned({-0.6, 0.3, 0})).norm(), 1e-9);
+  EXPECT_EQ(plan.objects()[0].damping(), 3.0);
+}
+
+// Of each contact anew, by the speed at which it began.
+TEST_P(SurfaceEffects, TapRingsAndDecays) {
+  Slab slab(GetParam());
+  const Ringing wood{8.0, 100.0, 80.0};
+  slab.effects().declare<TapVibration>() = wood;
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  for (const double speed : {0.1, 0.25}) {
+    solver.step(slab.in_scene({0, 0, 0.03}));
+    EXPECT_EQ(solver.effect_force(slab.turned({0, 0, -speed}), kPeriod), Vector3d::Zero());
+    for (int i = 1; i <= 60; ++i) {
+      solver.step(slab.in_scene(pressed(0, 0)));
+      const double velocity = i == 1 ? -speed : 0.01;  // what it does later does not count
+      const Vector3d force = solver.effect_force(slab.turned({0.3, 0, velocity}), kPeriod);
+      const double t = kPeriod * i;
+      const double expected = 8.0 * speed * std::exp(-80 * t) * std::sin(2 * kPi * 100 * t);
+      EXPECT_LT((force - slab.turned({0, 0, expected})).norm(), 1e-9) << i;
+    }
+  }
+}
+
+/// Slides along x at `speed` until it is far from where it stuck, and says the tangential over the
+/// normal force.
+double sliding_ratio(ContactSolver& solver, const Slab& slab, double from, double speed,
+                     int steps) {
+  solver.step(slab.in_scene({from, 0, 0.03}), kPeriod);
+  ContactResult result{};
+  for (int i = 0; i < steps; ++i)
+    result = solver.step(slab.in_scene(pressed(from + speed * kPeriod * i, 0)), kPeriod);
+  const double along = result.force.dot(slab.turned({-1, 0, 0}));
+  return along / result.force.dot(slab.turned({0, 0, 1}));
+}
+
+// Sticks up to the static coefficient, and slides with the kinetic one: of the place where it is.
+TEST_P(SurfaceEffects, GrainHoldsByTheCoefficientOfThePlace) {
+  Slab slab(GetParam());
+  slab.effects().declare<PlaceFriction>() = {0.5, 0.5, 0.6, 0.02, 0.0, 0.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  double least = 10, most = 0;
+  solver.step(slab.in_scene({-0.05, 0, 0.03}));
+  for (int i = 0; i < 1000; ++i) {
+    const double x = -0.05 + 1e-4 * i;
+    const ContactResult result = solver.step(slab.in_scene(pressed(x, 0)), kPeriod);
+    if (i < 100) continue;
+    const Vector3d place = plan.objects()[0].place_of(result.scp);
+    const double ratio = result.force.dot(slab.turned({-1, 0, 0})) / kNormalForce;
+    // The cone is that of the place one step before.
+    const double here = 0.5 * (1 + 0.6 * std::cos(2 * kPi * place.x() / 0.02));
+    EXPECT_NEAR(ratio, here, 0.02) << i;
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  EXPECT_NEAR(least, 0.2, 0.01);
+  EXPECT_NEAR(most, 0.8, 0.01);
+}
+
+TEST_P(SurfaceEffects, StribeckFallsWithTheSpeedAndGrowsByViscosity) {
+  Slab slab(GetParam());
+  const Lubrication oil{0.6, 0.3, 0.02, 0.5};
+  slab.effects().declare<StribeckFriction>() = oil;
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  // Below the speed at which it falls most, what is felt is stick-slip.
+  for (const double speed : {0.05, 0.1, 0.3}) {
+    const double expected = 0.3 + 0.3 * std::exp(-std::pow(speed / 0.02, 2)) + 0.5 * speed;
+    const int steps = static_cast<int>(0.15 / (speed * kPeriod));
+    EXPECT_NEAR(sliding_ratio(solver, slab, -0.08, speed, steps), expected, 0.01 * expected)
+        << speed;
+  }
+  // It breaks away at the static coefficient.
+  solver.step(slab.in_scene({0, 0, 0.03}), kPeriod);
+  double broke = 0;
+  for (int i = 0; i < 400 && broke == 0; ++i) {
+    const double x = 1e-5 * i;
+    const ContactResult result = solver.step(slab.in_scene(pressed(x, 0)), kPeriod);
+    if (plan.objects()[0].place_of(result.scp).x() > 1e-6) broke = x * kStiffness / kNormalForce;
+  }
+  EXPECT_NEAR(broke, 0.6, 0.012);
+}
+
+TEST(SurfaceEffectsOf, RefuseWhatContradictsItself) {
+  EXPECT_THROW(Texture({1e-3, 0.005, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(PlaceFriction({0.2, 0.3, 0.5, 0.01, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(StribeckFriction({0.2, 0.3, 0.01, 0}), std::invalid_argument);
+  Slab slab(As::box);
+  slab.effects().declare<PlaceFriction>();
+  slab.effects().declare<StickSlipFriction>();
+  try {
+    static_cast<void>(slab.plan());
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("declare one of them"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::haptics

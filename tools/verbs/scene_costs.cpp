@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene_costs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "reckon/haptics/contact/static_contact.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using Eigen::Vector3d;
+using haptics::EffectPlan;
+using haptics::PlannedObject;
+using haptics::PlannedRegion;
+
+constexpr double kPeriod = 0.001;  // [s]
+constexpr double kDamping = 1.0;   // [N s/m], of the device
+constexpr double kDepth = 0.001;   // [m]
+constexpr int kSteps = 1000, kRuns = 5;
+
+double thread_seconds() {
+  timespec spent{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
+
+/// One device on a plan, led round a place.
+class Stroke {
+ public:
+  Stroke(const EffectPlan& plan, double radius)
+      : contact_(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod, radius) {}
+
+  [[nodiscard]] bool touches(const Vector3d& device) {
+    step(device);
+    return contact_.result().in_contact;
+  }
+  void begin(const Vector3d& device) { contact_.reset(device); }
+  /// CPU of a step [s], the least of some runs.
+  double time_round(const Vector3d& place) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int run = 0; run < kRuns; ++run) {
+      const double begin = thread_seconds();
+      for (int i = 0; i < kSteps; ++i) {
+        const double turn = 0.02 * i;
+        step(place + 5e-4 * Vector3d(std::cos(turn), std::sin(turn), std::sin(1.3 * turn)));
+      }
+      least = std::min(least, (thread_seconds() - begin) / kSteps);
+    }
+    return least;
+  }
+
+ private:
+  void step(const Vector3d& device) {
+    const Vector3d dx = device - last_;
+    last_ = device;
+    port_.settle(dx, kPeriod);
+    contact_.settle(device, kPeriod, port_);
+    haptics::PortLoad load;
+    contact_.load(dx / kPeriod, kPeriod, load);
+    const haptics::PortHold held = port_.hold(load, kPeriod);
+    if (held.walls < 1.0) contact_.attenuate(held.walls, port_);
+    contact_.shown(held.extra);
+  }
+
+  haptics::StaticContact contact_;
+  haptics::EnergyPort port_{kDamping};
+  Vector3d last_ = Vector3d::Zero();
+};
+
+/// A place kDepth inside an object, from outside it; none if none is found.
+std::optional<Vector3d> place_inside(const PlannedObject& object, double radius) {
+  const EffectPlan plan({object}, {});
+  const bool bounded = object.bounds.sizes().allFinite() && object.bounds.sizes().norm() < 1e6;
+  const Vector3d centre = bounded ? Vector3d(object.bounds.center()) : object.position;
+  const double reach = radius + (bounded ? 0.55 * object.bounds.sizes().norm() : 0.05);
+  for (int way = 0; way < 27; ++way) {
+    const Vector3d from = Vector3d(way % 3 - 1, way / 3 % 3 - 1, 1 - way / 9).stableNormalized();
+    if (from.isZero()) continue;
+    Stroke stroke(plan, radius);
+    stroke.begin(centre + reach * from);
+    if (stroke.touches(centre + reach * from)) continue;
+    const double stride = std::max(reach / 500, 2e-5);
+    for (double left = reach; left > -reach; left -= stride)
+      if (stroke.touches(centre + left * from)) return centre + (left - kDepth) * from;
+  }
+  return std::nullopt;
+}
+
+double time_plan(const EffectPlan& plan, const Vector3d& outside, const Vector3d& place,
+                 double radius) {
+  Stroke stroke(plan, radius);
+  stroke.begin(outside);
+  return stroke.time_round(place);
+}
+
+/// An object's or region's effects, of which only some are declared.
+template <class Types, class... Kept>
+haptics::EffectDeclarations<Types> only(const haptics::EffectDeclarations<Types>& all) {
+  haptics::EffectDeclarations<Types> some;
+  haptics::for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {
+    constexpr bool kKept = haptics::AlwaysThere<Effect> || (std::is_same_v<Effect, Kept> || ...);
+    if constexpr (kKept) {
+      if (const auto* values = all.template find<Effect>())
+        some.template declare<Effect>() = *values;
+    }
+  });
+  return some;
+}
+
+/// Adds the stages of one object, as EffectPlan::stages() has them.
+class Measurement {
+ public:
+  Measurement(const LoadedScene& scene, double radius) : scene_(scene), radius_(radius) {
+    costs_.empty = time_plan(EffectPlan(), Vector3d::Zero(), Vector3d::Zero(), radius_);
+  }
+
+  void add_object(std::size_t index) {
+    const PlannedObject& planned = scene_.plan.objects()[index];
+    const haptics::DeclaredEffects& declared = scene_.file.scene.objects[index].effects;
+    const auto place =
+        index < kMostMeasured ? place_inside(planned, radius_) : std::optional<Vector3d>();
+    const auto time = [&](const haptics::DeclaredEffects& effects) {
+      PlannedObject copy = planned;
+      copy.effects = haptics::PlannedEffects(effects);
+      const EffectPlan plan({std::move(copy)}, {});
+      return time_plan(plan, *place + 10.0 * (*place - planned.position), *place, radius_);
+    };
+    const double contact = place ? time(only<haptics::EffectTypes>(declared)) : kUnknown;
+    add(place ? contact - costs_.empty : kUnknown);
+    const std::size_t patches = planned.patches ? planned.patches->patches.size() - 1 : 0;
+    for (std::size_t i = 0; i < patches; ++i) add(kUnknown);
+    double sum = contact;
+    for (int turn = 0; turn < haptics::kTurns; ++turn) {
+      haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
+        if (haptics::kTurn<Effect> != turn) return;
+        if (planned.effects.find<Effect>() == nullptr) return;
+        if (!place || haptics::AlwaysThere<Effect> || declared.find<Effect>() == nullptr)
+          return add(kUnknown);
+        const double cost = time(only<haptics::EffectTypes, Effect>(declared)) - contact;
+        add(std::max(cost, 0.0));
+        sum += std::max(cost, 0.0);
+      });
+    }
+    if (place && sum > costs_.dearest) {
+      costs_.dearest = sum;
+      costs_.dearest_object = planned.name;
+    }
+  }
+
+  void add_region(std::size_t index) {
+    const PlannedRegion& planned = scene_.plan.regions()[index];
+    const haptics::DeclaredRegionEffects& declared = scene_.file.scene.regions[index].effects;
+    const auto time = [&](const haptics::DeclaredRegionEffects& effects) {
+      PlannedRegion copy = planned;
+      copy.effects = haptics::PlannedRegionEffects(effects);
+      return time_plan(EffectPlan({}, {std::move(copy)}), planned.position, planned.position,
+                       radius_);
+    };
+    const double bare = time({});
+    add(std::max(bare - costs_.empty, 0.0));
+    regions_ += costs_.stages.back();
+    haptics::for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
+      if (declared.find<Effect>() == nullptr) return;
+      add(std::max(time(only<haptics::RegionTypes, Effect>(declared)) - bare, 0.0));
+      regions_ += costs_.stages.back();
+    });
+  }
+
+  [[nodiscard]] StageCosts costs() const {
+    StageCosts costs = costs_;
+    costs.dearest = std::max(costs.dearest, costs.empty) + regions_;
+    return costs;
+  }
+
+ private:
+  static constexpr double kUnknown = -1.0;
+  void add(double seconds) { costs_.stages.push_back(seconds); }
+
+  const LoadedScene& scene_;
+  double radius_;
+  StageCosts costs_;
+  double regions_ = 0.0;
+};
+
+}  // namespace
+
+StageCosts measure_stages(const LoadedScene& scene, double radius) {
+  Measurement measurement(scene, radius);
+  for (std::size_t i = 0; i < scene.plan.objects().size(); ++i) measurement.add_object(i);
+  for (std::size_t i = 0; i < scene.plan.regions().size(); ++i) measurement.add_region(i);
+  return measurement.costs();
+}
+
+}  // namespace reckon::tools
