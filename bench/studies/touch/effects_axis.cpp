@@ -11,7 +11,11 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <type_traits>
+#include <vector>
 
 #include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
@@ -69,27 +73,68 @@ std::string slab() {
   return text;
 }
 
-/// What the plan has.
+constexpr std::string_view kAll = "", kNone = "spring alone";
+/// What may be left out, besides the effects by their kName.
+constexpr std::string_view kDamper = "damper", kPatch = "patch";
+
+/// The slab with all effects but one, in a region that has all of its own. Of what holds the
+/// contact point there is one: friction, or `holder` instead.
 struct Declared {
-  bool damper = true, friction = true, patch = true;
+  std::string_view without = kAll;
+  std::string_view holder = haptics::StickSlipFriction::kName;
+
+  [[nodiscard]] bool has(std::string_view effect) const {
+    return without != kNone && without != effect;
+  }
 };
+
+/// Each effect that holds the contact point feels as much as the others here.
+void declare_holder(haptics::DeclaredEffects& effects, const Declared& declared) {
+  if (!declared.has(declared.holder)) return;
+  if (declared.holder == haptics::PlaceFriction::kName) {
+    effects.declare<haptics::PlaceFriction>() = {0.5, 0.35, 0.5, 0.004, 0, 0};
+  } else if (declared.holder == haptics::StribeckFriction::kName) {
+    effects.declare<haptics::StribeckFriction>() = {0.5, 0.35, 0.02, 0};
+  } else {
+    effects.declare<haptics::StickSlipFriction>() = {0.5, 0.35};
+  }
+}
+
+template <class Effect, class Effects>
+void declare(Effects& effects, const Declared& declared,
+             const typename Effect::Parameters& parameters) {
+  if (declared.has(Effect::kName)) effects.template declare<Effect>() = parameters;
+}
 
 haptics::EffectPlan plan_of(const std::filesystem::path& file, const Declared& declared) {
   haptics::Scene scene;
   haptics::SceneObject& object = scene.objects.emplace_back();
   object.name = "slab";
   object.shape = haptics::MeshShape{file, 0, false};
-  const haptics::Surface hard{kHard, declared.damper ? 4.0 : 0.0},
-      soft{kSoft, declared.damper ? 4.0 : 0.0};
-  object.effects.of<haptics::SpringDamper>() = hard;
-  const haptics::Friction friction{0.5, 0.35};
-  if (declared.friction) object.effects.declare<haptics::StickSlipFriction>() = friction;
-  if (declared.patch) {
+  const double damping = declared.has(kDamper) ? 4.0 : 0.0;
+  object.effects.of<haptics::SpringDamper>() = {kHard, damping};
+  declare_holder(object.effects, declared);
+  declare<haptics::Texture>(object.effects, declared, {5e-5, 0.003, 0, 0});
+  declare<haptics::SurfaceDrag>(object.effects, declared, {1.0});
+  declare<haptics::TapVibration>(object.effects, declared, {4.0, 100.0, 80.0});
+  if (declared.has(kPatch)) {
     haptics::SurfacePatch& patch = object.patches.emplace_back();
     patch.name = "soft";
-    patch.surface = soft;
-    if (declared.friction) patch.friction = friction;
+    patch.surface = {kSoft, damping};
+    if (const auto* friction = object.effects.find<haptics::StickSlipFriction>())
+      patch.friction = *friction;
   }
+  if (declared.without == kNone) return haptics::EffectPlan(scene);
+  haptics::SceneRegion& region = scene.regions.emplace_back();
+  region.name = "about it";
+  region.shape = haptics::BoxShape{{0.07, 0.2, 0.1}};
+  declare<haptics::Viscosity>(region.effects, declared, {0.5, 0});
+  declare<haptics::DryFriction>(region.effects, declared, {0.1, 300});
+  declare<haptics::ConstantForce>(region.effects, declared, {0, 0, -0.2});
+  declare<haptics::PointSpring>(region.effects, declared, {5, 0, 5});
+  declare<haptics::Attraction>(region.effects, declared, {0.2, 0.02, 0, 0, 0});
+  declare<haptics::Oscillation>(region.effects, declared, {0, 0, 0.1, 50});
+  declare<haptics::BorderSpring>(region.effects, declared, {20});
   return haptics::EffectPlan(scene);
 }
 
@@ -163,10 +208,29 @@ TouchCase effects_case(std::uint64_t seed) {
   const TemporaryFile file(slab());
   constexpr double kAny = std::numeric_limits<double>::infinity();
   struct Choice {
-    std::string_view name;
+    std::string name;
     Declared declared;
     double rate_limit;
   };
+  std::vector<Choice> choices{{"all effects", {}, kAny}};
+  const auto leave_out = [&](std::string_view effect) {
+    choices.push_back({fmt::format("without {}", effect), {effect}, kAny});
+  };
+  for (const std::string_view effect : {kDamper, kPatch}) leave_out(effect);
+  haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
+    const bool holds = haptics::HoldsContactPoint<Effect>;
+    if (holds && Effect::kName != Declared{}.holder) {
+      choices.push_back(
+          {fmt::format("{} as friction", Effect::kName), {kAll, Effect::kName}, kAny});
+    } else if (!haptics::AlwaysThere<Effect>) {
+      leave_out(Effect::kName);
+    }
+  });
+  haptics::for_each_region_effect(
+      [&]<class Effect>(std::type_identity<Effect>) { leave_out(Effect::kName); });
+  choices.push_back({std::string(kNone), {kNone}, kAny});
+  choices.push_back({"rate at most 100 N/s", {}, 100});
+  choices.push_back({"rate at most 30 N/s", {}, 30});
   TouchCase made;
   made.truth = fmt::format(
       "slab of {} and {} N/m, 4 N s/m, friction 0.5 and 0.35, stroked across both at 8 Hz of "
@@ -177,14 +241,9 @@ TouchCase effects_case(std::uint64_t seed) {
       "An error is what the hand misses without the effect. The limit of rate is always there; its "
       "default, what the stiffest surface gives at 1 m/s, is not reached here. NS: whole servo "
       "steps, with a device that plays back.";
-  for (const auto& [name, declared, rate] :
-       {Choice{"all effects", {}, kAny}, Choice{"without friction", {true, false, true}, kAny},
-        Choice{"without damper", {false, true, true}, kAny},
-        Choice{"without patch", {true, true, false}, kAny},
-        Choice{"spring alone", {false, false, false}, kAny},
-        Choice{"rate at most 100 N/s", {}, 100}, Choice{"rate at most 30 N/s", {}, 30}}) {
+  for (const auto& [name, declared, rate] : choices) {
     const auto plan = std::make_shared<const haptics::EffectPlan>(plan_of(file.path(), declared));
-    TouchSetting setting{std::string(name), {}, {}};
+    TouchSetting setting{name, {}, {}};
     Bench once(samples, plan, rate);
     for (std::size_t i = 0; i < kSteps; ++i) setting.forces.push_back(once.step());
     setting.run = [bench = std::make_shared<Bench>(samples, plan, rate)](std::size_t steps) {

@@ -147,6 +147,31 @@ TEST(SceneFile, GivesEveryValueInSi) {
   EXPECT_EQ(file.impairment.law.outages[0].duration, milliseconds(200));
 }
 
+TEST(SceneFile, ReadsRegionsAndTheirEffects) {
+  const SceneFile file = parse_scene_file(R"(
+[[region]]
+name = "pool"
+box = "1 2 0.5 m"
+position = "0 0 -0.25 m"
+orientation = "0 0 90 deg"
+viscosity = {linear = "4 N s/m"}
+dry_friction = {}
+
+[[region]]
+name = "wind"
+constant_force = {x = "300 mN"}
+)",
+                                          "regions.toml");
+  ASSERT_EQ(file.scene.regions.size(), 2U);
+  const haptics::SceneRegion& pool = file.scene.regions[0];
+  EXPECT_EQ(std::get<haptics::BoxShape>(*pool.shape).size, Eigen::Vector3d(1, 2, 0.5));
+  EXPECT_EQ(pool.effects.find<haptics::Viscosity>()->linear, 4);
+  EXPECT_EQ(pool.effects.find<haptics::DryFriction>()->force, haptics::Yield{}.force);
+  EXPECT_EQ(pool.effects.find<haptics::Attraction>(), nullptr);
+  EXPECT_FALSE(file.scene.regions[1].shape);
+  EXPECT_EQ(file.scene.regions[1].effects.find<haptics::ConstantForce>()->x, 0.3);
+}
+
 TEST(SceneFile, OfNothingIsAnEmptyWorldWithTheDefaults) {
   const SceneFile file = parse_scene_file("", "empty.toml");
   EXPECT_EQ(file.name, "empty");
@@ -197,6 +222,7 @@ TEST(SceneFile, TellsAllProblemsAtOnceInTheOrderOfTheFile) {
 
 TEST(SceneFile, RefusesWhatCannotBeMeant) {
   const auto object = [](const std::string& lines) { return "[[object]]\nname = \"a\"\n" + lines; };
+  const auto region = [](const std::string& lines) { return "[[region]]\nname = \"a\"\n" + lines; };
   const std::pair<std::string, const char*> cases[] = {
       {"[scene\n", "x.toml:1:7"},
       {"[hand]\nradius = nan\n", "must be"},
@@ -217,6 +243,11 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
        "x.toml:4:12: friction: kinetic"},
       {object("sphere = 1\n") + object("sphere = 2\n"), "another object 'a'"},
       {"object = 3\n", "it wants tables"},
+      {region(""), "nothing acts in this region: give it one of viscosity, "},
+      {region("border = {}\n"), "no border"},
+      {region("sphere = 1\nbox = [1, 1, 1]\nborder = {}\n"), "the shape is given twice"},
+      {region("magnet = {range = \"2 m\"}\n"), "'range' is "},
+      {region("spring = {}\n") + region("spring = {}\n"), "another region 'a'"},
       {"[[operator]]\n", "what moves the hand is missing"},
       {"[[operator]]\npassive = false\n", "write true"},
       {"[[operator]]\ntrace = \"nobody.csv\"\n", "cannot read"},
@@ -296,9 +327,10 @@ TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
   for (const std::string& text :
        {std::string(), object + "position = [0, 0, 1e-6]\n",
         object + "orientation = \"0 0 1 deg\"\n", object + "surface = { stiffness = 801 }\n",
-        object + "friction = {}\n", object + "[scene]\norigin = { longitude = \"1 deg\" }\n",
-        object + "[aoim]\ncell = 3\n", object + "[aoim]\npool = 4\n",
-        object + "[aoim]\nscheme = \"square\"\n",
+        object + "friction = {}\n", object + "texture = {}\n",
+        object + "[[region]]\nname = \"b\"\nspring = {}\n",
+        object + "[scene]\norigin = { longitude = \"1 deg\" }\n", object + "[aoim]\ncell = 3\n",
+        object + "[aoim]\npool = 4\n", object + "[aoim]\nscheme = \"square\"\n",
         object + "[dead_reckoning]\nacceleration = \"inertial\"\n",
         std::string("[[object]]\nname = \"b\"\nsphere = \"50 mm\"\n"),
         std::string("[[object]]\nname = \"a\"\nbox = [1, 1, 1]\n"),
