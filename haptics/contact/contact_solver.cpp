@@ -118,7 +118,9 @@ void ContactSolver::follow_place(double dt) noexcept {
     if (!state.follows) continue;
     const Vector3d place = plan_.objects()[i].place_of(scp_);
     const bool slid = cones_[i]->sliding();
-    const SlidingPlace now{place, slid ? (place - state.place).norm() / dt : 0.0, dt};
+    const double pressed = std::max(contacts_[i].force.dot(contacts_[i].normal), 0.0);
+    const double slip = slid ? (place - state.place).norm() / dt : 0.0;
+    const SlidingPlace now{place, slip, dt, pressed, state.began};
     state.place = place;
     state.effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (FollowsPlace<Effect>) effect.follow(now);
@@ -339,8 +341,8 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
   });
 }
 
-EffectContact ContactSolver::seen_by(std::uint32_t index, const Vector3d& velocity,
-                                     double dt) const noexcept {
+EffectContact ContactSolver::seen_by(std::uint32_t index, const Vector3d& velocity, double dt,
+                                     double gain) const noexcept {
   const PlannedObject& object = plan_.objects()[index];
   const ObjectContact& contact = contacts_[index];
   EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
@@ -351,13 +353,14 @@ EffectContact ContactSolver::seen_by(std::uint32_t index, const Vector3d& veloci
   seen.triangle = contact.triangle;
   seen.patch = contact.patch;
   seen.began = states_[index].began;
+  seen.gain = gain;
   return seen;
 }
 
-Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt) noexcept {
+Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double gain) noexcept {
   Vector3d total = Vector3d::Zero();
   for (const std::uint32_t i : near_) {
-    const EffectContact seen = seen_by(i, velocity, dt);
+    const EffectContact seen = seen_by(i, velocity, dt, gain);
     states_[i].effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (GivesForce<Effect>) total += effect.force(seen);
     });

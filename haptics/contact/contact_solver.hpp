@@ -99,8 +99,10 @@ class ContactSolver {
   /// contacts: dampers, and any other effect with the hook force(). Call once a step, so that an
   /// effect may keep time. Neither bounded nor surely finite: StaticContact limits it. No
   /// allocation.
-  /// @param velocity of the device [m/s, S]  @param dt [s], hold time of the force
-  [[nodiscard]] Eigen::Vector3d effect_force(const Eigen::Vector3d& velocity, double dt) noexcept;
+  /// @param velocity of the device [m/s, S]  @param dt [s], hold time of the force  @param gain
+  /// share of the springs that the device shows, [0, 1]
+  [[nodiscard]] Eigen::Vector3d effect_force(const Eigen::Vector3d& velocity, double dt,
+                                             double gain = 1.0) noexcept;
 
   /// Evaluations of friction since the last reset; zero for a scene that declares none.
   [[nodiscard]] std::uint64_t friction_calls() const noexcept;
@@ -136,7 +138,7 @@ class ContactSolver {
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] EffectContact seen_by(std::uint32_t index, const Eigen::Vector3d& velocity,
-                                      double dt) const noexcept;
+                                      double dt, double gain) const noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 

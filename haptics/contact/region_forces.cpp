@@ -11,6 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kRiseSeconds = 0.1;
+// Left to walls, remote hands and held forces while a potential rises [J].
+constexpr double kLeft = 0.01;
 
 }  // namespace
 
@@ -99,7 +101,7 @@ bool RegionForces::raise_gain(State& state, double most, double dt, EnergyPort& 
     return true;
   }
   const double wanted = std::clamp(most - state.gain, 0.0, dt / kRiseSeconds);
-  const double rise = std::clamp(port.level() / full, 0.0, wanted);
+  const double rise = std::clamp((port.level() - kLeft) / full, 0.0, wanted);
   port.book(-rise * full);
   state.gain += rise;
   return !(rise < wanted);

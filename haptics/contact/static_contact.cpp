@@ -114,7 +114,7 @@ void StaticContact::load_walls(const Eigen::Vector3d& velocity, double dt,
   load.walls += force_;
   load.walls_slope += gain_ * stiffness_;
   load.walls_stored += stored();
-  const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt);
+  const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt, gain_);
   const double size = wanted.norm();
   const double spring = force_.norm();
   if (!(size > 0) || !std::isfinite(size)) return;

@@ -28,6 +28,8 @@ struct SlidingPlace {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the object's axes
   double slip = 0.0;                                ///< speed of the SCP on the surface [m/s], >= 0
   double dt = 0.001;                                ///< [s], since the last step
+  double normal_force = 0.0;                        ///< of the object's springs, out of it [N] >= 0
+  bool began = false;                               ///< the contact began in the last step
 };
 
 /// The contact with one object, as input of its effects, frame S unless stated.
@@ -50,6 +52,7 @@ struct EffectContact {
   std::uint32_t triangle = kNoTriangle;  ///< of a mesh, below the SCP
   std::uint32_t patch = 0;               ///< of a mesh, number in SurfacePatches; 0: none
   bool began = false;                    ///< the contact is new in this step
+  double gain = 1.0;                     ///< share of the springs that the device shows, [0, 1]
 
   /// Of the springs, out of the solid [N] >= 0.
   [[nodiscard]] double normal_force() const noexcept { return std::max(spring.dot(normal), 0.0); }

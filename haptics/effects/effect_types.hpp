@@ -10,6 +10,8 @@
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/place_friction.hpp"
+#include "reckon/haptics/effects/skin.hpp"
+#include "reckon/haptics/effects/snags.hpp"
 #include "reckon/haptics/effects/spring_damper.hpp"
 #include "reckon/haptics/effects/stick_slip_friction.hpp"
 #include "reckon/haptics/effects/stribeck_friction.hpp"
@@ -20,7 +22,7 @@
 namespace reckon::haptics {
 
 using EffectTypes = std::tuple<SpringDamper, StickSlipFriction, PlaceFriction, StribeckFriction,
-                               Texture, SurfaceDrag, TapVibration>;
+                               Snags, Skin, Texture, SurfaceDrag, TapVibration>;
 
 /// Calls f(std::type_identity<Effect>{}) once per effect, in the order of the list.
 template <class Types = EffectTypes, class F>

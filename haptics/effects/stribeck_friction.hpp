@@ -71,6 +71,7 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
   [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
   /// Hook: the coefficient of this speed.
   void follow(const SlidingPlace& at) noexcept {
+    if (at.began) slip_ = 0.0;
     slip_ += std::min(1.0, at.dt / kLag) * (at.slip - slip_);
     const double kinetic = coefficient(slip_);
     cone_.adjust(std::max(kinetic, lubrication_.static_coefficient), kinetic);

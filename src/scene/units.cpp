@@ -63,6 +63,8 @@ constexpr std::array kUnits = std::to_array<Unit>({
     {"N s/m", "Ns/m", 1, 1, false},
     {"N s2/m2", "N s2/m2", 1, 1, true},
     {"1/s", "1/s", 1, 1, true},
+    {"1/m2", "1/m2", 1, 1, true},
+    {"1/m2", "1/cm2", 10000, 1, false},
     {"s/m", "s/m", 1, 1, true},
     {"N/m3", "N/m3", 1, 1, true},
     {"N/m3", "N/m^3", 1, 1, false},

@@ -208,7 +208,74 @@ TEST_P(SurfaceEffects, StribeckFallsWithTheSpeedAndGrowsByViscosity) {
   EXPECT_NEAR(broke, 0.6, 0.012);
 }
 
+// Torn off at `force`, and caught again where the next place is.
+TEST_P(SurfaceEffects, SnagsCatchUntilTheForceTearsTheTipOff) {
+  Slab slab(GetParam());
+  const Snagging velcro{1e5, 1.2, 5e-4, 0.1, 7};
+  slab.effects().declare<Snags>() = velcro;
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  solver.step(slab.in_scene({-0.09, 0, 0.03}));
+  const Snags snags(velcro);
+  int caught = 0, crossed = 0;
+  bool held = false;
+  std::uint64_t below = 0;
+  double most = 0;
+  for (int i = 0; i < 9000; ++i) {
+    const ContactResult result = solver.step(slab.in_scene(pressed(-0.09 + 2e-5 * i, 0)));
+    const double force = result.force.dot(slab.turned({-1, 0, 0}));
+    most = std::max(most, force);
+    if (force > 1.1 && !held) ++caught;
+    held = force > 1.1 || (held && force > 0.5);
+    const std::uint64_t snag = snags.at(plan.objects()[0].place_of(result.scp));
+    if (snag != 0 && snag != below) ++crossed;
+    if (snag != 0) below = snag;
+  }
+  EXPECT_NEAR(most, 1.2, 0.024 + kStiffness * 2e-5);
+  EXPECT_GT(caught, 5);
+  // What lies behind one that was torn off may be passed over.
+  EXPECT_LE(caught, crossed);
+  EXPECT_GE(2 * caught, crossed);
+}
+
+TEST(SurfaceEffectsOf, SnagsAreAsDenseAsTheyAreAsked) {
+  const Snags snags({2e4, 1.0, 5e-4, 0.1, 3});
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> any(-5, 5);
+  int hits = 0;
+  constexpr int kTries = 200'000;
+  for (int i = 0; i < kTries; ++i) hits += snags.at({any(random), any(random), 0.02}) != 0 ? 1 : 0;
+  // One in 2 reach / density of space, within a ball of the reach.
+  const double share = 4.0 / 3.0 * kPi * std::pow(5e-4, 3) * 2e4 / (2 * 5e-4);
+  EXPECT_NEAR(hits, share * kTries, 5 * std::sqrt(share * kTries));
+}
+
+// Tight until it is pierced, soft then until the tip is out again.
+TEST_P(SurfaceEffects, SkinGivesWayAndHeals) {
+  Slab slab(GetParam());
+  slab.effects().declare<Skin>() = {500.0, 1.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  const auto felt = [&](double depth) {
+    const ContactResult result = solver.step(slab.in_scene({0.01, 0.01, 0.02 - depth}));
+    static_cast<void>(solver.effect_force(Vector3d::Zero(), kPeriod));
+    return result.force.norm();
+  };
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(felt(-0.01), 0);
+    EXPECT_NEAR(felt(0.001), 1.5, 1e-3);
+    EXPECT_NEAR(felt(0.0019), 2.85, 1e-3);
+    EXPECT_NEAR(felt(0.0021), 3.15, 1e-3);  // it breaks in this step
+    EXPECT_NEAR(felt(0.0021), 2.1, 1e-3);
+    EXPECT_NEAR(felt(0.0005), 0.5, 1e-3);
+  }
+}
+
 TEST(SurfaceEffectsOf, RefuseWhatContradictsItself) {
+  EXPECT_THROW(Snags({1e6, 1.0, 5e-4, 0.1, 1}), std::invalid_argument);
+  EXPECT_THROW(Snags({1e4, 1.0, 5e-4, 0.1, 1.5}), std::invalid_argument);
   EXPECT_THROW(Texture({1e-3, 0.005, 0, 0}), std::invalid_argument);
   EXPECT_THROW(PlaceFriction({0.2, 0.3, 0.5, 0.01, 0, 0}), std::invalid_argument);
   EXPECT_THROW(StribeckFriction({0.2, 0.3, 0.01, 0}), std::invalid_argument);

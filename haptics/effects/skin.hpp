@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A skin that gives way: it adds to the surface's stiffness until it is pierced, and heals when the
+// tip is out again. A scene file sets it with `skin = {..}` of an object.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+#include "reckon/haptics/effects/effect_hooks.hpp"
+#include "reckon/haptics/effects/effect_parameter.hpp"
+
+namespace reckon::haptics {
+
+/// Over a softer body.
+struct Membrane {
+  double stiffness = 400.0;  ///< [N/m], besides the surface's
+  double force = 1.0;        ///< [N], of the skin alone, at which it gives way
+};
+
+/// A second spring beside the surface's. What it stores is lost where it breaks.
+class Skin : public CountedEffect<Skin> {
+ public:
+  using Parameters = Membrane;
+  static constexpr bool kInContactOnly = true;
+  static constexpr std::string_view kName = "skin";
+  static constexpr std::string_view kKey = "skin";
+  static constexpr std::string_view kCost = "a few multiplications";
+  static constexpr std::array<EffectParameter<Membrane>, 2> kParameters{{
+      {"stiffness", "N/m", &Membrane::stiffness, 1.0, 1e6, 400.0,
+       "Force for each metre, besides the surface's; higher feels tighter."},
+      {"force", "N", &Membrane::force, 0.01, 20.0, 1.0,
+       "Force of the skin at which it gives way; higher is tougher."},
+  }};
+
+  /// @throws std::invalid_argument when a value is out of the table's range.
+  explicit Skin(const Membrane& membrane) : membrane_(membrane) {
+    check_parameters(kParameters, membrane);
+  }
+
+  /// Hook: force on the device [N]; both points [m] in one frame.
+  [[nodiscard]] Eigen::Vector3d spring_force(const Eigen::Vector3d& scp,
+                                             const Eigen::Vector3d& device) const noexcept {
+    return stiffness() * (scp - device);
+  }
+  /// Hook: energy held [J].
+  [[nodiscard]] double stored_energy(const Eigen::Vector3d& scp,
+                                     const Eigen::Vector3d& device) const noexcept {
+    return 0.5 * stiffness() * (scp - device).squaredNorm();
+  }
+  /// Hook: stiffness of the spring [N/m]; 0 where it is pierced.
+  [[nodiscard]] double stiffness() const noexcept { return pierced_ ? 0.0 : membrane_.stiffness; }
+
+  /// Hook: it breaks or heals here; no force of its own [N].
+  [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept {
+    const double felt = contact.gain * membrane_.stiffness * contact.depth;
+    pierced_ = contact.in_contact && (pierced_ || felt > membrane_.force);
+    return Eigen::Vector3d::Zero();
+  }
+  /// Hook: it reserves no damping.
+  [[nodiscard]] double damping() const noexcept { return 0.0; }
+
+  [[nodiscard]] const Membrane& parameters() const noexcept { return membrane_; }
+
+ private:
+  Membrane membrane_;
+  bool pierced_ = false;
+};
+
+}  // namespace reckon::haptics
