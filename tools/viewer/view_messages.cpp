@@ -104,6 +104,7 @@ void ViewStage::set_touch(const std::vector<TouchHand>& hands) {
   JsonObject(out)
       .text("type", "touch")
       .array("solids", solids_, append_solid)
+      .array("regions", regions_, append_solid)
       .array("hands", hands,
              [&index](std::string& text, const TouchHand& hand) {
                JsonObject(text)

@@ -45,6 +45,7 @@ ViewStage::ViewStage(const StageOptions& options)
     cells_ = std::make_unique<SubscribedCells>(scene.aoim);
     if (DrawnGroups::has_any(scene)) groups_ = std::make_unique<DrawnGroups>(scene);
     solids_ = drawn_solids(scene.scene);
+    regions_ = drawn_regions(scene.scene);
     set_touch({});
   }
   options_.scene = nullptr;

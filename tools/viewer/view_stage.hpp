@@ -155,7 +155,7 @@ class ViewStage {
   std::unique_ptr<SubscribedCells> cells_;  // null where none are known
   std::unique_ptr<DrawnGroups> groups_;     // null where the scene has none
   Text touch_;
-  std::vector<DrawnSolid> solids_;
+  std::vector<DrawnSolid> solids_, regions_;
   std::deque<HandFrame> hands_;
   std::deque<ReceptionSample> receptions_;
   ContactForces contacts_;

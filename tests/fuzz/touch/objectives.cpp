@@ -26,7 +26,8 @@ void anything(Scenario&) {}
 // Hands that come to rest, without effects but springs, on a line that brings all of it soon.
 void honest_rest(Scenario& s) {
   using enum Shared;
-  put_out_of_play(s, {friction, hardening, loss, overlap, duplicates, late, solid, liar});
+  put_out_of_play(
+      s, {friction, hardening, loss, overlap, duplicates, late, solid, effect, region, liar});
   s[grip] = std::clamp(s[grip], 100.0, 600.0);
   s[grip_damping] = std::max(s[grip_damping], 2.0);
   s[delay] = std::min(s[delay], 0.038);
@@ -97,7 +98,7 @@ void interrupted_rest(Scenario& s) {
 void resting(Scenario& s) {
   using enum Shared;
   put_out_of_play(s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand,
-                      wall, solid, lie_odd, lie_rename, silent_hand, unknown_hand});
+                      wall, solid, effect, region, lie_odd, lie_rename, silent_hand, unknown_hand});
   s[liar] = 2;
   s.path(0, Path::press) = s.path(0, Path::amplitude) = s.path(0, Path::side) = 0;
   s.path(1, Path::side) = 0;

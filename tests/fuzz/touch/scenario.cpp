@@ -9,6 +9,9 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <tuple>
+
+#include "reckon/haptics/regions/region_types.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -19,6 +22,9 @@ struct Row {
   bool whole;
   double rarely_above = 1e300;
 };
+
+constexpr double kMostSurfaceEffects = std::tuple_size_v<haptics::EffectTypes> - 1;
+constexpr double kMostRegionEffects = std::tuple_size_v<haptics::RegionTypes>;
 
 constexpr Row kSharedRows[] = {
     {"hands", 2, 4, 2, true},
@@ -67,6 +73,10 @@ constexpr Row kSharedRows[] = {
     {"solid_stiffness", 0, 5000, 0, false},          // [N/m]
     {"solid_gap", -0.005, 0.03, 0.01, false},        // [m], from a hand's place
     {"solid_tilt", 0, 6.283185307179586, 0, false},  // [rad], of its normal, from x
+    {"effect", 0, kMostSurfaceEffects, 0, true},     // of wall and solid, by its row; 0 none
+    {"effect_strength", 0, 1, 0.5, false},           // decades of its values, see solids_of()
+    {"region", 0, kMostRegionEffects, 0, true},      // of a ball about each hand's place; 0 none
+    {"region_strength", 0, 1, 0.5, false},           // the same of that
     {"liar", 0, 4, 0, true},                         // who lies; 0 nobody
     {"lie_given", 0, 20, 0, false},                  // [W]
     {"lie_need", 0, 0.2, 0, false},                  // [J]
@@ -192,6 +202,8 @@ void Scenario::tidy() {
   unless(exists(s[off_hand]), off_hand, off_for);
   unless(s[wall] > 0, wall_gap, wall_tilt);
   unless(s[solid] > 0 && s[solid_stiffness] > 0, solid, solid_tilt);
+  unless(s[effect] > 0 && (s[wall] > 0 || s[solid] > 0), effect, effect_strength);
+  unless(s[region] > 0, region, region_strength);
   unless(exists(s[liar]), liar, lie_rename);
   for (std::size_t hand = 0; hand < kMostHands; ++hand) {
     const bool moves = s.path(hand, Path::amplitude) > 0 || s.path(hand, Path::side) > 0;

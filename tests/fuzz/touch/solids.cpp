@@ -4,10 +4,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace reckon::fuzz {
 namespace {
@@ -79,6 +82,39 @@ haptics::SceneObject object_of(const char* name, Solid solid, double stiffness, 
   return object;
 }
 
+// Defaults times 0.1 to 10, and where there is none a hundredth of the most times that.
+template <class Effect>
+typename Effect::Parameters values_of(double strength) {
+  typename Effect::Parameters values{};
+  const double factor = std::pow(10.0, 2.0 * strength - 1.0);
+  for (const auto& row : Effect::kParameters) {
+    const double plain = row.default_value != 0 ? row.default_value : 0.01 * row.maximum;
+    const double value = std::clamp(factor * plain, row.minimum, row.maximum);
+    values.*row.field = row.key == "seed" ? std::floor(value) : value;
+  }
+  return values;
+}
+
+// The effect of this row of a list, from 1 on; none where it refuses its values.
+template <class Types>
+void declare(haptics::EffectDeclarations<Types>& effects, std::size_t number, double strength) {
+  std::size_t row = 0;
+  haptics::for_each_effect<Types>([&]<class Effect>(std::type_identity<Effect>) {
+    if constexpr (!haptics::AlwaysThere<Effect>) {
+      if (++row != number) return;
+      const auto values = values_of<Effect>(strength);
+      try {
+        static_cast<void>(Effect(values));
+      } catch (const std::invalid_argument&) {
+        return;
+      }
+      effects.template declare<Effect>() = values;
+    }
+  });
+}
+
+constexpr double kRegion = 0.03;  // [m], radius
+
 }  // namespace
 
 haptics::EffectPlan solids_of(const Scenario& s, const Vector3d& home) {
@@ -92,7 +128,19 @@ haptics::EffectPlan solids_of(const Scenario& s, const Vector3d& home) {
                                       s[Shared::solid_stiffness], s[Shared::solid_gap],
                                       s[Shared::solid_tilt]));
   }
-  for (haptics::SceneObject& object : scene.objects) object.pose.position += home;
+  for (haptics::SceneObject& object : scene.objects) {
+    object.pose.position += home;
+    declare(object.effects, static_cast<std::size_t>(s[Shared::effect]),
+            s[Shared::effect_strength]);
+  }
+  if (s[Shared::region] > 0) {
+    haptics::SceneRegion& region = scene.regions.emplace_back();
+    region.name = "region";
+    region.shape = haptics::SphereShape{kRegion};
+    region.pose.position = home;
+    declare(region.effects, static_cast<std::size_t>(s[Shared::region]),
+            s[Shared::region_strength]);
+  }
   return haptics::EffectPlan(scene);
 }
 

@@ -13,6 +13,7 @@ import { drawnContacts } from './drawn_contacts.js';
 import { drawnFollowed } from './drawn_followed.js';
 import { drawnFloor } from './drawn_floor.js';
 import { drawnSolids } from './drawn_solids.js';
+import { drawnRegions } from './drawn_regions.js';
 import { drawnPatches } from './drawn_patches.js';
 import { drawnHandGhosts } from './drawn_hand_ghosts.js';
 import { drawnHands } from './drawn_hands.js';
@@ -22,5 +23,5 @@ import { drawnCones } from './drawn_cones.js';
 
 export const DRAWN = [
   drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
-  drawnFloor, drawnSolids, drawnPatches, drawnHandGhosts, drawnHands, drawnTouchEntities, drawnForces, drawnCones,
+  drawnFloor, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTouchEntities, drawnForces, drawnCones,
 ];

@@ -100,7 +100,7 @@ class Page {
       },
       groups: () => { moment.groups = { groups: message.groups ?? [], beacons: message.beacons ?? [] }; },
       touch: () => {
-        moment.touch = { solids: message.solids ?? [], hands: message.hands ?? [] };
+        moment.touch = { solids: message.solids ?? [], regions: message.regions ?? [], hands: message.hands ?? [] };
         ++moment.touchNumber;
         this.choose();
       },

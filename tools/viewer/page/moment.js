@@ -21,7 +21,7 @@ export class Moment {
     this.cells = { size: 0, cells: [] };
     this.cellsNumber = (this.cellsNumber ?? 0) + 1;
     this.groups = { groups: [], beacons: [] };
-    this.touch = { solids: [], hands: [] };
+    this.touch = { solids: [], regions: [], hands: [] };
     this.touchNumber = (this.touchNumber ?? 0) + 1;
     this.numbers = {};
     this.hello = {};

@@ -96,8 +96,8 @@ void draw_patches(const haptics::SceneObject& object, const haptics::SurfaceMesh
 /// Draws the shape of one solid.
 struct Drawing {
   DrawnSolid& out;
-  std::size_t most;
-  const haptics::SceneObject& object;
+  std::size_t most;                              // triangles
+  const haptics::SceneObject* object = nullptr;  // of a mesh, that has its patches
 
   void operator()(const haptics::PlaneShape& plane) const {
     out.shape = "plane";
@@ -126,7 +126,7 @@ struct Drawing {
     try {
       const auto mesh = haptics::SurfaceMesh::load(shape);
       if (mesh.triangles().size() <= most) {
-        draw_patches(object, mesh, out);
+        if (object != nullptr) draw_patches(*object, mesh, out);
         return draw_mesh(mesh, out);
       }
       draw_box(mesh.bounds().sizes(), out);
@@ -170,7 +170,7 @@ std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene, std::size_t mo
       solid.stiffness = object.effects.of<haptics::SpringDamper>().stiffness;
       if (const auto* friction = object.effects.find<haptics::StickSlipFriction>())
         solid.friction = friction->static_coefficient;
-      std::visit(Drawing{solid, most, object}, shape);
+      std::visit(Drawing{solid, most, &object}, shape);
     };
     const auto* parts = std::get_if<haptics::CsgShape>(&object.shape);
     if (parts == nullptr) {
@@ -188,6 +188,19 @@ std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene, std::size_t mo
     next += count;
   }
   return solids;
+}
+
+std::vector<DrawnSolid> drawn_regions(const haptics::Scene& scene) {
+  std::vector<DrawnSolid> regions;
+  for (const haptics::SceneRegion& region : scene.regions) {
+    if (!region.shape) continue;
+    DrawnSolid& drawn = regions.emplace_back();
+    drawn.name = region.name;
+    drawn.pose = region.pose;
+    drawn.pose.orientation.normalize();
+    std::visit(Drawing{drawn, 0}, *region.shape);
+  }
+  return regions;
 }
 
 std::uint16_t touched_patch(std::span<const DrawnSolid> solids, std::uint32_t patch,

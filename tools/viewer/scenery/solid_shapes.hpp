@@ -38,6 +38,9 @@ struct DrawnSolid {
 [[nodiscard]] std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene,
                                                    std::size_t most = 200'000);
 
+/// The regions of a scene that have a shape, in its order, without what is felt there.
+[[nodiscard]] std::vector<DrawnSolid> drawn_regions(const haptics::Scene& scene);
+
 /// The number, among those of all solids, of patch `patch` of a mesh that is touched at `point`
 /// [m, S]; 0 where there is none. Where several meshes have a patch of this number, of that which
 /// is nearest: some ns for each corner of them.

@@ -148,6 +148,23 @@ TEST(DrawnGroups, SayWhoSharesAGroup) {
   EXPECT_FALSE(DrawnGroups::has_any(peer::parse_scene_file("[aoim]\npool = 4\n", "plain.toml")));
 }
 
+TEST(SolidShapes, DrawRegionsThatHaveAShape) {
+  haptics::Scene scene;
+  scene.regions.resize(3);
+  scene.regions[0].name = "pool";
+  scene.regions[0].shape = haptics::BoxShape{{1, 2, 3}};
+  scene.regions[0].pose.position = {4, 5, 6};
+  scene.regions[1].name = "wind";
+  scene.regions[2].name = "magnet";
+  scene.regions[2].shape = haptics::SphereShape{0.2};
+  const auto regions = drawn_regions(scene);
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_EQ(regions[0].name, "pool");
+  EXPECT_EQ(regions[0].size, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(regions[0].pose.position, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(regions[1].radius, 0.2);
+}
+
 TEST(SolidShapes, DrawEveryKindOfSolid) {
   haptics::Scene scene;
   const auto add = [&](const haptics::Shape& shape) {
