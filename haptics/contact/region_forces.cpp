@@ -126,6 +126,7 @@ void RegionForces::sum_up() noexcept {
 }
 
 void RegionForces::load(const Vector3d& velocity, double dt, PortLoad& load) noexcept {
+  held_.setZero();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const Eigen::Matrix3d& axes = plan_.regions()[i].orientation;
     State& state = states_[i];
@@ -137,15 +138,18 @@ void RegionForces::load(const Vector3d& velocity, double dt, PortLoad& load) noe
     state.effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (GivesRegionForce<Effect>) held += effect.force(state.point);
     });
-    if (held.allFinite()) load.extra += axes * held;
+    if (held.allFinite()) held_ += axes * held;
   }
   load.walls += force_;
+  load.extra += held_;
+  shown_ = force_;
 }
 
 void RegionForces::attenuate(double factor, EnergyPort& port) noexcept {
   const double keep = std::clamp(factor, 0.0, 1.0);
   for (State& state : states_) scale_gain(state, keep, port);
   force_ *= keep;
+  shown_ *= keep;
 }
 
 }  // namespace reckon::haptics

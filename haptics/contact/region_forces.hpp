@@ -28,11 +28,13 @@ class RegionForces {
   /// Adds the forces to be held. @param velocity of the device [m/s, S]  @param dt [s], of the next
   /// sample
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
-  /// Scales the potentials by `factor` in [0, 1].
+  /// Takes the held share of the other forces, [0, 1].
+  void shown(double extra) noexcept { shown_ = force_ + extra * held_; }
+  /// Scales the potentials, and the force, by `factor` in [0, 1].
   void attenuate(double factor, EnergyPort& port) noexcept;
 
-  /// Force of the potentials that is shown [N, S].
-  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
+  /// The whole force that is shown [N, S], after shown().
+  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return shown_; }
   [[nodiscard]] double stored() const noexcept;
   /// Least share of a potential that the ledger allows, [0, 1].
   [[nodiscard]] double share() const noexcept { return share_; }
@@ -58,7 +60,9 @@ class RegionForces {
   double cap_;
   bool begins_ = true;
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();     // [m], of the device
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  // [N]
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  // [N], of the potentials
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   // [N], wanted by the others
+  Eigen::Vector3d shown_ = Eigen::Vector3d::Zero();  // [N]
   double share_ = 1.0, asked_ = 0.0;
 };
 

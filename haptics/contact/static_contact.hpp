@@ -46,13 +46,17 @@ class StaticContact {
   }
 
   /// Takes the held share of the effects' forces, [0, 1].
-  void shown(double extra) noexcept { force_ = gain_ * result_.force + extra * extra_; }
+  void shown(double extra) noexcept {
+    force_ = gain_ * result_.force + extra * extra_;
+    regions_.shown(extra);
+  }
 
   /// Scales force and storage by `factor` in [0, 1].
   void attenuate(double factor, EnergyPort& port) noexcept;
 
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
-  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
+  /// Of walls and regions [N, S], after shown().
+  [[nodiscard]] Eigen::Vector3d force() const noexcept { return force_ + regions_.force(); }
   [[nodiscard]] double gain() const noexcept { return gain_; }
   /// Share of the springs that the available energy allows, [0, 1]; 1 if energy is not short.
   [[nodiscard]] double share() const noexcept { return share_; }

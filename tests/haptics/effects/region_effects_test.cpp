@@ -221,6 +221,7 @@ TEST(RegionEffects, AServoHoldsAHandInItsWorkSpace) {
   const double out = bench.servo.snapshots().read().device.z() - 0.1;
   EXPECT_GT(out, 0.001);
   EXPECT_NEAR(bench.device.force().z(), -200.0 * out, 0.02 * 200.0 * out);
+  EXPECT_EQ(bench.servo.snapshots().read().mesh_force, bench.device.force());
   EXPECT_GE(bench.least, bench::kPassive);
 }
 

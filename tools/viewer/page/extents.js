@@ -32,6 +32,7 @@ export function touchExtent(moment) {
     }
   };
   for (const solid of moment.touch.solids) if (solid.shape !== 'plane') add(solid.position, solid.reach ?? solid.radius ?? 0.1);
+  for (const region of moment.touch.regions) if (region.shape !== 'plane') add(region.position, 0);
   if (!Number.isFinite(low[0])) {
     for (const { position, index } of moment.hands) add(position, 5 * moment.handRadius(index));
   }
