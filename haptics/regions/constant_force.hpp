@@ -60,8 +60,6 @@ class ConstantForce : public CountedEffect<ConstantForce> {
   [[nodiscard]] Eigen::Vector3d force(const RegionPoint& point) const noexcept {
     return point.inside ? Eigen::Vector3d((1.0 - stored_) * force_) : Eigen::Vector3d::Zero();
   }
-  /// Hook: it reserves no damping.
-  [[nodiscard]] double damping() const noexcept { return 0.0; }
 
   [[nodiscard]] const Push& parameters() const noexcept { return push_; }
 

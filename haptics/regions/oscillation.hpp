@@ -50,8 +50,6 @@ class Oscillation : public CountedEffect<Oscillation> {
     return std::sin(2.0 * std::numbers::pi * turns_) *
            Eigen::Vector3d(shaking_.x, shaking_.y, shaking_.z);
   }
-  /// Hook: it reserves no damping.
-  [[nodiscard]] double damping() const noexcept { return 0.0; }
 
   [[nodiscard]] const Shaking& parameters() const noexcept { return shaking_; }
 

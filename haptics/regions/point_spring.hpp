@@ -58,8 +58,6 @@ class PointSpring : public CountedEffect<PointSpring> {
     return point.inside ? Eigen::Vector3d(-tether_.damping * point.velocity)
                         : Eigen::Vector3d::Zero();
   }
-  /// Hook: the damper's coefficient [N s/m].
-  [[nodiscard]] double damping() const noexcept { return tether_.damping; }
 
   [[nodiscard]] const Tether& parameters() const noexcept { return tether_; }
 

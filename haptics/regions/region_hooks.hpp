@@ -4,7 +4,7 @@
 // force without touching anything.
 //
 //   potential(point)          stores energy, as a spring does
-//   force(point), damping()   any other force on the device
+//   force(point)              any other force on the device
 #pragma once
 
 #include <Eigen/Core>
@@ -43,14 +43,11 @@ concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
   noexcept->std::same_as<double>;
 };
 
-/// Gives any other force [N, region's axes], as far as the device's ledger covers it. damping() [N
-/// s/m] is the part of the device's own damping that it reserves.
+/// Gives any other force [N, region's axes], as far as the device's ledger covers it.
 template <class Effect>
-concept GivesRegionForce = requires(Effect& effect, const Effect& fixed, const RegionPoint& point) {
+concept GivesRegionForce = requires(Effect& effect, const RegionPoint& point) {
   { effect.force(point) }
   noexcept->std::same_as<Eigen::Vector3d>;
-  { fixed.damping() }
-  noexcept->std::same_as<double>;
 };
 
 template <class Effect>

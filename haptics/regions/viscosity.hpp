@@ -27,8 +27,7 @@ class Viscosity : public CountedEffect<Viscosity> {
   static constexpr std::string_view kCost = "one square root";
   static constexpr std::array<EffectParameter<Medium>, 2> kParameters{{
       {"linear", "N s/m", &Medium::linear, 0.0, 100.0, 5.0,
-       "Force against the motion for each m/s; higher is thicker, and takes stiffness from the "
-       "walls, at most half of it."},
+       "Force against the motion for each m/s; higher is thicker."},
       {"quadratic", "N s2/m2", &Medium::quadratic, 0.0, 1000.0, 0.0,
        "The same for the square of the speed, as of a large body in water."},
   }};
@@ -43,8 +42,6 @@ class Viscosity : public CountedEffect<Viscosity> {
     if (!point.inside) return Eigen::Vector3d::Zero();
     return -(medium_.linear + medium_.quadratic * point.velocity.norm()) * point.velocity;
   }
-  /// Hook: its coefficient at rest [N s/m].
-  [[nodiscard]] double damping() const noexcept { return medium_.linear; }
 
   [[nodiscard]] const Medium& parameters() const noexcept { return medium_; }
 

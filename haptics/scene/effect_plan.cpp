@@ -59,14 +59,6 @@ double PlannedRegion::stiffness() const noexcept {
   return sum;
 }
 
-double PlannedRegion::damping() const noexcept {
-  double sum = 0.0;
-  effects.for_each([&]<class Effect>(const Effect& effect) {
-    if constexpr (GivesRegionForce<Effect>) sum += effect.damping();
-  });
-  return sum;
-}
-
 double PlannedObject::damping() const noexcept {
   double sum = most_beyond(patches.get(), &Surface::damping);
   effects.for_each([&]<class Effect>(const Effect& effect) {

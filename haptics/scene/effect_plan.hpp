@@ -68,8 +68,6 @@ struct PlannedRegion {
   [[nodiscard]] Eigen::Vector3d beyond(const Eigen::Vector3d& place) const noexcept;
   /// Curvature of all its potentials together, at most [N/m].
   [[nodiscard]] double stiffness() const noexcept;
-  /// Damping of the device that its effects reserve [N s/m].
-  [[nodiscard]] double damping() const noexcept;
 };
 
 /// One stage of the servo step for one object or region.

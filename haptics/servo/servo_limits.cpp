@@ -72,7 +72,6 @@ double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double per
   }
   double stiffness = 0.0;
   for (const PlannedRegion& region : plan.regions()) {
-    damping += region.damping();
     stiffness += region.stiffness();
   }
   const double whole = per_damping * (share - std::min(damping, 0.5 * share));
