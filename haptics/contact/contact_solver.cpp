@@ -317,9 +317,7 @@ bool ContactSolver::on_patches() const noexcept {
 
 double ContactSolver::stiffness_of(std::uint32_t index) const noexcept {
   double sum = 0.0;
-  states_[index].effects.for_each([&]<class Effect>(const Effect& effect) {
-    if constexpr (StoresEnergy<Effect>) sum += effect.stiffness();
-  });
+  states_[index].effects.for_each_spring([&](const auto& effect) { sum += effect.stiffness(); });
   return sum;
 }
 
@@ -333,21 +331,16 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
   contact.force.setZero();
   contact.stored_energy = 0.0;
   contact.depth = (scp - device).norm();
-  states_[index].effects.for_each([&]<class Effect>(const Effect& effect) {
-    if constexpr (StoresEnergy<Effect>) {
-      contact.force += object.orientation * effect.spring_force(scp, device);
-      contact.stored_energy += effect.stored_energy(scp, device);
-    }
+  states_[index].effects.for_each_spring([&](const auto& effect) {
+    contact.force += object.orientation * effect.spring_force(scp, device);
+    contact.stored_energy += effect.stored_energy(scp, device);
   });
 }
 
-EffectContact ContactSolver::seen_by(std::uint32_t index, const Vector3d& velocity, double dt,
-                                     double gain) const noexcept {
+ContactedObject ContactSolver::contacted(std::uint32_t index, double gain) const noexcept {
   const PlannedObject& object = plan_.objects()[index];
   const ObjectContact& contact = contacts_[index];
-  EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
-                     contact.depth, dt,          contact.in_contact};
-  if (!object.effects.has_declared()) return seen;
+  ContactedObject seen;
   seen.place = object.place_of(contact.scp);
   seen.axes = object.orientation;
   seen.triangle = contact.triangle;
@@ -360,8 +353,19 @@ EffectContact ContactSolver::seen_by(std::uint32_t index, const Vector3d& veloci
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double gain) noexcept {
   Vector3d total = Vector3d::Zero();
   for (const std::uint32_t i : near_) {
-    const EffectContact seen = seen_by(i, velocity, dt, gain);
-    states_[i].effects.for_each([&]<class Effect>(Effect& effect) {
+    const ObjectContact& contact = contacts_[i];
+    PlannedEffects& effects = states_[i].effects;
+    EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
+                       contact.depth, dt,          contact.in_contact};
+    if (!effects.has_declared_forces()) {
+      effects.for_each_always([&]<class Effect>(Effect& effect) {
+        if constexpr (GivesForce<Effect>) total += effect.force(seen);
+      });
+      continue;
+    }
+    const ContactedObject object = contacted(i, gain);
+    if (contact.in_contact) seen.object = &object;
+    effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (GivesForce<Effect>) total += effect.force(seen);
     });
   }

@@ -30,7 +30,7 @@ struct ObjectContact {
   double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
   double depth = 0.0;                                ///< [m], this object's share of |device - scp|
   std::uint32_t patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
-  std::uint32_t triangle = EffectContact::kNoTriangle;  ///< of a mesh, below the SCP
+  std::uint32_t triangle = ContactedObject::kNoTriangle;  ///< of a mesh, below the SCP
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
 };
@@ -137,8 +137,7 @@ class ContactSolver {
   void note_touch(std::uint32_t index, std::uint32_t triangle) noexcept;
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
-  [[nodiscard]] EffectContact seen_by(std::uint32_t index, const Eigen::Vector3d& velocity,
-                                      double dt, double gain) const noexcept;
+  [[nodiscard]] ContactedObject contacted(std::uint32_t index, double gain) const noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 

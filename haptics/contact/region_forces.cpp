@@ -54,7 +54,6 @@ void RegionForces::move(std::size_t index, const Vector3d& device) noexcept {
 }
 
 void RegionForces::settle(const Vector3d& device, double dt, EnergyPort& port) noexcept {
-  if (states_.empty()) return;
   const double before = stored();
   for (std::size_t i = 0; i < states_.size(); ++i) move(i, device);
   port.book(before - stored());

@@ -15,12 +15,14 @@ namespace reckon::haptics {
 /// All regions of a plan. Each region's potential is shown with a gain. It falls to what the ledger
 /// covers where the potential would take more, as when the hand enters a region that draws it in,
 /// and rises in 100 ms as the port pays. Order of calls within a step: settle, load, attenuate.
-/// One thread; allocates only at construction. Nothing for a plan without regions.
+/// One thread; allocates only at construction.
 class RegionForces {
  public:
   /// @param plan outlives this object  @param stiffness_cap [N/m] of all potentials together
   RegionForces(const EffectPlan& plan, double stiffness_cap);
 
+  /// Whether the plan has none: nothing need be called then.
+  [[nodiscard]] bool empty() const noexcept { return states_.empty(); }
   /// Restarts at `device` [m, S]: every region is entered anew, and its potential fades in.
   void reset(const Eigen::Vector3d& device) noexcept;
   /// Moves to `device` [m, S] after a sample of `dt` [s], and books what was stored or released.

@@ -39,12 +39,6 @@ void StaticContact::measure_stiffness() noexcept {
 }
 
 void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept {
-  settle_walls(device, dt, port);
-  regions_.settle(device, dt, port);
-}
-
-void StaticContact::settle_walls(const Eigen::Vector3d& device, double dt,
-                                 EnergyPort& port) noexcept {
   const double before = stored();
   const Eigen::Vector3d force = result_.force;
   result_ = solver_.step(device, dt);
@@ -65,6 +59,7 @@ void StaticContact::settle_walls(const Eigen::Vector3d& device, double dt,
   if (gain_ > most) scale_gain(most / gain_, port);
   follow_patches(dt, port);
   raise_gain(dt, port);
+  if (!regions_.empty()) regions_.settle(device, dt, port);
 }
 
 // Nobody put in the storage that a stretched spring gains when its stiffness grows. The port pays
@@ -106,8 +101,8 @@ void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
 
 // The effects' forces belong to no storage, and the port limits them. Here they are limited so that
 // the sum never pulls the hand to the surface.
-void StaticContact::load_walls(const Eigen::Vector3d& velocity, double dt,
-                               PortLoad& load) noexcept {
+void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
+  if (!regions_.empty()) regions_.load(velocity, dt, load);
   extra_.setZero();
   force_ = gain_ * result_.force;
   if (result_.objects.empty()) return;
@@ -125,16 +120,11 @@ void StaticContact::load_walls(const Eigen::Vector3d& velocity, double dt,
   load.extra += extra_;
 }
 
-void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
-  load_walls(velocity, dt, load);
-  regions_.load(velocity, dt, load);
-}
-
 void StaticContact::attenuate(double factor, EnergyPort& port) noexcept {
   const double keep = std::clamp(factor, 0.0, 1.0);
   scale_gain(keep, port);
   force_ *= keep;
-  regions_.attenuate(keep, port);
+  if (!regions_.empty()) regions_.attenuate(keep, port);
 }
 
 }  // namespace reckon::haptics

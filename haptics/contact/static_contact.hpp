@@ -48,7 +48,7 @@ class StaticContact {
   /// Takes the held share of the effects' forces, [0, 1].
   void shown(double extra) noexcept {
     force_ = gain_ * result_.force + extra * extra_;
-    regions_.shown(extra);
+    if (!regions_.empty()) regions_.shown(extra);
   }
 
   /// Scales force and storage by `factor` in [0, 1].
@@ -73,8 +73,6 @@ class StaticContact {
 
  private:
   [[nodiscard]] double most_gain() const noexcept;
-  void settle_walls(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept;
-  void load_walls(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
   void scale_gain(double factor, EnergyPort& port) noexcept;
   void follow_patches(double dt, EnergyPort& port) noexcept;
   void raise_gain(double dt, EnergyPort& port) noexcept;

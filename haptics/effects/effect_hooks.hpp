@@ -32,10 +32,22 @@ struct SlidingPlace {
   bool began = false;                               ///< the contact began in the last step
 };
 
-/// The contact with one object, as input of its effects, frame S unless stated.
-struct EffectContact {
+/// The object's side of a contact.
+struct ContactedObject {
   static constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< the SCP in the object's axes [m]
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< the object's axes -> S
+  /// Of the object at the SCP [m/s, S]; zero, for objects do not move.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  std::uint32_t triangle = kNoTriangle;  ///< of a mesh, below the SCP
+  std::uint32_t patch = 0;               ///< of a mesh, number in SurfacePatches; 0: none
+  bool began = false;                    ///< the contact is new in this step
+  double gain = 1.0;                     ///< share of the springs that the device shows, [0, 1]
+};
+
+/// The contact with one object, as input of its effects, frame S.
+struct EffectContact {
   Eigen::Vector3d device = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();       ///< [m]; the device point if free
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, out of the solid; zero if free
@@ -44,21 +56,16 @@ struct EffectContact {
   double depth = 0.0;                                  ///< |device - scp| [m]
   double dt = 0.001;                                   ///< [s], hold time of the force
   bool in_contact = false;
-  // Set for objects with declared effects alone:
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< the SCP in the object's axes [m]
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< the object's axes -> S
-  /// Of the object at the SCP [m/s]; zero, for objects do not move.
-  Eigen::Vector3d object_velocity = Eigen::Vector3d::Zero();
-  std::uint32_t triangle = kNoTriangle;  ///< of a mesh, below the SCP
-  std::uint32_t patch = 0;               ///< of a mesh, number in SurfacePatches; 0: none
-  bool began = false;                    ///< the contact is new in this step
-  double gain = 1.0;                     ///< share of the springs that the device shows, [0, 1]
+  /// Set while in contact, for objects that declare effects; null for those that are always there.
+  const ContactedObject* object = nullptr;
 
   /// Of the springs, out of the solid [N] >= 0.
   [[nodiscard]] double normal_force() const noexcept { return std::max(spring.dot(normal), 0.0); }
-  /// Velocity of the device over the surface [m/s], normal to `normal`.
+  /// Velocity of the device towards and over the object [m/s]; `object` is set.
+  [[nodiscard]] Eigen::Vector3d relative() const noexcept { return velocity - object->velocity; }
+  /// Its part along the surface [m/s].
   [[nodiscard]] Eigen::Vector3d slip() const noexcept {
-    const Eigen::Vector3d over = velocity - object_velocity;
+    const Eigen::Vector3d over = relative();
     return over - normal.dot(over) * normal;
   }
 };

@@ -45,9 +45,11 @@ class EffectSet {
   template <class Effect>
   void add(const typename Effect::Parameters& parameters) {
     declared_.emplace_back(std::in_place_type<Effect>, parameters);
+    declared_springs_ |= StoresEnergy<Effect>;
+    declared_forces_ |= GivesForce<Effect>;
   }
-  /// Whether there are other effects than those that are always there.
-  [[nodiscard]] bool has_declared() const noexcept { return !declared_.empty(); }
+  /// Whether an effect that is not always there gives a force.
+  [[nodiscard]] bool has_declared_forces() const noexcept { return declared_forces_; }
 
   /// Calls f(effect) for each effect: those that are always there, then the declared ones.
   template <class F>
@@ -57,6 +59,21 @@ class EffectSet {
   template <class F>
   void for_each(F&& f) const {
     visit(*this, f);
+  }
+  /// The same for those that are always there.
+  template <class F>
+  void for_each_always(F&& f) {
+    std::apply([&](auto&... effects) { (f(effects), ...); }, always_);
+  }
+  /// The same for those that store energy.
+  template <class F>
+  void for_each_spring(F&& f) const {
+    const auto one = [&]<class Effect>(const Effect& effect) {
+      if constexpr (StoresEnergy<Effect>) f(effect);
+    };
+    std::apply([&](const auto&... effects) { (one(effects), ...); }, always_);
+    if (!declared_springs_) return;
+    for (const auto& effect : declared_) std::visit(one, effect);
   }
 
  private:
@@ -104,6 +121,7 @@ class EffectSet {
 
   Always always_;
   std::vector<Declared> declared_;
+  bool declared_springs_ = false, declared_forces_ = false;
 };
 
 /// Of an object.

@@ -54,8 +54,10 @@ class Skin : public CountedEffect<Skin> {
 
   /// Hook: it breaks or heals here; no force of its own [N].
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept {
-    const double felt = contact.gain * membrane_.stiffness * contact.depth;
-    pierced_ = contact.in_contact && (pierced_ || felt > membrane_.force);
+    const auto breaks = [&] {
+      return contact.object->gain * membrane_.stiffness * contact.depth > membrane_.force;
+    };
+    pierced_ = contact.in_contact && (pierced_ || breaks());
     return Eigen::Vector3d::Zero();
   }
   /// Hook: it reserves no damping.

@@ -50,9 +50,8 @@ class TapVibration : public CountedEffect<TapVibration> {
   /// Hook: the oscillation [N].
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
-    if (contact.began) {
-      const Eigen::Vector3d over = contact.velocity - contact.object_velocity;
-      speed_ = std::max(-over.dot(contact.normal), 0.0);
+    if (contact.object->began) {
+      speed_ = std::max(-contact.relative().dot(contact.normal), 0.0);
       time_ = 0.0;
     }
     time_ += contact.dt;

@@ -62,7 +62,8 @@ class Texture : public CountedEffect<Texture> {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
     const double shown = waves_.shown(contact.slip().norm() * contact.dt);
     if (!(shown > 0.0)) return Eigen::Vector3d::Zero();
-    const Eigen::Vector3d slope = contact.axes * (relief_.height * waves_.gradient(contact.place));
+    const Eigen::Vector3d slope =
+        contact.object->axes * (relief_.height * waves_.gradient(contact.object->place));
     const Eigen::Vector3d along = slope - contact.normal.dot(slope) * contact.normal;
     return -shown * contact.normal_force() * along;
   }

@@ -95,7 +95,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
     tally_.walls.note(static_.share(), static_.asked(), step_.dt);
   }
   const RegionForces& regions = static_.regions();
-  if (enabled && regions.share() < 1.0) {
+  if (regions.share() < 1.0 && enabled) {
     tally_.effects.note(regions.share(), regions.asked(), step_.dt);
   }
   const double scale = enabled ? safety_.scale(force, step_.velocity) : 0.0;
