@@ -14,7 +14,7 @@ namespace reckon::bench {
 namespace {
 
 /// Colours that most people tell apart on white and on black; shapes tell them apart too.
-constexpr std::string_view kStyle = R"(
+constexpr std::string_view kPoseStyle = R"(
 :root{--front:#1f2328}@media(prefers-color-scheme:dark){:root{--front:#e6edf3}}
 .defs{position:absolute;width:0;height:0}.plot text{font:13px system-ui,sans-serif;fill:var(--soft)}
 .g{stroke:var(--line);fill:none}.a{stroke:var(--soft);fill:none}
@@ -132,7 +132,7 @@ std::string accuracy_page(const AccuracyReport& report) {
   append_summary(out, report);
   for (std::size_t i = 0; i < report.results.size(); ++i) append_result(out, report.results[i], i);
   append_contacts(out, report);
-  return sortable_page("Poses: accuracy against cost", kStyle, out);
+  return sortable_page("Poses: accuracy against cost", kPoseStyle, out);
 }
 
 }  // namespace reckon::bench

@@ -21,7 +21,7 @@ namespace {
 /// Letters of a note below the title that the width of the picture holds.
 constexpr std::size_t kNoteColumns = 100;
 
-constexpr std::string_view kStyle = R"(
+constexpr std::string_view kFigureStyle = R"(
 body{max-width:60rem}section>svg{display:block;width:100%;height:auto;margin:.8rem 0}
 table{white-space:normal}
 .o th:nth-child(2),.o td:nth-child(2),.o th:nth-child(5),.o td:nth-child(5){text-align:left}
@@ -212,7 +212,7 @@ std::string figures_page(std::span<const MadeFigure> figures) {
       "be met. K with T and K, no T: its two ways to write the spring.</p>\n";
   append_overview(body, figures);
   for (const MadeFigure& made : figures) append_figure(body, made);
-  return html_page("The figures of the thesis", kStyle, body);
+  return html_page("The figures of the thesis", kFigureStyle, body);
 }
 
 }  // namespace reckon::bench

@@ -38,17 +38,23 @@ def program_of(target, release):
 
 
 def planted_program(plant, target, folder, release):
-    """The simulation with one fault in it: its object stands before the library that has the sound one."""
+    """The simulation with one fault in it: the object of all files that are compiled with the faulty one stands before the
+    library that has the sound ones."""
     _, file, old, new = plant
     folder.mkdir(parents=True)
     faulty = folder / pathlib.Path(file).name
     faulty.write_text((ROOT / "aoim" / file).read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+    line = f'#include "reckon/aoim/{file}"\n'
+    united = next(text for unit in (release / "aoim/united/reckon_aoim").glob("*.cpp")
+                  if line in (text := unit.read_text(encoding="utf-8")))
+    unit = folder / "unit.cpp"
+    unit.write_text(united.replace(line, f'#include "{faulty}"\n'), encoding="utf-8")
     compiler = os.environ.get("CXX", "c++")
     main = release / f"tests/fuzz/{target}/CMakeFiles/{target}_simulation.dir/simulate.cpp.o"
     libraries = [release / f"tests/fuzz/{name}/libreckon_{name}.a" for name in dict.fromkeys((target, PEERS))]
     libraries += [release / "aoim/libreckon_aoim.a", release / "pdu/libreckon_pdu.a"]
     program = folder / "simulation"
-    command = ["nice", compiler, *FLAGS, f"-I{release / 'include'}", faulty, main, *libraries, "-lfmt", "-o",
+    command = ["nice", compiler, *FLAGS, f"-I{release / 'include'}", unit, main, *libraries, "-lfmt", "-o",
                program]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     if done.returncode != 0:
