@@ -6,19 +6,20 @@
 #include <cmath>
 #include <cstdint>
 
+#include "reckon/haptics/contact/region_share.hpp"
+
 namespace reckon::haptics {
 namespace {
 
 constexpr double kRampSeconds = 0.1;
 constexpr double kFadeSeconds = 0.5;
-constexpr double kRegionShare = 1.0 / 3.0;  // of the cap of walls
 constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
 
 }  // namespace
 
 StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double radius)
     : solver_(plan, radius, stiffness_cap),
-      regions_(plan, kRegionShare * stiffness_cap),
+      regions_(plan, kRegionsOverWalls * stiffness_cap),
       cap_(stiffness_cap) {}
 
 void StaticContact::reset(const Eigen::Vector3d& device) noexcept {

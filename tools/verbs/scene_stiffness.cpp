@@ -10,6 +10,7 @@
 #include <memory>
 #include <set>
 
+#include "reckon/haptics/contact/region_share.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -94,6 +95,9 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
     };
     for (const haptics::PlannedObject& object : plan.objects())
       note("object " + object.name, object.stiffness(), can.walls, 0.0);
+    for (const haptics::PlannedRegion& region : plan.regions())
+      note("region " + region.name, region.stiffness(), haptics::kRegionsOverWalls * can.walls,
+           0.0);
     note("hand", can.hand_asked, can.hand_limit(), can.hands);
     if (!can.softens_hand() && std::isfinite(can.straight_from()))
       rows.push_back({device.peer, device.name, "hand", can.hand_limit(), 0.0, can.straight_from(),

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How stiff regions may be beside walls.
+#pragma once
+
+namespace reckon::haptics {
+
+/// Stiffness that the potentials of all regions together may have, over that of walls: static_cap()
+/// leaves a quarter of the whole to them.
+inline constexpr double kRegionsOverWalls = 1.0 / 3.0;
+
+}  // namespace reckon::haptics
