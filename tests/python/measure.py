@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the module costs: build/python/bin/python python/measure.py [PDUS]
+"""What the module costs: build/python/bin/python tests/python/measure.py [PDUS]
 
 Prints Entity States a second by columns, microseconds an object, the pace of another thread of Python while a capture is
 read, and milliseconds of an import. Best of five, each on a capture of its own.
