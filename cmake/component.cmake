@@ -8,7 +8,7 @@
 # build folder these are links to the folders.
 set(reckon_include ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${reckon_include}/reckon)
-foreach(folder pdu deadreckon aoim haptics tools tests bench)
+foreach(folder pdu deadreckon aoim haptics tools tests bench python)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${reckon_include}/reckon/${folder} SYMBOLIC)
 endforeach()
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${reckon_include}/reckon/peer SYMBOLIC)

@@ -9,6 +9,10 @@
 //   static constexpr bool kExamples   false: the PDU as it is. true: no values, but each kind of
 //                                     record that may be there once, and each field that may be
 //                                     absent
+// and, where it has them:
+//   void list(name)                   records of a list may follow, each under this name
+//   void extent(octets)               before leave(): the whole record in the datagram; its last
+//                                     octets may belong to no field
 #pragma once
 
 #include <array>
@@ -75,6 +79,7 @@ class FieldWalk {
   }
   template <typename Record, typename Count>
   void records(std::string_view name, std::span<const std::byte> view, Records<Record, Count>) {
+    list(name);
     if constexpr (Handler::kExamples) {
       example(name, Record{});
     } else {
@@ -89,6 +94,7 @@ class FieldWalk {
   }
   template <SizedView View>
   void walked(std::string_view name, const View& view) {
+    list(name);
     if constexpr (Handler::kExamples) {
       each_layout(typename View::Head{}, [&](const auto& head, std::span<const std::byte> body) {
         sized(name, kNoIndex, head, body);
@@ -99,11 +105,13 @@ class FieldWalk {
     }
   }
   void walked(std::string_view name, const VariableDatums& datums) {
+    list(name);
     std::size_t index = 0;
-    if constexpr (Handler::kExamples) datum(name, kNoIndex, {});
-    for (const VariableDatum& item : datums.records()) datum(name, index++, item);
+    if constexpr (Handler::kExamples) datum(name, kNoIndex, {}, {});
+    for (const VariableDatum& item : datums.records()) datum(name, index++, item, datums.bytes);
   }
   void walked(std::string_view name, const AttributeRecordSets& sets) {
+    list(name);
     Attribute pdu;
     pdu.record_sets = sets;
     std::size_t index = 0;
@@ -112,6 +120,14 @@ class FieldWalk {
   }
 
  private:
+  void list(std::string_view name) {
+    if constexpr (requires { handler_.list(name); }) handler_.list(name);
+  }
+  /// @param head octets of the record before `behind`
+  void extent(std::size_t head, std::span<const std::byte> behind) {
+    if constexpr (requires { handler_.extent(behind); })
+      handler_.extent({behind.data() - head, head + behind.size()});
+  }
   template <typename Record>
   void record(std::string_view name, std::size_t index, const Record& value) {
     if (!handler_.enter(name, index, value)) return;
@@ -150,14 +166,20 @@ class FieldWalk {
       parts(inner, head, body);
     else
       handler_.octets("body", body);
+    extent(kFixedSize<Head>, body);
     handler_.leave();
   }
-  void datum(std::string_view name, std::size_t index, const VariableDatum& item) {
+  void datum(std::string_view name, std::size_t index, const VariableDatum& item,
+             std::span<const std::byte> all) {
     if (!handler_.enter(name, index, item)) return;
     FieldWalk inner(handler_);
     inner("variable_datum_id", item.datum_id);
     inner("variable_datum_length", item.length_bits);
     handler_.octets("variable_datum_value", item.value);
+    // The padding, which the last one may lack.
+    const std::size_t left = static_cast<std::size_t>(all.data() + all.size() - item.value.data());
+    extent(2 * sizeof(std::uint32_t),
+           {item.value.data(), std::min(padded_to(item.value.size(), 8), left)});
     handler_.leave();
   }
   void attribute_set(std::string_view name, std::size_t index, const AttributeSet& set) {
@@ -166,6 +188,7 @@ class FieldWalk {
     inner("entity_id", set.entity_id);
     inner("number_of_attribute_records", set.count);
     constexpr std::string_view kRecords = "attribute_records";
+    inner.list(kRecords);
     if constexpr (Handler::kExamples) {
       inner.record(kRecords, kNoIndex, HapticRecord{});
       inner.record(kRecords, kNoIndex, EnergyAccountRecord{});
@@ -173,7 +196,13 @@ class FieldWalk {
     }
     std::size_t i = 0;
     for (const AttributeRecord& item : set.records()) {
-      const auto typed = [&](const auto& value) { inner.record(kRecords, i, value); };
+      const auto typed = [&](const auto& value) {
+        if (!handler_.enter(kRecords, i, value)) return;
+        FieldWalk of_record(handler_, value);
+        fields(of_record, value);
+        extent(0, item.bytes);
+        handler_.leave();
+      };
       if (visit_attribute_record(item, typed) != DecodeError::none)
         inner.attribute_record(kRecords, i, item);
       ++i;
@@ -186,6 +215,7 @@ class FieldWalk {
     inner("record_type", item.type);
     inner("record_length", item.length);
     handler_.octets("body", item.bytes.empty() ? item.bytes : item.body());
+    extent(0, item.bytes);
     handler_.leave();
   }
 

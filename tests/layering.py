@@ -31,11 +31,12 @@ MAY_KNOW = {
     "haptics": (["pdu", "deadreckon", "haptics"], f"{STANDARD}|{SYSTEM}|<(libusb-1.0|(unsupported/)?Eigen|OpenMesh)/"),
     "src": (["pdu", "deadreckon", "aoim", "haptics", "src"], "<"),
     "tools": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools"], "<"),
+    "python": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "python"], "<"),
     "tests": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "tests", "bench"], "<"),
     "bench": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "tests", "bench"], "<"),
 }
 PRODUCT = ["pdu", "aoim", "deadreckon", "haptics", "src", "tools"]
-ROOMED = [*PRODUCT, "bench"]
+ROOMED = [*PRODUCT, "python", "bench"]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"][^>"]*[>"])', re.M)
 GENERATED = {"pdu/codec/siso_names_data.inc"}
 # Written by hand in another project's name: they include what is installed.
@@ -182,6 +183,8 @@ PLANTED = [
     ("direction", "src/peer.cpp", '#include "reckon/tools/program.hpp"'),
     ("direction", "tools/verbs/studies.cpp", '#include "reckon/bench/program.hpp"'),
     ("direction", "haptics/servo/safety.cpp", '#include "reckon/tests/support/touch_meshes.hpp"'),
+    ("direction", "tools/verbs/info.cpp", '#include "reckon/python/records/shape.hpp"'),
+    ("direction", "pdu/bundle.cpp", "#include <pybind11/pybind11.h>"),
     ("door", "pdu/codec/codec.hpp", '#include "reckon/pdu/bundle.hpp"'),
     ("door", "tools/verbs/info.cpp", '#include "reckon/tools/program.hpp"'),
     ("door", "tools/inspect/views/stats.cpp", '#include "reckon/tools/inspect/view_list.hpp"'),

@@ -17,8 +17,8 @@ from html import escape
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 # From the top down, panels of one row side by side.
-SHEET = [["pdu"], ["deadreckon", "haptics", "src"], ["tools", "tools/inspect", "tools/viewer"], ["bench", "bench/studies"]]
-FILL = {"pdu": "#dbeafe", "deadreckon": "#ffedd5", "haptics": "#ffedd5", "src": "#ede9fe", "tools": "#eceff1", "bench": "#fef9c3"}
+SHEET = [["pdu"], ["deadreckon", "haptics", "src"], ["tools", "tools/inspect", "tools/viewer"], ["bench", "bench/studies"], ["python"]]
+FILL = {"pdu": "#dbeafe", "deadreckon": "#ffedd5", "haptics": "#ffedd5", "src": "#ede9fe", "tools": "#eceff1", "bench": "#fef9c3", "python": "#dcfce7"}
 ROW, BOX, GAP, MARGIN, HEAD = 78, 36, 20, 20, 52
 
 

@@ -25,6 +25,7 @@
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/servo_trace.hpp"
+#include "reckon/tools/exercise/simulated_slice.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/demo_page.hpp"
@@ -37,8 +38,6 @@ using std::chrono::nanoseconds;
 
 constexpr const char* kDefaultScene = "meeting.toml";
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
-// What passes at once; results depend on it.
-constexpr nanoseconds kSimulatedSlice = std::chrono::milliseconds(200);
 // What a peer without dead reckoning would send every servo step: one Entity State and one
 // Attribute PDU with one force model, alone in a datagram.
 constexpr double kRawOctets = 144 + 32 + 8 + 72;

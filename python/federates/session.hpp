@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A federate that Python drives: guards its thread, and carries calls back to Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reckon/peer/federate.hpp"
+
+namespace reckon::python {
+
+using Triple = std::array<double, 3>;
+using Quadruple = std::array<double, 4>;
+
+/// What Python sees of a remote entity, as of one instant. Frame S.
+struct Seen {
+  std::array<std::uint16_t, 3> id{};
+  std::string type, marking;
+  unsigned force_id = 0;
+  std::uint32_t appearance = 0;
+  Triple position{}, velocity{};
+  Quadruple orientation{};  ///< w, x, y, z; body to S
+  double age = 0;           ///< since its last update [s]
+};
+
+/// Where an entity of the program is. Frame S.
+struct Motion {
+  Triple position{}, velocity{}, acceleration{};
+  Quadruple orientation{0, 1, 0, 0};  ///< w, x, y, z; body to S
+  Triple angular_velocity{};          ///< body axes [rad/s]
+};
+
+/// How to join.
+struct JoinOptions {
+  std::string scene;  ///< file; empty: plain DIS at the place below
+  std::uint8_t exercise = 1;
+  double latitude = 0, longitude = 0;  ///< [rad]
+  std::string interface, name;
+  std::optional<std::uint16_t> site, application;
+};
+
+/// All calls by the thread that made it, but for the destructor; callbacks within tick() alone.
+class Session {
+ public:
+  /// @throws what peer::Federate throws
+  explicit Session(const JoinOptions& options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Says good-bye; once is enough.
+  void resign();
+  [[nodiscard]] bool is_joined() const noexcept { return federate_ != nullptr; }
+
+  /// @return number of the entity
+  std::uint16_t own(const std::string& marking, const std::string& type, unsigned force_id,
+                    const Motion& motion);
+  void move(std::uint16_t entity, const Motion& motion);
+  void set_appearance(std::uint16_t entity, std::uint32_t appearance);
+  void remove(std::uint16_t entity);
+  [[nodiscard]] std::array<std::uint16_t, 3> id_of(std::uint16_t entity);
+
+  void on_discover(pybind11::function callback);
+  void on_update(pybind11::function callback);
+  void on_remove(pybind11::function callback);
+  /// Calls back with each PDU of this type and whether its sender owns the entity that issued it.
+  void on_interaction(unsigned pdu_type, pybind11::function callback);
+  /// @param octets one PDU
+  void send(std::span<const std::byte> octets);
+
+  /// Runs what is due. An exception of a callback goes on when all have been called.
+  void tick();
+  [[nodiscard]] std::vector<Seen> entities();
+  [[nodiscard]] std::optional<Seen> find(const std::array<std::uint16_t, 3>& id);
+  [[nodiscard]] double utc();
+  /// A place in S. Latitude, longitude [rad], height [m].
+  [[nodiscard]] Triple position(double latitude, double longitude, double height);
+  /// From S to W.
+  [[nodiscard]] Triple world(const Triple& position);
+
+ private:
+  peer::Federate& federate();
+  [[nodiscard]] Seen seen(const peer::RemoteObject& object);
+  template <typename Make>
+  void call(const pybind11::function& callback, Make&& arguments);
+
+  std::thread::id thread_ = std::this_thread::get_id();
+  std::unique_ptr<peer::Federate> federate_;
+  std::vector<pybind11::function> callbacks_;  // that the federate refers to
+  std::exception_ptr first_fault_;             // of the callbacks of this tick
+  bool in_tick_ = false;
+};
+
+}  // namespace reckon::python

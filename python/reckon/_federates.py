@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Taking part in an exercise."""
+from __future__ import annotations
+
+import math
+import os
+import typing
+import weakref
+
+from reckon import _native
+from reckon._native import RemoteEntity
+from reckon._records import Pdu
+
+STILL = (0.0, 0.0, 0.0)
+Id = typing.Tuple[int, int, int]
+Vector = typing.Sequence[float]
+P = typing.TypeVar("P", bound=Pdu)
+
+
+class Exercise(typing.NamedTuple):
+    """Plain DIS on 239.192.1.0:3000: its number, and the origin of frame S [degrees]."""
+
+    number: int = 1
+    latitude_deg: float = 0.0
+    longitude_deg: float = 0.0
+
+
+def heading(degrees: float) -> tuple[float, float, float, float]:
+    """A level body's orientation w, x, y, z (B to S), clockwise from north [degrees]."""
+    # Forward is (sin h, cos h, 0), right (cos h, -sin h, 0), down (0, 0, -1): half a turn about the axis between both.
+    half = math.radians(90.0 - degrees) / 2.0
+    return (0.0, math.cos(half), math.sin(half), 0.0)
+
+
+def heading_of(velocity: Vector) -> tuple[float, float, float, float]:
+    """A level body's orientation along a velocity of frame S, to the east if it stands."""
+    return heading(math.degrees(math.atan2(velocity[0], velocity[1])) if any(velocity) else 90.0)
+
+
+class Entity:
+    """An entity of the program, see Federate.own()."""
+
+    def __init__(self, session: _native.Session, number: int) -> None:
+        self._session, self._number = session, number
+
+    @property
+    def id(self) -> Id:
+        """(site, application, entity); it changes if another peer has the same."""
+        return self._session.id_of(self._number)
+
+    def move(self, position: Vector, velocity: Vector = STILL, orientation: Vector | None = None,
+             acceleration: Vector = STILL, angular_velocity: Vector = STILL) -> None:
+        """States where it truly is, at any rate: what is sent, and when, is decided by the thresholds.
+
+        position [m], velocity [m/s], acceleration [m/s^2]: frame S; orientation: w, x, y, z, B to S, by default level
+        and along the velocity; angular_velocity: frame B [rad/s]
+        """
+        faces = heading_of(velocity) if orientation is None else orientation
+        self._session.move(self._number, _native.Motion(position, velocity, acceleration, faces, angular_velocity))
+
+    def show(self, appearance: int) -> None:
+        """Sets the bits of its appearance, as on the wire."""
+        self._session.set_appearance(self._number, appearance)
+
+    def remove(self) -> None:
+        """Takes it out of the exercise."""
+        self._session.remove(self._number)
+
+
+class Federate:
+    """Takes part in an exercise from construction to the end of a `with` block.
+
+        with reckon.Federate(reckon.Exercise(1, 47.05, 8.31), iface="lo") as federate:
+            truck = federate.own("TRUCK1", type="1.1.225.7")
+            federate.on(reckon.Fire, lambda fire, owns: print(fire.firing_entity_id))
+            while True:
+                truck.move(position=(0.0, 0.0, 0.0))
+                federate.tick()
+                time.sleep(0.01)
+
+    One thread makes all calls. Callbacks run within tick(), on that thread, and may call anything but tick() and
+    resign(); what they raise, tick() raises. Frame S: east, north, up from the origin of the scene [m].
+    """
+
+    def __init__(self, scene: Exercise | str | os.PathLike[str] = Exercise(), iface: str = "", name: str = "federate",
+                 site: int | None = None, application: int | None = None) -> None:
+        """scene: a scene file, or an Exercise; iface: name, address or index, "": chosen; name: of this peer
+
+        site, application: of its entities' IDs, by default free ones. RuntimeError, or ValueError, with the remedy where
+        it cannot join.
+        """
+        plain = scene if isinstance(scene, Exercise) else Exercise()
+        path = "" if isinstance(scene, Exercise) else os.fspath(scene)
+        self._session = _native.Session(path, plain.number, math.radians(plain.latitude_deg),
+                                        math.radians(plain.longitude_deg), iface, name, site, application)
+        self._end = weakref.finalize(self, self._session.resign)
+
+    def __enter__(self) -> Federate:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.resign()
+
+    def resign(self) -> None:
+        """Leaves: its entities are deactivated, its end is announced. Nothing may be called after it."""
+        self._end()
+
+    def own(self, marking: str, type: str = "1.1", position: Vector = STILL, force_id: int = 0,
+            velocity: Vector = STILL, orientation: Vector | None = None) -> Entity:
+        """Brings an entity into the exercise; an Entity.
+
+        marking: at most 11 ASCII characters; type: kind.domain.country.category.. of SISO-REF-010; force_id: 1 friendly,
+        2 opposing, 3 neutral; the others: as of Entity.move()
+        """
+        faces = heading_of(velocity) if orientation is None else orientation
+        motion = _native.Motion(position, velocity, STILL, faces, STILL)
+        return Entity(self._session, self._session.own(marking, type, force_id, motion))
+
+    def on_discover(self, callback: typing.Callable[[RemoteEntity], object]) -> None:
+        """Calls back with a RemoteEntity that is new."""
+        self._session.on_discover(callback)
+
+    def on_update(self, callback: typing.Callable[[RemoteEntity], object]) -> None:
+        """Calls back with each RemoteEntity that was updated, once a tick()."""
+        self._session.on_update(callback)
+
+    def on_remove(self, callback: typing.Callable[[Id], object]) -> None:
+        """Calls back with the ID of an entity that is gone: (site, application, entity)."""
+        self._session.on_remove(callback)
+
+    def on(self, kind: type[P], callback: typing.Callable[[P, bool], object]) -> None:
+        """Calls back with each PDU of a class, such as reckon.Fire, and whether its sender owns the entity that issued it.
+
+        One in the name of another owner's entity is refused before. A second call replaces the first.
+        """
+        self._session.on_interaction(kind().header.pdu_type, callback)
+
+    def send(self, pdu: Pdu) -> None:
+        """Sends a PDU; exercise and timestamp are filled in. One with a location goes to those who can sense the place."""
+        self._session.send(pdu)
+
+    def tick(self) -> None:
+        """Runs what is due, and calls back. Never waits: call it at 30 Hz or more."""
+        self._session.tick()
+
+    def entities(self) -> list[RemoteEntity]:
+        """All remote entities as RemoteEntity, where they are shown now."""
+        return self._session.entities()
+
+    def find(self, entity_id: Id) -> RemoteEntity | None:
+        """The RemoteEntity of this ID (site, application, entity), or None."""
+        return self._session.find(entity_id)
+
+    def utc(self) -> float:
+        """[s] since 1970, without the leaps of the host's clock."""
+        return self._session.utc()
+
+    def position(self, latitude_deg: float, longitude_deg: float, height: float = 0.0) -> Vector:
+        """A place in frame S [m]. height: over the ellipsoid [m]"""
+        return self._session.position(math.radians(latitude_deg), math.radians(longitude_deg), height)
+
+    def world(self, position: Vector) -> Vector:
+        """A position of frame S in frame W [m], as PDUs have it."""
+        return self._session.world(position)

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A PDU of a type without a field table: its header, and the rest as it is.
+#pragma once
+
+#include "reckon/pdu/codec/octet_block.hpp"
+#include "reckon/pdu/codec/pdu_header.hpp"
+
+namespace reckon::pdu {
+
+struct UnknownPdu {
+  PduHeader header;
+  RestOfPdu body;
+};
+
+template <typename Visitor, Is<UnknownPdu> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor.walked("body", pdu.body);
+}
+
+}  // namespace reckon::pdu
+
+namespace reckon::python {
+using pdu::UnknownPdu;
+}  // namespace reckon::python
