@@ -25,7 +25,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPeriod = 0.001;
+constexpr double kSample = 0.001;
 constexpr double kDamping = 1.0;  // [N s/m], of the device
 constexpr int kSteps = 1500;
 
@@ -132,14 +132,14 @@ struct Least {
 Least run_gated(const Scene& scene, Random& random) {
   const EffectPlan plan(scene);
   EnergyPort port(kDamping);
-  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
+  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
   Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
   contact.reset(device);
   Books books;
   for (int i = 0; i < kSteps; ++i) {
     PortLoad load;
-    contact.load(velocity, kPeriod, load);
-    const PortHold held = port.hold(load, kPeriod);
+    contact.load(velocity, kSample, load);
+    const PortHold held = port.hold(load, kSample);
     if (held.walls < 1.0) contact.attenuate(held.walls, port);
     contact.shown(held.extra);
     Vector3d force = held.force;
@@ -148,7 +148,7 @@ Least run_gated(const Scene& scene, Random& random) {
       port.attenuate(0.5);
       force *= 0.5;
     }
-    const double dt = random() % 20 == 0 ? any(random, 1.0, 4.0) * kPeriod : kPeriod;
+    const double dt = random() % 20 == 0 ? any(random, 1.0, 4.0) * kSample : kSample;
     const Vector3d dx = motion(random, i, force, device, dt, 2e-4);
     device += dx;
     velocity = dx / dt;
@@ -173,15 +173,15 @@ double made_open(const Scene& scene, Random& random) {
   for (int i = 0; i < kSteps; ++i) {
     PortLoad load;
     rich.borrow(1.0);
-    contact.load(velocity, kPeriod, load);
+    contact.load(velocity, kSample, load);
     Vector3d force = load.walls + load.extra;
     if (!(force.norm() < 1e3)) force *= 1e3 / force.norm();
     const Vector3d& prey = load.extra.isZero() ? force : load.extra;
-    const Vector3d dx = motion(random, i, prey, device, kPeriod, 2e-5);
+    const Vector3d dx = motion(random, i, prey, device, kSample, 2e-5);
     device += dx;
-    velocity = dx / kPeriod;
-    books.settle(force, dx, kPeriod);
-    contact.settle(device, kPeriod, rich);
+    velocity = dx / kSample;
+    books.settle(force, dx, kSample);
+    contact.settle(device, kSample, rich);
     const double left = books.energy - contact.stored() - contact.regions().stored();
     most = std::max(most, left);
     made = std::max(made, most - left);

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kPeriod = 0.001;
+constexpr double kServoPeriod = 0.001;
 
 /// A region turned and moved in S, and one device in it that is rich enough for every force.
 class Place {
@@ -42,13 +42,13 @@ class Place {
   Vector3d move(const Vector3d& place, const Vector3d& velocity = Vector3d::Zero()) {
     for (int i = 0; i < 200; ++i) {  // gains rise
       port_.borrow(10.0);
-      forces_->settle(in_scene(place), kPeriod, port_);
+      forces_->settle(in_scene(place), kServoPeriod, port_);
     }
     return load(velocity);
   }
   /// The same after one step, whatever has risen by then.
   Vector3d step(const Vector3d& place) {
-    forces_->settle(in_scene(place), kPeriod, port_);
+    forces_->settle(in_scene(place), kServoPeriod, port_);
     return load(Vector3d::Zero());
   }
   [[nodiscard]] double stored() const { return forces_->stored(); }
@@ -56,7 +56,7 @@ class Place {
  private:
   Vector3d load(const Vector3d& velocity) {
     PortLoad load;
-    forces_->load(region_.pose.orientation * velocity, kPeriod, load);
+    forces_->load(region_.pose.orientation * velocity, kServoPeriod, load);
     return region_.pose.orientation.conjugate() * (load.walls + load.extra);
   }
   [[nodiscard]] Vector3d in_scene(const Vector3d& place) const {

@@ -4,15 +4,18 @@
 import { DoubleSide, Mesh, MeshLambertMaterial } from './libraries.js';
 import { colour } from './colours.js';
 import { solidReach, solidShape } from './solid_shapes.js';
+import { foreign } from './words.js';
+
+const MOST_NAMED = 24;
 
 export const drawnSolids = {
   name: 'solids', view: 'touch', says: 'solid of the scene', mark: 'body stone',
-  make(group) { return new Solids(group); },
+  make(group, view, labels) { return new Solids(group, view, labels); },
 };
 
 class Solids {
-  constructor(group) {
-    this.group = group;
+  constructor(group, view, labels) {
+    Object.assign(this, { group, view, labels });
     this.meshes = [];
     this.number = -1;
   }
@@ -20,7 +23,13 @@ class Solids {
   paint() { for (const { material } of this.meshes) material.color = colour('stone'); }
 
   update(moment) {
-    if (moment.touchNumber === this.number) return;
+    if (moment.touchNumber !== this.number) this.rebuild(moment);
+    const { solids } = moment.touch;
+    if (this.view.rectangle.width <= 400 || solids.length < 2 || solids.length > MOST_NAMED) return;
+    for (const { name, position: [x, y, z] } of solids) this.labels.put(this.view, x, y, z, foreign(name ?? '', 31), 'solid', 8);
+  }
+
+  rebuild(moment) {
     this.number = moment.touchNumber;
     for (const mesh of this.meshes) {
       mesh.geometry.dispose();
