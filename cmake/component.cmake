@@ -218,9 +218,9 @@ function(reckon_component name)
 endfunction()
 
 # reckon_components_first(program): of a function that a header gives to several files a linker takes the first, which is
-# then not that of cold code.
+# then not that of cold code: cold units come from the libraries, after all others.
 function(reckon_components_first program)
   foreach(component ${RECKON_COMPONENTS})
-    target_sources(${program} PRIVATE $<TARGET_OBJECTS:reckon_${component}>)
+    target_sources(${program} PRIVATE $<FILTER:$<TARGET_OBJECTS:reckon_${component}>,EXCLUDE,/cold_>)
   endforeach()
 endfunction()
