@@ -59,8 +59,8 @@ double octets_each(const WholeRun& run) {
 
 /// Processes that stood still say little about peers.
 std::string lateness_of(const WholeRun& run) {
-  constexpr double kNotable = 0.2;  // [s]
-  if (run.latest < kNotable) return "";
+  constexpr double kLate = 0.2;  // [s]
+  if (run.latest < kLate) return "";
   return fmt::format(
       "a step came {:.1f} s late: this machine was too busy, and what is overdue or lost may be "
       "its "
