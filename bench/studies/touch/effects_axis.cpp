@@ -95,6 +95,8 @@ void declare_holder(haptics::DeclaredEffects& effects, const Declared& declared)
     effects.declare<haptics::PlaceFriction>() = {0.5, 0.35, 0.5, 0.004, 0, 0};
   } else if (declared.holder == haptics::StribeckFriction::kName) {
     effects.declare<haptics::StribeckFriction>() = {0.5, 0.35, 0.02, 0};
+  } else if (declared.holder == haptics::Snags::kName) {
+    effects.declare<haptics::Snags>() = {3e5, 0.5, 5e-4, 0.1, 1};
   } else {
     effects.declare<haptics::StickSlipFriction>() = {0.5, 0.35};
   }
@@ -114,6 +116,7 @@ haptics::EffectPlan plan_of(const std::filesystem::path& file, const Declared& d
   const double damping = declared.has(kDamper) ? 4.0 : 0.0;
   object.effects.of<haptics::SpringDamper>() = {kHard, damping};
   declare_holder(object.effects, declared);
+  declare<haptics::Skin>(object.effects, declared, {200, 0.4});
   declare<haptics::Texture>(object.effects, declared, {5e-5, 0.003, 0, 0});
   declare<haptics::SurfaceDrag>(object.effects, declared, {1.0});
   declare<haptics::TapVibration>(object.effects, declared, {4.0, 100.0, 80.0});

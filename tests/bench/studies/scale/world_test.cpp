@@ -194,22 +194,19 @@ TEST(ScaleWorld, CountsTheWantedBetweenWhatBruteForceDoes) {
   EXPECT_GT(within, 1000U);
 }
 
-// Who stands is taken within the radius alone.
+// Who stands is taken within the radius alone, of a focus that covers one entity.
 TEST(ScaleWorld, CountsTheWantedOfWhatStandsAsBruteForceDoes) {
   ScaleSetting setting = small_setting();
   setting.seconds = 1;
   setting.radius = 60;
+  setting.peers = setting.crowd.entities = 60;
   setting.crowd.movement = "rest";
   Crowd crowd(setting.crowd);
   crowd.advance(kWarmUp);
-  const auto owner = [](std::size_t entity) { return entity * 12 / 240; };
   std::uint64_t pairs = 0;
   for (std::size_t entity = 0; entity < crowd.size(); ++entity) {
-    std::set<std::size_t> peers;
     for (std::size_t other = 0; other < crowd.size(); ++other)
-      if (distance(crowd.position(other), crowd.position(entity)) <= setting.radius)
-        peers.insert(owner(other));
-    pairs += peers.size() - 1;
+      pairs += entity != other && distance(crowd.position(other), crowd.position(entity)) <= 60;
   }
   const ScaleCounts counts = run_world(setting, design_of(0));
   EXPECT_EQ(counts.wanted, pairs * counts.updates / crowd.size());
