@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,7 +25,7 @@ struct EffectWaves {
   }
   /// dw/dp [1/m].
   [[nodiscard]] Eigen::Vector3d gradient(const Eigen::Vector3d& place) const noexcept {
-    std::array<double, 3> cosine{1.0, 1.0, 1.0}, slope{0.0, 0.0, 0.0};
+    Eigen::Vector3d cosine(1.0, 1.0, 1.0), slope(0.0, 0.0, 0.0);
     for (int i = 0; i < 3; ++i) {
       if (!(lengths[i] > 0.0)) continue;
       cosine[i] = std::cos(phase(place, i));
