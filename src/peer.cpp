@@ -47,6 +47,13 @@ std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(const SceneFile& sc
   return servos;
 }
 
+// All servos share one plan.
+std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects_of(
+    const std::vector<std::unique_ptr<haptics::ServoLoop>>& servos) {
+  if (servos.empty()) return {};
+  return servos.front()->plan().custom_effects();
+}
+
 std::string marking_of(const PeerOptions& options, const PeerDevice& device, std::size_t index) {
   if (!device.marking.empty()) return device.marking;
   return index == 0 ? options.name : options.name + std::to_string(index + 1);
@@ -79,7 +86,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_, link_,
               options.record_shown ? &shown_ : nullptr, counters_, options.capacity,
               options.record_changes, &read_.muted(), options.tap, urgent_.get(), &read_.known(),
-              &read_.felt()},
+              &read_.felt(), custom_effects_of(servos_)},
              {{options.site, options.application},
               options.name,
               options.epoch,

@@ -29,14 +29,16 @@ bool usable(const Vector3d& device) {
 FrictionCone* cone_of(PlannedEffects& effects) {
   FrictionCone* cone = nullptr;
   effects.for_each([&]<class Effect>(Effect& effect) {
-    if constexpr (HoldsContactPoint<Effect>) cone = &effect.cone();
+    if constexpr (HoldsContactPoint<Effect>) {
+      if (hooks_of(effect).holds) cone = &effect.cone();
+    }
   });
   return cone;
 }
 
 bool has_follower(const PlannedEffects& effects) {
   bool has = false;
-  effects.for_each([&]<class Effect>(const Effect&) { has |= FollowsPlace<Effect>; });
+  effects.for_each([&](const auto& effect) { has |= hooks_of(effect).follows; });
   return has;
 }
 

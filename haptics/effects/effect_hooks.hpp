@@ -156,9 +156,32 @@ concept WholeHooks = (HoldsContactPoint<Effect> || !requires { &Effect::cone; })
                       !(
                           requires { &Effect::force; } || requires { &Effect::damping; }));
 
-/// Order of the effects in a servo step: the contact point first, then springs, then the rest.
+/// The hooks that an effect has.
+struct EffectHookSet {
+  bool holds = false;            ///< HoldsContactPoint
+  bool follows = false;          ///< FollowsPlace
+  bool stores = false;           ///< StoresEnergy
+  bool gives = false;            ///< GivesForce
+  bool in_contact_only = false;  ///< ActsInContactOnly
+
+  /// Turn in a servo step: the contact point first, then springs, then the rest.
+  [[nodiscard]] constexpr int turn() const noexcept { return holds ? 0 : (stores ? 1 : 2); }
+};
 inline constexpr int kTurns = 3;
+
 template <class Effect>
-inline constexpr int kTurn = HoldsContactPoint<Effect> ? 0 : (StoresEnergy<Effect> ? 1 : 2);
+inline constexpr EffectHookSet kHooks{HoldsContactPoint<Effect>, FollowsPlace<Effect>,
+                                      StoresEnergy<Effect>, GivesForce<Effect>,
+                                      ActsInContactOnly<Effect>};
+
+/// Hooks of an effect: those of its class, unless it says itself which of them it has.
+template <class Effect>
+[[nodiscard]] constexpr EffectHookSet hooks_of(const Effect& effect) noexcept {
+  if constexpr (requires { effect.hooks(); }) {
+    return effect.hooks();
+  } else {
+    return kHooks<Effect>;
+  }
+}
 
 }  // namespace reckon::haptics

@@ -12,12 +12,13 @@
 
 #include "reckon/haptics/effects/effect_declarations.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/effects/guarded_effect.hpp"
 
 namespace reckon::haptics {
 
 /// A copy has its own state. Assignment between copies of one set does not allocate.
-/// @tparam Types std::tuple of the effects
-template <class Types>
+/// @tparam Types std::tuple of the effects  @tparam More that may be added besides
+template <class Types, class... More>
 class EffectSet {
  public:
   /// The effects that are always there, with their defaults.
@@ -45,8 +46,13 @@ class EffectSet {
   template <class Effect>
   void add(const typename Effect::Parameters& parameters) {
     declared_.emplace_back(std::in_place_type<Effect>, parameters);
-    declared_springs_ |= StoresEnergy<Effect>;
-    declared_forces_ |= GivesForce<Effect>;
+    note(kHooks<Effect>);
+  }
+  /// The same for one of `More`.
+  template <class Effect>
+  void add(Effect effect) {
+    note(hooks_of(effect));
+    declared_.emplace_back(std::move(effect));
   }
   /// Whether an effect that is not always there gives a force.
   [[nodiscard]] bool has_declared_forces() const noexcept { return declared_forces_; }
@@ -87,7 +93,7 @@ class EffectSet {
     struct Of;
     template <class... Some>
     struct Of<std::tuple<Some...>> {
-      using Variant = std::variant<Some...>;
+      using Variant = std::variant<Some..., More...>;
       static std::tuple<Some...> make([[maybe_unused]] const EffectDeclarations<Types>& declared) {
         return std::tuple<Some...>(Some(*declared.template find<Some>())...);
       }
@@ -102,6 +108,10 @@ class EffectSet {
   using Always = typename Parts<Types>::Always;
   using Declared = typename Parts<Types>::Declared;
 
+  void note(const EffectHookSet& hooks) noexcept {
+    declared_springs_ |= hooks.stores;
+    declared_forces_ |= hooks.gives;
+  }
   template <class Effect, class Self>
   static auto* find_in(Self& self) noexcept {
     using Found = std::conditional_t<std::is_const_v<Self>, const Effect, Effect>;
@@ -125,6 +135,6 @@ class EffectSet {
 };
 
 /// Of an object.
-using PlannedEffects = EffectSet<EffectTypes>;
+using PlannedEffects = EffectSet<EffectTypes, GuardedEffect>;
 
 }  // namespace reckon::haptics

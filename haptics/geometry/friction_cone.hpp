@@ -37,6 +37,7 @@ class FrictionCone {
     kinetic_ = kinetic_coefficient;
   }
 
+  [[nodiscard]] double at_rest() const noexcept { return static_; }
   [[nodiscard]] double kinetic() const noexcept { return kinetic_; }
   [[nodiscard]] bool sliding() const noexcept { return sliding_; }
   void set_sliding(bool sliding) noexcept { sliding_ = sliding; }

@@ -118,22 +118,33 @@ Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
   return {centre - half - margin, centre + half + margin};
 }
 
+template <class Effect>
+std::string_view key_of(const Effect& effect) noexcept {
+  if constexpr (std::is_same_v<Effect, GuardedEffect>) {
+    return effect.effect().key();
+  } else {
+    return Effect::kKey;
+  }
+}
+
 // Only one effect may hold the contact point.
 void check_one_holder(const PlannedEffects& effects) {
   std::string_view holder;
-  effects.for_each([&]<class Effect>(const Effect&) {
-    if constexpr (HoldsContactPoint<Effect>) {
-      if (!holder.empty()) {
-        throw std::invalid_argument(std::string(holder) + " and " + std::string(Effect::kKey) +
-                                    " both hold the contact point; declare one of them");
-      }
-      holder = Effect::kKey;
+  effects.for_each([&](const auto& effect) {
+    if (!hooks_of(effect).holds) return;
+    const std::string_view key = key_of(effect);
+    if (!holder.empty()) {
+      throw std::invalid_argument(std::string(holder) + " and " + std::string(key) +
+                                  " both hold the contact point; declare one of them");
     }
+    holder = key;
   });
 }
 
-PlannedEffects plan_effects(const DeclaredEffects& declared) {
-  PlannedEffects effects(declared);
+PlannedEffects plan_effects(const SceneObject& object) {
+  PlannedEffects effects(object.effects);
+  for (const DeclaredCustomEffect& declared : object.custom_effects)
+    effects.add(GuardedEffect(declared, object.name));
   check_one_holder(effects);
   return effects;
 }
@@ -165,7 +176,7 @@ PlannedObject plan_object(const SceneObject& object) {
                         object.pose.position,
                         Vector3d::Zero(),
                         {},
-                        plan_effects(object.effects),
+                        plan_effects(object),
                         nullptr};
   // A mesh whose vertices are far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
@@ -206,8 +217,9 @@ PlannedRegion plan_region(const SceneRegion& region) {
 
 bool acts_from_afar(const PlannedEffects& effects) {
   bool acts = false;
-  effects.for_each([&]<class Effect>(const Effect&) {
-    acts |= GivesForce<Effect> && !ActsInContactOnly<Effect>;
+  effects.for_each([&](const auto& effect) {
+    const EffectHookSet hooks = hooks_of(effect);
+    acts |= hooks.gives && !hooks.in_contact_only;
   });
   return acts;
 }
@@ -223,14 +235,26 @@ std::string number(double value) {
   return text;
 }
 
+void append_value(std::string& text, std::string_view key, double value, std::string_view unit) {
+  if (!text.empty()) text.append(", ");
+  text.append(key).append(" ").append(number(value));
+  if (!unit.empty()) text.append(" ").append(unit);
+}
+
 template <class Effect>
 PlanStage effect_stage(const std::string& object, const Effect& effect) {
   PlanStage stage{std::string(Effect::kName), object, {}, std::string(Effect::kCost)};
-  for (const auto& row : Effect::kParameters) {
-    std::string& text = stage.parameters;
-    if (!text.empty()) text.append(", ");
-    text.append(row.key).append(" ").append(number(effect.parameters().*row.field));
-    if (!row.unit.empty()) text.append(" ").append(row.unit);
+  for (const auto& row : Effect::kParameters)
+    append_value(stage.parameters, row.key, effect.parameters().*row.field, row.unit);
+  return stage;
+}
+
+PlanStage effect_stage(const std::string& object, const GuardedEffect& guarded) {
+  const CustomEffect& effect = guarded.effect();
+  PlanStage stage{effect.name(), object, {}, effect.cost()};
+  for (std::size_t i = 0; i < effect.parameters().size(); ++i) {
+    const CustomParameter& row = effect.parameters()[i];
+    append_value(stage.parameters, row.key, guarded.values()[i], row.unit);
   }
   return stage;
 }
@@ -335,6 +359,16 @@ double EffectPlan::max_stiffness() const noexcept {
   return most;
 }
 
+std::vector<std::shared_ptr<const GuardReport>> EffectPlan::custom_effects() const {
+  std::vector<std::shared_ptr<const GuardReport>> reports;
+  for (const PlannedObject& object : objects_) {
+    object.effects.for_each([&]<class Effect>(const Effect& effect) {
+      if constexpr (std::is_same_v<Effect, GuardedEffect>) reports.push_back(effect.report());
+    });
+  }
+  return reports;
+}
+
 std::vector<PlanStage> EffectPlan::stages() const {
   std::vector<PlanStage> stages;
   for (const PlannedObject& object : objects_) {
@@ -343,8 +377,8 @@ std::vector<PlanStage> EffectPlan::stages() const {
       stages.push_back(patch_stage(object.name, object.patches->patches[id], id));
     }
     for (int turn = 0; turn < kTurns; ++turn) {
-      object.effects.for_each([&]<class Effect>(const Effect& effect) {
-        if (kTurn<Effect> == turn) stages.push_back(effect_stage(object.name, effect));
+      object.effects.for_each([&](const auto& effect) {
+        if (hooks_of(effect).turn() == turn) stages.push_back(effect_stage(object.name, effect));
       });
     }
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/effects/custom_effect.hpp"
 #include "reckon/haptics/effects/effect_declarations.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/regions/region_types.hpp"
@@ -37,6 +38,8 @@ struct SceneObject {
   ObjectPose pose;
   DeclaredEffects effects;            ///< effects.of<SpringDamper>().stiffness = 900.0
   std::vector<SurfacePatch> patches;  ///< of a mesh; other triangles have `effects`
+  /// Those of the program, in the order of their keys.
+  std::vector<DeclaredCustomEffect> custom_effects{};
 };
 
 /// A part of space in which effects act; nothing solid.

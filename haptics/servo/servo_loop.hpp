@@ -73,6 +73,8 @@ class ServoLoop {
   [[nodiscard]] double power_limit() const noexcept { return max_power_; }
   /// Stiffness that the scene asks for [N/m].
   [[nodiscard]] double static_stiffness() const noexcept { return plan_->max_stiffness(); }
+  /// The static scene; any thread.
+  [[nodiscard]] const EffectPlan& plan() const noexcept { return *plan_; }
   /// Stiffness limit of a remote hand [N/m]: half that of a wall, because two hands that press each
   /// other share the energy of one spring.
   [[nodiscard]] double remote_stiffness_limit() const noexcept;

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/haptics/effects/guarded_effect.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/counters/counters.hpp"
@@ -35,6 +38,8 @@ struct ModelWiring {
   DatagramRing* urgent = nullptr;  ///< datagrams of the urgent tier, taken first; may be null
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
   haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< likewise
+  /// What servos see of the program's own effects.
+  std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
 };
 
 }  // namespace reckon::peer

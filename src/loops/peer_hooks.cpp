@@ -8,6 +8,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/budget_keeper.hpp"
 #include "reckon/peer/loops/channel_keeper.hpp"
+#include "reckon/peer/loops/custom_effect_watch.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
 
@@ -40,6 +41,12 @@ PeerHooks known_sources(const ModelWiring& wiring) {
   return {.look = [known](const WatchedPeer& peer) { known->publish(peer.aoim.presence()); }};
 }
 
+PeerHooks custom_effects(const ModelWiring& wiring) {
+  if (wiring.custom_effects.empty()) return {};
+  const auto watch = std::make_shared<CustomEffectWatch>(wiring.custom_effects);
+  return {.look = [watch](const WatchedPeer& peer) { watch->look(peer.notices); }};
+}
+
 PeerHooks limits(const ModelWiring& wiring) {
   const auto watch = std::make_shared<LimitWatch>(wiring.capacity, wiring.counters);
   return {.look = [watch](const WatchedPeer& peer) {
@@ -67,6 +74,7 @@ constexpr HookRow kHookRows[]{
     {always, channels},
     {has_budget, budget},
     {always, known_sources},
+    {always, custom_effects},
     {always, limits},
     {always, link}};
 // clang-format on

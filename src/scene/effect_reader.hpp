@@ -5,8 +5,11 @@
 
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "reckon/haptics/effects/effect_declarations.hpp"
+#include "reckon/haptics/effects/guarded_effect.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
 
 namespace reckon::peer {
@@ -19,6 +22,23 @@ void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Para
     const Effect checked(values);  // checks beyond single rows
   } catch (const std::invalid_argument& error) {
     owner.problem(Effect::kKey, error.what());
+  }
+}
+
+/// All effects of the program that an object declares.
+inline void read_custom_effects(TomlReader& owner, haptics::SceneObject& object) {
+  for (const auto& effect : owner.custom_effects()) {
+    auto table = owner.table(effect->key());
+    if (!table) continue;
+    std::vector<double> values;
+    for (const haptics::CustomParameter& row : effect->parameters())
+      table->number(row.key, values.emplace_back(row.default_value));
+    try {
+      (void)haptics::GuardedEffect({effect, values}, object.name);  // checks beyond single rows
+    } catch (const std::invalid_argument& error) {
+      owner.problem(effect->key(), error.what());
+    }
+    object.custom_effects.push_back({effect, std::move(values)});
   }
 }
 

@@ -41,6 +41,14 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
+/// Sorted, so that a scene does not depend on the order in which a program names its effects.
+SceneVocabulary vocabulary_of(const haptics::CustomEffects& effects) {
+  SceneVocabulary vocabulary{scene_keys(), effects};
+  std::ranges::sort(vocabulary.effects, {}, [](const auto& effect) { return effect->key(); });
+  add_custom_effects(vocabulary.effects, vocabulary.keys);
+  return vocabulary;
+}
+
 /// The number of the group that the last cell of the pool uses must exist.
 void check_pool(const SceneFile& scene, std::vector<SceneProblem>& problems) {
   try {
@@ -152,11 +160,13 @@ SceneFileError::SceneFileError(const std::string& file, std::vector<SceneProblem
     : std::runtime_error(join_problems(file, problems)), problems_(std::move(problems)) {}
 
 SceneFile parse_scene_file(std::string_view text, const std::string& file,
-                           const std::filesystem::path& folder) {
+                           const std::filesystem::path& folder,
+                           const haptics::CustomEffects& effects) {
   const toml::table document = parse_toml(text, file);
+  const SceneVocabulary vocabulary = vocabulary_of(effects);
   std::vector<SceneProblem> problems;
   SceneFile scene;
-  TomlReader reader(document, "", folder, problems);
+  TomlReader reader(document, "", folder, vocabulary, problems);
   file_section().read(reader, scene);
   if (problems.empty()) check_pool(scene, problems);
   if (!problems.empty()) {
@@ -171,14 +181,15 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file,
   return scene;
 }
 
-SceneFile load_scene_file(const std::filesystem::path& path) {
+SceneFile load_scene_file(const std::filesystem::path& path,
+                          const haptics::CustomEffects& effects) {
   std::error_code error;
   if (!fs::exists(path, error))
     throw SceneFileError(
         path.string(),
         {{0, 0, "there is no such file; name a scene file, for example scenes/two_hands.toml"}});
   if (fs::is_directory(path, error)) throw SceneFileError(path.string(), {{0, 0, "is a folder"}});
-  SceneFile scene = parse_scene_file(read_bytes(path), path.string(), path.parent_path());
+  SceneFile scene = parse_scene_file(read_bytes(path), path.string(), path.parent_path(), effects);
   scene.path = path;
   return scene;
 }

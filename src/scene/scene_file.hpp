@@ -57,11 +57,15 @@ class SceneFileError : public std::runtime_error {
 };
 
 /// Reads the scene at `path`. Set-up code: allocates and throws SceneFileError with all problems.
-[[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path);
+/// @param effects of the program, see custom_effect.hpp; objects may declare them by their keys
+/// @throws std::invalid_argument when the key of an effect is one of the scene's, or of two effects
+[[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path,
+                                        const haptics::CustomEffects& effects = {});
 
 /// The same for text; `file` is its name in messages, and relative paths start at `folder`.
 [[nodiscard]] SceneFile parse_scene_file(std::string_view text, const std::string& file,
-                                         const std::filesystem::path& folder = ".");
+                                         const std::filesystem::path& folder = ".",
+                                         const haptics::CustomEffects& effects = {});
 
 /// For programs that render to hands: baselines are only for studies of simulated devices.
 /// @throws SceneFileError with the remedy if the scene selects a baseline

@@ -123,6 +123,15 @@ void add_effects_of(Hash& hash, const haptics::EffectDeclarations<Types>& effect
   });
 }
 
+/// What an effect does is not known, only what it is called and takes.
+void add_custom_effects_of(Hash& hash, const haptics::SceneObject& object) {
+  for (const haptics::DeclaredCustomEffect& declared : object.custom_effects) {
+    hash.fact("custom effect", declared.effect->name());
+    for (std::size_t i = 0; i < declared.values.size(); ++i)
+      hash.fact(declared.effect->parameters()[i].key, declared.values[i]);
+  }
+}
+
 /// In the order of their names, because the order in a file means nothing.
 void add_patches(Hash& hash, std::vector<haptics::SurfacePatch> patches) {
   std::ranges::sort(patches, {}, &haptics::SurfacePatch::name);
@@ -170,6 +179,7 @@ void add(Hash& hash, const haptics::SceneObject& object) {
   hash.fact("position", object.pose.position);
   add(hash, object.pose.orientation);
   add_effects_of(hash, object.effects);
+  add_custom_effects_of(hash, object);
   add_patches(hash, object.patches);
 }
 

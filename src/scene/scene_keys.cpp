@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -73,6 +74,23 @@ void add_region_effects(Keys& keys) {
   haptics::for_each_region_effect([&]<class Effect>(std::type_identity<Effect>) {
     add_effect_keys<Effect>(keys, "region", true);
   });
+}
+
+void add_custom_effects(const haptics::CustomEffects& effects, Keys& keys) {
+  for (const auto& effect : effects) {
+    const bool taken = std::ranges::any_of(keys, [&](const SceneKey& key) {
+      return key.section == "object" && key.key == effect->key();
+    });
+    if (taken)
+      throw std::invalid_argument(
+          fmt::format("the key '{}' of the effect {} is taken: give it another kKey", effect->key(),
+                      effect->name()));
+    keys.push_back(table("object", effect->key(),
+                         fmt::format("the effect {}; costs {}", effect->name(), effect->cost())));
+    for (const haptics::CustomParameter& row : effect->parameters())
+      keys.push_back(number("object." + effect->key(), row.key, row.unit, row.minimum, row.maximum,
+                            format_quantity(row.default_value, row.unit), as_row(row.help)));
+  }
 }
 
 void add_patch_effects(Keys& keys) {

@@ -45,6 +45,8 @@ struct TouchModel : deadreckon::ForceModel {
 void add_effects(std::vector<SceneKey>& keys);
 /// Adds those of the effects that a patch may change.
 void add_patch_effects(std::vector<SceneKey>& keys);
+/// Adds those of a program's own effects. @throws std::invalid_argument where a key is taken
+void add_custom_effects(const haptics::CustomEffects& effects, std::vector<SceneKey>& keys);
 /// Adds those of the effects of regions.
 void add_region_effects(std::vector<SceneKey>& keys);
 

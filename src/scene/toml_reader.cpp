@@ -64,17 +64,18 @@ std::vector<std::string> split_point(std::string_view text) {
 }  // namespace
 
 TomlReader::TomlReader(const toml::table& table, std::string section, fs::path folder,
-                       std::vector<SceneProblem>& problems)
+                       const SceneVocabulary& vocabulary, std::vector<SceneProblem>& problems)
     : table_(&table),
       section_(std::move(section)),
       folder_(std::move(folder)),
+      vocabulary_(&vocabulary),
       problems_(&problems) {
   refuse_unknown_keys();
 }
 
 void TomlReader::refuse_unknown_keys() {
   std::vector<std::string_view> known;
-  for (const SceneKey& row : scene_keys()) {
+  for (const SceneKey& row : vocabulary_->keys) {
     if (row.section == section_) known.push_back(row.key);
   }
   for (const auto& [key, node] : *table_) {
@@ -87,10 +88,13 @@ void TomlReader::refuse_unknown_keys() {
       continue;
     }
     const auto nearest = nearest_word(key.str(), known);
-    add(key.source(),
+    std::string sentence =
         nearest.empty() ? fmt::format("unknown key '{}': {} takes {}", key.str(),
                                       section_name(section_), fmt::join(known, ", "))
-                        : fmt::format("unknown key '{}' (did you mean '{}'?)", key.str(), nearest));
+                        : fmt::format("unknown key '{}' (did you mean '{}'?)", key.str(), nearest);
+    if (section_ == "object" && node.is_table())
+      sentence += "; an effect of a program's own is known to that program alone";
+    add(key.source(), std::move(sentence));
   }
 }
 
@@ -121,7 +125,7 @@ void TomlReader::require(std::string_view key) {
 }
 
 const SceneKey& TomlReader::spec(std::string_view key) const {
-  const auto& keys = scene_keys();
+  const auto& keys = vocabulary_->keys;
   const auto found = std::ranges::find_if(
       keys, [&](const SceneKey& row) { return row.section == section_ && row.key == key; });
   assert(found != keys.end());
@@ -146,7 +150,7 @@ Quantity TomlReader::parse(const std::string& text, const SceneKey& spec) const 
   // An invalid value of the other key is reported where that key is read.
   std::vector<SceneProblem> reported;
   std::chrono::nanoseconds whole{0};
-  TomlReader(*table_, section_, folder_, reported).read(spec.share_of, whole);
+  TomlReader(*table_, section_, folder_, *vocabulary_, reported).read(spec.share_of, whole);
   if (!reported.empty()) return {};
   const JitterText jitter = read_jitter(text, whole, fmt::format("{} = \"80 ms\"", spec.share_of));
   return {pdu::to_seconds(jitter.jitter), jitter.error};
@@ -301,7 +305,7 @@ std::optional<std::string_view> TomlReader::choice(std::string_view key) {
 
 TomlReader TomlReader::inside(const toml::table& table, std::string_view key) {
   return {table, fmt::format("{}{}{}", section_, section_.empty() ? "" : ".", key), folder_,
-          *problems_};
+          *vocabulary_, *problems_};
 }
 
 std::optional<TomlReader> TomlReader::table(std::string_view key) {

@@ -25,14 +25,23 @@
 
 namespace reckon::peer {
 
+/// What a file may say.
+struct SceneVocabulary {
+  std::vector<SceneKey> keys;      ///< scene_keys(), and those of `effects`
+  haptics::CustomEffects effects;  ///< of the program, in the order of their keys
+};
+
 /// A view of one table of a file. The constructor refuses unknown and renamed keys. A read leaves
 /// its target as it is if the key is absent or invalid; an invalid one becomes a problem.
 class TomlReader {
  public:
-  /// `table` and `problems` outlive the reader; `section` as in scene_keys().
+  /// All but the folder outlive the reader; `section` as in scene_keys().
   TomlReader(const toml::table& table, std::string section, std::filesystem::path folder,
-             std::vector<SceneProblem>& problems);
+             const SceneVocabulary& vocabulary, std::vector<SceneProblem>& problems);
 
+  [[nodiscard]] const haptics::CustomEffects& custom_effects() const {
+    return vocabulary_->effects;
+  }
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
   /// Whether there is a table under `key` that has `inner`.
   [[nodiscard]] bool has(std::string_view key, std::string_view inner) const {
@@ -116,6 +125,7 @@ class TomlReader {
   const toml::table* table_;
   std::string section_;
   std::filesystem::path folder_;
+  const SceneVocabulary* vocabulary_;
   std::vector<SceneProblem>* problems_;
 };
 

@@ -19,21 +19,16 @@
 #include <vector>
 
 #include "reckon/haptics/contact/static_contact.hpp"
+#include "reckon/tests/support/effect_adversary.hpp"
 
 namespace reckon::haptics {
 namespace {
 
-using Eigen::Vector3d;
-
-constexpr double kSample = 0.001;
-constexpr double kDamping = 1.0;  // [N s/m], of the device
-constexpr int kSteps = 1500;
-
-using Random = std::mt19937;
-
-double any(Random& random, double from, double to) {
-  return std::uniform_real_distribution<double>(from, to)(random);
-}
+using adversary::any;
+using adversary::Least;
+using adversary::made_open;
+using adversary::Random;
+using adversary::run_gated;
 
 /// Within the row's range, small values as likely as large ones.
 template <class Parameters>
@@ -104,91 +99,6 @@ Scene scene_of(Random& random, const std::vector<Switch>& switches) {
   return scene;
 }
 
-/// The device's own books, from the start [J].
-struct Books {
-  double energy = 0.0, least = 0.0;
-  void settle(const Vector3d& force, const Vector3d& dx, double dt) {
-    energy += -force.dot(dx) + kDamping * dx.squaredNorm() / dt;
-    least = std::min(least, energy);
-  }
-};
-
-/// The motion of the hand in a sample: that which takes most out of `force`, or any. @param stray
-/// [m] of the latter
-Vector3d motion(Random& random, int step, const Vector3d& force, const Vector3d& device, double dt,
-                double stray) {
-  std::normal_distribution<double> normal;
-  Vector3d dx = stray * Vector3d(normal(random), normal(random), normal(random));
-  if (step % 2 == 0) dx = 0.5 * dt / kDamping * force;
-  if (dx.norm() > 0.002) dx *= 0.002 / dx.norm();
-  return dx + 0.004 * (Vector3d(0.015, 0.012, 0.012) - device);
-}
-
-/// With the gate, or as the effects want it. @return the least of the books, and what late samples
-/// account for
-struct Least {
-  double books, late;
-};
-Least run_gated(const Scene& scene, Random& random) {
-  const EffectPlan plan(scene);
-  EnergyPort port(kDamping);
-  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
-  Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
-  contact.reset(device);
-  Books books;
-  for (int i = 0; i < kSteps; ++i) {
-    PortLoad load;
-    contact.load(velocity, kSample, load);
-    const PortHold held = port.hold(load, kSample);
-    if (held.walls < 1.0) contact.attenuate(held.walls, port);
-    contact.shown(held.extra);
-    Vector3d force = held.force;
-    if (i % 97 == 0) {
-      contact.attenuate(0.5, port);
-      port.attenuate(0.5);
-      force *= 0.5;
-    }
-    const double dt = random() % 20 == 0 ? any(random, 1.0, 4.0) * kSample : kSample;
-    const Vector3d dx = motion(random, i, force, device, dt, 2e-4);
-    device += dx;
-    velocity = dx / dt;
-    books.settle(force, dx, dt);
-    port.settle(dx, dt);
-    contact.settle(device, dt, port);
-    EXPECT_TRUE(force.allFinite()) << i;
-  }
-  return {books.least, port.late_cost()};
-}
-
-/// The greatest fall of what the hand has put in beyond what springs hold [J]: what the effects
-/// made. The hand goes for what they add to the surface, where there is any.
-double made_open(const Scene& scene, Random& random) {
-  const EffectPlan plan(scene);
-  EnergyPort rich(1e12);  // for which everything is allowed
-  StaticContact contact(plan, 1e12);
-  Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
-  contact.reset(device);
-  Books books;
-  double most = 0.0, made = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    PortLoad load;
-    rich.borrow(1.0);
-    contact.load(velocity, kSample, load);
-    Vector3d force = load.walls + load.extra;
-    if (!(force.norm() < 1e3)) force *= 1e3 / force.norm();
-    const Vector3d& prey = load.extra.isZero() ? force : load.extra;
-    const Vector3d dx = motion(random, i, prey, device, kSample, 2e-5);
-    device += dx;
-    velocity = dx / kSample;
-    books.settle(force, dx, kSample);
-    contact.settle(device, kSample, rich);
-    const double left = books.energy - contact.stored() - contact.regions().stored();
-    most = std::max(most, left);
-    made = std::max(made, most - left);
-  }
-  return made;
-}
-
 int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 1000 : 3; }
 
 TEST(EffectEnergy, NoPairOfEffectsGivesTheHandWhatItDidNotPutIn) {
@@ -208,6 +118,18 @@ TEST(EffectEnergy, NoPairOfEffectsGivesTheHandWhatItDidNotPutIn) {
     }
   }
   fmt::print("[ energy   ] {} runs\n", runs);
+}
+
+TEST(EffectEnergy, NoEffectGivesEnergyToAHandThatPutsInNextToNothing) {
+  for (const Switch& one : all_switches()) {
+    for (int seed = 1; seed <= 10 * seeds(); ++seed) {
+      Random random(static_cast<unsigned>(seed));
+      Scene scene = scene_of(random, {one});
+      scene.objects[0].shape = BoxShape{{0.04, 0.04, 0.04}};
+      EXPECT_GE(adversary::press_and_let_go(EffectPlan(scene), random), -1e-9)
+          << one.name << ", seed " << seed;
+    }
+  }
 }
 
 // Without the gate. Cones cannot fail beside a soft spring: they only hold the contact point back.

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/effects/guarded_effect.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::memory_order_relaxed;
+
+constexpr int kDepths = 500;  // at which a spring is tried when it is made
+constexpr double kMostFriction = 10.0;
+// Rounding of an effect that computes in double precision.
+constexpr double kRounding = 1e-6;
+constexpr double kLeastForce = 1e-6;    // [N], differences below are rounding
+constexpr double kLeastEnergy = 1e-12;  // [J]
+
+bool within(double value, double most) { return value >= 0.0 && value <= most; }
+
+// A spring at one depth along a direction.
+struct Sample {
+  double force = 0.0;  // towards the contact point [N]
+  double energy = 0.0;
+  bool usable = false;
+};
+
+// A force across the direction, or out of it, is none of a function of the depth.
+Sample sample(const CustomEffectState& state, const Vector3d& scp, const Vector3d& way,
+              double depth) {
+  const Vector3d device = scp + depth * way;
+  const Vector3d force = state.spring_force(scp, device);
+  const double energy = state.stored_energy(scp, device);
+  const double along = -force.dot(way);
+  const bool usable = force.allFinite() && std::isfinite(energy) && energy >= -kLeastEnergy &&
+                      along >= -kLeastForce &&
+                      (force + along * way).norm() <= kLeastForce + kRounding * force.norm();
+  return {along, energy, usable};
+}
+
+// Whether the energy between two depths is the work of the force, which grows by at most
+// `stiffness` [N/m].
+bool agree(const Sample& near, const Sample& far, double step, double stiffness) {
+  if (!near.usable || !far.usable) return false;
+  const double growth = stiffness * step;
+  if (std::abs(far.force - near.force) > (1.0 + kRounding) * growth + kLeastForce) return false;
+  // Of all such forces, those whose slope is -stiffness and then stiffness have the work farthest
+  // from the trapezium's.
+  const double work = 0.5 * (near.force + far.force) * step;
+  const double slack = 0.25 * growth * step + kRounding * std::abs(work) + kLeastEnergy;
+  return std::abs(far.energy - near.energy - work) <= slack;
+}
+
+}  // namespace
+
+/// Measures one call of the effect's code.
+class GuardedEffect::Timing {
+ public:
+  explicit Timing(const GuardedEffect& guarded) noexcept
+      : guarded_(guarded), begun_(std::chrono::steady_clock::now()) {}
+  Timing(const Timing&) = delete;
+  Timing& operator=(const Timing&) = delete;
+  ~Timing() {
+    const std::int64_t took =
+        std::chrono::nanoseconds(std::chrono::steady_clock::now() - begun_).count();
+    GuardReport& report = *guarded_.report_;
+    if (took > report.slowest.load(memory_order_relaxed))
+      report.slowest.store(took, memory_order_relaxed);
+    if (++guarded_.calls_ > kCalls) guarded_.calls_ = guarded_.slow_ = 0;
+    if (took > kSlow) ++guarded_.slow_;
+  }
+
+ private:
+  const GuardedEffect& guarded_;
+  std::chrono::steady_clock::time_point begun_;
+};
+
+GuardedEffect::GuardedEffect(const DeclaredCustomEffect& declared, const std::string& object)
+    : effect_(declared.effect),
+      values_(std::make_shared<const std::vector<double>>(declared.values)),
+      report_(std::make_shared<GuardReport>()),
+      state_(effect_->make(declared.values)),
+      damping_(state_->damping()) {
+  report_->key = effect_->key();
+  report_->object = object;
+  if (!within(damping_, kMostDamping))
+    throw std::invalid_argument(effect_->key() + " reserves a damping of " +
+                                std::to_string(damping_) + " N s/m: give 0 to 10000");
+  if (hooks().stores && !is_potential_up_to(kMostDepth)) hold_spring();
+  mend_cone();
+}
+
+GuardedEffect::GuardedEffect(const GuardedEffect& other)
+    : effect_(other.effect_),
+      values_(other.values_),
+      report_(other.report_),
+      state_(other.state_->copy()),
+      damping_(other.damping_),
+      held_(other.held_),
+      off_(other.off_) {}
+
+// What was found of the code stays found when a contact starts anew.
+GuardedEffect& GuardedEffect::operator=(const GuardedEffect& other) {
+  if (this == &other) return *this;
+  if (effect_ != other.effect_) return *this = GuardedEffect(other);
+  state_->assign(*other.state_);
+  values_ = other.values_;
+  report_ = other.report_;
+  damping_ = other.damping_;
+  return *this;
+}
+
+// Asked where an effect's answers begin to count, so that its force and its energy go together.
+bool GuardedEffect::is_off() const noexcept {
+  if (off_ || slow_ < kSlowCalls) return off_;
+  report_->switched_off.store(true, memory_order_relaxed);
+  return off_ = true;
+}
+
+void GuardedEffect::hold_spring() const noexcept {
+  held_ = true;
+  report_->not_booked.store(true, memory_order_relaxed);
+}
+
+bool GuardedEffect::is_potential_up_to(double depth) const noexcept {
+  const double stiffness = state_->stiffness();
+  if (!within(stiffness, kMostStiffness)) return false;
+  const double step = depth / kDepths;
+  const Vector3d ways[] = {Vector3d::UnitX(), Vector3d(-1, 2, 2) / 3, Vector3d(0.6, 0, -0.8)};
+  const Vector3d scp(0.01, -0.02, 0.03);
+  Sample before[3];
+  for (int i = 0; i <= kDepths; ++i) {
+    for (int way = 0; way < 3; ++way) {
+      const Sample now = sample(*state_, scp, ways[way], i * step);
+      if (!now.usable || (i > 0 && !agree(before[way], now, step, stiffness))) return false;
+      before[way] = now;
+    }
+    const auto [least, most] = std::minmax({before[0].energy, before[1].energy, before[2].energy});
+    if (most - least > kRounding * most + kLeastEnergy) return false;
+  }
+  return true;
+}
+
+bool GuardedEffect::is_potential_about(const Vector3d& scp, const Vector3d& device) const noexcept {
+  const double depth = (device - scp).norm();
+  const double stiffness = state_->stiffness();
+  if (!within(stiffness, kMostStiffness)) return false;
+  if (!(depth > 0.0)) return true;
+  const Vector3d way = (device - scp) / depth;
+  const double step = std::min(1e-4, depth);
+  const Sample before = sample(*state_, scp, way, depth - step);
+  const Sample now = sample(*state_, scp, way, depth);
+  const Sample after = sample(*state_, scp, way, depth + step);
+  return agree(before, now, step, stiffness) && agree(now, after, step, stiffness);
+}
+
+Vector3d GuardedEffect::bounded(const Vector3d& force) const noexcept {
+  if (!force.allFinite()) {
+    report_->not_finite.fetch_add(1, memory_order_relaxed);
+    return Vector3d::Zero();
+  }
+  const double size = force.stableNorm();
+  if (!(size > kMostForce)) return force;
+  report_->too_strong.fetch_add(1, memory_order_relaxed);
+  return kMostForce * force.stableNormalized();
+}
+
+// The contact point follows the cone, so that a coefficient which is no number would lose it.
+void GuardedEffect::mend_cone() noexcept {
+  FrictionCone* cone = state_->cone();
+  if (cone == nullptr) return;
+  const double at_rest = cone->at_rest(), kinetic = cone->kinetic();
+  if (within(at_rest, kMostFriction) && within(kinetic, at_rest)) return;
+  report_->not_finite.fetch_add(1, memory_order_relaxed);
+  cone->adjust(0.0, 0.0);
+}
+
+void GuardedEffect::follow(const SlidingPlace& place) noexcept {
+  if (is_off()) return;
+  {
+    const Timing timing(*this);
+    state_->follow(place);
+  }
+  mend_cone();
+}
+
+Vector3d GuardedEffect::spring_force(const Vector3d& scp, const Vector3d& device) const noexcept {
+  if (is_off() || !books()) return Vector3d::Zero();
+  const Timing timing(*this);
+  if (!is_potential_about(scp, device)) {
+    hold_spring();
+    return Vector3d::Zero();
+  }
+  return state_->spring_force(scp, device);
+}
+
+double GuardedEffect::stored_energy(const Vector3d& scp, const Vector3d& device) const noexcept {
+  if (!books()) return 0.0;
+  const Timing timing(*this);
+  return std::max(0.0, state_->stored_energy(scp, device));
+}
+
+double GuardedEffect::stiffness() const noexcept {
+  if (!books()) return 0.0;
+  const Timing timing(*this);
+  const double stiffness = state_->stiffness();
+  return within(stiffness, kMostStiffness) ? stiffness : kMostStiffness;
+}
+
+Vector3d GuardedEffect::force(const EffectContact& contact) noexcept {
+  if (is_off()) return Vector3d::Zero();
+  Vector3d total = Vector3d::Zero();
+  {
+    const Timing timing(*this);
+    total += bounded(state_->force(contact));
+    if (held_ && contact.in_contact)
+      total += bounded(state_->spring_force(contact.scp, contact.device));
+  }
+  mend_cone();
+  return total;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/custom_effect_watch.hpp"
+
+#include <atomic>
+#include <utility>
+
+#include "reckon/peer/loops/notice_text.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using haptics::GuardedEffect;
+using haptics::GuardReport;
+
+struct Fault {
+  bool (*seen)(const GuardReport& report);
+  const char* sentence;  // of the effect's key, its object, and the longest call [ms]
+};
+
+constexpr Fault kFaults[]{
+    {[](const GuardReport& report) { return report.not_finite.load() > 0; },
+     "the effect {} of {} answers with what is no number: that counts as nothing"},
+    {[](const GuardReport& report) { return report.too_strong.load() > 0; },
+     "the effect {} of {} gives forces above 100 N: they are cut to that"},
+    {[](const GuardReport& report) { return report.not_booked.load(); },
+     "the spring of the effect {} of {} is no function of the depth with the energy and the "
+     "stiffness that it states: it is held for each sample and felt as far as energy is there"},
+    {[](const GuardReport& report) { return report.switched_off.load(); },
+     "the effect {} of {} is switched off: it took up to {:.1f} ms of a servo step"},
+};
+static_assert(GuardedEffect::kMostForce == 100.0, "as the sentence says");
+
+}  // namespace
+
+CustomEffectWatch::CustomEffectWatch(Reports reports) {
+  for (auto& report : reports) watched_.push_back({std::move(report)});
+}
+
+void CustomEffectWatch::look(haptics::SpscRing<Notice>& out) noexcept {
+  for (Watched& watched : watched_) {
+    unsigned bit = 1;
+    for (const Fault& fault : kFaults) {
+      const GuardReport& report = *watched.report;
+      if ((watched.told & bit) == 0 && fault.seen(report)) {
+        watched.told |= bit;
+        static_cast<void>(out.push(make_notice(fault.sentence, report.key, report.object,
+                                               1e-6 * static_cast<double>(report.slowest.load()))));
+      }
+      bit <<= 1;
+    }
+  }
+}
+
+}  // namespace reckon::peer
