@@ -352,6 +352,17 @@ ContactedObject ContactSolver::contacted(std::uint32_t index, double gain) const
   return seen;
 }
 
+// What effects see of a mesh.
+void ContactSolver::stroke(std::uint32_t index, EffectContact& seen,
+                           ContactedObject& contacted) noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  MeshStroke& stroke = states_[index].stroke;
+  stroke.follow(contacted.place, object.place_of(last_device_),
+                object.orientation.transpose() * seen.normal, contacted.triangle, contacted.began);
+  contacted.place = stroke.place();
+  seen.normal = object.orientation * stroke.normal();
+}
+
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double gain) noexcept {
   Vector3d total = Vector3d::Zero();
   for (const std::uint32_t i : near_) {
@@ -365,8 +376,9 @@ Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double
       });
       continue;
     }
-    const ContactedObject object = contacted(i, gain);
+    ContactedObject object = contacted(i, gain);
     if (contact.in_contact) seen.object = &object;
+    if (contact.in_contact && plan_.objects()[i].is_mesh()) stroke(i, seen, object);
     effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (GivesForce<Effect>) total += effect.force(seen);
     });

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/contact/mesh_stroke.hpp"
 #include "reckon/haptics/contact/object_obstacles.hpp"
 #include "reckon/haptics/contact/patch_blend.hpp"
 #include "reckon/haptics/geometry/contact_walk.hpp"
@@ -118,6 +119,7 @@ class ContactSolver {
     Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs end, its own axes
     Eigen::Vector3d place = Eigen::Vector3d::Zero();    // of the SCP, for effects that follow it
     bool follows = false;                               // it has such an effect
+    MeshStroke stroke{};                                // over a mesh, for effects with a force
     bool began = false;                                 // its contact is new in this step
   };
 
@@ -138,6 +140,7 @@ class ContactSolver {
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] ContactedObject contacted(std::uint32_t index, double gain) const noexcept;
+  void stroke(std::uint32_t index, EffectContact& seen, ContactedObject& contacted) noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 

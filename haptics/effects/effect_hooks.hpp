@@ -124,13 +124,25 @@ concept AlwaysThere = requires {
   requires Effect::kAlways;
 };
 
+/// Owns memory that its copies share and never change, so that a copy of it allocates nothing.
+template <class Effect>
+concept SharesMemory = requires {
+  requires Effect::kSharesMemory;
+};
+
+/// Takes a file besides its numbers: kFile, and a path `file` in its Parameters.
+template <class Effect>
+concept TakesFile = requires {
+  Effect::kFile.key;
+};
+
 /// Has a name, takes its parameters from its table, and is copied for each contact without a throw:
-/// it owns no memory.
+/// it owns no memory, or shares it.
 template <class Effect>
 concept DescribedEffect = std::derived_from<Effect, CountedEffect<Effect>> &&
     std::constructible_from<Effect, const typename Effect::Parameters&> &&
-    std::is_copy_assignable_v<Effect> && std::is_trivially_destructible_v<Effect> &&
-    requires(const Effect& effect) {
+    std::is_copy_assignable_v<Effect> &&(std::is_trivially_destructible_v<Effect> ||
+                                         SharesMemory<Effect>)&&requires(const Effect& effect) {
   { Effect::kName } -> std::convertible_to<std::string_view>;
   { Effect::kKey } -> std::convertible_to<std::string_view>;
   { Effect::kCost } -> std::convertible_to<std::string_view>;

@@ -26,6 +26,12 @@ struct EffectParameter {
   std::string_view help;  ///< one sentence: its meaning, and the effect of a higher value
 };
 
+/// A file that an effect takes besides; the member `file` of its parameters.
+struct EffectFile {
+  std::string_view key;   ///< in scene files
+  std::string_view help;  ///< one sentence
+};
+
 /// Checks each value against its row.
 /// @throws std::invalid_argument naming the key, the value and the allowed range.
 template <class P, std::size_t n>

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "reckon/haptics/effects/effect_declarations.hpp"
+#include "reckon/haptics/effects/effect_guard.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
-#include "reckon/haptics/effects/guarded_effect.hpp"
 
 namespace reckon::haptics {
 

@@ -10,6 +10,7 @@
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/place_friction.hpp"
+#include "reckon/haptics/effects/relief.hpp"
 #include "reckon/haptics/effects/skin.hpp"
 #include "reckon/haptics/effects/snags.hpp"
 #include "reckon/haptics/effects/spring_damper.hpp"
@@ -22,7 +23,7 @@
 namespace reckon::haptics {
 
 using EffectTypes = std::tuple<SpringDamper, StickSlipFriction, PlaceFriction, StribeckFriction,
-                               Snags, Skin, Texture, SurfaceDrag, TapVibration>;
+                               Snags, Skin, Texture, Relief, SurfaceDrag, TapVibration>;
 
 /// Calls f(std::type_identity<Effect>{}) once per effect, in the order of the list.
 template <class Types = EffectTypes, class F>
@@ -38,7 +39,8 @@ struct CheckedEffect {
   static_assert(DescribedEffect<Effect>,
                 "an effect is a CountedEffect of itself with Parameters, kName, kKey, kCost, "
                 "kParameters, parameters() and a constructor from its Parameters, and owns no "
-                "memory (std::vector, std::string): see DescribedEffect in effect_hooks.hpp");
+                "memory (std::vector, std::string) unless copies share it (kSharesMemory): see "
+                "DescribedEffect in effect_hooks.hpp");
   static_assert(HookedEffect<Effect>,
                 "an effect has a hook, else nothing would simulate it: cone(), or spring_force() "
                 "with stored_energy() and stiffness(), or force() with damping(); each noexcept. "

@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "reckon/haptics/effects/effect_slope.hpp"
+
 namespace reckon::haptics {
 
 /// Waves along up to three axes: w(p) = product of cos(2 pi p_i / length_i) over the axes with a
@@ -41,11 +43,8 @@ struct EffectWaves {
       if (length > 0.0) shortest = std::min(shortest, length);
     return shortest;
   }
-  /// How far samples that are `way` [m] apart show the pattern: 1 from four in a wave on, 0 below
-  /// two, where what they show is noise.
-  [[nodiscard]] double shown(double way) const noexcept {
-    return way > 0.0 ? std::clamp(0.5 * shortest() / way - 1.0, 0.0, 1.0) : 1.0;
-  }
+  /// As shown_of_waves() for the shortest. @param way [m]
+  [[nodiscard]] double shown(double way) const noexcept { return shown_of_waves(shortest(), way); }
 
  private:
   // Only the part of a wave counts, so that a distant place loses no digits to the factor.

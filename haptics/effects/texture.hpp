@@ -11,6 +11,7 @@
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/effect_parameter.hpp"
+#include "reckon/haptics/effects/effect_slope.hpp"
 #include "reckon/haptics/effects/effect_waves.hpp"
 
 namespace reckon::haptics {
@@ -62,10 +63,7 @@ class Texture : public CountedEffect<Texture> {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
     const double shown = waves_.shown(contact.slip().norm() * contact.dt);
     if (!(shown > 0.0)) return Eigen::Vector3d::Zero();
-    const Eigen::Vector3d slope =
-        contact.object->axes * (relief_.height * waves_.gradient(contact.object->place));
-    const Eigen::Vector3d along = slope - contact.normal.dot(slope) * contact.normal;
-    return -shown * contact.normal_force() * along;
+    return shown * slope_force(contact, relief_.height * waves_.gradient(contact.object->place));
   }
 
   /// Hook: it reserves no damping.

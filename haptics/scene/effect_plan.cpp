@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -241,9 +242,14 @@ void append_value(std::string& text, std::string_view key, double value, std::st
   if (!unit.empty()) text.append(" ").append(unit);
 }
 
+std::string file_text(const std::filesystem::path& file) {
+  return file.empty() ? "no file" : "file \"" + file.filename().string() + '"';
+}
+
 template <class Effect>
 PlanStage effect_stage(const std::string& object, const Effect& effect) {
   PlanStage stage{std::string(Effect::kName), object, {}, std::string(Effect::kCost)};
+  if constexpr (TakesFile<Effect>) stage.parameters = file_text(effect.parameters().file);
   for (const auto& row : Effect::kParameters)
     append_value(stage.parameters, row.key, effect.parameters().*row.field, row.unit);
   return stage;

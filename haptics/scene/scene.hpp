@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/effects/custom_effect.hpp"
+#include "reckon/haptics/effects/effect_custom.hpp"
 #include "reckon/haptics/effects/effect_declarations.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/regions/region_types.hpp"

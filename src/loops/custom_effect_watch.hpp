@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "reckon/haptics/effects/guarded_effect.hpp"
+#include "reckon/haptics/effects/effect_guard.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/loops/notice.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
-#include "reckon/haptics/effects/guarded_effect.hpp"
+#include "reckon/haptics/effects/effect_guard.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/counters/counters.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reckon/haptics/effects/effect_declarations.hpp"
-#include "reckon/haptics/effects/guarded_effect.hpp"
+#include "reckon/haptics/effects/effect_guard.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
 
 namespace reckon::peer {
@@ -17,6 +17,7 @@ namespace reckon::peer {
 /// The parameters of an effect.
 template <class Effect>
 void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Parameters& values) {
+  if constexpr (haptics::TakesFile<Effect>) table.read(Effect::kFile.key, values.file);
   for (const auto& row : Effect::kParameters) table.number(row.key, values.*row.field);
   try {
     const Effect checked(values);  // checks beyond single rows

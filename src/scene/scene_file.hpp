@@ -57,7 +57,7 @@ class SceneFileError : public std::runtime_error {
 };
 
 /// Reads the scene at `path`. Set-up code: allocates and throws SceneFileError with all problems.
-/// @param effects of the program, see custom_effect.hpp; objects may declare them by their keys
+/// @param effects of the program, see effect_custom.hpp; objects may declare them by their keys
 /// @throws std::invalid_argument when the key of an effect is one of the scene's, or of two effects
 [[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path,
                                         const haptics::CustomEffects& effects = {});

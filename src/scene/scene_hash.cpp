@@ -59,14 +59,18 @@ void add(Hash& hash, const haptics::SphereShape& sphere) { hash.fact("sphere", s
 
 void add(Hash& hash, const haptics::BoxShape& box) { hash.fact("box", box.size); }
 
-void add(Hash& hash, const haptics::MeshShape& mesh) {
-  std::ifstream stream(mesh.file, std::ios::binary);
+void add_content(Hash& hash, std::string_view name, const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw SceneFileError(mesh.file.string(),
-                         {{0, 0, "cannot be read; name an OBJ, PLY, STL or OFF file"}});
+    throw SceneFileError(file.string(),
+                         {{0, 0, "cannot be read; name a file that can"}});
   Hash content;
   content.bytes(std::string{std::istreambuf_iterator<char>(stream), {}});
-  hash.fact("mesh", fmt::format("{:016x}", content.value()));
+  hash.fact(name, fmt::format("{:016x}", content.value()));
+}
+
+void add(Hash& hash, const haptics::MeshShape& mesh) {
+  add_content(hash, "mesh", mesh.file);
   hash.fact("scale_to", mesh.scale_to);
   hash.fact("centre", mesh.centre ? "true" : "false");
 }
@@ -113,6 +117,9 @@ void add(Hash& hash, const haptics::CsgShape& solid) {
 template <class Effect>
 void add_values(Hash& hash, const typename Effect::Parameters& values) {
   hash.fact("effect", Effect::kName);
+  if constexpr (haptics::TakesFile<Effect>) {
+    if (!values.file.empty()) add_content(hash, Effect::kFile.key, values.file);
+  }
   for (const auto& row : Effect::kParameters) hash.fact(row.key, values.*row.field);
 }
 

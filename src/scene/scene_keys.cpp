@@ -50,6 +50,9 @@ void add_effect_table(Keys& keys, const std::string& section) {
 /// @param standard whether a default applies if a key is absent
 template <class Effect>
 void add_effect_keys(Keys& keys, const std::string& section, bool standard) {
+  if constexpr (haptics::TakesFile<Effect>)
+    keys.push_back({section + "." + std::string(Effect::kKey), std::string(Effect::kFile.key),
+                    KeyKind::text, "", 0, 0, "", as_row(Effect::kFile.help)});
   for (const auto& row : Effect::kParameters) {
     keys.push_back(number(section + "." + std::string(Effect::kKey), std::string(row.key),
                           std::string(row.unit), row.minimum, row.maximum,

@@ -118,6 +118,7 @@ haptics::EffectPlan plan_of(const std::filesystem::path& file, const Declared& d
   declare_holder(object.effects, declared);
   declare<haptics::Skin>(object.effects, declared, {200, 0.4});
   declare<haptics::Texture>(object.effects, declared, {5e-5, 0.003, 0, 0});
+  declare<haptics::Relief>(object.effects, declared, {{}, 0.02, 5e-5, 1});
   declare<haptics::SurfaceDrag>(object.effects, declared, {1.0});
   declare<haptics::TapVibration>(object.effects, declared, {4.0, 100.0, 80.0});
   if (declared.has(kPatch)) {

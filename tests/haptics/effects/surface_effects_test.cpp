@@ -38,6 +38,7 @@ class Slab {
     }
   }
   DeclaredEffects& effects() { return object_.effects; }
+  void declare(const DeclaredCustomEffect& effect) { object_.custom_effects.push_back(effect); }
   [[nodiscard]] Vector3d in_scene(const Vector3d& place) const {
     return object_.pose.orientation * place + object_.pose.position;
   }
@@ -71,9 +72,38 @@ class SurfaceEffects : public testing::TestWithParam<As> {};
 INSTANTIATE_TEST_SUITE_P(Slabs, SurfaceEffects, testing::Values(As::box, As::mesh),
                          [](const auto& slab) { return slab.param == As::box ? "box" : "mesh"; });
 
+struct NoParameter {
+  double none = 0.0;
+};
+/// Gives no force and keeps what effects see.
+struct Witness : CountedEffect<Witness> {
+  using Parameters = NoParameter;
+  static constexpr bool kInContactOnly = true;
+  static constexpr std::string_view kName = "witness";
+  static constexpr std::string_view kKey = "witness";
+  static constexpr std::string_view kCost = "nothing";
+  static constexpr std::array<EffectParameter<NoParameter>, 1> kParameters{
+      {{"none", "", &NoParameter::none, 0.0, 0.0, 0.0, "Nothing."}}};
+  explicit Witness(const NoParameter&) {}
+  [[nodiscard]] Vector3d force(const EffectContact& contact) const noexcept {
+    if (contact.in_contact) place = contact.object->place;
+    normal_force = contact.normal_force();
+    return Vector3d::Zero();
+  }
+  [[nodiscard]] double damping() const noexcept { return 0.0; }
+  [[nodiscard]] const NoParameter& parameters() const noexcept { return parameters_; }
+
+  inline static Vector3d place;
+  inline static double normal_force;
+
+ private:
+  NoParameter parameters_;
+};
+
 TEST_P(SurfaceEffects, TextureIsTheSlopeTimesTheNormalForce) {
   Slab slab(GetParam());
   slab.effects().declare<Texture>() = {4e-5, 0.003, 0.005, 0.0};
+  slab.declare({custom_effects<Witness>().front(), {0.0}});
   const EffectPlan plan = slab.plan();
   ContactSolver solver(plan);
   solver.reset(slab.in_scene({0, 0, 0.03}));
@@ -85,10 +115,18 @@ TEST_P(SurfaceEffects, TextureIsTheSlopeTimesTheNormalForce) {
     solver.step(slab.in_scene(pressed(x, y)));
     const Vector3d force = solver.effect_force(Vector3d::Zero(), kPeriod);
     const double kx = 2 * kPi / 0.003, ky = 2 * kPi / 0.005;
-    const Vector3d slope(-4e-5 * kx * std::sin(kx * x) * std::cos(ky * y),
-                         -4e-5 * ky * std::cos(kx * x) * std::sin(ky * y), 0);
-    // A clearance of 1e-7 of the size moves the place, and with it the phase.
-    EXPECT_LT((force - slab.turned(-kNormalForce * slope)).norm(), 1e-6 + 1e-4 * slope.norm()) << i;
+    const auto slope = [&](double at_x, double at_y) -> Vector3d {
+      return {-4e-5 * kx * std::sin(kx * at_x) * std::cos(ky * at_y),
+              -4e-5 * ky * std::cos(kx * at_x) * std::sin(ky * at_y), 0};
+    };
+    const Vector3d& place = Witness::place;
+    const Vector3d here = slab.turned(-Witness::normal_force * slope(place.x(), place.y()));
+    EXPECT_LT((force - here).norm(), 1e-6 * kNormalForce * 4e-5 * (kx + ky)) << i;
+    // The contact point is where the hand presses within a clearance, 1e-7 of the size.
+    EXPECT_LT((place - Vector3d(x, y, 0.02)).norm(), 2e-7) << i;
+    EXPECT_LT((force - slab.turned(-kNormalForce * slope(x, y))).norm(),
+              1e-6 + 1e-4 * slope(x, y).norm())
+        << i;
   }
 }
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "reckon/haptics/effects/custom_effect.hpp"
+#include "reckon/haptics/effects/effect_custom.hpp"
 
 namespace reckon::haptics {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/haptics/effects/guarded_effect.hpp"
+#include "reckon/haptics/effects/effect_guard.hpp"
 
 #include <algorithm>
 #include <chrono>

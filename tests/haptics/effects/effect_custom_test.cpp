@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Effects that a program brings: they feel as those of the list do, and whatever their code answers
 // neither takes energy out of the device nor goes unseen.
-#include "reckon/haptics/effects/custom_effect.hpp"
+#include "reckon/haptics/effects/effect_custom.hpp"
 
 #include <gtest/gtest.h>
 
