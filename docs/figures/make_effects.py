@@ -18,7 +18,7 @@ BLUE, ORANGE, STONE, INK = "#1f6fb4", "#d9730d", "#8a8f98", "#24292f"
 LEFT, WIDTH, HEIGHT = 60, 900, 150
 # What stands along x [mm], as in the scene.
 SAMPLES = [("skin", -240, -180), ("smooth", -180, -120), ("wood", -120, -60), ("cloth", -60, 0), ("grooves", 0, 60),
-           ("oil", 60, 120), ("bow", 120, 180), ("velcro", 180, 240)]
+           ("oil", 60, 120), ("bow", 120, 180), ("velcro", 180, 240), ("sandstone", 240, 300)]
 REGIONS = [("honey", -160, -80), ("sand", -70, 10), ("magnet", 30, 90), ("engine", 110, 190)]
 
 
@@ -26,14 +26,14 @@ def record():
     """Steps of each hand on its second way from left to right: the first begins inside."""
     with tempfile.TemporaryDirectory() as folder:
         trace = pathlib.Path(folder) / "trace.csv"
-        subprocess.run([PROGRAM, "demo", ROOT / "scenes/touch_gallery.toml", "--simulated-time", "--for", "26s", "--trace", trace],
+        subprocess.run([PROGRAM, "demo", ROOT / "scenes/touch_gallery.toml", "--simulated-time", "--for", "28s", "--trace", trace],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         hands = {1: [], 2: []}
         with open(trace, newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 hands[int(row["peer"])].append([float(row[key]) for key in ("t_s", "px_m", "fx_N", "fz_N")])
     begun = hands[1][0][0]
-    period = {1: 16.0, 2: 12.0}
+    period = {1: 18.0, 2: 12.0}
     return {hand: [step for step in steps if period[hand] <= step[0] - begun < 1.5 * period[hand]] for hand, steps in hands.items()}
 
 
