@@ -14,7 +14,8 @@ namespace reckon::haptics {
 namespace {
 
 constexpr std::size_t kLeast = 4;
-constexpr std::size_t kRandom = 64;  // along each edge of a random map
+constexpr std::size_t kRandom = 64;   // along each edge of a random map
+constexpr std::size_t kEnough = 256;  // along each edge, for a mean
 
 }  // namespace
 
@@ -86,20 +87,23 @@ Eigen::Vector2d HeightMap::gradient(const Eigen::Vector2d& place) const noexcept
   return {sum(x, x.slope, y, y.value), sum(x, x.value, y, y.slope)};
 }
 
-// For h = cos(2 pi x / length) the spread of the slope is 2 pi / length times that of h.
+// For h = cos(2 pi x / length) the spread of the slope is 2 pi / length times that of h. Of a large
+// map some heights are enough.
 double HeightMap::wavelength(const Eigen::Vector2d& size) const noexcept {
-  double mean = 0.0, squares = 0.0, slopes = 0.0;
-  for (std::size_t row = 0; row < rows_; ++row) {
-    for (std::size_t column = 0; column < columns_; ++column) {
+  const std::size_t across = std::max<std::size_t>(1, columns_ / kEnough);
+  const std::size_t along = std::max<std::size_t>(1, rows_ / kEnough);
+  double count = 0.0, mean = 0.0, squares = 0.0, slopes = 0.0;
+  for (std::size_t row = 0; row < rows_; row += along) {
+    for (std::size_t column = 0; column < columns_; column += across) {
       const double height = static_cast<double>(heights_[row * columns_ + column]);
       const Eigen::Vector2d place(static_cast<double>(column) / static_cast<double>(columns_),
                                   static_cast<double>(row) / static_cast<double>(rows_));
+      count += 1.0;
       mean += height;
       squares += height * height;
       slopes += gradient(place).cwiseQuotient(size).squaredNorm();
     }
   }
-  const double count = static_cast<double>(heights_.size());
   const double spread = squares / count - mean * mean / (count * count);
   if (!(slopes > 0.0) || !(spread > 0.0)) return std::numeric_limits<double>::infinity();
   return 2.0 * std::numbers::pi * std::sqrt(spread / (slopes / count));

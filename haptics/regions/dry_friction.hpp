@@ -16,7 +16,7 @@ namespace reckon::haptics {
 /// Of a medium.
 struct Yield {
   double force = 0.5;        ///< [N]
-  double stiffness = 500.0;  ///< [N/m], of the hold at rest
+  double stiffness = 150.0;  ///< [N/m], of the hold at rest
 };
 
 /// A bristle: a spring to an anchor that follows at the distance where the spring has this force.
@@ -28,7 +28,7 @@ class DryFriction : public CountedEffect<DryFriction> {
   static constexpr std::string_view kCost = "one square root";
   static constexpr std::array<EffectParameter<Yield>, 2> kParameters{{
       {"force", "N", &Yield::force, 0.0, 20.0, 0.5, "Force against any motion; higher holds more."},
-      {"stiffness", "N/m", &Yield::stiffness, 1.0, 1e5, 500.0,
+      {"stiffness", "N/m", &Yield::stiffness, 1.0, 1e5, 150.0,
        "Of the hold at rest: force / stiffness is the way until it yields."},
   }};
 

@@ -53,4 +53,11 @@ concept GivesRegionForce = requires(Effect& effect, const RegionPoint& point) {
 template <class Effect>
 concept HookedRegionEffect = StoresRegionEnergy<Effect> || GivesRegionForce<Effect>;
 
+/// Each hook whose name it has is complete and has the right types.
+template <class Effect>
+concept WholeRegionHooks = (StoresRegionEnergy<Effect> || !(
+                                                              requires { &Effect::potential; } ||
+                                                              requires { &Effect::stiffness; })) &&
+                           (GivesRegionForce<Effect> || !requires { &Effect::force; });
+
 }  // namespace reckon::haptics

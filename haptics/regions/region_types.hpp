@@ -31,10 +31,12 @@ constexpr void for_each_region_effect(F&& f) {
 
 static_assert(
     []<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
-      return ((DescribedEffect<Effects> && HookedRegionEffect<Effects>)&&...);
+      return ((DescribedEffect<Effects> && HookedRegionEffect<Effects> &&
+               WholeRegionHooks<Effects>)&&...);
     }(std::type_identity<RegionTypes>{}),
     "an effect of a region has Parameters, kName, kKey, kCost, kParameters, parameters(), a "
-    "constructor from its Parameters, no memory of its own, and a hook: see region_hooks.hpp");
+    "constructor from its Parameters, no memory of its own, and a hook; none is there by half or "
+    "with other types: see region_hooks.hpp");
 
 /// The effects that a scene declares for a region.
 using DeclaredRegionEffects = EffectDeclarations<RegionTypes>;

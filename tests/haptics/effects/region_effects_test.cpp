@@ -88,6 +88,21 @@ TEST(RegionTypes, EveryEffectHasAHeaderAndEveryHeaderARow) {
   EXPECT_EQ(headers, rows);
 }
 
+struct HalfAPotential {
+  [[nodiscard]] double stiffness() const noexcept { return 1.0; }
+  [[nodiscard]] Vector3d force(const RegionPoint&) noexcept { return Vector3d::Zero(); }
+};
+struct MayThrow {
+  [[nodiscard]] Vector3d force(const RegionPoint&) { return Vector3d::Zero(); }
+};
+
+TEST(RegionHooks, AHookByHalfOrOneThatMayThrowIsNone) {
+  EXPECT_TRUE(HookedRegionEffect<HalfAPotential>) << "by its force";
+  EXPECT_FALSE(WholeRegionHooks<HalfAPotential>);
+  EXPECT_FALSE(WholeRegionHooks<MayThrow>);
+  EXPECT_TRUE(WholeRegionHooks<Viscosity> && WholeRegionHooks<PointSpring>);
+}
+
 TEST(RegionEffects, ViscosityIsAgainstTheMotionInsideAlone) {
   Place place;
   place.effects().declare<Viscosity>() = {4.0, 10.0};
