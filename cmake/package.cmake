@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages of what install() installs, by its components: reckon (programs), reckon-dev, reckon-doc. ./run package
-# makes them. What install() alone does not need, for Debian's rules, is in cmake/debian.
+# Debian packages of what install() installs, by its components: reckon (programs), reckon-dev, reckon-doc, and
+# python3-reckon where the module is built. ./run package makes them. What install() alone does not need, for Debian's rules, is in cmake/debian.
 find_program(GZIP gzip)
 if(NOT GZIP OR RECKON_SANITIZE OR CMAKE_CROSSCOMPILING OR NOT RECKON_BUILD_TOOLS)
   return()
@@ -16,7 +16,14 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_COMPONENTS_ALL program dev doc debian_program debian_dev debian_doc)
+set(parts program dev doc)
+if(TARGET reckon_python)
+  list(APPEND parts python)
+endif()
+set(CPACK_COMPONENTS_ALL ${parts})
+foreach(part IN LISTS parts)
+  list(APPEND CPACK_COMPONENTS_ALL debian_${part})
+endforeach()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
@@ -44,6 +51,21 @@ set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOC_DESCRIPTION "Guides for scene files, areas of interest, the wire format, the inspector and
 the library, with what is measured of each.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-reckon)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "reckon, reckon-doc")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "DIS traffic, dead reckoning and scenes for Python
+The module reckon decodes and encodes every PDU of IEEE 1278.1 as an object,
+reads captures as numpy arrays, predicts poses, runs scenes in simulated time,
+and joins exercises as a federate.")
+if(TARGET reckon_python)
+  get_target_property(minor reckon_python MINOR_VERSION)
+  math(EXPR next "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}~), python3 (<< 3.${next}), python3-numpy")
+endif()
 
 # Debian wants a change log and a copyright file of each package.
 set(debian ${PROJECT_BINARY_DIR}/debian)
@@ -55,7 +77,7 @@ file(CONFIGURE OUTPUT ${debian}/changelog CONTENT "reckon (@PROJECT_VERSION@) un
  -- @CPACK_PACKAGE_CONTACT@  @date@
 " @ONLY)
 execute_process(COMMAND ${GZIP} -9nc ${debian}/changelog OUTPUT_FILE ${debian}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
-foreach(part program dev doc)
+foreach(part IN LISTS parts)
   string(TOUPPER ${part} upper)
   set(name ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES cmake/debian/copyright ${debian}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
@@ -72,7 +94,7 @@ endif()
 install(FILES cmake/debian/reckon-record.service DESTINATION lib/systemd/system COMPONENT debian_program EXCLUDE_FROM_ALL)
 
 include(CPack)
-foreach(part program dev doc)
+foreach(part IN LISTS parts)
   cpack_add_component(${part} GROUP ${part})
   cpack_add_component(debian_${part} GROUP ${part})
 endforeach()

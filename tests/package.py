@@ -18,6 +18,9 @@ HOLDS = {  # package: some of its files, and what none of its files may match
     "reckon-doc": (["usr/share/doc/reckon/README.md", "usr/share/doc/reckon/docs/README.md",
                     "usr/share/doc/reckon/docs/first_steps/programmer.md", "usr/share/doc/reckon-doc/copyright"],
                    r"usr/bin|\.hpp$"),
+    "python3-reckon": (["usr/lib/python3/dist-packages/reckon/__init__.py", "usr/lib/python3/dist-packages/reckon/py.typed",
+                        "usr/lib/python3/dist-packages/reckon/_pdus.pyi", "usr/share/doc/python3-reckon/copyright"],
+                       r"usr/bin|\.hpp$|/docs/|__pycache__"),
 }
 # What lintian may say: the project has no mail address, and its libraries are not in a folder by architecture.
 STATED = ("bogus-mail-host", "pkg-config-unavailable-for-cross-compilation")
@@ -51,7 +54,9 @@ def main():
         subprocess.run(["cpack", "--config", build / "CPackConfig.cmake", "-B", folder], cwd=build, check=True,
                        stdout=subprocess.DEVNULL)
         made = {path.name.split("_")[0]: path for path in pathlib.Path(folder).glob("*.deb")}
-        problems = [f"no package {package}" for package in HOLDS if package not in made]
+        with_python = (build / "python/reckon/_pdus.pyi").exists()
+        problems = [f"no package {package}" for package in HOLDS
+                    if package not in made and (with_python or package != "python3-reckon")]
         for package, path in made.items():
             problems += problems_of(package, path)
     print("\n".join(problems) or f"{len(made)} packages hold what they are to hold")

@@ -6,6 +6,7 @@
 
 #include "reckon/python/federates/session.hpp"
 #include "reckon/python/records/codec_calls.hpp"
+#include "reckon/python/scenes/program_effects.hpp"
 
 namespace reckon::python {
 namespace py = pybind11;
@@ -46,10 +47,12 @@ void bind_seen(py::module_& module) {
 std::unique_ptr<Session> join(const std::string& scene, unsigned exercise, double latitude,
                               double longitude, const std::string& interface,
                               const std::string& name, std::optional<std::uint16_t> site,
-                              std::optional<std::uint16_t> application) {
+                              std::optional<std::uint16_t> application,
+                              const py::object& effects) {
   if (exercise > 0xFF) throw py::value_error("exercise has to be 0 to 255");
   return std::make_unique<Session>(JoinOptions{scene, static_cast<std::uint8_t>(exercise), latitude,
-                                               longitude, interface, name, site, application});
+                                               longitude, interface, name, site, application,
+                                               effects_of(effects)});
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ peer::FederateOptions options_of(const JoinOptions& options) {
   if (options.scene.empty()) {
     made.scene = peer::dis_exercise(options.exercise, options.latitude, options.longitude);
   } else {
-    made.scene = peer::load_scene_file(options.scene);
+    made.scene = peer::load_scene_file(options.scene, options.effects);
   }
   return made;
 }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "reckon/haptics/effects/effect_custom.hpp"
 #include "reckon/peer/federate.hpp"
 
 namespace reckon::python {
@@ -46,6 +47,7 @@ struct JoinOptions {
   double latitude = 0, longitude = 0;  ///< [rad]
   std::string interface, name;
   std::optional<std::uint16_t> site, application;
+  haptics::CustomEffects effects{};  ///< that the scene may declare
 };
 
 /// All calls by the thread that made it, but for the destructor; callbacks within tick() alone.

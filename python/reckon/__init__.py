@@ -13,10 +13,11 @@ from reckon._pdus import __all__ as _pdu_names
 from reckon._prediction import Poses, predict
 from reckon._records import DecodeError, Pdu, Record
 from reckon._scenes import SceneError, SceneRun, run_scene
+from reckon._studies import StudyError, study
 
 __all__ = [
     "Capture", "CaptureError", "Datagram", "DecodeError", "Entity", "Exercise", "Federate", "Pdu", "Poses", "Record",
-    "RemoteEntity", "SceneError", "SceneRun", "States", "decode", "decode_datagram", "encode", "heading", "predict",
-    "read_capture", "run_scene",
+    "RemoteEntity", "SceneError", "SceneRun", "States", "StudyError", "decode", "decode_datagram", "encode", "heading",
+    "predict", "read_capture", "run_scene", "study",
 ]
 __all__ += _pdu_names

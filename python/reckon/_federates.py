@@ -84,16 +84,16 @@ class Federate:
     """
 
     def __init__(self, scene: Exercise | str | os.PathLike[str] = Exercise(), iface: str = "", name: str = "federate",
-                 site: int | None = None, application: int | None = None) -> None:
+                 site: int | None = None, application: int | None = None, effects: object = None) -> None:
         """scene: a scene file, or an Exercise; iface: name, address or index, "": chosen; name: of this peer
 
-        site, application: of its entities' IDs, by default free ones. RuntimeError, or ValueError, with the remedy where
+        site, application: of its entities' IDs, by default free ones; effects: as of run_scene(). RuntimeError, or ValueError, with the remedy where
         it cannot join.
         """
         plain = scene if isinstance(scene, Exercise) else Exercise()
         path = "" if isinstance(scene, Exercise) else os.fspath(scene)
         self._session = _native.Session(path, plain.number, math.radians(plain.latitude_deg),
-                                        math.radians(plain.longitude_deg), iface, name, site, application)
+                                        math.radians(plain.longitude_deg), iface, name, site, application, effects)
         self._end = weakref.finalize(self, self._session.resign)
 
     def __enter__(self) -> Federate:

@@ -43,7 +43,7 @@ def predict_columns(
     numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]
 ]: ...
 def run_scene(
-    path: str, duration: float, seed: Optional[int], peers: int, impair: str
+    path: str, duration: float, seed: Optional[int], peers: int, impair: str, effects: object
 ) -> Tuple[Dict[str, Any], Dict[str, Any]]: ...
 
 class Reader:
@@ -103,6 +103,7 @@ class Session:
         name: str,
         site: Optional[int],
         application: Optional[int],
+        effects: object,
     ) -> None: ...
     def resign(self) -> None: ...
     def is_joined(self) -> bool: ...

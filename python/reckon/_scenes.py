@@ -55,15 +55,15 @@ class SceneRun:
 
 
 def run_scene(path: str | os.PathLike[str], duration: float, seed: int | None = None, peers: int = 2,
-              impair: str = "") -> SceneRun:
+              impair: str = "", effects: object = None) -> SceneRun:
     """Runs a scene file as `reckon demo --simulated-time` does: no sockets, no waiting, the same result each time.
 
     duration [s]; seed: of the network's impairment, which the scene or `impair` has to have; peers: 1 to 64; impair: as
-    the option of `reckon demo`, "delay=200ms jitter=100ms loss=20%". Other threads of Python run meanwhile, and Ctrl-C
+    the option of `reckon demo`, "delay=200ms jitter=100ms loss=20%"; effects: of a module of your own, which the scene may then declare. Other threads of Python run meanwhile, and Ctrl-C
     ends it. SceneError where the scene or an argument is wrong.
     """
     try:
-        columns, numbers = _native.run_scene(os.fspath(path), duration, seed, peers, impair)
+        columns, numbers = _native.run_scene(os.fspath(path), duration, seed, peers, impair, effects)
     except RuntimeError as error:
         raise SceneError(str(error)) from None
     return SceneRun(**columns, numbers=numbers)

@@ -15,6 +15,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/python/captures/arrays.hpp"
+#include "reckon/python/scenes/program_effects.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_slice.hpp"
@@ -119,7 +120,7 @@ void run_for(tools::Exercise& exercise, nanoseconds end) {
 }
 
 py::tuple run_scene(const std::string& path, double duration, std::optional<std::uint64_t> seed,
-                    std::size_t peers, const std::string& impair) {
+                    std::size_t peers, const std::string& impair, const py::object& effects) {
   constexpr double kLongest = 1e6;
   if (!(duration > 0) || duration > kLongest)
     throw py::value_error("duration is " + std::to_string(duration) +
@@ -128,6 +129,7 @@ py::tuple run_scene(const std::string& path, double duration, std::optional<std:
   options.scene = path;
   options.seed = seed;
   options.impair = impair;
+  options.effects = effects_of(effects);
   peer::SceneFile scene = tools::load_scene(options, "meeting.toml", peers);
   scene.network.peers.clear();
   tools::ExerciseOptions how;

@@ -33,7 +33,9 @@ SceneKey number(std::string section, std::string key, std::string unit, double l
 std::string as_row(std::string_view sentence) {
   std::string row(sentence);
   if (row.ends_with('.')) row.pop_back();
-  if (!row.empty()) row[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(row[0])));
+  const bool acronym = row.size() > 1 && std::isupper(static_cast<unsigned char>(row[1])) != 0;
+  if (!row.empty() && !acronym)
+    row[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(row[0])));
   return row;
 }
 

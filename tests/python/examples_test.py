@@ -1,7 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """The scripts of python/examples run as a user runs them, and have types."""
+import importlib.util
+import json
 import math
+import os
 import pathlib
 import shutil
 import subprocess
@@ -50,6 +53,17 @@ class Examples(unittest.TestCase):
     def test_many_runs(self):
         words = run("many_runs.py", samples.SOURCES / "scenes/two_hands.toml", 3, 1)
         self.assertRegex(words, r"peak force +median .* N, worst of 3 .* N")
+
+    def test_the_notebook_runs_from_top_to_bottom(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("no matplotlib: apt install python3-matplotlib")
+        notebook = json.loads((EXAMPLES / "scene_and_track.ipynb").read_text())
+        cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+        self.assertGreater(len(cells), 4)
+        for cell in notebook["cells"]:
+            self.assertFalse(cell.get("outputs"), "a notebook is kept without its output")
+        subprocess.run([sys.executable, "-c", "\n".join(cells)], check=True, cwd=samples.SOURCES,
+                       env={**os.environ, "MPLBACKEND": "agg"})
 
     def test_each_passes_mypy_strictly(self):
         mypy = shutil.which("mypy", path="/usr/bin")

@@ -82,6 +82,23 @@ class Scenes(unittest.TestCase):
             run.send_signal(signal.SIGINT)
             self.assertIn("KeyboardInterrupt", run.communicate(timeout=60)[1])
 
+    def test_an_effect_of_the_user_is_known_by_its_key(self):
+        import honey
+        with tempfile.TemporaryDirectory() as folder:
+            forces = []
+            for strength in (0, 20):
+                scene = pathlib.Path(folder) / f"table{strength}.toml"
+                scene.write_text('[[object]]\nname = "table"\nplane = [0, 0, 1]\nsurface = {stiffness = 400}\n'
+                                 f'honey = {{strength = {strength}}}\n[[operator]]\n'
+                                 'sweep = {from = "-30 0 -10 mm", to = "30 0 -10 mm", period = "1 s"}\n')
+                run = reckon.run_scene(scene, 3.0, peers=1, effects=honey.effects())
+                forces.append(numpy.abs(run.force[run.time - run.time[0] > 1.0, 0]).max())
+            self.assertGreater(forces[1], forces[0] + 0.3)
+            with self.assertRaisesRegex(reckon.SceneError, "unknown key 'honey'.*known to that program alone"):
+                reckon.run_scene(scene, 1.0)
+            with self.assertRaisesRegex(TypeError, "a capsule reckon.CustomEffects"):
+                reckon.run_scene(scene, 1.0, effects="honey")
+
 
 if __name__ == "__main__":
     unittest.main()

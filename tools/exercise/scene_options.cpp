@@ -47,7 +47,7 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
                            std::size_t hands) {
   peer::SceneFile scene;
   try {
-    scene = peer::load_scene_file(scene_path(options.scene, shipped));
+    scene = peer::load_scene_file(scene_path(options.scene, shipped), options.effects);
     peer::refuse_baseline(scene);
     if (!options.mesh.empty()) put_mesh(scene, options.mesh);
     if (!options.hand.empty()) put_trace(scene, options.hand);

@@ -22,6 +22,7 @@ struct SceneOptions {
   std::string iface;
   std::string key;  ///< key file of a sealed exercise
   std::optional<std::uint64_t> seed;
+  haptics::CustomEffects effects{};  ///< of the program that reads the scene
 };
 
 /// Declares --mesh, --hand, --impair, --seed, --iface and --key.

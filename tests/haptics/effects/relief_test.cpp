@@ -21,8 +21,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-
 std::string refusal(const std::filesystem::path& file) {
   try {
     static_cast<void>(read_image(file));
@@ -49,7 +47,7 @@ HeightMap waves(std::size_t count) {
   std::vector<float> heights;
   for (std::size_t i = 0; i < count * count; ++i) {
     const double x = static_cast<double>(i % count), y = static_cast<double>(i / count);
-    const double phase = 2.0 * kPi * (x + 2.0 * y) / static_cast<double>(count);
+    const double phase = 2.0 * std::numbers::pi * (x + 2.0 * y) / static_cast<double>(count);
     heights.push_back(static_cast<float>(0.5 + 0.5 * std::cos(phase)));
   }
   return {count, count, std::move(heights)};
@@ -72,11 +70,11 @@ TEST(HeightMap, FollowsWavesAndTheirSlope) {
   std::uniform_real_distribution<double> any(-5.0, 5.0);
   for (int i = 0; i < 1000; ++i) {
     const Vector2d place(any(random), any(random));
-    const double phase = 2.0 * kPi * (place.x() + 2.0 * place.y());
+    const double phase = 2.0 * std::numbers::pi * (place.x() + 2.0 * place.y());
     // A cubic through samples of a wave of 32 is right to some 1e-4 of its height.
     EXPECT_NEAR(map.at(place), 0.5 + 0.5 * std::cos(phase), 1e-3);
-    const Vector2d slope = -kPi * std::sin(phase) * Vector2d(1.0, 2.0);
-    EXPECT_LT((map.gradient(place) - slope).norm(), 0.02 * kPi * std::sqrt(5.0));
+    const Vector2d slope = -std::numbers::pi * std::sin(phase) * Vector2d(1.0, 2.0);
+    EXPECT_LT((map.gradient(place) - slope).norm(), 0.02 * std::numbers::pi * std::sqrt(5.0));
   }
   EXPECT_NEAR(map.wavelength({0.01, 0.01}), 0.01 / std::sqrt(5.0), 1e-2 * 0.0045);
 }
@@ -185,8 +183,8 @@ TEST(Relief, IsTheSlopeOfThePictureTimesTheNormalForce) {
   // One wave across, and twice as high as wide: the top row is far in +y.
   std::vector<std::uint16_t> pixels;
   for (int i = 0; i < 64 * 128; ++i) {
-    const double across = 0.5 + 0.25 * std::cos(2 * kPi * (i % 64) / 64.0);
-    const double up = 0.25 * std::cos(2 * kPi * (1.0 - (i / 64 + 1) / 128.0));
+    const double across = 0.5 + 0.25 * std::cos(2 * std::numbers::pi * (i % 64) / 64.0);
+    const double up = 0.25 * std::cos(2 * std::numbers::pi * (1.0 - (i / 64 + 1) / 128.0));
     pixels.push_back(static_cast<std::uint16_t>(65535 * (across + up)));
   }
   write_png(file, 64, 128, PNG_FORMAT_LINEAR_Y, pixels);
@@ -195,7 +193,7 @@ TEST(Relief, IsTheSlopeOfThePictureTimesTheNormalForce) {
   std::uniform_real_distribution<double> any(-0.03, 0.03);
   for (int i = 0; i < 200; ++i) {
     const double x = any(random), y = any(random);
-    const double kx = 2 * kPi / 0.01, ky = 2 * kPi / 0.02;
+    const double kx = 2 * std::numbers::pi / 0.01, ky = 2 * std::numbers::pi / 0.02;
     const Vector3d slope(-1e-4 * kx * std::sin(kx * x), -1e-4 * ky * std::sin(ky * y), 0);
     // 2 N; the cubics through 64 heights a wave and the rounding of 16 bits are right to 1 %.
     EXPECT_LT((printed.force_at(x, y) + 2.0 * slope).norm(), 0.02 * 1e-4 * kx) << x << ", " << y;

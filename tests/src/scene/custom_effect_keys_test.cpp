@@ -83,7 +83,7 @@ TEST(CustomEffectKeys, ThatCannotBeMeantAreRefusedWithPlaceAndRemedy) {
   EXPECT_THAT(refusal("honey = { strength = \"1 m\" }\n", effects), HasSubstr("'strength'"));
   EXPECT_THAT(refusal("honey = 3\n", effects), HasSubstr("it wants table"));
   EXPECT_THAT(refusal("honey = { strength = 9, speed = 0.05 }\n", effects),
-              HasSubstr("x.toml:4:1: so much strength needs more speed"));
+              HasSubstr("x.toml:4:9: so much strength needs more speed"));
 }
 
 TEST(CustomEffectKeys, AnEffectThatTheProgramLacksIsNamed) {
