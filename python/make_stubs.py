@@ -36,7 +36,7 @@ def stub_of(name, fields, is_pdu):
 def main(package):
     sys.path.insert(0, str(package.parent))
     sys.dont_write_bytecode = True
-    import reckon
+    import reckon._pdus  # makes the classes
     from reckon import _native
     classes = _native.fields_of_classes()
     stubs = [stub_of(name, fields, issubclass(getattr(reckon, name), reckon.Pdu)) for name, fields in classes.items()]

@@ -84,7 +84,7 @@ def main():
     hands = record()
     out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 980 500" font-family="DejaVu Sans, Helvetica, sans-serif">',
            '<rect width="980" height="500" fill="white"/>']
-    panel(out, 60, hands[1], SAMPLES, (-240, 240), (-1.5, 2.0), "on surfaces, pressed and stroked from left to right")
+    panel(out, 60, hands[1], SAMPLES, (-240, 300), (-1.5, 2.0), "on surfaces, pressed and stroked from left to right")
     panel(out, 290, hands[2], REGIONS, (-170, 200), (-1.0, 1.0), "through regions, from left to right")
     out.append(text(LEFT, 480, "along the motion", 12, BLUE))
     out.append(text(LEFT + 150, 480, "out of the surface; up", 12, STONE))

@@ -8,10 +8,12 @@ import os
 import typing
 
 import numpy
-from numpy.typing import ArrayLike, NDArray
 
 from reckon import _native
 from reckon._records import Pdu
+
+if typing.TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 
 class CaptureError(RuntimeError):
@@ -117,6 +119,8 @@ class Capture:
 
     def pdus(self) -> typing.Iterator[tuple[Datagram, Pdu]]:
         """(datagram, pdu) for each PDU. DecodeError, with path, frame and octet, at one that is damaged."""
+        import reckon._pdus  # the classes
+
         for reader, datagram in self._datagrams():
             for pdu in reader.decode(datagram.frame, datagram.octets):
                 yield datagram, pdu

@@ -8,6 +8,7 @@ import os
 import typing
 import weakref
 
+import reckon._pdus  # the classes of what callbacks are given
 from reckon import _native
 from reckon._native import RemoteEntity
 from reckon._records import Pdu

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The classes of all PDUs and records, made by the field tables of the library; _pdus.pyi lists them."""
 from reckon import _native
+from reckon._native import decode, decode_datagram, encode
 from reckon._records import Pdu, Record
 
 _native.make_classes(Record, Pdu)

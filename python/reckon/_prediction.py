@@ -6,12 +6,13 @@ from __future__ import annotations
 import typing
 
 import numpy
-from numpy.typing import ArrayLike, NDArray
 
 from reckon import _native
 from reckon._captures import States
 
 if typing.TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
     from reckon._pdus import EntityState
 
 

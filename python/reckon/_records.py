@@ -69,6 +69,8 @@ class Pdu(Record):
 
 
 def _decoded(octets: bytes) -> Pdu:
+    import reckon._pdus  # the classes, where an object is unpickled first
+
     return _native.decode(octets)
 
 

@@ -8,9 +8,11 @@ import os
 import typing
 
 import numpy
-from numpy.typing import NDArray
 
 from reckon import _native
+
+if typing.TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 class SceneError(ValueError):

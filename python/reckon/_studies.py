@@ -3,16 +3,15 @@
 """Studies of `reckon bench` as arrays."""
 from __future__ import annotations
 
-import csv
 import os
-import pathlib
-import shutil
-import subprocess
-import tempfile
 import typing
 
 import numpy
-from numpy.typing import NDArray
+
+if typing.TYPE_CHECKING:
+    import csv
+
+    from numpy.typing import NDArray
 
 
 class StudyError(RuntimeError):
@@ -29,6 +28,13 @@ def study(*arguments: str | os.PathLike[str], program: str | os.PathLike[str] = 
     default that of PATH. It takes as long as on the command line, and other threads of Python run meanwhile. StudyError
     where the program fails or is not there.
     """
+    # Here, for an import of reckon need not wait for them.
+    import csv
+    import pathlib
+    import shutil
+    import subprocess
+    import tempfile
+
     found = os.fspath(program) or shutil.which("reckon")
     if not found:
         raise StudyError("reckon is not in PATH: give program=\"build/release/reckon\", or install the package reckon")

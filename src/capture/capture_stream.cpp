@@ -72,7 +72,11 @@ void CaptureStream::look_at_head() {
 
 std::FILE* CaptureStream::open() {
   // A plain file is read directly.
-  if (is_plain_file()) return std::fopen(path_.c_str(), "rb");
+  if (is_plain_file()) {
+    std::FILE* const file = std::fopen(path_.c_str(), "rb");
+    if (file != nullptr) std::setvbuf(file, nullptr, _IOFBF, kBufferSize);
+    return file;
+  }
   cookie_io_functions_t functions{};
   functions.read = read_cookie;
   std::FILE* stream = fopencookie(this, "r", functions);

@@ -4,7 +4,7 @@
 """What the module costs: build/python/bin/python tests/python/measure.py [PDUS]
 
 Prints Entity States a second by columns, microseconds an object, the pace of another thread of Python while a capture is
-read, and milliseconds of an import. Best of five, each on a capture of its own.
+read, and milliseconds of an import and of the first use. Best of five, each on a capture of its own.
 """
 import pathlib
 import struct
@@ -70,10 +70,11 @@ def main():
     state = reckon.decode(octets)
     each = min(cpu_of(lambda: [reckon.encode(state) for _ in range(20_000)]) for _ in range(5)) / 2e4
     print(f"encode: {each * 1e6:.2f} us")
-    timed = "import numpy, time; begin = time.process_time(); import reckon; print(time.process_time() - begin)"
-    imports = [float(subprocess.run([sys.executable, "-c", timed], capture_output=True, text=True, check=True).stdout)
-               for _ in range(5)]
-    print(f"import: {min(imports) * 1e3:.1f} ms beside numpy's")
+    for what, use in (("import", ""), ("import and first use of every part", "; from reckon import *")):
+        timed = f"import numpy, time; begin = time.process_time(); import reckon{use}; print(time.process_time() - begin)"
+        took = [float(subprocess.run([sys.executable, "-c", timed], capture_output=True, text=True, check=True).stdout)
+                for _ in range(5)]
+        print(f"{what}: {min(took) * 1e3:.1f} ms beside numpy's")
 
 
 if __name__ == "__main__":

@@ -159,6 +159,28 @@ class Encoding(unittest.TestCase):
             self.assertNotEqual(other, state)
             self.assertNotEqual(reckon.encode(other), reckon.encode(state))
 
+    def test_the_collector_of_cycles_does_not_visit_what_was_decoded(self):
+        import gc
+        for _, octets in samples.golden():
+            self.assertFalse(gc.is_tracked(reckon.decode(octets)))
+
+    def test_a_pdu_is_freed_with_all_that_is_in_it(self):
+        import tracemalloc
+        octets = [octets for _, octets in samples.golden()]
+
+        def round_trips():
+            for one in octets:
+                reckon.encode(reckon.decode(one))
+
+        round_trips()
+        tracemalloc.start()
+        round_trips()
+        before = tracemalloc.get_traced_memory()[0]
+        for _ in range(20):
+            round_trips()
+        self.assertLess(tracemalloc.get_traced_memory()[0] - before, 4096)
+        tracemalloc.stop()
+
 
 if __name__ == "__main__":
     unittest.main()
