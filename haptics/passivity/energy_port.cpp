@@ -13,9 +13,10 @@ constexpr int kHalvings = 20;
 }  // namespace
 
 // Writes the chosen force: it was written at the beginning of the sample that ends now.
-void EnergyPort::pass() noexcept {
+template <int axes>
+void EnergyPortOf<axes>::pass() noexcept {
   if (reads_in_steps()) {
-    const Eigen::Vector3d before = held_.at_handle();
+    const Force before = held_.at_handle();
     held_.write(chosen_);
     allowance_ += unsure_ * (held_.at_handle() - before).norm();
   } else {
@@ -24,21 +25,24 @@ void EnergyPort::pass() noexcept {
   if (doubtful_ > 0) --doubtful_;
 }
 
-void EnergyPort::keep_in_mind(double dt) noexcept {
-  const Eigen::Vector3d& force = held_.at_handle();
+template <int axes>
+void EnergyPortOf<axes>::keep_in_mind(double dt) noexcept {
+  const Force& force = held_.at_handle();
   time_ += dt;
   impulse_ += dt * force;
   squares_ += dt * force.squaredNorm();
 }
 
 // hold() reckoned with the damping that dx costs within its own dt.
-void EnergyPort::note_late(const Eigen::Vector3d& dx, double dt) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::note_late(const Force& dx, double dt) noexcept {
   if (!(period_ > 0) || !(dt > period_)) return;
   const double way = dx.norm() + 2.0 * unsure_;
   late_ += damping() * way * way * (1.0 / period_ - 1.0 / dt);
 }
 
-void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::settle(const Force& dx, double dt) noexcept {
   pass();
   note_late(dx, dt);
   if (missed_) {
@@ -55,7 +59,8 @@ void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
 // Lower bound of the energy for unknown motion. Forces g_j are held for t_j each, within a time t
 // in which the hand moved by D. The least of sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D
 // - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces.
-void EnergyPort::settle_missed(const Eigen::Vector3d& dx) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::settle_missed(const Force& dx) noexcept {
   const double spread = squares_ - impulse_.squaredNorm() / time_;
   const double work =
       -impulse_.dot(dx) / time_ - (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
@@ -68,14 +73,16 @@ void EnergyPort::settle_missed(const Eigen::Vector3d& dx) noexcept {
   missed_ = false;
 }
 
-void EnergyPort::miss(double dt) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::miss(double dt) noexcept {
   pass();
   keep_in_mind(dt);
   missed_ = true;
   doubtful_ = held_.delay() + 1;
 }
 
-void EnergyPort::follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::follow(const Force& change, const Force& dx) noexcept {
   if (!reads_in_steps()) return;
   const double length = dx.norm();
   const double step = length > 2.0 * unsure_ ? 2.0 * unsure_ / length : 1.0;
@@ -83,7 +90,8 @@ void EnergyPort::follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx
   allowance_ += unsure_ * change.norm();
 }
 
-double EnergyPort::credit(double energy) noexcept {
+template <int axes>
+double EnergyPortOf<axes>::credit(double energy) noexcept {
   const double room = std::max(0.0, kMostKept + booked_ - std::max(0.0, level_));
   const double fits = energy > 0 ? std::min(energy, room) : 0.0;
   level_ += fits;
@@ -91,24 +99,28 @@ double EnergyPort::credit(double energy) noexcept {
   return fits;
 }
 
-double EnergyPort::credit(double energy, double seen) noexcept {
+template <int axes>
+double EnergyPortOf<axes>::credit(double energy, double seen) noexcept {
   const double fits = credit(std::min({energy, seen + unseen_, receivable()}));
   unseen_ -= std::max(0.0, fits - seen);
   receivable_ -= fits;
   return fits;
 }
 
-double EnergyPort::receivable() const noexcept {
+template <int axes>
+double EnergyPortOf<axes>::receivable() const noexcept {
   const double room = std::max(0.0, kReceivedAtOnce + booked_ - std::max(0.0, level_));
   return std::min(receivable_, room);
 }
 
 // Energy from others that no spring stores.
-double EnergyPort::waiting() const noexcept {
+template <int axes>
+double EnergyPortOf<axes>::waiting() const noexcept {
   return std::max(0.0, std::min(unearned_, level_) - booked_);
 }
 
-void EnergyPort::wait(double dt) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::wait(double dt) noexcept {
   unseen_ = std::min(kUnseen, unseen_ + kUnseenPower * dt);
   const double most = std::max(0.0, kReceivedAtOnce - waiting());
   receivable_ = std::min(most, receivable_ + received_power_ * dt);
@@ -116,14 +128,16 @@ void EnergyPort::wait(double dt) noexcept {
 
 // The hand may take |q|^2 T / (4 b) from each force q under way, whatever is booked or shown by
 // then.
-double EnergyPort::spendable() const noexcept {
+template <int axes>
+double EnergyPortOf<axes>::spendable() const noexcept {
   if (held_.delay() == 0) return std::max(0.0, level_);
-  const double squares = held_.under_way(Eigen::Vector3d::Zero()).squares;
+  const double squares = held_.under_way(Force::Zero()).squares;
   const double kept = squares > 0 ? squares * period_ / (4.0 * damping()) : 0.0;
   return std::max(0.0, level_ - kept);
 }
 
-double EnergyPort::give(double wanted) noexcept {
+template <int axes>
+double EnergyPortOf<axes>::give(double wanted) noexcept {
   const double most = std::min(kMostGift * std::max(0.0, level_), spendable());
   const double gift = wanted > 0 ? std::min(most, wanted) : 0.0;
   level_ -= gift;
@@ -131,32 +145,38 @@ double EnergyPort::give(double wanted) noexcept {
   return gift;
 }
 
-void EnergyPort::borrow(double energy) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::borrow(double energy) noexcept {
   level_ += energy;
   owed_ += energy;
 }
 
-void EnergyPort::pay_back(double energy) noexcept {
+template <int axes>
+void EnergyPortOf<axes>::pay_back(double energy) noexcept {
   const double paid = std::clamp(energy, 0.0, std::min(owed_, spendable()));
   level_ -= paid;
   owed_ -= paid;
 }
 
-void EnergyPort::clear() noexcept {
+template <int axes>
+void EnergyPortOf<axes>::clear() noexcept {
   written_off_ += std::min(late_, debt());
   late_ = 0.0;
   level_ = booked_ = unearned_ = 0.0;
   let_go();
 }
 
-void EnergyPort::let_go() noexcept {
+template <int axes>
+void EnergyPortOf<axes>::let_go() noexcept {
   held_.drop();
   chosen_.setZero();
 }
 
 // @param walls share of the walls that stays
-SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) const noexcept {
-  SplitBound bound;
+template <int axes>
+SplitBoundOf<axes> EnergyPortOf<axes>::bound_of(const Load& load, double walls,
+                                                double dt) const noexcept {
+  SplitBoundOf<axes> bound;
   bound.energy = std::max(0.0, level_ + (1.0 - walls) * load.walls_stored);
   bound.stored = load.stored;
   bound.springs = load.springs;
@@ -166,12 +186,13 @@ SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) c
   return bound;
 }
 
-PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
-  PortHold out;
+template <int axes>
+PortHoldOf<axes> EnergyPortOf<axes>::hold(const Load& load, double dt) noexcept {
+  Hold out;
   period_ = dt;
   late_ = std::min(late_, debt());
   late_cost_ = std::max(late_cost_, written_off_ + late_);
-  SplitBound bound = bound_of(load, 1.0, dt);
+  SplitBoundOf<axes> bound = bound_of(load, 1.0, dt);
   if (const auto whole = largest_weight(bound, load.springs + load.extra)) {
     out.weight = *whole;
   } else if (!choose_part(load, bound, out)) {
@@ -179,7 +200,7 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
     bound = bound_of(load, out.walls, dt);
   }
   booked_ = out.weight * load.stored;
-  const Eigen::Vector3d shown = out.springs * load.springs + out.extra * load.extra;
+  const Force shown = out.springs * load.springs + out.extra * load.extra;
   const double rests = bound.rests(shown, out.weight);
   const double pays = bound.spare - out.weight * bound.half_slope;
   const double reserved = rests > 0 ? rests / (4.0 * pays) : 0.0;
@@ -196,8 +217,9 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
 
 // Reduces first what belongs to no storage.
 // @return false if the unchanged walls leave no energy for the forces under way.
-bool EnergyPort::choose_part(const PortLoad& load, const SplitBound& bound,
-                             PortHold& out) const noexcept {
+template <int axes>
+bool EnergyPortOf<axes>::choose_part(const Load& load, const SplitBoundOf<axes>& bound,
+                                     Hold& out) const noexcept {
   const auto with_extra = [&](double share) {
     return largest_weight(bound, load.springs + share * load.extra);
   };
@@ -220,33 +242,37 @@ bool EnergyPort::choose_part(const PortLoad& load, const SplitBound& bound,
     return true;
   }
   out.springs = 0.0;
-  weight = largest_weight(bound, Eigen::Vector3d::Zero());
+  weight = largest_weight(bound, Force::Zero());
   out.weight = weight.value_or(0.0);
   return weight.has_value() || held_.delay() == 0;
 }
 
 // The forces under way were paid for when they were chosen, with all storage of the walls. So the
 // shares of the walls that still pay for them are an interval that begins at 0.
-void EnergyPort::lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept {
+template <int axes>
+void EnergyPortOf<axes>::lower_walls(const Load& load, double dt, Hold& out) const noexcept {
   out.walls = 0.0;
   out.weight = 0.0;
   double high = 1.0;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (out.walls + high);
-    const SplitBound bound = bound_of(load, middle, dt);
-    const bool answered = bound.spare > 0 && bound.rests(Eigen::Vector3d::Zero(), 0.0) <=
-                                                 4.0 * bound.spare * bound.energy;
+    const SplitBoundOf<axes> bound = bound_of(load, middle, dt);
+    const bool answered =
+        bound.spare > 0 && bound.rests(Force::Zero(), 0.0) <= 4.0 * bound.spare * bound.energy;
     (answered ? out.walls : high) = middle;
   }
 }
 
-bool EnergyPort::hold_instead(const PortLoad& load, const Eigen::Vector3d& force,
-                              double dt) noexcept {
+template <int axes>
+bool EnergyPortOf<axes>::hold_instead(const Load& load, const Force& force, double dt) noexcept {
   const auto weight = largest_weight(bound_of(load, 1.0, dt), force - load.walls);
   if (!weight) return false;
   booked_ = *weight * load.stored;
   chosen_ = force;
   return true;
 }
+
+template class EnergyPortOf<3>;
+template class EnergyPortOf<6>;
 
 }  // namespace reckon::haptics

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "reckon/haptics/passivity/held_forces.hpp"
@@ -16,26 +17,33 @@
 namespace reckon::haptics {
 
 /// Forces that the contacts of a device want to hold for the next sample.
-struct PortLoad {
+/// `axes` [N], and [N m] where an axis turns; see DampedAxes.
+template <int axes>
+struct PortLoadOf {
+  using Force = AxisForces<axes>;
+
   /// Springs of the static scene [N]; their storage is already out of the ledger, see book().
-  Eigen::Vector3d walls = Eigen::Vector3d::Zero();
+  Force walls = Force::Zero();
   double walls_slope = 0.0;   ///< [N/m], upper bound of their curvature
   double walls_stored = 0.0;  ///< [J]
   /// Sum of the springs that others move [N]. Opposite forces cancel and cost nothing.
-  Eigen::Vector3d springs = Eigen::Vector3d::Zero();
+  Force springs = Force::Zero();
   double stored = 0.0;         ///< [J], sum of their storage
   double springs_slope = 0.0;  ///< [N/m], greatest eigenvalue of the sum of their curvature bounds
   /// Forces that belong to no storage: dampers, effects [N].
-  Eigen::Vector3d extra = Eigen::Vector3d::Zero();
+  Force extra = Force::Zero();
 };
 
 /// The part of the load that can be held.
-struct PortHold {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
-  double weight = 0.0;                              ///< share of `stored` that is booked
-  double walls = 1.0;                               ///< share of the walls; the caller books it
-  double springs = 1.0;                             ///< share of the springs that is shown
-  double extra = 1.0;                               ///< share of the extra force
+template <int axes>
+struct PortHoldOf {
+  using Force = AxisForces<axes>;
+
+  Force force = Force::Zero();  ///< [N]
+  double weight = 0.0;          ///< share of `stored` that is booked
+  double walls = 1.0;           ///< share of the walls; the caller books it
+  double springs = 1.0;         ///< share of the springs that is shown
+  double extra = 1.0;           ///< share of the extra force
 };
 
 /// Energy of one device. Order of calls within a servo step: settle (or miss), then any of book,
@@ -46,8 +54,14 @@ struct PortHold {
 /// by the work of the hand and the device's damping, wherever the surfaces move. hold() chooses a
 /// force for which E can pay over any motion, together with all forces under way to the handle.
 /// O(delay); allocates only at construction.
-class EnergyPort {
+/// @tparam axes 3, or 6 for a device that turns
+template <int axes>
+class EnergyPortOf {
  public:
+  using Force = AxisForces<axes>;
+  using Load = PortLoadOf<axes>;
+  using Hold = PortHoldOf<axes>;
+
   /// Energy credited without observation [J], and the power at which this credit refills [W]. A
   /// higher value hinders honest peers less if the shown surface lags behind their real one, and
   /// allows a dishonest peer more.
@@ -66,11 +80,11 @@ class EnergyPort {
   /// @param damping [N s/m] >= 0, guaranteed damping of the device
   /// @param delay [samples] >= 0, from a write to the force at the handle
   /// @param resolution [m] >= 0, the device's encoder step
-  explicit EnergyPort(double damping, int delay = 0, double resolution = 0.0)
+  explicit EnergyPortOf(double damping, int delay = 0, double resolution = 0.0)
       : damping_(damping, resolution),
         held_(delay),
         samples_(1.0 + delay),
-        unsure_(kHalfDiagonal * resolution) {}
+        unsure_(0.5 * std::sqrt(axes) * resolution) {}
 
   /// Greatest power from all others together, less what was given to them [W] > 0; unlimited at
   /// first. Excess energy is not lost but stays pending: see receivable().
@@ -79,7 +93,7 @@ class EnergyPort {
   /// Books the sample that ended, in which the hand moved by dx [m] in dt [s] > 0, and the missed
   /// samples before it. In missed samples it is unknown how far the hand moved under which force.
   /// So the worst case is booked, and no work of the hand is credited.
-  void settle(const Eigen::Vector3d& dx, double dt) noexcept;
+  void settle(const Force& dx, double dt) noexcept;
   /// A sample of dt [s] > 0 ended without a reading of the handle.
   void miss(double dt) noexcept;
   /// Books energy that a wall stored (negative) or released (positive) [J].
@@ -88,7 +102,7 @@ class EnergyPort {
   [[nodiscard]] bool reads_in_steps() const noexcept { return unsure_ > 0; }
   /// Books a change of a spring's force by `change` [N] while the reading moved by dx [m]. The hand
   /// crossed an encoder step somewhere between both forces, not under the first one alone.
-  void follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept;
+  void follow(const Force& change, const Force& dx) noexcept;
   /// Adds energy given to us. @return the part that fits [J].
   double credit(double energy) noexcept;
   /// Adds energy that a peer claims to have given. A hand at rest can only pass on what it
@@ -112,11 +126,11 @@ class EnergyPort {
   void pay_back(double energy) noexcept;
 
   /// Chooses the force to hold for the next dt [s], and discards energy above the limits.
-  PortHold hold(const PortLoad& load, double dt) noexcept;
+  Hold hold(const Load& load, double dt) noexcept;
   /// Holds `force` [N] instead of the one that hold() chose for the same load. A force that lags
   /// behind is paid for like any held force. @return false, without any change, if E cannot pay for
   /// it.
-  bool hold_instead(const PortLoad& load, const Eigen::Vector3d& force, double dt) noexcept;
+  bool hold_instead(const Load& load, const Force& force, double dt) noexcept;
   /// The force is scaled by `factor` in [0, 1] on its way to the device.
   void attenuate(double factor) noexcept { chosen_ *= factor; }
   /// The device dropped the force by itself, with all forces under way.
@@ -151,16 +165,15 @@ class EnergyPort {
   }
 
  private:
-  static constexpr double kHalfDiagonal = 0.8660254037844386;  // of a cube of side 1
-
-  [[nodiscard]] SplitBound bound_of(const PortLoad& load, double walls, double dt) const noexcept;
-  [[nodiscard]] bool choose_part(const PortLoad& load, const SplitBound& bound,
-                                 PortHold& out) const noexcept;
-  void lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept;
+  [[nodiscard]] SplitBoundOf<axes> bound_of(const Load& load, double walls,
+                                            double dt) const noexcept;
+  [[nodiscard]] bool choose_part(const Load& load, const SplitBoundOf<axes>& bound,
+                                 Hold& out) const noexcept;
+  void lower_walls(const Load& load, double dt, Hold& out) const noexcept;
   void pass() noexcept;
-  void note_late(const Eigen::Vector3d& dx, double dt) noexcept;
+  void note_late(const Force& dx, double dt) noexcept;
   void keep_in_mind(double dt) noexcept;
-  void settle_missed(const Eigen::Vector3d& dx) noexcept;
+  void settle_missed(const Force& dx) noexcept;
   void absorb(double energy) noexcept {
     level_ += energy;
     absorbed_ += energy;
@@ -173,8 +186,8 @@ class EnergyPort {
   [[nodiscard]] double spendable() const noexcept;
   [[nodiscard]] double waiting() const noexcept;
 
-  SureDamping damping_;
-  HeldForces held_;
+  SureDampingOf<axes> damping_;
+  HeldForcesOf<axes> held_;
   double samples_;  // samples for which a chosen force has to be paid
   double unsure_;   // [m], greatest error of a reading
   double level_ = 0.0;
@@ -191,13 +204,17 @@ class EnergyPort {
   double written_off_ = 0.0;  // of late_, by clear()
   double late_cost_ = 0.0;
   double allowance_ = 0.0;
-  Eigen::Vector3d chosen_ = Eigen::Vector3d::Zero();  // to be written
+  Force chosen_ = Force::Zero();  // to be written
   // Since the last reading, if samples were missed: time, and integrals of force and its square.
   double time_ = 0.0;
-  Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
+  Force impulse_ = Force::Zero();
   double squares_ = 0.0;
   bool missed_ = false;
   int doubtful_ = 0;  // samples in which the device may not hold the written force
 };
+
+using PortLoad = PortLoadOf<3>;
+using PortHold = PortHoldOf<3>;
+using EnergyPort = EnergyPortOf<3>;
 
 }  // namespace reckon::haptics

@@ -15,13 +15,16 @@ namespace reckon::haptics {
 
 /// A queue of `delay` forces that advances at each write. One thread; O(1), but under_way() is
 /// O(delay); allocates only at construction.
-class HeldForces {
+template <int axes>
+class HeldForcesOf {
  public:
+  using Force = AxisForces<axes>;
+
   /// @param delay [samples] >= 0, between a write and the force at the handle
-  explicit HeldForces(int delay) : under_way_(static_cast<std::size_t>(delay), kNone) {}
+  explicit HeldForcesOf(int delay) : under_way_(static_cast<std::size_t>(delay), kNone) {}
 
   /// Writes `force` [N]; the oldest force under way reaches the handle.
-  void write(const Eigen::Vector3d& force) noexcept {
+  void write(const Force& force) noexcept {
     at_handle_ = force;
     if (under_way_.empty()) return;
     std::swap(at_handle_, under_way_[next_]);
@@ -30,16 +33,16 @@ class HeldForces {
   /// The device dropped all forces by itself.
   void drop() noexcept {
     at_handle_ = kNone;
-    for (Eigen::Vector3d& force : under_way_) force = kNone;
+    for (Force& force : under_way_) force = kNone;
   }
 
   [[nodiscard]] int delay() const noexcept { return static_cast<int>(under_way_.size()); }
-  [[nodiscard]] const Eigen::Vector3d& at_handle() const noexcept { return at_handle_; }
+  [[nodiscard]] const Force& at_handle() const noexcept { return at_handle_; }
   /// Forces that reach the handle later, each less `walls` [N].
-  [[nodiscard]] UnderWay under_way(const Eigen::Vector3d& walls) const noexcept {
-    UnderWay out;
+  [[nodiscard]] UnderWayOf<axes> under_way(const Force& walls) const noexcept {
+    UnderWayOf<axes> out;
     out.count = static_cast<double>(under_way_.size());
-    for (const Eigen::Vector3d& force : under_way_) {
+    for (const Force& force : under_way_) {
       out.sum += force - walls;
       out.squares += (force - walls).squaredNorm();
     }
@@ -47,11 +50,13 @@ class HeldForces {
   }
 
  private:
-  inline static const Eigen::Vector3d kNone = Eigen::Vector3d::Zero();
+  inline static const Force kNone = Force::Zero();
 
-  Eigen::Vector3d at_handle_ = kNone;
-  std::vector<Eigen::Vector3d> under_way_;  // a ring, the oldest force at next_
+  Force at_handle_ = kNone;
+  std::vector<Force> under_way_;  // a ring, the oldest force at next_
   std::size_t next_ = 0;
 };
+
+using HeldForces = HeldForcesOf<3>;
 
 }  // namespace reckon::haptics

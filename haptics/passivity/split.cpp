@@ -12,7 +12,8 @@ constexpr double kMostOfSpare = 0.999;  // of c0 that springs may use: the rest 
 constexpr int kHalvings = 40;
 
 // Greatest weight that leaves both energy and damping.
-double greatest_weight(const SplitBound& bound) noexcept {
+template <int axes>
+double greatest_weight(const SplitBoundOf<axes>& bound) noexcept {
   double most = 1.0;
   if (bound.stored > bound.energy) most = bound.energy / bound.stored;
   if (bound.half_slope > 0) most = std::min(most, kMostOfSpare * bound.spare / bound.half_slope);
@@ -25,11 +26,12 @@ double greatest_weight(const SplitBound& bound) noexcept {
 //   Q(w) = rests(w) - 4 (c0 - w k) (E - w S) <= 0
 // that is >= 0 at the greatest w with both factors positive. So the allowed weights are an
 // interval. It begins at 0, at the vertex or nowhere, and its end is found by bisection.
-std::optional<double> largest_weight(const SplitBound& bound,
-                                     const Eigen::Vector3d& wanted) noexcept {
+template <int axes>
+std::optional<double> largest_weight(const SplitBoundOf<axes>& bound,
+                                     const typename SplitBoundOf<axes>::Force& wanted) noexcept {
   if (!(bound.spare > 0) || !(bound.energy >= 0)) return std::nullopt;
   const double most = greatest_weight(bound);
-  const Eigen::Vector3d& springs = bound.springs;
+  const AxisForces<axes>& springs = bound.springs;
   const auto cost = [&](double w) {
     return bound.rests(wanted, w) -
            4.0 * (bound.spare - w * bound.half_slope) * (bound.energy - w * bound.stored);
@@ -57,7 +59,8 @@ std::optional<double> largest_weight(const SplitBound& bound,
 // The share s satisfies |s - w|^2 |F|^2 + rests under way <= 4 (c0 - w k) (E - w S): a cone over
 // two lines. So the pairs (s, w) are a convex set, and the greatest s is concave in w. Outside it
 // the function is the negative deficit, so that the search finds the set.
-std::optional<Strongest> strongest(const SplitBound& bound) noexcept {
+template <int axes>
+std::optional<Strongest> strongest(const SplitBoundOf<axes>& bound) noexcept {
   const double size = bound.springs.norm();
   if (!(bound.spare > 0) || !(bound.energy > 0) || !(size > 0)) return std::nullopt;
   const auto left = [&](double w) {
@@ -81,5 +84,12 @@ std::optional<Strongest> strongest(const SplitBound& bound) noexcept {
   if (left(low) < 0) return std::nullopt;
   return Strongest{low, std::min(1.0, force(low) / size)};
 }
+
+template std::optional<double> largest_weight(const SplitBoundOf<3>&,
+                                              const AxisForces<3>&) noexcept;
+template std::optional<double> largest_weight(const SplitBoundOf<6>&,
+                                              const AxisForces<6>&) noexcept;
+template std::optional<Strongest> strongest(const SplitBoundOf<3>&) noexcept;
+template std::optional<Strongest> strongest(const SplitBoundOf<6>&) noexcept;
 
 }  // namespace reckon::haptics

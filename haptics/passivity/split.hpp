@@ -10,11 +10,17 @@
 
 namespace reckon::haptics {
 
+/// Of a device with `axes` axes: forces [N] and, where an axis turns, torques [N m]; see
+/// DampedAxes.
+template <int axes>
+using AxisForces = Eigen::Matrix<double, axes, 1>;
+
 /// Forces that are written and not yet at the handle: d of them, each less the force of the walls.
-struct UnderWay {
-  double count = 0.0;                             ///< d
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of q_j [N]
-  double squares = 0.0;                           ///< of |q_j|^2 [N^2]
+template <int axes>
+struct UnderWayOf {
+  double count = 0.0;                               ///< d
+  AxisForces<axes> sum = AxisForces<axes>::Zero();  ///< of q_j [N]
+  double squares = 0.0;                             ///< of |q_j|^2 [N^2]
 };
 
 /// A force with potential S, force F = -grad S and curvature of at most 2 k / (d + 1), at a port
@@ -22,16 +28,18 @@ struct UnderWay {
 /// of them, and the forces q_j under way before it. Of each, w F is booked as w S. The remainder is
 /// a rest, whose worst motion costs its square over 4 (c0 - w k):
 ///   w S + (|A - w F|^2 + sum |q_j - w F|^2) / (4 (c0 - w k)) <= E
-struct SplitBound {
-  double energy = 0.0;                                ///< E [J] >= 0, available energy
-  double stored = 0.0;                                ///< S [J] >= 0
-  Eigen::Vector3d springs = Eigen::Vector3d::Zero();  ///< F [N]
-  double spare = 0.0;                                 ///< c0 [N/m]
-  double half_slope = 0.0;                            ///< k [N/m] >= 0
-  UnderWay under_way;
+template <int axes>
+struct SplitBoundOf {
+  using Force = AxisForces<axes>;
+  double energy = 0.0;            ///< E [J] >= 0, available energy
+  double stored = 0.0;            ///< S [J] >= 0
+  Force springs = Force::Zero();  ///< F [N]
+  double spare = 0.0;             ///< c0 [N/m]
+  double half_slope = 0.0;        ///< k [N/m] >= 0
+  UnderWayOf<axes> under_way;
 
   /// |A - w F|^2 + sum |q_j - w F|^2 [N^2]. @param wanted A [N]
-  [[nodiscard]] double rests(const Eigen::Vector3d& wanted, double w) const noexcept {
+  [[nodiscard]] double rests(const Force& wanted, double w) const noexcept {
     return (wanted - w * springs).squaredNorm() + rests_under_way(w);
   }
   /// sum |q_j - w F|^2 [N^2], >= 0.
@@ -42,11 +50,15 @@ struct SplitBound {
     return rests > 0 ? rests : 0.0;
   }
 };
+using UnderWay = UnderWayOf<3>;
+using SplitBound = SplitBoundOf<3>;
 
 /// The largest w in [0, 1] that the bound allows, which books as much as possible. No value if no w
 /// allows the whole of A. @param wanted A [N]
-[[nodiscard]] std::optional<double> largest_weight(const SplitBound& bound,
-                                                   const Eigen::Vector3d& wanted) noexcept;
+/// `axes` is 3 or 6.
+template <int axes>
+[[nodiscard]] std::optional<double> largest_weight(
+    const SplitBoundOf<axes>& bound, const typename SplitBoundOf<axes>::Force& wanted) noexcept;
 
 /// The w that allows the largest share of F, if the whole F is not allowed.
 struct Strongest {
@@ -54,6 +66,7 @@ struct Strongest {
   double share = 0.0;  ///< of F, in [0, 1]
 };
 /// No value if the forces under way alone exceed the bound with any share of F.
-[[nodiscard]] std::optional<Strongest> strongest(const SplitBound& bound) noexcept;
+template <int axes>
+[[nodiscard]] std::optional<Strongest> strongest(const SplitBoundOf<axes>& bound) noexcept;
 
 }  // namespace reckon::haptics

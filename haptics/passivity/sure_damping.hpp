@@ -4,22 +4,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace reckon::haptics {
 
 /// Over a displacement D in a time t a viscous friction b dissipates at least b |D|^2 / t, whatever
-/// the motion (Cauchy-Schwarz). With an encoder of step h, |D| may be less by sqrt(3) h: a handle
-/// that seems to jump a step now and then moved slowly meanwhile. So motion is divided into
+/// the motion (Cauchy-Schwarz). With an encoder of step h, |D| may be less by sqrt(axes) h: a
+/// handle that seems to jump a step now and then moved slowly meanwhile. So motion is divided into
 /// stretches of sixteen steps, and their loss is booked as it becomes certain. In slow motion a
 /// fifth is not credited.
-class SureDamping {
+template <int axes>
+class SureDampingOf {
  public:
   /// @param damping b [N s/m] >= 0  @param resolution h [m] >= 0; 0 reads exactly
-  SureDamping(double damping, double resolution) noexcept
-      : damping_(damping), unsure_(kDiagonal * resolution), stretch_(kSteps * resolution) {}
+  SureDampingOf(double damping, double resolution) noexcept
+      : damping_(damping), unsure_(std::sqrt(axes) * resolution), stretch_(kSteps * resolution) {}
 
   /// The handle moved by `dx` [m] in `dt` [s] > 0. @return the energy that became certain [J] >= 0.
-  [[nodiscard]] double move(const Eigen::Vector3d& dx, double dt) noexcept {
+  [[nodiscard]] double move(const Eigen::Matrix<double, axes, 1>& dx, double dt) noexcept {
     if (!(unsure_ > 0)) return damping_ * dx.squaredNorm() / dt;
     way_ += dx;
     time_ += dt;
@@ -40,15 +42,16 @@ class SureDamping {
   [[nodiscard]] double damping() const noexcept { return damping_; }
 
  private:
-  static constexpr double kDiagonal = 1.7320508075688772;  // of a cube of side 1
   static constexpr double kSteps = 16.0;
 
   double damping_;
   double unsure_;   // [m]
   double stretch_;  // [m]
-  Eigen::Vector3d way_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, axes, 1> way_ = Eigen::Matrix<double, axes, 1>::Zero();
   double time_ = 0.0;
   double booked_ = 0.0;
 };
+
+using SureDamping = SureDampingOf<3>;
 
 }  // namespace reckon::haptics
