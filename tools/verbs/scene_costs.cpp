@@ -138,7 +138,7 @@ class Measurement {
     double sum = contact;
     for (int turn = 0; turn < haptics::kTurns; ++turn) {
       haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
-        if (haptics::kTurn<Effect> != turn) return;
+        if (haptics::kHooks<Effect>.turn() != turn) return;
         if (planned.effects.find<Effect>() == nullptr) return;
         if (!place || haptics::AlwaysThere<Effect> || declared.find<Effect>() == nullptr)
           return add(kUnknown);
