@@ -96,6 +96,24 @@ struct SourceReport {
   std::uint64_t copies{0};
   std::vector<std::string> unheard;
   std::string problem;  ///< a sentence if the source ended early; else empty
+
+  /// Calls visit(name, meaning, value) for each count of a live source; both texts are literals.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    visit("frames_in", "frames read", frames);
+    visit("datagrams_in", "datagrams read, whole or not", datagrams);
+    visit("datagrams_cut", "of these, datagrams that were captured in part", cut);
+    visit("frames_skipped", "frames without UDP", skipped);
+    visit("frames_malformed", "of these, frames with broken IP or UDP headers", malformed);
+    visit("kernel_drops", "datagrams lost because the receive buffer was full", dropped);
+    visit("copies_in", "copies of datagrams that came over several interfaces, left out", copies);
+    visit("fragments_in", "IP fragments", fragments.frames);
+    visit("fragmented_datagrams_in", "datagrams put together from fragments", fragments.whole);
+    visit("fragmented_datagrams_lost", "datagrams given up, because fragments are missing",
+          fragments.lost);
+    visit("fragmented_datagrams_refused",
+          "datagrams refused, because fragments contradict each other", fragments.overlapping);
+  }
 };
 
 /// A stream of datagrams. One thread; stop() from any thread or a signal handler.

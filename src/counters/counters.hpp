@@ -28,21 +28,52 @@ class Counter {
   std::atomic<std::uint64_t> value_{0};
 };
 
+/// Counters that are shares of one number, by something that each has of its own.
+struct CounterGroup {
+  std::string_view name;     ///< of the number
+  std::string_view label;    ///< of what tells its counters from each other
+  std::string_view meaning;  ///< one sentence
+};
+
+/// What arrived and was not taken. A datagram counts in one of its counters.
+inline constexpr CounterGroup kRefusedDatagrams{"datagrams_refused", "cause",
+                                                "datagrams that arrived and were not taken"};
+/// Shares of `updates_out`.
+inline constexpr CounterGroup kUpdatesByReason{"updates_sent_by_reason", "reason",
+                                               "own updates sent, by what made them due"};
+inline constexpr CounterGroup kUpdatesByTier{"updates_sent_by_tier", "tier",
+                                             "own updates sent, by who they are for"};
+
+/// One counter as a reader sees it. The texts live as long as the counters.
+struct CounterReading {
+  std::string_view name, meaning;
+  std::uint64_t value = 0;
+  bool is_level = false;                ///< may fall: a number of now, not of all that was
+  const CounterGroup* group = nullptr;  ///< null: none
+  std::string_view member;              ///< within its group
+};
+
 /// The counters of one peer by name. Names are made at set-up (allocates); the counters never move,
 /// so a loop keeps a reference. Making names while another thread lists them is not safe.
 class Counters {
  public:
   /// The counter `name`, made by the first call. `meaning` is one sentence for a reader.
   [[nodiscard]] Counter& make(std::string_view name, std::string_view meaning);
+  /// The same of a number that may fall. Where several make one counter, one of them says so.
+  [[nodiscard]] Counter& make_level(std::string_view name, std::string_view meaning);
+  /// The same of a share of `group`, which outlives the counters. @param member of the group
+  [[nodiscard]] Counter& make_in(const CounterGroup& group, std::string_view member,
+                                 std::string_view name, std::string_view meaning);
   /// The counter `name`, or null if it was not made.
   [[nodiscard]] const Counter* find(std::string_view name) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
 
-  /// Calls visit(name, meaning, value) for each counter, in the order of their making.
+  /// Calls visit(CounterReading) for each counter, in the order of their making.
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (const Entry& entry : entries_) {
-      visit(std::string_view(entry.name), std::string_view(entry.meaning), entry.counter.value());
+      visit(CounterReading{entry.name, entry.meaning, entry.counter.value(), entry.is_level,
+                           entry.group, entry.member});
     }
   }
 
@@ -51,7 +82,13 @@ class Counters {
     std::string name;
     std::string meaning;
     Counter counter;
+    bool is_level = false;
+    const CounterGroup* group = nullptr;
+    std::string member;
   };
+
+  [[nodiscard]] Entry& entry_of(std::string_view name, std::string_view meaning);
+
   std::deque<Entry> entries_;
 };
 

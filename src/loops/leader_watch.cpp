@@ -51,8 +51,9 @@ LeaderWatch::LeaderWatch(Counters& counters, bool on) {
   view_.on = on;
   if (!on) return;
   changes_ = &counters.make("leader_changes", "times that a cell or the scene got another leader");
-  led_ = &counters.make("cells_led", "cells that this peer leads");
-  map_version_ = &counters.make("group_map_version", "version of the map of groups that is in use");
+  led_ = &counters.make_level("cells_led", "cells that this peer leads");
+  map_version_ =
+      &counters.make_level("group_map_version", "version of the map of groups that is in use");
   relayed_in_ =
       &counters.make("states_relayed_in", "states that leaders relayed to this peer as a newcomer");
   parts_out_ =

@@ -12,7 +12,7 @@ namespace reckon::peer {
 
 LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
     : capacity_(capacity),
-      most_unfelt_(counters.make(
+      most_unfelt_(counters.make_level(
           "hands_unfelt", "most bodies near a hand at once that were not felt, for want of room")),
       table_full_{counters.make("table_full", "entities without room in the state table")},
       write_overflow_{counters.make("write_overflow", "dropped because the writer lags")},

@@ -12,11 +12,12 @@ struct ModelCounters {
   explicit ModelCounters(Counters& counters)
       : power_given(counters.make("power_given_uj",
                                   "[uJ] that entities without a device gave to hands they pushed")),
-        datagrams_refused(counters.make(
-            "datagrams_refused",
+        datagrams_refused(counters.make_in(
+            kRefusedDatagrams, "not_admitted", "datagrams_refused",
             "datagrams doubled, of a former life, another scene or exercise, a stranger, or of a "
             "group left since")),
-        unicast_refused(counters.make("unicast_refused", "unicast datagrams, which no peer sends")),
+        unicast_refused(counters.make_in(kRefusedDatagrams, "unicast", "unicast_refused",
+                                         "unicast datagrams, which no peer sends")),
         orders_refused(counters.make(
             "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
         interactions_refused(counters.make(

@@ -27,19 +27,24 @@ NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& co
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
       waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
-      too_long_(counters.make("too_long_in", "datagrams longer than any peer sends, dropped")),
-      muted_in_(counters.make("muted_in", "datagrams of flooding senders, dropped unread")),
-      refused_{
-          nullptr,
-          &counters.make("refused_version_in", "datagrams whose first octet is not a DIS version"),
-          &counters.make("refused_length_in", "datagrams that do not begin with a PDU header"),
-          &counters.make("refused_exercise_in", "datagrams that begin with another exercise"),
-          &counters.make("sealed_unread_in", "sealed datagrams received without a key")},
+      too_long_(counters.make_in(kRefusedDatagrams, "too_long", "too_long_in",
+                                 "datagrams longer than any peer sends, dropped")),
+      muted_in_(counters.make_in(kRefusedDatagrams, "flood", "muted_in",
+                                 "datagrams of flooding senders, dropped unread")),
+      refused_{nullptr,
+               &counters.make_in(kRefusedDatagrams, "version", "refused_version_in",
+                                 "datagrams whose first octet is not a DIS version"),
+               &counters.make_in(kRefusedDatagrams, "length", "refused_length_in",
+                                 "datagrams that do not begin with a PDU header"),
+               &counters.make_in(kRefusedDatagrams, "exercise", "refused_exercise_in",
+                                 "datagrams that begin with another exercise"),
+               &counters.make_in(kRefusedDatagrams, "sealed_without_key", "sealed_unread_in",
+                                 "sealed datagrams received without a key")},
       join_errors_(counters.make("join_errors", "groups that could not be joined")),
-      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")),
-      base_unjoined_(counters.make("base_unjoined", "1 while the base group is not joined")),
-      stale_(counters.make("stale_datagrams",
-                           "datagrams read more than 1 s after they had arrived, dropped")) {
+      groups_unjoined_(counters.make_level("groups_unjoined", "of these, how many still are not")),
+      base_unjoined_(counters.make_level("base_unjoined", "1 while the base group is not joined")),
+      stale_(counters.make_in(kRefusedDatagrams, "stale", "stale_datagrams",
+                              "datagrams read more than 1 s after they had arrived, dropped")) {
   unjoined_.reserve(aoim::kMaximumPool + 1);
 }
 

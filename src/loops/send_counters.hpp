@@ -26,8 +26,9 @@ struct SendCounters {
                              "octets of own updates: Entity States and their records of force")) {
     for (std::size_t i = 1; i < by_reason.size(); ++i) {
       const auto reason = static_cast<deadreckon::SendReason>(i);
-      by_reason[i] = &counters.make("sent_" + std::string(deadreckon::name(reason)),
-                                    "own updates sent for this reason");
+      by_reason[i] = &counters.make_in(kUpdatesByReason, deadreckon::name(reason),
+                                       "sent_" + std::string(deadreckon::name(reason)),
+                                       "own updates sent for this reason");
     }
   }
 
@@ -50,8 +51,8 @@ struct SendCounters {
     const auto counter_of = [&](const aoim::TierKind& kind) {
       return kind.name.empty()
                  ? nullptr
-                 : &counters.make("updates_" + std::string(kind.name),
-                                  "own updates sent to a " + std::string(kind.groups));
+                 : &counters.make_in(kUpdatesByTier, kind.name, "updates_" + std::string(kind.name),
+                                     "own updates sent to a " + std::string(kind.groups));
     };
     for (const aoim::TierKind* kind : aoim::tier_kinds()) counter_of(*kind);
     std::vector<Counter*> by_tier;

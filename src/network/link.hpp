@@ -88,7 +88,7 @@ struct Datagram {
   IpEndpoint sender;                  ///< the unicast endpoint for replies
   std::span<const std::byte> bytes;   ///< UDP payload
   std::chrono::nanoseconds received;  ///< arrival by the link's clock, steady (kernel time if real)
-  std::uint64_t boot{0};  ///< proven sender (SealedLink); 0: none
+  std::uint64_t boot{0};              ///< proven sender (SealedLink); 0: none
 };
 
 /// One datagram of a batch to send. `bytes` must be valid until send_batch() returns.
@@ -125,7 +125,7 @@ struct LinkStatistics {
   std::uint64_t queue_overflows{0};                    ///< impairment: bounded queue was full
   int last_send_error{0}, last_join_error{0};          ///< errno, no counts; 0: none yet
 
-  /// Calls visit(name, value) for each count.
+  /// Calls visit(name, meaning, value) for each count; both texts are literals.
   template <typename Visit>
   void for_each(Visit&& visit) const;
 };
@@ -187,26 +187,29 @@ class Link {
 
 template <typename Visit>
 void LinkStatistics::for_each(Visit&& visit) const {
-  visit("sent", sent);
-  visit("sent_bytes", sent_bytes);
-  visit("send_errors", send_errors);
-  visit("too_big", too_big);
-  visit("send_calls", send_calls);
-  visit("held_back", held_back);
-  visit("received", received);
-  visit("received_bytes", received_bytes);
-  visit("own", own);
-  visit("truncated", truncated);
-  visit("kernel_drops", kernel_drops);
-  visit("receive_errors", receive_errors);
-  visit("joins", joins);
-  visit("leaves", leaves);
-  visit("join_errors", join_errors);
-  visit("interface_losses", interface_losses);
-  visit("recoveries", recoveries);
-  visit("lost_by_law", lost_by_law);
-  visit("duplicated_by_law", duplicated_by_law);
-  visit("queue_overflows", queue_overflows);
+  visit("sent", "datagrams sent", sent);
+  visit("sent_bytes", "octets of UDP payload sent", sent_bytes);
+  visit("send_errors", "datagrams refused by the kernel for any reason", send_errors);
+  visit("too_big", "of these, datagrams above the MTU", too_big);
+  visit("send_calls", "system calls that sent", send_calls);
+  visit("held_back", "datagrams not sent, because they would have waited too long for the wire",
+        held_back);
+  visit("received", "datagrams received", received);
+  visit("received_bytes", "octets of UDP payload received", received_bytes);
+  visit("own", "own datagrams looped back, not delivered", own);
+  visit("truncated", "datagrams longer than a receive buffer, not delivered", truncated);
+  visit("kernel_drops", "datagrams lost because the receive buffer was full", kernel_drops);
+  visit("receive_errors", "errors of receiving", receive_errors);
+  visit("joins", "groups joined", joins);
+  visit("leaves", "groups left", leaves);
+  visit("join_errors", "groups that could not be joined", join_errors);
+  visit("interface_losses", "times that the interface was gone, down or bare", interface_losses);
+  visit("recoveries", "times that all groups were joined again", recoveries);
+  visit("lost_by_law", "datagrams lost by the impairment as configured", lost_by_law);
+  visit("duplicated_by_law", "datagrams doubled by the impairment as configured",
+        duplicated_by_law);
+  visit("queue_overflows", "datagrams dropped because the queue of the impairment was full",
+        queue_overflows);
 }
 
 }  // namespace reckon::peer

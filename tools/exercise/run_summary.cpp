@@ -99,13 +99,13 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
       ports_of(view).late_cost, ports_of(view).loan_most, ports_of(view).trips,
       hands_json(hands_of(view)));
-  peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
-    fmt::print(out, R"(,"{}":{})", name, value);
+  peer.counters().for_each([&](const peer::CounterReading& counter) {
+    fmt::print(out, R"(,"{}":{})", counter.name, counter.value);
   });
   std::string link;
   JsonObject object(link);
-  peer.link().statistics().for_each(
-      [&](std::string_view name, std::uint64_t value) { object.value(name, value); });
+  peer.link().statistics().for_each([&](std::string_view name, std::string_view,
+                                        std::uint64_t value) { object.value(name, value); });
   object.end();
   fmt::print(out, "{},\"link\":{}}}\n", leaders_json(view.leaders), link);
 }

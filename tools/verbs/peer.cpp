@@ -25,6 +25,8 @@
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
+#include "reckon/tools/metrics/metrics_server.hpp"
+#include "reckon/tools/metrics/peer_metrics.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/demo_page.hpp"
@@ -51,6 +53,7 @@ struct PeerVerbOptions {
   std::string to;
   std::string follow;
   ViewSwitch view;
+  std::string metrics;
 };
 
 /// Letters of an entity marking on the wire.
@@ -75,7 +78,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
                    "reckon peer scenes/two_hands.toml --iface eth0\n"
                    "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
                    "reckon peer scenes/two_hands.toml --for 60s --json\n"
-                   "reckon peer scenes/two_hands.toml --iface eth0 --view");
+                   "reckon peer scenes/two_hands.toml --iface eth0 --view\n"
+                   "reckon peer scenes/two_hands.toml --iface eth0 --metrics 127.0.0.1:9464");
   line.word("SCENE", options.scene.scene, true, "scene file; all peers need the same");
   add_scene_options(line, options.scene);
   line.option("--name", options.name,
@@ -103,6 +107,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "a JSON line so often, e.g. 10s, and at the end: what became of each datagram, by "
               "sender and group; with --operator, unless the scene has one peer");
   add_view_switch(line, options.view);
+  add_metrics_flag(line, options.metrics);
   return line.parse(arguments, console);
 }
 
@@ -298,6 +303,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
   EntityEvents events;  // outlives the peer
   std::optional<BalanceLines> balance;
   if (options.balance) balance.emplace(*options.balance, console.out);
+  // Before the peer: it does not join where its metrics cannot be asked for.
+  const auto metrics = metrics_server(options.metrics);
   std::optional<RunningPeer> running;
   try {
     running.emplace(scene, options, console, events, balance ? &balance->tap() : nullptr);
@@ -307,6 +314,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
 
   const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1);
+  if (metrics) display.add({metrics->sentence()});
   const auto flags = flags_of_switch(options.view);
   std::optional<PeerPage> page;
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
@@ -325,6 +333,9 @@ int run(const PeerVerbOptions& options, const Console& console) {
       show_address(page->view(), *flags, display);
     }
     if (page) page->show(view);
+    if (metrics && metrics->is_due(running->now()))
+      metrics->show(peer_metrics(running->peer(), running->threads(), view, elapsed),
+                    running->now());
     if (options.events) events.report(elapsed, console.out);
     if (balance) balance->look(*running);
     if (options.felt && running->elapsed() >= next_felt) {
@@ -365,6 +376,7 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.name.empty()) options.name = marking_of_host();
   check_beacons(options.follow);
   (void)flags_of_switch(options.view);
+  (void)metrics_address(options.metrics);
   if (options.balance && *options.balance < kLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is printed");
   return run(options, console);

@@ -19,6 +19,8 @@
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/metrics/metrics_server.hpp"
+#include "reckon/tools/metrics/source_metrics.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -47,6 +49,7 @@ constexpr std::string_view kExamples =
     "reckon record day.pcapng udp://239.1.2.3:3000 --rotate-time 1h --rotate-size 1GB\n"
     "reckon record foes.pcapng.zst --where 'side == opposing'\n"
     "reckon record sealed.pcapng --key crane.key\n"
+    "reckon record day.pcapng --rotate-time 1h --metrics 127.0.0.1:9464\n"
     "reckon record all.pcapng iface:eth0";
 
 struct RecordOptions {
@@ -56,6 +59,7 @@ struct RecordOptions {
   std::optional<nanoseconds> duration;
   SelectionOptions selection;  ///< only the filter of it
   std::string key;             ///< file; empty: none
+  std::string metrics;         ///< as typed; empty: none
   bool json = false;
 };
 
@@ -68,6 +72,7 @@ class Recording {
         selection_(options.selection),
         sealed_(options.key),
         source_(open_chosen_source(options.source)),
+        metrics_(metrics_server(options.metrics)),
         writer_(create_recording(writer_options())),
         status_(console.err, begin_),
         silence_(options.source, begin_) {}
@@ -89,9 +94,12 @@ class Recording {
   void take(const peer::SourceDatagram& datagram);
   void flush_when_due(nanoseconds now, bool quiet);
   void show_status(nanoseconds now);
+  void show_metrics(nanoseconds now);
   void tell_end(nanoseconds elapsed, const std::string& problem) const;
   void summarise(nanoseconds elapsed) const;
   [[nodiscard]] std::string counts() const;
+  template <typename Visit>
+  void for_each_count(Visit&& visit) const;
   void add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const;
 
   const RecordOptions& options_;
@@ -99,6 +107,7 @@ class Recording {
   CaptureSelection selection_;
   SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
+  std::unique_ptr<MetricsServer> metrics_;  ///< null: nobody asks
   std::unique_ptr<peer::CaptureWriter> writer_;
   peer::SteadyClock clock_;
   nanoseconds begin_{clock_.now()};
@@ -114,6 +123,7 @@ class Recording {
 void Recording::run() {
   fmt::print(console_.err, "recording {} to {}; Ctrl-C ends\n",
              listening_text(options_.source, source_->report()), options_.writer.path);
+  if (metrics_) fmt::print(console_.err, "{}\n", metrics_->sentence());
   try {
     record();
   } catch (const peer::CaptureWriteError& error) {
@@ -166,6 +176,7 @@ void Recording::flush_when_due(nanoseconds now, bool quiet) {
     flushed_ = now;
   }
   if (status_.due(now)) show_status(now);
+  if (metrics_ && metrics_->is_due(now)) show_metrics(now);
   if (!quiet || !means_groups(options_.source)) return;
   for (const std::string& sentence : silence_.look(source_->report(), now)) {
     status_.clear();
@@ -186,22 +197,38 @@ void Recording::show_status(nanoseconds now) {
   std::fflush(console_.out);
 }
 
+void Recording::show_metrics(nanoseconds now) {
+  OpenMetrics text;
+  text.gauge("uptime_seconds", "time since the start", pdu::to_seconds(now - begin_));
+  for_each_count([&](std::string_view name, std::string_view meaning, std::uint64_t value) {
+    text.counter(fmt::format("recorded_{}", name), meaning, value);
+  });
+  add_source(text, source_->report());
+  metrics_->show(text.end(), now);
+}
+
 std::string Recording::counts() const {
   return fmt::format("{} ({}, {})", counted(datagrams_, "datagram"), counted(pdus_, "PDU"),
                      size_text(octets_));
 }
 
+template <typename Visit>
+void Recording::for_each_count(Visit&& visit) const {
+  visit("datagrams", "datagrams recorded", datagrams_);
+  visit("pdus", "PDUs in them that can be read", pdus_);
+  visit("octets", "octets of UDP payload recorded", octets_);
+  visit("left_out", "datagrams that did not match the filter", left_out_);
+  visit("sealed_unread", "sealed datagrams that could not be opened", sealed_.unread());
+  visit("lost", "datagrams lost before they reached the program", source_->report().dropped);
+  visit("file_octets", "octets of the files on the disk", writer_->octets());
+  visit("files", "files begun", std::uint64_t{writer_->paths().size()});
+}
+
 void Recording::add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const {
-  line.text("event", event)
-      .decimals("seconds", pdu::to_seconds(elapsed), 3)
-      .value("datagrams", datagrams_)
-      .value("pdus", pdus_)
-      .value("octets", octets_)
-      .value("left_out", left_out_)
-      .value("sealed_unread", sealed_.unread())
-      .value("lost", source_->report().dropped)
-      .value("file_octets", writer_->octets())
-      .value("files", writer_->paths().size());
+  line.text("event", event).decimals("seconds", pdu::to_seconds(elapsed), 3);
+  for_each_count([&line](std::string_view name, std::string_view, std::uint64_t value) {
+    line.value(name, value);
+  });
 }
 
 void Recording::tell_end(nanoseconds elapsed, const std::string& problem) const {
@@ -272,11 +299,13 @@ int run_record(Arguments arguments, const Console& console) {
   line.option("--key", options.key,
               "key file: the filter and the counts read what is sealed; groups are then one port "
               "above");
+  add_metrics_flag(line, options.metrics);
   line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
   line.flag("--force", options.writer.overwrite, "overwrite FILE");
   if (const auto status = line.parse(arguments, console)) return *status;
   options.source.sealed = !options.key.empty();
   check(options);
+  (void)metrics_address(options.metrics);
   Recording recording(options, console);
   recording.run();
   return exit_status(ExitCode::good);

@@ -19,6 +19,8 @@
 #include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/metrics/metrics_server.hpp"
+#include "reckon/tools/metrics/source_metrics.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/viewer/page_files.hpp"
 #include "reckon/tools/viewer/page_frame.hpp"
@@ -45,6 +47,7 @@ struct ViewOptions {
   SourceChoice source;
   std::string key;
   ViewFlags view;
+  std::string metrics;
   std::optional<nanoseconds> duration;
   std::string save;
   bool overwrite = false;
@@ -72,6 +75,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, ViewOption
   line.option("--key", options.key, "key file: reads what is sealed");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
+  add_metrics_flag(line, options.metrics);
   return line.parse(arguments, console);
 }
 
@@ -101,7 +105,21 @@ void keep_all(StageOptions& stage) {
   stage.history.octets = kCaptureRoom;
 }
 
+void show_metrics(MetricsServer& server, Viewing& viewing, nanoseconds now, nanoseconds elapsed) {
+  if (!server.is_due(now)) return;
+  OpenMetrics text;
+  text.gauge("uptime_seconds", "time since the start", pdu::to_seconds(elapsed));
+  text.gauge("page_tabs_open", "tabs that look now", static_cast<double>(viewing.server().tabs()));
+  viewing.server().counts().for_each(
+      [&](std::string_view name, std::string_view meaning, std::uint64_t value) {
+        text.counter(fmt::format("page_{}", name), meaning, value);
+      });
+  add_source(text, viewing.report());
+  server.show(text.end(), now);
+}
+
 int serve(const ViewOptions& options, const Console& console) {
+  const auto metrics = metrics_server(options.metrics);
   const std::optional<peer::SceneFile> scene = scene_of(options.source);
   ViewingOptions viewing_options;
   viewing_options.server = server_options(options.view);
@@ -114,12 +132,14 @@ int serve(const ViewOptions& options, const Console& console) {
     fmt::print(console.err, "listening to {}\n", listening_text(options.source, source->report()));
   Viewing viewing(viewing_options, std::move(source));
   tell_addresses(viewing.server(), options.view, console);
+  if (metrics) fmt::print(console.err, "{}\n", metrics->sentence());
   const peer::SteadyClock clock;
   const nanoseconds begin = clock.now();
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   SilenceWatch silence(options.source, begin);
   while (!console.stopped() && clock.now() - begin < end) {
     viewing.step();
+    if (metrics) show_metrics(*metrics, viewing, clock.now(), clock.now() - begin);
     if (!means_groups(options.source)) continue;
     for (const std::string& sentence : silence.look(viewing.report(), clock.now()))
       fmt::print(console.err, "{}\n", sentence);
@@ -139,6 +159,8 @@ void check_save(const ViewOptions& options) {
   const ViewFlags& view = options.view;
   if (view.port || view.open || view.listen != ViewFlags().listen)
     throw UsageError("--save serves no page: leave --port, --listen and --open out");
+  if (!options.metrics.empty())
+    throw UsageError("--metrics: with --save nothing is served; leave it out");
   if (is_live(options.source) && !options.duration)
     throw UsageError("--save: this source is live; say how long to listen, as in --for 1min");
   std::error_code none;

@@ -65,7 +65,14 @@ std::vector<std::string> own_addresses(const asio::ip::address& bound) {
   return own;
 }
 
-tcp::acceptor open_acceptor(asio::io_context& io, const ViewServerOptions& options) {
+/// What a server hands out, and by which flags it goes elsewhere.
+struct Purpose {
+  std::string_view what, flags;
+};
+constexpr Purpose kPage{"the page", "--port or --listen"}, kMetrics{"metrics", "--metrics"};
+
+tcp::acceptor open_acceptor(asio::io_context& io, const ViewServerOptions& options,
+                            const Purpose& purpose) {
   std::error_code error;
   const auto address = asio::ip::make_address(options.address, error);
   if (error)
@@ -84,9 +91,9 @@ tcp::acceptor open_acceptor(asio::io_context& io, const ViewServerOptions& optio
     if (!error) return acceptor;
     if (error != asio::error::address_in_use) break;
   }
-  throw std::runtime_error(
-      fmt::format("cannot serve the page at {}:{}: {}; choose another by --port or --listen",
-                  options.address, first, error.message()));
+  throw std::runtime_error(fmt::format("cannot serve {} at {}:{}: {}; choose another by {}",
+                                       purpose.what, address_text(address), first, error.message(),
+                                       purpose.flags));
 }
 
 }  // namespace
@@ -94,9 +101,11 @@ tcp::acceptor open_acceptor(asio::io_context& io, const ViewServerOptions& optio
 /// All that is connected. Asio calls its functions within poll() alone.
 class ViewServer::Connections {
  public:
-  Connections(ViewStage& stage, const ViewServerOptions& options)
+  /// @param stage of the page; null: none
+  Connections(ViewStage* stage, const ViewServerOptions& options)
       : stage_(stage),
-        acceptor_(open_acceptor(io_, options)),
+        metrics_(options.metrics),
+        acceptor_(open_acceptor(io_, options, stage == nullptr ? kMetrics : kPage)),
         endpoint_(acceptor_.local_endpoint()),
         own_(own_addresses(endpoint_.address())),
         access_(own_, endpoint_.port(), options.word) {
@@ -114,8 +123,16 @@ class ViewServer::Connections {
   [[nodiscard]] const tcp::endpoint& endpoint() const { return endpoint_; }
   /// By which it is reached, as browsers write them.
   [[nodiscard]] const std::vector<std::string>& own() const { return own_; }
+  [[nodiscard]] std::string origin(const std::string& host) const {
+    return fmt::format("http://{}:{}", host, endpoint_.port());
+  }
   [[nodiscard]] std::string url(const std::string& host) const {
-    return fmt::format("http://{}:{}/#word={}", host, endpoint_.port(), access_.word());
+    return fmt::format("{}/#word={}", origin(host), access_.word());
+  }
+  /// By which this host reaches it.
+  [[nodiscard]] std::string own_host() const {
+    const asio::ip::address bound = endpoint_.address();
+    return bound.is_unspecified() ? "127.0.0.1" : address_text(bound);
   }
   [[nodiscard]] std::size_t tabs() const;
   [[nodiscard]] const ViewServerCounts& counts() const { return counts_; }
@@ -126,7 +143,8 @@ class ViewServer::Connections {
 
   void accept();
 
-  ViewStage& stage_;
+  ViewStage* stage_;
+  ServedMetrics metrics_;
   asio::io_context io_;
   tcp::acceptor acceptor_;
   tcp::endpoint endpoint_;
@@ -182,7 +200,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
  private:
   void leave() {
     if (!watcher_) return;
-    all_.stage_.leave(*watcher_);
+    all_.stage_->leave(*watcher_);
     watcher_.reset();
   }
 
@@ -200,7 +218,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
       const FrameVerdict verdict = read_client_frame(octets.subspan(at), frame);
       if (verdict == FrameVerdict::incomplete) break;
       const bool is_good =
-          verdict == FrameVerdict::good && all_.stage_.answer(*watcher_, frame.payload());
+          verdict == FrameVerdict::good && all_.stage_->answer(*watcher_, frame.payload());
       if (!is_good) {
         close();
         return false;
@@ -230,19 +248,24 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
 
   void answer(const HttpRequest& request) {
     const Access& access = all_.access_;
-    const bool is_stream = request.path == "/stream";
     if (!access.is_own_host(request.host))
       return refuse(403, "Forbidden", "this server is not reached by that name");
     if (!request.origin.empty() && !access.is_own_origin(request.origin, request.host))
       return refuse(403, "Forbidden", "pages of other sites get nothing");
     if (request.method != "GET")
       return refuse(404, "Not Found", "there is no such thing to ask for");
-    if (is_stream) return upgrade(request);
+    if (all_.stage_ == nullptr) return answer_metrics(request);
+    if (request.path == "/stream") return upgrade(request);
     const PageFile* file = find_page_file(request.path);
     if (file == nullptr) return refuse(404, "Not Found", "the page has no such file");
     const bool is_plain = file->gzip.empty();
     end_with(file_answer(file->content_type, is_plain ? "" : "gzip",
                          is_plain ? file->text : file->gzip));
+  }
+
+  void answer_metrics(const HttpRequest& request) {
+    if (request.path != kMetricsPath) return refuse(404, "Not Found", "here is /metrics alone");
+    end_with(file_answer(all_.metrics_.content_type, "", all_.metrics_.text()));
   }
 
   void upgrade(const HttpRequest& request) {
@@ -253,7 +276,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (all_.tabs() >= kMostTabs) return turn_away(std::move(head));
     const bool knows_word = all_.access_.is_word(value_in_query(request.query, "word"));
     in_.erase(0, request.length);
-    watcher_ = all_.stage_.admit(knows_word);
+    watcher_ = all_.stage_->admit(knows_word);
     ++all_.counts_.tabs;
     send(std::make_shared<const std::string>(std::move(head)), nullptr);
     if (!in_.empty()) (void)take_frames();
@@ -294,7 +317,7 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
 
   void send_next() {
     if (is_writing_ || !is_tab()) return;
-    auto message = all_.stage_.next_message(*watcher_);
+    auto message = all_.stage_->next_message(*watcher_);
     if (!message) return;
     if (message->opcode == WebSocketOpcode::binary) ++all_.counts_.pictures;
     head_ = frame_head(message->opcode, message->payload->size());
@@ -363,7 +386,10 @@ void ViewServer::Connections::accept() {
 }
 
 ViewServer::ViewServer(ViewStage& stage, const ViewServerOptions& options)
-    : connections_(std::make_unique<Connections>(stage, options)) {}
+    : connections_(std::make_unique<Connections>(&stage, options)) {}
+
+ViewServer::ViewServer(const ViewServerOptions& options)
+    : connections_(std::make_unique<Connections>(nullptr, options)) {}
 
 ViewServer::~ViewServer() = default;
 
@@ -373,10 +399,9 @@ void ViewServer::tick(nanoseconds now) { connections_->tick(now); }
 
 std::uint16_t ViewServer::port() const noexcept { return connections_->endpoint().port(); }
 
-std::string ViewServer::address() const {
-  const asio::ip::address bound = connections_->endpoint().address();
-  return connections_->url(bound.is_unspecified() ? "127.0.0.1" : address_text(bound));
-}
+std::string ViewServer::origin() const { return connections_->origin(connections_->own_host()); }
+
+std::string ViewServer::address() const { return connections_->url(connections_->own_host()); }
 
 std::vector<std::string> ViewServer::addresses_for_others() const {
   std::vector<std::string> out;

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer's server: files of the page by HTTP, and to each tab what the stage has for it, by
 // WebSocket. Whoever is slow gets the newest picture when there is room for one, never an old one.
+// Without a page it answers for metrics alone.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reckon/tools/viewer/view_stage.hpp"
@@ -17,13 +20,23 @@
 
 namespace reckon::tools {
 
+/// Where metrics are asked for.
+inline constexpr std::string_view kMetricsPath = "/metrics";
+
+/// The metrics of a program as a server hands them out.
+struct ServedMetrics {
+  std::string_view content_type;
+  std::function<std::string()> text;  ///< as it is now, some 10 kB; called by poll()
+};
+
 /// Where it listens.
 struct ViewServerOptions {
   static constexpr std::uint16_t kDefaultPort = 8642;
   std::string address = "127.0.0.1";  ///< of an interface of this host; "0.0.0.0": of all
   /// None: kDefaultPort or the next that is free. 0: any that is free.
   std::optional<std::uint16_t> port;
-  std::string word;  ///< by which tabs may push; see draw_word
+  std::string word;            ///< by which tabs may push; see draw_word
+  ServedMetrics metrics = {};  ///< of a server without a page
 };
 
 /// What it has done so far.
@@ -32,6 +45,16 @@ struct ViewServerCounts {
   std::uint64_t refused = 0;   ///< requests by 403, 400 and 404, and tabs beyond kMostTabs
   std::uint64_t pictures = 0;  ///< sent
   std::uint64_t octets = 0;    ///< of messages sent
+
+  /// Calls visit(name, meaning, value) for each; both texts are literals.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    visit("tabs", "tabs that were served", tabs);
+    visit("requests_refused", "requests that were refused, and tabs for which there was no room",
+          refused);
+    visit("pictures_out", "pictures sent to tabs", pictures);
+    visit("octets_out", "octets of messages sent to tabs", octets);
+  }
 };
 
 /// One thread. What comes from a socket neither throws nor takes more than some 10 kB a connection.
@@ -47,6 +70,8 @@ class ViewServer {
   /// Listens. @param stage outlives it. @throws std::runtime_error with the value and the remedy
   /// where it cannot.
   ViewServer(ViewStage& stage, const ViewServerOptions& options);
+  /// The same without a page: GET kMetricsPath is answered by options.metrics, nothing else is.
+  explicit ViewServer(const ViewServerOptions& options);
   /// Says good-bye.
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
@@ -58,6 +83,8 @@ class ViewServer {
   void tick(std::chrono::nanoseconds now);
 
   [[nodiscard]] std::uint16_t port() const noexcept;
+  /// Where it is reached from this host: "http://127.0.0.1:8642".
+  [[nodiscard]] std::string origin() const;
   /// What a user opens: "http://127.0.0.1:8642/#word=1f2e..".
   [[nodiscard]] std::string address() const;
   /// The same as other hosts reach it; none where only this one does.

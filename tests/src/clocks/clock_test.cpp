@@ -51,13 +51,30 @@ TEST(Counters, KeepNamesInOrderAndReferencesValid) {
   EXPECT_EQ(counters.find("a")->value(), 3u);
   EXPECT_EQ(counters.find("none"), nullptr);
   std::vector<std::string> names;
-  counters.for_each([&](auto name, auto meaning, std::uint64_t) {
-    EXPECT_EQ(meaning, name == "a" ? "the first" : "filler");
-    names.emplace_back(name);
+  counters.for_each([&](const CounterReading& reading) {
+    EXPECT_EQ(reading.meaning, reading.name == "a" ? "the first" : "filler");
+    names.emplace_back(reading.name);
   });
   ASSERT_EQ(names.size(), 101u);
   EXPECT_EQ(names.front(), "a");
   EXPECT_EQ(names.back(), "99");
+}
+
+TEST(Counters, SayWhatTheyAreWhoeverMadeThemFirst) {
+  static constexpr CounterGroup kGroup{"refused", "cause", "what was refused"};
+  Counters counters;
+  (void)counters.make("late_in", "came late");
+  (void)counters.make_in(kGroup, "late", "late_in", "came late");
+  (void)counters.make_level("led", "of now");
+  (void)counters.make("led", "of now");
+  std::vector<CounterReading> readings;
+  counters.for_each([&](const CounterReading& reading) { readings.push_back(reading); });
+  ASSERT_EQ(readings.size(), 2u);
+  EXPECT_EQ(readings[0].group, &kGroup);
+  EXPECT_EQ(readings[0].member, "late");
+  EXPECT_FALSE(readings[0].is_level);
+  EXPECT_EQ(readings[1].group, nullptr);
+  EXPECT_TRUE(readings[1].is_level);
 }
 
 TEST(Counters, AddWithoutAllocating) {

@@ -102,6 +102,8 @@ class PeerFlags : public testing::Test {
     if (result.err.find("this is peer") != std::string::npos) facts.insert("finds its number");
     if (result.err.find("page: http://127.0.0.1:") != std::string::npos)
       facts.insert("serves a page");
+    if (result.err.find("metrics: http://127.0.0.1:") != std::string::npos)
+      facts.insert("serves metrics");
     for (const std::string& line : result.lines()) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
       if (row.is_discarded()) {
@@ -150,6 +152,7 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
       {"--events", "", "tells appeared"},
       {"--felt", "", "tells felt"},
       {"--view", "", "serves a page"},
+      {"--metrics", "0", "serves metrics"},
       {"--balance", "200ms", "tells balance"},
       {"--mesh", corner_, host, false},
       {"--hand", trace_, "moves"},
@@ -189,6 +192,7 @@ TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
       {"--operator", "0"},
       {"--application", "2"},   // peers agree on their IDs
       {"--listen", "0.0.0.0"},  // there is no page
+      {"--metrics", "crane"},   // no port
   };
   for (const Words& flag : refused) {
     Words words{"peer", scene_, "--for", "10ms"};

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a source of datagrams counts, as metrics.
+#pragma once
+
+#include "reckon/peer/capture/datagram_source.hpp"
+#include "reckon/tools/metrics/open_metrics.hpp"
+
+namespace reckon::tools {
+
+/// Adds the counts of a source, and for live groups what came over each interface.
+void add_source(OpenMetrics& out, const peer::SourceReport& report);
+
+}  // namespace reckon::tools
