@@ -129,7 +129,7 @@ struct Federate::Participation {
   std::vector<pdu::PduType> published_interactions;
   std::map<pdu::PduType, HearOctets> interactions;
   std::function<void(const RemoteObject&)> discovered, reflected;
-  std::function<void(const pdu::EntityId&)> removed;
+  std::function<void(const RemoteObject&, Removal)> removed;
   RemoteObjects objects;
   ExerciseClock exercise_clock;
   nanoseconds utc_ahead{0};  // of now
@@ -190,7 +190,7 @@ void Federate::on_reflect(std::function<void(const RemoteObject&)> callback) {
   participation_->reflected = std::move(callback);
 }
 
-void Federate::on_remove(std::function<void(const pdu::EntityId&)> callback) {
+void Federate::on_remove(std::function<void(const RemoteObject&, Removal)> callback) {
   participation_->removed = std::move(callback);
 }
 
@@ -342,8 +342,12 @@ void Federate::step() {
 
 void Federate::call_back(News& news) {
   Participation& s = *participation_;
-  for (const pdu::EntityId& id : news.removed) {
-    if (s.objects.erase(id) && s.removed) s.removed(id);
+  for (const News::Removed& gone : news.removed) {
+    const RemoteCopy* known = s.objects.find(gone.id);
+    if (known == nullptr) continue;
+    const RemoteCopy last = *known;
+    s.objects.erase(gone.id);
+    if (s.removed) s.removed(RemoteObject(last), gone.cause);
   }
   for (const RemoteCopy& copy : news.states) {
     if (!s.is_subscribed(copy.entity().type)) continue;

@@ -20,8 +20,10 @@
 #include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
 #include "reckon/peer/federation/remote_object.hpp"
+#include "reckon/peer/scene/entity_type_text.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
+#include "reckon/peer/world/removal.hpp"
 
 namespace reckon::deadreckon {
 class LocalFrame;
@@ -113,7 +115,13 @@ class Federate {
   void on_discover(std::function<void(const RemoteObject&)> callback);
   /// Calls back after each step() with updates, once for each updated entity.
   void on_reflect(std::function<void(const RemoteObject&)> callback);
-  void on_remove(std::function<void(const pdu::EntityId&)> callback);
+  /// Calls back with each entity that is gone, as it was last, and why. Its ID finds nothing any
+  /// more, and may be discovered again later. The object is valid within the callback.
+  ///
+  ///   federate.on_remove([](const peer::RemoteObject& object, peer::Removal cause) {
+  ///     log(object.marking(), cause == peer::Removal::silent ? "fell silent" : "is gone");
+  ///   });
+  void on_remove(std::function<void(const RemoteObject&, Removal)> callback);
 
   // Own entities ----------------------------------------------------------------------------------
   // For an object that is not registered or is deleted they throw std::logic_error.

@@ -75,14 +75,13 @@ void Session::resign() {
 
 std::uint16_t Session::own(const std::string& marking, const std::string& type, unsigned force_id,
                            const Motion& motion) {
-  const peer::EntityTypeText parsed = peer::parse_entity_type(type);
-  if (!parsed.good()) throw std::invalid_argument("type \"" + type + "\": " + parsed.error);
+  const pdu::EntityType parsed = peer::entity_type(type);
   if (force_id > 0xFF) throw std::invalid_argument("force_id has to be 0 to 255");
   peer::EntityDescription description;
   description.marking = marking;
-  description.type = parsed.type;
+  description.type = parsed;
   description.force_id = static_cast<pdu::ForceId>(force_id);
-  federate().publish(peer::EntityClass{parsed.type});
+  federate().publish(peer::EntityClass{parsed});
   return federate().register_object(description, truth_of(motion)).number;
 }
 
@@ -127,10 +126,11 @@ void Session::on_update(py::function callback) {
 
 void Session::on_remove(py::function callback) {
   callbacks_.push_back(callback);
-  federate().on_remove([this, of = callback.ptr()](const pdu::EntityId& id) {
-    call(py::reinterpret_borrow<py::function>(of),
-         [&] { return py::make_tuple(py::make_tuple(id.site, id.application, id.entity)); });
-  });
+  federate().on_remove(
+      [this, of = callback.ptr()](const peer::RemoteObject& object, peer::Removal cause) {
+        call(py::reinterpret_borrow<py::function>(of),
+             [&] { return py::make_tuple(seen(object), std::string(name(cause))); });
+      });
 }
 
 void Session::tick() {

@@ -126,8 +126,9 @@ class Federate:
         """Calls back with each RemoteEntity that was updated, once a tick()."""
         self._session.on_update(callback)
 
-    def on_remove(self, callback: typing.Callable[[Id], object]) -> None:
-        """Calls back with the ID of an entity that is gone: (site, application, entity)."""
+    def on_remove(self, callback: typing.Callable[[RemoteEntity, str], object]) -> None:
+        """Calls back with a RemoteEntity that is gone, as it was last, and why: "deactivated", "owner left", "owner changed",
+        "out of sight", "silent" or "no room"."""
         self._session.on_remove(callback)
 
     def on(self, kind: type[P], callback: typing.Callable[[P, bool], object]) -> None:

@@ -74,7 +74,7 @@ void LoopSide::end_pass(ModelLoop& loop) noexcept {
   News& news = news_.letter();
   for (const EntityChange& change : loop.remote().take_changes()) {
     if (change.change == Change::removed) {
-      news.removed.push_back(change.id);
+      news.removed.push_back({change.id, change.cause});
     } else if (const RemoteEntity* row = loop.remote().find(change.id)) {
       news.states.emplace_back(*row);
     }

@@ -19,6 +19,7 @@
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/world/removal.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
@@ -67,10 +68,14 @@ struct News {
     std::size_t offset, size;  ///< of the PDU in `octets`
     InteractionSender sender;
   };
+  struct Removed {
+    pdu::EntityId id;
+    Removal cause;
+  };
   std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was sent
   pdu::EntityId simulation;                 ///< of this peer, which may have been renamed
   std::vector<RemoteCopy> states;           ///< as of now
-  std::vector<pdu::EntityId> removed;       ///< one that is in `states` too has returned since
+  std::vector<Removed> removed;             ///< one that is in `states` too has returned since
   std::vector<Heard> heard;
   std::vector<std::byte> octets;
   std::uint64_t dropped = 0;  ///< PDUs lost so far because the program did not read

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <stdexcept>
 #include <vector>
 
 #include "reckon/pdu/codec/siso_names.hpp"
@@ -170,6 +171,13 @@ EntityTypeText parse_entity_type(std::string_view text) {
   WordSearch search;
   if (search.match(text, 0)) return {type_of(search.parts()), {}};
   return {{}, search.error()};
+}
+
+pdu::EntityType entity_type(std::string_view text) {
+  const EntityTypeText parsed = parse_entity_type(text);
+  if (!parsed.good())
+    throw std::invalid_argument(fmt::format("type \"{}\": {}", text, parsed.error));
+  return parsed.type;
 }
 
 std::string entity_type_numbers(const pdu::EntityType& type) {

@@ -23,6 +23,13 @@ struct EntityTypeText {
 /// the category: the parts below it have only numbers.
 [[nodiscard]] EntityTypeText parse_entity_type(std::string_view text);
 
+/// The same for a program that writes it down, as scene files do.
+///
+///   truck.type = peer::entity_type("1.1.225.7");
+///   federate.publish(peer::EntityClass{peer::entity_type("Platform Land")});
+/// @throws std::invalid_argument with the text and what is wrong with it
+[[nodiscard]] pdu::EntityType entity_type(std::string_view text);
+
 /// "1.1.225.1.1.0.0".
 [[nodiscard]] std::string entity_type_numbers(const pdu::EntityType& type);
 /// "Platform Land United States Tank", as in the inspector.

@@ -22,11 +22,11 @@ void ChangeList::updated(std::size_t place) noexcept {
   note(place, Change::updated);
 }
 
-void ChangeList::removed(std::size_t place, const pdu::EntityId& id) noexcept {
+void ChangeList::removed(std::size_t place, const pdu::EntityId& id, Removal cause) noexcept {
   if (noted_.capacity() == 0) return;
   const std::uint32_t entry = noted_[place];
   const bool untold = entry != kNone && present_[entry].change == Change::discovered;
-  if (!untold) gone_.push_back({id, Change::removed});
+  if (!untold) gone_.push_back({id, Change::removed, cause});
   if (entry != kNone) forget(entry);
   noted_.erase(place);
   if (place < noted_.size() && noted_[place] != kNone)

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/peer/world/removal.hpp"
 #include "reckon/peer/world/row_column.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
@@ -18,6 +19,7 @@ enum class Change : std::uint8_t { discovered, updated, removed };
 struct EntityChange {
   pdu::EntityId id;
   Change change = Change::updated;
+  Removal cause = Removal::deactivated;  ///< of a removal
 };
 
 /// The changes of a table's rows between two calls of take(): at most one for each row and one for
@@ -36,7 +38,7 @@ class ChangeList {
   /// The row at this place has changed.
   void updated(std::size_t place) noexcept;
   /// The row of `id` at this place is removed, and the last row takes its place.
-  void removed(std::size_t place, const pdu::EntityId& id) noexcept;
+  void removed(std::size_t place, const pdu::EntityId& id, Removal cause) noexcept;
 
   /// Takes all changes since the last call, in an order in which a copy can apply them; valid until
   /// the next call.  @param rows those of the table now. Some ns a change.

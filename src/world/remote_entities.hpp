@@ -203,7 +203,8 @@ class RemoteEntities {
   void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   static void let_go(RemoteEntity& row) noexcept;
-  void drop(std::size_t place, Counter& why) noexcept;
+  void drop(std::size_t place, Removal cause) noexcept;
+  [[nodiscard]] Counter& counter_of(Removal cause) noexcept;
 
   const deadreckon::LocalFrame& frame_;
   aoim::AreaOfInterestManager& aoim_;

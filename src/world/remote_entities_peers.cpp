@@ -10,11 +10,11 @@ namespace reckon::peer {
 using std::chrono::nanoseconds;
 
 void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
-  Counter& why = how == Gone::silent ? counts_.timed_out : counts_.left;
+  const Removal cause = how == Gone::silent ? Removal::silent : Removal::owner_left;
   // Erasing moves the last row into the hole, so look at the same place again.
   for (std::size_t i = 0; i < table_.rows().size();) {
     if (table_.rows()[i].id.simulation() == id) {
-      drop(i, why);
+      drop(i, cause);
     } else {
       ++i;
     }
@@ -75,7 +75,7 @@ void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
   for (std::size_t i = 0; i < table_.rows().size();) {
     const RemoteEntity& row = table_.rows()[i];
     if (row.id.simulation() == id && row.epoch != epoch) {
-      drop(i, counts_.left);
+      drop(i, Removal::owner_changed);
     } else {
       ++i;
     }

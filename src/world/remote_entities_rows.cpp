@@ -25,7 +25,7 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
                                       const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
-    if (row != nullptr) drop(table_.place_of(*row), counts_.left);
+    if (row != nullptr) drop(table_.place_of(*row), Removal::deactivated);
     outside_.forget(update.entity);
     return nullptr;
   }
@@ -33,7 +33,7 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
   if (row != nullptr &&
       (row->epoch != arrival.epoch ||
        (moved && !owners_.hand_over(table_.place_of(*row), arrival.from, arrival.now)))) {
-    drop(table_.place_of(*row), counts_.left);  // its owner has a new epoch
+    drop(table_.place_of(*row), Removal::owner_changed);
     row = nullptr;
   }
   if (moved && row != nullptr) row->party = owners_.party(table_.place_of(*row));
@@ -44,7 +44,7 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
   if (!aoim::is_accepted(verdict)) {
     counts_.not_interesting.add();
     if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state, row);
-    if (row != nullptr) drop(table_.place_of(*row), counts_.left);
+    if (row != nullptr) drop(table_.place_of(*row), Removal::out_of_sight);
     return nullptr;
   }
   if (row == nullptr) {
@@ -82,7 +82,7 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
     const RemoteEntity& row = table_.rows()[place];
     // What is cut off is heard no more. Its owner introduces it when it comes in or we join.
     if (!aoim_.sight().is_cut_off(to_position(row.predicted(now).position))) keep_outside(row);
-    drop(place, counts_.left);
+    drop(place, Removal::out_of_sight);
   });
 }
 
@@ -106,7 +106,7 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
   if (row == nullptr) return;
   const Inbound update = entity.update();
   if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
-    return drop(table_.place_of(*row), counts_.left);  // it has no first timestamp
+    return drop(table_.place_of(*row), Removal::out_of_sight);  // it has no first timestamp
   }
   row->last_heard = std::max(row->last_heard, entity.last_heard());
   note_sight(*row, aoim::InterestVerdict::inside, row->state, entity.arrival().now);
@@ -115,7 +115,7 @@ void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard)
 }
 
 RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
-  const auto evict = [this](std::size_t place) { drop(place, counts_.evicted); };
+  const auto evict = [this](std::size_t place) { drop(place, Removal::no_room); };
   if (!admission_.admit(arrival, evict)) return nullptr;
   bool added = false;
   RemoteEntity* row = table_.find_or_add(id, added);
@@ -131,10 +131,10 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
 }
 
 // In the table and all columns beside it the last row moves to `place`.
-void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
+void RemoteEntities::drop(std::size_t place, Removal cause) noexcept {
   RemoteEntity& row = table_.rows()[place];
   parts_.release(row);
-  changes_.removed(place, row.id);
+  changes_.removed(place, row.id, cause);
   near_.erase_row(place);
   time_outs_.erase(place);
   sight_.erase(place);
@@ -142,7 +142,12 @@ void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   held_.erase(place);
   table_.erase(place);
   motion_.erase(place, table_.rows());
-  why.add();
+  counter_of(cause).add();
+}
+
+Counter& RemoteEntities::counter_of(Removal cause) noexcept {
+  if (cause == Removal::silent) return counts_.timed_out;
+  return cause == Removal::no_room ? counts_.evicted : counts_.left;
 }
 
 void RemoteEntities::expire(nanoseconds now) noexcept {
@@ -150,7 +155,7 @@ void RemoteEntities::expire(nanoseconds now) noexcept {
        i = time_outs_.next_due(now, i)) {
     const RemoteEntity& row = table_.rows()[i];
     if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
-      drop(i, counts_.timed_out);
+      drop(i, Removal::silent);
     } else {
       time_outs_.set(i, now + nanoseconds(1));  // not yet due, by a nanosecond of rounding
     }

@@ -125,7 +125,13 @@ TEST_P(Federates, SeeEachOthersEntitiesWithinTheirThresholds) {
   });
   std::size_t reflected = 0;
   world[1].on_reflect([&](const peer::RemoteObject&) { ++reflected; });
-  world[1].on_remove([&](const pdu::EntityId&) { told.push_back("removed"); });
+  world[1].on_remove([&](const peer::RemoteObject& object, peer::Removal cause) {
+    told.push_back("removed " + std::string(object.marking()) + ": " + std::string(name(cause)));
+    EXPECT_EQ(object.type(), kTruck);
+    EXPECT_FALSE(world[1].find(object.id()).has_value());
+    const nanoseconds now = world.clock().now();
+    EXPECT_LE((object.shown(now).position - on_circle(now).position).norm(), 2.0);
+  });
   world.run(500ms);
 
   const peer::ObjectHandle handle =
@@ -146,7 +152,7 @@ TEST_P(Federates, SeeEachOthersEntitiesWithinTheirThresholds) {
   EXPECT_LE(worst, 1.1);
   world[0].delete_object(handle);
   world.run(100ms);
-  EXPECT_EQ(told.back(), "removed");
+  EXPECT_EQ(told.back(), "removed TRUCK1: deactivated");
   EXPECT_EQ(world[1].size(), 0U);
 }
 
@@ -282,7 +288,7 @@ TEST(FederateThreads, SeeHearAndLeave) {
   two.subscribe(EntityClass{});
   std::size_t fires = 0, removed = 0;
   two.subscribe<pdu::Fire>([&](const pdu::Fire&) { ++fires; });
-  two.on_remove([&](const pdu::EntityId&) { ++removed; });
+  two.on_remove([&](const peer::RemoteObject&, peer::Removal) { ++removed; });
   one->publish(EntityClass{kTruck});
   one->publish<pdu::Fire>();
   const auto handle = one->register_object(truck(), {});

@@ -65,7 +65,7 @@ class Visit {
     join();
     federates_.back()->subscribe(peer::EntityClass{});
     federates_.back()->on_discover([this](const peer::RemoteObject&) { ++discovered; });
-    federates_.back()->on_remove([this](const pdu::EntityId&) { ++removed; });
+    federates_.back()->on_remove([this](const peer::RemoteObject&, peer::Removal) { ++removed; });
     car_ = federates_.back()->register_object(thing(), at(to));
   }
   void drive(const Vector3d& to, double pace) {

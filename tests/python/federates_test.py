@@ -36,7 +36,7 @@ class Federates(unittest.TestCase):
             seen, updated, gone = [], [], []
             other.on_discover(seen.append)
             other.on_update(updated.append)
-            other.on_remove(gone.append)
+            other.on_remove(lambda entity, cause: gone.append((entity.id, entity.marking, cause)))
             truck = one.own("TRUCK1", type="1.1.225.7", force_id=1, position=(10.0, 20.0, 0.0))
             tick_until(lambda: seen, one, other)
             self.assertEqual((seen[0].id, seen[0].marking, seen[0].force_id), (truck.id, "TRUCK1", 1))
@@ -50,7 +50,7 @@ class Federates(unittest.TestCase):
             truck_id = truck.id
             truck.remove()
             tick_until(lambda: gone, one, other)
-            self.assertEqual(gone, [truck_id])
+            self.assertEqual(gone, [(truck_id, "TRUCK1", "deactivated")])
 
     def test_callbacks_run_on_the_thread_that_ticks_and_their_faults_rise_there(self):
         with join("A") as one, join("B") as other:

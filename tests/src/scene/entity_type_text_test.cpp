@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <stdexcept>
 #include <string>
 
 namespace reckon::peer {
@@ -24,6 +25,18 @@ TEST(EntityTypeText, IsReadByNumberWithMissingOnesZero) {
   EXPECT_EQ(part.type, (pdu::EntityType{pdu::EntityKind::platform, pdu::EntityDomain::land, 225}));
   EXPECT_EQ(parse_entity_type("255.255.65535.255.255.255.255").error, "");
   EXPECT_EQ(entity_type_numbers(tank()), "1.1.225.1.2.3.4");
+}
+
+TEST(EntityTypeText, OfAProgramIsThatOfASceneFileOrThrows) {
+  EXPECT_EQ(entity_type("1.1.225.1.2.3.4"), tank());
+  try {
+    (void)entity_type("1.1.65536");
+    ADD_FAILURE() << "took a country that there is not";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "type \"1.1.65536\": its country '65536' is no whole number from 0 "
+                 "to 65535");
+  }
 }
 
 TEST(EntityTypeText, RefusesNumbersThatDoNotFit) {

@@ -166,6 +166,37 @@ TEST(Changes, OfAnEntityAreToldAtMostOnceInAnInterval) {
   EXPECT_EQ(changes(), "rd");
 }
 
+TEST(Changes, SayWhyAnEntityIsGone) {
+  World world(10);
+  const pdu::EntityId id{7, 8, 9};
+  // What is told of its end, after it was told of.
+  const auto cause_of = [&](auto&& end) {
+    world.wait(milliseconds(10));
+    world.hear(id, {0, 0, 0}, 1);
+    (void)world.remote().take_changes();
+    world.wait(milliseconds(10));
+    end();
+    const auto changes = world.remote().take_changes();
+    return changes.empty() || changes[0].change != Change::removed
+               ? std::string("is there")
+               : std::string(name(changes[0].cause));
+  };
+  EXPECT_EQ(cause_of([] {}), "is there");
+  EXPECT_EQ(cause_of([&] {
+              world.hear(id, {0, 0, 0}, 1, pdu::kAppearanceDeactivated);
+            }),
+            "deactivated");
+  EXPECT_EQ(cause_of([&] { world.remote().drop_peer({7, 8}, Gone::left); }), "owner left");
+  EXPECT_EQ(cause_of([&] { world.remote().drop_peer({7, 8}, Gone::silent); }), "silent");
+  EXPECT_EQ(cause_of([&] {
+              world.wait(std::chrono::seconds(60));
+              world.remote().expire(world.now());
+            }),
+            "silent");
+  EXPECT_EQ(cause_of([&] { world.remote().claim({7, 8}, 2); }), "owner changed");
+  EXPECT_EQ(cause_of([&] { world.hear(id, {250'000, 0, 0}, 1); }), "out of sight");
+}
+
 TEST(Changes, CostNoAllocationAndAreNotKeptUnlessAskedFor) {
   for (const bool record : {true, false}) {
     World world(40, record);
