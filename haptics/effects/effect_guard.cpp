@@ -204,9 +204,10 @@ double GuardedEffect::stored_energy(const Vector3d& scp, const Vector3d& device)
   return std::max(0.0, state_->stored_energy(scp, device));
 }
 
+// Asked of a plan too, which many threads read: it changes nothing. Its time counts in
+// is_potential_about().
 double GuardedEffect::stiffness() const noexcept {
   if (!books()) return 0.0;
-  const Timing timing(*this);
   const double stiffness = state_->stiffness();
   return within(stiffness, kMostStiffness) ? stiffness : kMostStiffness;
 }
