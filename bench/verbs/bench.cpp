@@ -55,17 +55,21 @@ void declare_accuracy_flags(tools::CommandLine& line, BenchOptions& options) {
             "error of a force against nanoseconds per servo step, axis by axis");
   line.option("--axis", options.axes,
               fmt::format("with --touch: axes; all without it: {}", names_of(touch_axes())));
+  line.offer("--axis", names_of(touch_axes()));
   line.option("--plot", options.plot, "with --touch: write the picture to this SVG file");
   line.option("--motion", options.motions,
               fmt::format("motions, or all (the default): {}", names_of(motions())));
+  line.offer("--motion", names_of(motions()));
   line.option("--models", options.models,
               fmt::format("models; all without it: {}", names_of(kPoseModels)));
+  line.offer("--models", names_of(kPoseModels));
   line.option(
       "--thresholds", options.thresholds,
       "lengths at which the owner sends, as in 50mm,1m; without it six that suit the motion");
   line.option("--curves", options.curves,
               fmt::format("convergence curves; without it all, for files snap: {}",
                           names_of(deadreckon::kConvergenceCurves)));
+  line.offer("--curves", names_of(deadreckon::kConvergenceCurves));
   line.option(
       "--angle", options.angle,
       "angle at which the owner sends, or none (3deg; none for files without orientations)");
@@ -134,10 +138,12 @@ void declare_scale_flags(tools::CommandLine& line, ScaleWords& words) {
               "scale: numbers of entities, all together (100 for each peer)");
   line.option("--movement", words.movement,
               fmt::format("scale: how they move: {}{} (mixed)", movements, kMixedGait));
+  line.offer("--movement", movements + std::string(kMixedGait));
   line.option("--density", words.density, "scale: entities a square kilometre (400)");
   line.option("--scheme", words.scheme,
               "scale: cells: square, hexagonal, or a quadtree divided by where the crowd begins "
               "(hexagonal)");
+  line.offer("--scheme", "square, hexagonal, quadtree");
   line.option("--cell", words.cell,
               "scale: corner radius of a hexagon, side of a square or of the smallest cell of a "
               "quadtree (125 m)");
@@ -212,6 +218,7 @@ void declare_flags(tools::CommandLine& line, BenchOptions& options, LatencyOptio
   declare_accuracy_flags(line, options);
   line.only_for("latency");
   line.option("--iface", latency.iface, "latency: interface that is used (lo)");
+  line.offer("--iface", tools::kInterfaces);
   line.option("--key", latency.key, "latency: key file, of a touch that is sealed");
   line.flag(
       "--contact-groups", latency.touch_tier,

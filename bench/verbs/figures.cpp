@@ -134,6 +134,9 @@ int run_figures(tools::Arguments arguments, const tools::Console& console) {
   FigureWords words;
   tools::CommandLine line("figures", kSummary, kExamples);
   line.words("NAME", words.names, false, "numbers of figures, as 3.5");
+  std::string all;
+  for (const FigureKind& kind : figure_kinds()) all.append(kind.name).append(" ");
+  line.offer("NAME", all);
   line.option("--out", words.out, "folder for the files, made where it is not there");
   line.flag("--list", words.list, "say which figures there are and make none");
   line.flag("--json", words.json, "one object a figure");

@@ -167,6 +167,18 @@ TEST(Program, CompletesEveryVerbInEveryShell) {
   }
 }
 
+TEST(Program, CompletesValuesOfFlagsAndTheInterfacesOfTheHost) {
+  for (const auto& [shell, interfaces] :
+       {std::pair{"bash",
+                  "record:--iface) COMPREPLY=($(compgen -P \"$before\" -W '$(ls /sys/class/net)'"},
+        std::pair{"zsh", "record:--iface) compset -P '*,'; compadd -- $(ls /sys/class/net);"},
+        std::pair{"fish", "-l iface -x -a '(ls /sys/class/net)'"}}) {
+    const std::string script = run_reckon({"completion", shell}).out;
+    EXPECT_THAT(script, HasSubstr(interfaces)) << shell;
+    EXPECT_THAT(script, testing::Not(HasSubstr("@interfaces"))) << shell;
+  }
+}
+
 TEST(Program, NeedsToKnowForWhichShell) {
   EXPECT_EQ(run_reckon({"completion"}).status, 2);
   EXPECT_EQ(run_reckon({"completion", "tcsh"}).status, 2);

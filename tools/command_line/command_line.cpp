@@ -10,6 +10,7 @@
 #include <charconv>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "reckon/peer/scene/nearest_word.hpp"
@@ -90,6 +91,7 @@ struct CommandLine::Parser {
   std::string summary;
   std::vector<std::string> examples;
   std::map<std::string, std::vector<std::string>> choices;  // by option name
+  std::map<std::string, std::vector<std::string>> offered;  // likewise, by completion alone
   std::map<std::size_t, std::string> owners;  // owners, by the number of their first option
 
   Parser(std::string_view verb_, std::string_view summary_)
@@ -116,8 +118,10 @@ struct CommandLine::Parser {
     for (const CLI::Option* option : app.get_options()) {
       const auto& names = option->get_lnames();
       fmt::print(out, "{}", names.empty() ? option->get_name(true) : "--" + names.front());
-      const auto found = choices.find(option->get_name());
-      if (found != choices.end()) fmt::print(out, " {}", fmt::join(found->second, " "));
+      for (const auto& values : {choices, offered}) {
+        const auto found = values.find(option->get_name());
+        if (found != values.end()) fmt::print(out, " {}", fmt::join(found->second, " "));
+      }
       fmt::print(out, "\n");
     }
   }
@@ -280,6 +284,13 @@ void CommandLine::choice(const std::string& name, std::string& target,
                          const std::vector<std::string>& words, const std::string& help) {
   parser_->choices[name] = words;
   parser_->app.add_option(name, target, help)->check(one_of(words))->type_name("");
+}
+
+void CommandLine::offer(const std::string& name, std::string_view values) {
+  std::string blanks(values);
+  std::ranges::replace(blanks, ',', ' ');
+  std::istringstream words(blanks);
+  parser_->offered[name] = {std::istream_iterator<std::string>(words), {}};
 }
 
 void CommandLine::word(const std::string& name, std::string& target, bool required,

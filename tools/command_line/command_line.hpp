@@ -53,6 +53,10 @@ class CommandLine {
   void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
               const std::string& help);
 
+  /// Values that completion offers for an option or a word, which may be others too.
+  /// @param values names with commas or blanks between them, or kInterfaces
+  void offer(const std::string& name, std::string_view values);
+
   /// Words without a dash, in the order of declaration.
   void word(const std::string& name, std::string& target, bool required, const std::string& help);
   void words(const std::string& name, std::vector<std::string>& target, bool required,
@@ -76,6 +80,9 @@ class CommandLine {
   struct Parser;
   std::unique_ptr<Parser> parser_;
 };
+
+/// Instead of values to offer: the network interfaces that the host has then.
+inline constexpr std::string_view kInterfaces = "@interfaces";
 
 /// Flag that makes a verb list its flags and words on out, one a line followed by its choices, for
 /// the completion scripts.

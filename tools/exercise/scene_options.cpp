@@ -21,6 +21,7 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
               "duplicate=5%'; jitter is a time or a share of the delay, for example 40%");
   line.option("--seed", options.seed, "seed of the impairment");
   line.option("--iface", options.iface, "network interface by name, address or index");
+  line.offer("--iface", kInterfaces);
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
 }
 

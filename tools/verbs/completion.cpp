@@ -67,6 +67,11 @@ Taken taken_by(const Verb& verb, Verbs verbs) {
   return taken;
 }
 
+/// Values as the shell expands them when it completes.
+std::string expanded(const std::string& values, std::string_view interfaces) {
+  return values == kInterfaces ? std::string(interfaces) : values;
+}
+
 /// The text as a shell word in single quotes.
 std::string in_quotes(std::string_view text) {
   std::string word = "'";
@@ -90,7 +95,8 @@ void print_bash(Verbs verbs, std::FILE* out) {
              "# bash completion of reckon; install: reckon completion bash > "
              "~/.local/share/bash-completion/completions/reckon\n"
              "_reckon() {{\n"
-             "  local current=${{COMP_WORDS[COMP_CWORD]}} flags='' place=0 i\n"
+             "  local current=${{COMP_WORDS[COMP_CWORD]}} flags='' place=0 i before=''\n"
+             "  [[ $current == *,* ]] && before=${{current%,*}},  # of a list\n"
              "  local -a words=()\n"
              "  if (( COMP_CWORD == 1 )); then\n"
              "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$current\"))\n"
@@ -100,8 +106,10 @@ void print_bash(Verbs verbs, std::FILE* out) {
              verb_names(verbs));
   for (const Verb& verb : verbs) {
     for (const auto& [flag, values] : taken_by(verb, verbs).values)
-      fmt::print(out, "    {}:{}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n",
-                 verb.name, flag, values);
+      fmt::print(out,
+                 "    {}:{}) COMPREPLY=($(compgen -P \"$before\" -W '{}' -- "
+                 "\"${{current##*,}}\")); return ;;\n",
+                 verb.name, flag, expanded(values, "$(ls /sys/class/net)"));
   }
   fmt::print(out, "  esac\n  case ${{COMP_WORDS[1]}} in\n");
   for (const Verb& verb : verbs) {
@@ -146,6 +154,14 @@ void print_zsh(Verbs verbs, std::FILE* out) {
   }
   fmt::print(out,
              "  esac\n"
+             "  case ${{words[2]}}:${{words[CURRENT-1]}} in\n");
+  for (const Verb& verb : verbs) {
+    for (const auto& [flag, values] : taken_by(verb, verbs).values)
+      fmt::print(out, "    {}:{}) compset -P '*,'; compadd -- {}; return ;;\n", verb.name, flag,
+                 expanded(values, "$(ls /sys/class/net)"));
+  }
+  fmt::print(out,
+             "  esac\n"
              "  local offer=${{choices[CURRENT-2]}}\n"
              "  if [[ $PREFIX == -* ]]; then\n"
              "    compadd -- $flags\n"
@@ -174,7 +190,9 @@ void print_fish(Verbs verbs, std::FILE* out) {
     for (const std::string& flag : taken.flags) {
       const auto values = taken.values.find(flag);
       fmt::print(out, "complete -c reckon -n {} -l {}{}\n", seen, flag.substr(2),
-                 values == taken.values.end() ? "" : " -x -a " + in_quotes(values->second));
+                 values == taken.values.end()
+                     ? ""
+                     : " -x -a " + in_quotes(expanded(values->second, "(ls /sys/class/net)")));
     }
   }
 }

@@ -143,6 +143,7 @@ int run_doctor(Arguments arguments, const Console& console) {
             "239.192.1.0:3000 and 256 groups)");
   line.option("--iface", options.interface,
               "interface name, address or index (default: the scene's, else by score)");
+  line.offer("--iface", kInterfaces);
   line.option("--groups", options.groups,
               "number of multicast groups joined at the same time (default: that of the scene)");
   line.flag("--ipv6", options.ipv6, "check IPv6 instead of IPv4");

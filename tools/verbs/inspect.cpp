@@ -372,6 +372,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--count", options.count, "stop after this many PDUs");
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: every one, lo too)");
+  line.offer("--iface", kInterfaces);
   line.option("--key", options.key,
               "key file: reads sealed datagrams; groups are then one port above");
   line.option("--pool", options.source.pool,

@@ -287,6 +287,7 @@ int run_record(Arguments arguments, const Console& console) {
   line.option("--for", options.duration, "stop after this time, for example 10s");
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: every one, lo too)");
+  line.offer("--iface", kInterfaces);
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   line.option("--rotate-size", options.rotate_size,

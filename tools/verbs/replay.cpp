@@ -385,6 +385,7 @@ int run_replay(Arguments arguments, const Console& console) {
   line.option(
       "--iface", options.interface,
       "interface to send on (default: lo, this host only; for a broadcast address its own)");
+  line.offer("--iface", kInterfaces);
   line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
   line.option("--loop", options.loop, "repeat this many times; 0: until Ctrl-C");
   options.selection.declare(line);

@@ -72,6 +72,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, ViewOption
   declare_lenient(line, options.lenient);
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: every one, lo too)");
+  line.offer("--iface", kInterfaces);
   line.option("--key", options.key, "key file: reads what is sealed");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
