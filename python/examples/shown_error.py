@@ -20,7 +20,7 @@ def main() -> None:
     for entity, off in errors.items():
         print(*entity, f"shown {len(off)} times, at most {max(off):.3f} m off", flush=True)
     if len(sys.argv) > 3:
-        import matplotlib.pyplot as plt
+        import matplotlib.pyplot as plt  # type: ignore[import]
         for entity, off in errors.items():
             plt.plot([0.02 * step for step in range(len(off))], off, label=str(entity))
         plt.savefig(sys.argv[3])
