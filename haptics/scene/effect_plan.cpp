@@ -252,6 +252,11 @@ PlanStage effect_stage(const std::string& object, const Effect& effect) {
   if constexpr (TakesFile<Effect>) stage.parameters = file_text(effect.parameters().file);
   for (const auto& row : Effect::kParameters)
     append_value(stage.parameters, row.key, effect.parameters().*row.field, row.unit);
+  // Four samples in a wave show it whole.
+  if constexpr (std::is_same_v<Effect, Relief>) {
+    append_value(stage.parameters, "waves of", effect.wavelength(), "m");
+    append_value(stage.parameters, "whole up to", effect.wavelength() / 4e-3, "m/s at 1 kHz");
+  }
   return stage;
 }
 

@@ -212,6 +212,13 @@ TEST(Relief, FadesWhereSamplesWouldShowNoiseAndIsNeverSteeperThanOne) {
     EXPECT_LE(cliffs.force_at(x, 0.0).norm(), 2.0 * (1 + 1e-5));
 }
 
+TEST(Relief, TellsItsWavesAndTheSpeedUpToWhichTheyAreFelt) {
+  const Printed printed({{}, 0.01, 1e-4, 5});
+  const std::string told = printed.plan.stages().back().parameters;
+  EXPECT_THAT(told, testing::StartsWith("no file, width 0.01 m"));
+  EXPECT_THAT(told, testing::ContainsRegex("waves of 0\\.00[0-9]+ m, whole up to 0\\.[0-9]+ m/s"));
+}
+
 /// Writes a sphere of 40 mm: an icosahedron of which each face is cut into 19 x 19.
 void write_sphere(const std::filesystem::path& file) {
   constexpr int kCuts = 19;
