@@ -53,7 +53,7 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)  # 
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc OPTIONAL)
 install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.xml")
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png" PATTERN "*.xml")
 install(FILES tools/wireshark/reckon.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/wireshark COMPONENT program)
 if(RECKON_BUILD_TOOLS AND NOT CMAKE_CROSSCOMPILING)
   install(FILES ${PROJECT_BINARY_DIR}/reckon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT man)  # compressed for Debian
@@ -64,3 +64,7 @@ if(RECKON_BUILD_TOOLS AND NOT CMAKE_CROSSCOMPILING)
   install(FILES ${PROJECT_BINARY_DIR}/reckon.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
     COMPONENT program)
 endif()
+# What the docs tell programmers to copy.
+set(examples CMakeLists.txt decoder.cpp honey.cpp honey.hpp honey_module.cpp peer.cpp truck.cpp truck.hpp)
+list(TRANSFORM examples PREPEND tests/consumer/)
+install(FILES ${examples} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/reckon-dev/examples COMPONENT dev)

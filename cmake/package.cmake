@@ -33,6 +33,10 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME reckon)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# The unit of a recorder that was enabled goes with the package.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/cmake/debian/program/prerm ${PROJECT_SOURCE_DIR}/cmake/debian/program/postrm)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "reckon-doc, wireshark")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Peers on a LAN exchange IEEE 1278.1 (DIS) Entity State PDUs over UDP
 multicast. An area of interest gives each peer what its entities can sense.
@@ -54,7 +58,8 @@ the library, with what is measured of each.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-reckon)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA 
+  ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "reckon, reckon-doc")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "DIS traffic, dead reckoning and scenes for Python

@@ -14,7 +14,7 @@ HOLDS = {  # package: some of its files, and what none of its files may match
                 "usr/share/bash-completion/completions/reckon", "usr/lib/systemd/system/reckon-record.service",
                 "usr/share/doc/reckon/copyright"], r"\.hpp$|\.a$|/docs/"),
     "reckon-dev": (["usr/include/reckon/peer/federate.hpp", "usr/lib/libreckon_peer.a", "usr/lib/pkgconfig/reckon-pdu.pc",
-                    "usr/lib/cmake/reckon/reckonConfig.cmake", "usr/share/doc/reckon-dev/copyright"], r"usr/bin|/docs/"),
+                    "usr/lib/cmake/reckon/reckonConfig.cmake", "usr/share/doc/reckon-dev/examples/truck.cpp", "usr/share/doc/reckon-dev/copyright"], r"usr/bin|/docs/"),
     "reckon-doc": (["usr/share/doc/reckon/README.md", "usr/share/doc/reckon/docs/README.md",
                     "usr/share/doc/reckon/docs/first_steps/programmer.md", "usr/share/doc/reckon-doc/copyright"],
                    r"usr/bin|\.hpp$"),

@@ -11,6 +11,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/manual_page.hpp"
 #include "reckon/tools/command_line/verb_program.hpp"
+#include "reckon/tools/exercise/scene_folder.hpp"
 #include "reckon/tools/verbs/completion.hpp"
 #include "reckon/tools/verbs/given_file.hpp"
 
@@ -115,7 +116,9 @@ int run_list_completion(Arguments arguments, const Console& console) {
 std::span<const Verb> verbs() { return list(); }
 
 int run_program(Arguments arguments, const Console& console) noexcept {
-  return run_verb_program(program(), arguments, console);
+  const std::vector<std::string> words = with_shipped_scenes(arguments);
+  const std::vector<std::string_view> views(words.begin(), words.end());
+  return run_verb_program(program(), views, console);
 }
 
 }  // namespace reckon::tools

@@ -3,6 +3,7 @@
 // Ten lines against an installed Reckon: encode an Entity State, decode it, compare.
 #include <array>
 #include <cstdio>
+#include <string_view>
 
 #include "reckon/pdu/entity/entity_state.hpp"
 
@@ -12,7 +13,8 @@ int main() {
   std::array<std::byte, 144> datagram{};
   if (encode(sent, datagram) != datagram.size()) return 1;
   const auto error = decode(datagram, received);
-  std::printf("%.*s, entity %d\n", static_cast<int>(rule(error).size()), rule(error).data(),
+  const std::string_view fault = rule(error);  // empty: none
+  std::printf("%.*s entity %d\n", static_cast<int>(fault.size()), fault.data(),
               received.entity_id.entity);
   return error == reckon::pdu::DecodeError::none && received.entity_id == sent.entity_id ? 0 : 1;
 }

@@ -136,7 +136,7 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
              "mm  (update against prediction)");
   spread_row(out, "force jump", peer.model().remote().force_jumps().spread(), 1.0, "N");
   spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
-             fmt::format("us  ({} of {} steps missed)", duty.missed(), duty.steps()));
+             fmt::format("us  ({} periods missed, {} steps)", duty.missed(), duty.steps()));
   print_loops(out, loops_of(run.threads));
   fmt::print(out, "  servo thread               {}\n", servo_text(run.threads));
   fmt::print(out, "  energy                     never below {:.1e} J\n", ports_of(view).energy_min);

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace reckon::tools {
 
@@ -13,5 +15,10 @@ namespace reckon::tools {
 /// built from, else in share/reckon/scenes of the installation. @throws UsageError naming the
 /// places looked at.
 [[nodiscard]] std::filesystem::path scene_path(const std::string& given, std::string_view fallback);
+
+/// The words with the path of a file that comes with Reckon in the place of "scenes/FILE", where
+/// the working folder has no scenes/: what the docs say works from the packages too.
+[[nodiscard]] std::vector<std::string> with_shipped_scenes(
+    std::span<const std::string_view> arguments);
 
 }  // namespace reckon::tools

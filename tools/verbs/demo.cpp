@@ -206,7 +206,7 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
   print_force_error(out, cost, exercise);
   if (cost.servo.steps > 0) {
     spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
-               fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
+               fmt::format("us  ({} periods missed, {} steps)", cost.servo.missed, cost.servo.steps));
     print_loops(out, cost.servo.loops);
     fmt::print(out, "  servo thread               {}\n", cost.servo.thread);
   }
@@ -333,7 +333,7 @@ int run(const DemoOptions& options, const Console& console) {
     page.emplace(*flags, scene, page_options(options, *exercise), *exercise, *twins);
     show_address(page->view(), *flags, display);
   } else if (!options.simulated_time) {
-    display.put_in_head("./run demo --view shows it in a browser, where the mouse is a hand");
+    display.put_in_head("with --view it is shown in a browser, where the mouse is a hand");
   }
   show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr);
   display.close();

@@ -114,8 +114,11 @@ int run_study(const StudyVerb& verb, Arguments arguments, const Console& console
   if (program.empty()) return answer_without_program(verb, arguments, console);
   const Words words(program, verb.name, arguments);
   std::fflush(console.out);
+  // A manual page and completion ask one verb after the other.
+  const bool asked = !arguments.empty() &&
+                     (arguments.front() == kManualSection || arguments.front() == kListFlags);
   const bool own_streams = console.out == stdout && console.err == stderr;
-  if (!own_streams) return run_copied(program, words, console);
+  if (asked || !own_streams) return run_copied(program, words, console);
   execv(program.c_str(), words.argv());
   fail_to_start(program, errno);
 }
