@@ -33,6 +33,12 @@ def problems_of(package, path):
     yield from (f"{package} lacks {file}" for file in files if file not in listed)
     yield from (f"{package} holds {file}" for file in listed if re.search(never, file))
     yield from (f"{package} puts {file} outside /usr" for file in listed if file and not file.startswith("usr"))
+    if package == "python3-reckon":
+        depends = subprocess.run(["dpkg-deb", "-f", path, "Depends"], capture_output=True, text=True, check=True).stdout
+        if not re.search(r"python3 \(>= 3\.\d+~\), python3 \(<< 3\.\d+\), python3-numpy", depends):
+            yield f"python3-reckon does not say which Python it is for: {depends}"
+        if not any(re.search(r"/reckon/_native\.cpython-3\d+-.*\.so$", file) for file in listed):
+            yield "python3-reckon holds no compiled part"
     if package == "reckon":
         depends = subprocess.run(["dpkg-deb", "-f", path, "Depends"], capture_output=True, text=True, check=True).stdout
         yield from (f"reckon depends on a development package: {name}" for name in re.findall(r"\S+-dev\b", depends))
