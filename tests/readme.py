@@ -3,7 +3,7 @@
 """Runs each line of the blocks of commands of the README and of docs/first_steps, once, as a reader pastes it: in a folder
 with nothing but scenes/, with the built program in the PATH. readme.py ROOT RECKON [--planted]
 
-What speaks to a network gets --iface lo, and what does not end by itself is interrupted. With --planted lines are added
+What speaks to a network gets --iface lo if it has none, and what does not end by itself is interrupted. With --planted lines are added
 that a reader could not run, each of which is to be found."""
 import os
 import pathlib
@@ -59,7 +59,7 @@ class Reader:
             words = ["reckon"] + words[1:]  # it builds the program, and then does this
         verb = words[1]
         reads = verb == "inspect" and len(words) > 2
-        if verb in SPEAKS and not reads:
+        if verb in SPEAKS and not reads and "--iface" not in words:
             words = words + ["--iface", "lo"]
         beside = self.start(["reckon", "demo", "--for", f"{SECONDS + 3}s"]) if verb in LISTENS and not reads else None
         before = set(self._folder.iterdir())
