@@ -88,8 +88,8 @@ class Federate:
                  site: int | None = None, application: int | None = None, effects: object = None) -> None:
         """scene: a scene file, or an Exercise; iface: name, address or index, "": chosen; name: of this peer
 
-        site, application: of its entities' IDs, by default free ones; effects: as of run_scene(). RuntimeError, or ValueError, with the remedy where
-        it cannot join.
+        site, application: of its entities' IDs, by default free ones; effects: as of run_scene(). RuntimeError, or
+        ValueError, with the remedy where it cannot join.
         """
         plain = scene if isinstance(scene, Exercise) else Exercise()
         path = "" if isinstance(scene, Exercise) else os.fspath(scene)

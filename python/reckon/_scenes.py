@@ -61,8 +61,9 @@ def run_scene(path: str | os.PathLike[str], duration: float, seed: int | None = 
     """Runs a scene file as `reckon demo --simulated-time` does: no sockets, no waiting, the same result each time.
 
     duration [s]; seed: of the network's impairment, which the scene or `impair` has to have; peers: 1 to 64; impair: as
-    the option of `reckon demo`, "delay=200ms jitter=100ms loss=20%"; effects: of a module of your own, which the scene may then declare. Other threads of Python run meanwhile, and Ctrl-C
-    ends it. SceneError where the scene or an argument is wrong.
+    the option of `reckon demo`, "delay=200ms jitter=100ms loss=20%"; effects: of a module of your own, which the scene
+    may then declare. Other threads of Python run meanwhile, and Ctrl-C ends it. SceneError where the scene or an
+    argument is wrong.
     """
     try:
         columns, numbers = _native.run_scene(os.fspath(path), duration, seed, peers, impair, effects)

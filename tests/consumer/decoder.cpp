@@ -13,8 +13,9 @@ int main() {
   std::array<std::byte, 144> datagram{};
   if (encode(sent, datagram) != datagram.size()) return 1;
   const auto error = decode(datagram, received);
-  const std::string_view fault = rule(error);  // empty: none
-  std::printf("%.*s entity %d\n", static_cast<int>(fault.size()), fault.data(),
+  const std::string_view fault =
+      error == reckon::pdu::DecodeError::none ? "good" : std::string_view(rule(error));
+  std::printf("%.*s: entity %d\n", static_cast<int>(fault.size()), fault.data(),
               received.entity_id.entity);
   return error == reckon::pdu::DecodeError::none && received.entity_id == sent.entity_id ? 0 : 1;
 }

@@ -292,6 +292,16 @@ void print_run(const PeerVerbOptions& options, bool lines, const FinishedRun& fi
   }
 }
 
+std::unique_ptr<RunningPeer> joined_peer(const peer::SceneFile& scene,
+                                         const PeerVerbOptions& options, const Console& console,
+                                         EntityEvents& events, peer::DatagramTap* tap) {
+  try {
+    return std::make_unique<RunningPeer>(scene, options, console, events, tap);
+  } catch (const std::runtime_error& error) {
+    throw EnvironmentError(error.what());
+  }
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
   const std::vector<peer::NamedPeer> list = read_list(options.to);
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
@@ -305,12 +315,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
   if (options.balance) balance.emplace(*options.balance, console.out);
   // Before the peer: it does not join where its metrics cannot be asked for.
   const auto metrics = metrics_server(options.metrics);
-  std::optional<RunningPeer> running;
-  try {
-    running.emplace(scene, options, console, events, balance ? &balance->tap() : nullptr);
-  } catch (const std::runtime_error& error) {
-    throw EnvironmentError(error.what());
-  }
+  const std::unique_ptr<RunningPeer> running =
+      joined_peer(scene, options, console, events, balance ? &balance->tap() : nullptr);
 
   const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1);

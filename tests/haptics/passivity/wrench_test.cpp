@@ -81,12 +81,35 @@ struct Tool {
     rest = random.log(1e-3, 5) * random.wrench();
     rest.tail<3>() *= random.log(1e-3, 0.1);
   }
+  /// Of all springs together.
+  struct Pressed {
+    Wrench force = Wrench::Zero();
+    WrenchCurvature curvature = WrenchCurvature::Zero();
+  };
+  [[nodiscard]] Pressed pressed() const {
+    Pressed sum;
+    for (const Probe& probe : probes) {
+      sum.force += wrench_of(probe.place, probe.force());
+      sum.curvature += curvature_of(probe.place, probe.stiffness, probe.force());
+    }
+    return sum;
+  }
   [[nodiscard]] double stored(const Wrench& motion) const {
     double sum = 0;
     for (const Probe& probe : probes) sum += probe.stored(motion);
     return sum;
   }
 };
+
+PortLoadOf<6> load_of(const Tool& tool, const DampedAxes<6>& axes) {
+  const auto [springs, curvature] = tool.pressed();
+  PortLoadOf<6> load;
+  load.springs = axes.scaled_force(springs);
+  load.stored = tool.stored(Wrench::Zero());
+  load.springs_slope = axes.slope(curvature);
+  load.extra = axes.scaled_force(tool.rest);
+  return load;
+}
 
 TEST(Wrench, TorqueOfATwoPointToolIsTheSumOfLeversTimesForces) {
   Random random(1);
@@ -113,12 +136,7 @@ TEST(Wrench, CurvatureBoundsWhatAPotentialGainsOnAnyWay) {
   Random random(2);
   for (int i = 0; i < 20'000; ++i) {
     const Tool tool(random);
-    Wrench force = Wrench::Zero();
-    WrenchCurvature curvature = WrenchCurvature::Zero();
-    for (const Probe& probe : tool.probes) {
-      force += wrench_of(probe.place, probe.force());
-      curvature += curvature_of(probe.place, probe.stiffness, probe.force());
-    }
+    const auto [force, curvature] = tool.pressed();
     Wrench motion = random.wrench();
     motion.head<3>() *= random.log(1e-6, 3e-3);
     motion.tail<3>() *= random.log(1e-5, kMostTurn);
@@ -150,17 +168,8 @@ TEST(SixAxes, APortAnswersForTheWorstMotionOfAHundredThousandTools) {
   for (int i = 0; i < 100'000; ++i) {
     const Tool tool(random);
     const DampedAxes<6> axes(tool.damping);
-    PortLoadOf<6> load;
-    Wrench springs = Wrench::Zero();
-    WrenchCurvature curvature = WrenchCurvature::Zero();
-    for (const Probe& probe : tool.probes) {
-      springs += wrench_of(probe.place, probe.force());
-      curvature += curvature_of(probe.place, probe.stiffness, probe.force());
-    }
-    load.springs = axes.scaled_force(springs);
-    load.stored = tool.stored(Wrench::Zero());
-    load.springs_slope = axes.slope(curvature);
-    load.extra = axes.scaled_force(tool.rest);
+    const auto [springs, curvature] = tool.pressed();
+    const PortLoadOf<6> load = load_of(tool, axes);
     EnergyPortOf<6> port(1.0);
     const double energy = random.log(1e-7, 0.03);
     port.borrow(energy);
@@ -202,17 +211,7 @@ TEST(SixAxes, NoHandTakesEnergyOutOfAToolOfSeveralProbes) {
     EnergyPortOf<6> port(1.0);
     double books = 0, least = 0;
     for (int i = 0; i < 300; ++i) {
-      PortLoadOf<6> load;
-      Wrench springs = Wrench::Zero();
-      WrenchCurvature curvature = WrenchCurvature::Zero();
-      for (const Probe& probe : tool.probes) {
-        springs += wrench_of(probe.place, probe.force());
-        curvature += curvature_of(probe.place, probe.stiffness, probe.force());
-      }
-      load.springs = axes.scaled_force(springs);
-      load.stored = tool.stored(Wrench::Zero());
-      load.springs_slope = axes.slope(curvature);
-      load.extra = axes.scaled_force(tool.rest);
+      const PortLoadOf<6> load = load_of(tool, axes);
       const PortHoldOf<6> held = port.hold(load, kSample);
       const Wrench force = axes.force(held.force);
       Wrench motion = 0.5 * kSample * force.cwiseQuotient(tool.damping);
