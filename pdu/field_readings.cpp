@@ -132,17 +132,18 @@ void read_value(const ClockTime& value, FieldReadings& out) noexcept {
   using namespace std::chrono;
   std::array<char, 40> buffer{};
   TextSink sink(buffer);
-  const std::int64_t day = (value.hour - (value.hour < 0 ? 23 : 0)) / 24;
-  const year_month_day date{sys_days{days{day}}};
-  // Hours of a relative clock count from an origin of their own.
-  if (value.hour >= 24 * 365) {
+  // Hours of a relative clock count from an origin of their own; hours beyond the year 9999 are no
+  // clock's.
+  constexpr int kHoursOfADate = 24 * sys_days{year{10000} / January / 1}.time_since_epoch().count();
+  if (value.hour >= 24 * 365 && value.hour < kHoursOfADate) {
+    const year_month_day date{sys_days{days{value.hour / 24}}};
     sink.number(static_cast<int>(date.year()));
     sink.text('-');
     put_digits(sink, static_cast<unsigned>(date.month()), 2);
     sink.text('-');
     put_digits(sink, static_cast<unsigned>(date.day()), 2);
     sink.text('T');
-    put_digits(sink, static_cast<std::uint64_t>(value.hour - day * 24), 2);
+    put_digits(sink, static_cast<std::uint64_t>(value.hour % 24), 2);
     sink.text(':');
   } else {
     sink.number(value.hour);

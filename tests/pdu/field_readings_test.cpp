@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -80,6 +82,20 @@ TEST(Readings, OfAClockTimeAreADateOrHours) {
   const json fields = named(pdu);
   EXPECT_EQ(fields["real_world_time_read"]["time"], "2026-11-26T14:00:00.000000");
   EXPECT_EQ(fields["simulation_time_read"]["time"], "2:00:00.000000");
+}
+
+TEST(Readings, OfAClockTimeThatIsNoClocksAreItsHours) {
+  StartResume pdu;
+  pdu.real_world_time.hour = std::numeric_limits<std::int32_t>::max();
+  pdu.simulation_time.hour = std::numeric_limits<std::int32_t>::min();
+  const json fields = named(pdu);
+  EXPECT_EQ(fields["real_world_time_read"]["time"], "2147483647:00:00.000000");
+  EXPECT_EQ(fields["simulation_time_read"]["time"], "-2147483648:00:00.000000");
+  pdu.real_world_time.hour = 24 * 2932896 + 23;  // 9999-12-31
+  pdu.simulation_time.hour = 24 * 2932897;
+  const json last = named(pdu);
+  EXPECT_EQ(last["real_world_time_read"]["time"], "9999-12-31T23:00:00.000000");
+  EXPECT_EQ(last["simulation_time_read"]["time"], "70389528:00:00.000000");
 }
 
 Iff transponder() {
