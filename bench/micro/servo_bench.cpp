@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/contact/contact_solver.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"

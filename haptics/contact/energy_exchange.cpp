@@ -40,37 +40,37 @@ Wants wants_of(std::span<RemoteContact* const> near) noexcept {
 }
 
 // @param inside energy needed by contacts that began inside [J]
-void settle_loan(EnergyPort& port, const EnergyDemand& own, double inside,
+void settle_loan(EnergyLedger& ledger, const EnergyDemand& own, double inside,
                  const PortNeeds& needs) noexcept {
   if (own.surplus() > 0) {
-    port.pay_back(own.surplus());
+    ledger.pay_back(own.surplus());
     return;
   }
   const bool hands = inside > 0 && needs.speed <= kCalm;
   const double power = (needs.walls > 0 ? kWallLoanPower : 0.0) + (hands ? kHandLoanPower : 0.0);
   const double most = needs.walls > 0 ? kGreatestLoan : kGreatestHandLoan;
   const double lacks = std::max(0.0, needs.walls + inside - own.level);
-  port.borrow(std::min({std::max(0.0, most - port.owed()), power * needs.dt, lacks}));
+  ledger.borrow(std::min({std::max(0.0, most - ledger.owed()), power * needs.dt, lacks}));
 }
 
 }  // namespace
 
-std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port,
+std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyLedger& ledger,
                             const PortNeeds& needs) noexcept {
   const Wants wants = wants_of(near);
   EnergyDemand own;
-  own.level = port.level();
+  own.level = ledger.level();
   own.full =
       needs.walls + first_tier(std::max(wants.shown.norm(), wants.coming.norm()), needs.spare);
   own.spring = wants.stored + kSpringSpare;
   const double force = std::max(wants.inside_force, needs.at_rest ? wants.of_hands : 0.0);
   const double inside = force > 0 ? first_tier(force, needs.spare) : 0.0;
-  settle_loan(port, own, inside, needs);
-  own.level = port.level();
+  settle_loan(ledger, own, inside, needs);
+  own.level = ledger.level();
 
   for (RemoteContact* remote : near) {
-    remote->give_for_a_blow(port, own, needs.dt);
-    remote->answer(port, own, needs.spare, wants.asked > remote->asked());
+    remote->give_for_a_blow(ledger, own, needs.dt);
+    remote->answer(ledger, own, needs.spare, wants.asked > remote->asked());
   }
   const auto others = static_cast<double>(wants.engaged);
   const double surplus = std::max(0.0, own.surplus());

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "reckon/haptics/contact/remote_contact.hpp"
-#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/passivity/energy_ledger.hpp"
 
 namespace reckon::haptics {
 
@@ -42,7 +42,7 @@ struct PortNeeds {
 /// inside a wall, a released switch, a trip, a row of hands that was pressed quickly. The loan is
 /// repaid before anything is given, even if the contact ends.
 /// @return number of engaged contacts.
-std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port,
+std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyLedger& ledger,
                             const PortNeeds& needs) noexcept;
 
 }  // namespace reckon::haptics

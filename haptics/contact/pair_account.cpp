@@ -32,10 +32,10 @@ void PairAccount::hear(std::uint32_t life, double total) noexcept {
   }
 }
 
-void PairAccount::claim(EnergyPort& port) noexcept {
-  const double claimed = std::min(stated - seen, port.receivable());
+void PairAccount::claim(EnergyLedger& ledger) noexcept {
+  const double claimed = std::min(stated - seen, ledger.receivable());
   if (!(claimed > 0)) return;
-  const double fits = port.credit(claimed, std::max(0.0, believed));
+  const double fits = ledger.credit(claimed, std::max(0.0, believed));
   received += fits;
   believed -= fits;
   seen += claimed;
@@ -45,8 +45,8 @@ void PairAccount::see(double work) noexcept {
   believed = std::clamp(believed + work, -kGreatestBelieved, kGreatestBelieved);
 }
 
-double PairAccount::give(EnergyPort& port, double wanted) noexcept {
-  const double gift = port.give(wanted);
+double PairAccount::give(EnergyLedger& ledger, double wanted) noexcept {
+  const double gift = ledger.give(wanted);
   given += gift;
   believed += gift;
   return gift;

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/passivity/energy_ledger.hpp"
 #include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::haptics {
@@ -23,8 +23,8 @@ struct PairAccount {
   double seen = 0.0;  ///< [J], part of `stated` that was credited or is lost; the rest is pending
   /// [J], energy that the owner should have by our observation: the work of its surface on our
   /// spring plus our gifts, less what was credited from it. Energy that it claims to have given is
-  /// credited up to this, plus what the port accepts from anybody. The rest is lost. An owner that
-  /// should have enough gets no share in a shortage.
+  /// credited up to this, plus what the ledger accepts from anybody. The rest is lost. An owner
+  /// that should have enough gets no share in a shortage.
   double believed = 0.0;
 
   /// Opens the account of this hand unless it is open. Energy given before is lost.
@@ -33,12 +33,12 @@ struct PairAccount {
   /// Receives a total from the owner. Totals only grow, so that loss and reordering of updates can
   /// lose energy but not create any. With a new epoch of the owner the total restarts.
   void hear(std::uint32_t life, double total) noexcept;
-  /// Credits pending energy, as far as the port accepts it now. Energy beyond the bound is lost.
-  void claim(EnergyPort& port) noexcept;
+  /// Credits pending energy, as far as the ledger accepts it now. Energy beyond the bound is lost.
+  void claim(EnergyLedger& ledger) noexcept;
   /// Adds observed work [J] of the surface on our spring; negative if the spring gave it back.
   void see(double work) noexcept;
-  /// Gives up to `wanted` [J], as far as the port allows. @return the energy given
-  double give(EnergyPort& port, double wanted) noexcept;
+  /// Gives up to `wanted` [J], as far as the ledger allows. @return the energy given
+  double give(EnergyLedger& ledger, double wanted) noexcept;
 };
 
 }  // namespace reckon::haptics

@@ -14,7 +14,7 @@ constexpr double kTrustedFaster = 0.03;  // [s], validity of one that raises the
 constexpr double kSlowest = 0.05;        // [m/s]
 constexpr double kLate = 0.012;          // [s]
 constexpr double kFarthestBehind = 0.3;  // [s]
-constexpr double kMargin = 1.3;          // of the age, for jitter
+constexpr double kForJitter = 1.3;       // of the age
 constexpr double kCycle = 0.002;         // [s], cycle of a peer
 
 double seconds(std::chrono::nanoseconds time) noexcept {
@@ -64,7 +64,7 @@ bool Playback::is_blow(double closing, double age) noexcept {
 }
 
 void Playback::begin(double age) noexcept {
-  if (age > kLate) behind_ = std::max(behind_, std::min(kFarthestBehind, kMargin * age + kCycle));
+  if (age > kLate) behind_ = std::max(behind_, std::min(kFarthestBehind, kForJitter * age + kCycle));
 }
 
 void Playback::catch_up(double by) noexcept { behind_ = std::max(0.0, behind_ - by); }

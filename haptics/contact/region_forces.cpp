@@ -27,14 +27,13 @@ void RegionForces::reset(const Vector3d& device) noexcept {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].effects = plan_.regions()[i].effects;
     states_[i].gain = 0.0;
-    move(i, device);
+    enter(i, device);
   }
   begins_ = false;
-  at_ = device;
   sum_up();
 }
 
-void RegionForces::move(std::size_t index, const Vector3d& device) noexcept {
+void RegionForces::enter(std::size_t index, const Vector3d& device) noexcept {
   const PlannedRegion& region = plan_.regions()[index];
   State& state = states_[index];
   const bool was_inside = state.point.inside && !begins_;
@@ -53,28 +52,30 @@ void RegionForces::move(std::size_t index, const Vector3d& device) noexcept {
   });
 }
 
-void RegionForces::settle(const Vector3d& device, double dt, EnergyPort& port) noexcept {
+void RegionForces::move(const Vector3d& device, EnergyLedger& ledger) noexcept {
   const double before = stored();
-  for (std::size_t i = 0; i < states_.size(); ++i) move(i, device);
-  port.book(before - stored());
-  if (port.reads_in_steps()) {
-    const Vector3d last = force_;
-    sum_up();
-    port.follow(force_ - last, device - at_);
-  }
-  at_ = device;
+  for (std::size_t i = 0; i < states_.size(); ++i) enter(i, device);
+  ledger.book(before - stored());
+}
 
+Vector3d RegionForces::change() noexcept {
+  const Vector3d last = force_;
+  sum_up();
+  return force_ - last;
+}
+
+void RegionForces::settle(double dt, EnergyLedger& ledger) noexcept {
   // What the hand has entered, or a late sample, may leave a debt.
   for (State& state : states_) {
-    const double debt = port.debt(), held = state.gain * state.sum.energy;
+    const double debt = ledger.debt(), held = state.gain * state.sum.energy;
     if (!(debt > 0)) break;
-    if (held > 0) scale_gain(state, debt < held ? 1.0 - debt / held : 0.0, port);
+    if (held > 0) scale_gain(state, debt < held ? 1.0 - debt / held : 0.0, ledger);
   }
   const double most = most_gain();
   share_ = 1.0;
   for (State& state : states_) {
-    if (state.gain > most) scale_gain(state, most / state.gain, port);
-    if (!raise_gain(state, most, dt, port)) share_ = std::min(share_, state.gain / most);
+    if (state.gain > most) scale_gain(state, most / state.gain, ledger);
+    if (!raise_gain(state, most, dt, ledger)) share_ = std::min(share_, state.gain / most);
   }
   sum_up();
 }
@@ -87,21 +88,21 @@ double RegionForces::most_gain() const noexcept {
   return sum > cap_ ? cap_ / sum : 1.0;
 }
 
-void RegionForces::scale_gain(State& state, double factor, EnergyPort& port) noexcept {
-  port.book(state.gain * state.sum.energy * (1.0 - factor));
+void RegionForces::scale_gain(State& state, double factor, EnergyLedger& ledger) noexcept {
+  ledger.book(state.gain * state.sum.energy * (1.0 - factor));
   state.gain *= factor;
 }
 
 // A potential of no energy has no force, so that its gain is free. @return whether nothing is short
-bool RegionForces::raise_gain(State& state, double most, double dt, EnergyPort& port) noexcept {
+bool RegionForces::raise_gain(State& state, double most, double dt, EnergyLedger& ledger) noexcept {
   const double full = state.sum.energy;
   if (!(full > 0)) {
     state.gain = most;
     return true;
   }
   const double wanted = std::clamp(most - state.gain, 0.0, dt / kRiseSeconds);
-  const double rise = std::clamp((port.level() - kLeft) / full, 0.0, wanted);
-  port.book(-rise * full);
+  const double rise = std::clamp((ledger.level() - kLeft) / full, 0.0, wanted);
+  ledger.book(-rise * full);
   state.gain += rise;
   return !(rise < wanted);
 }
@@ -144,9 +145,9 @@ void RegionForces::load(const Vector3d& velocity, double dt, PortLoad& load) noe
   shown_ = force_;
 }
 
-void RegionForces::attenuate(double factor, EnergyPort& port) noexcept {
+void RegionForces::attenuate(double factor, EnergyLedger& ledger) noexcept {
   const double keep = std::clamp(factor, 0.0, 1.0);
-  for (State& state : states_) scale_gain(state, keep, port);
+  for (State& state : states_) scale_gain(state, keep, ledger);
   force_ *= keep;
   shown_ *= keep;
 }

@@ -14,8 +14,8 @@ namespace reckon::haptics {
 
 /// All regions of a plan. Each region's potential is shown with a gain. It falls to what the ledger
 /// covers where the potential would take more, as when the hand enters a region that draws it in,
-/// and rises in 100 ms as the port pays. Order of calls within a step: settle, load, attenuate.
-/// One thread; allocates only at construction.
+/// and rises in 100 ms as the ledger pays. Order of calls within a step: move, settle, load,
+/// attenuate. One thread; allocates only at construction.
 class RegionForces {
  public:
   /// @param plan outlives this object  @param stiffness_cap [N/m] of all potentials together
@@ -25,15 +25,20 @@ class RegionForces {
   [[nodiscard]] bool empty() const noexcept { return states_.empty(); }
   /// Restarts at `device` [m, S]: every region is entered anew, and its potential fades in.
   void reset(const Eigen::Vector3d& device) noexcept;
-  /// Moves to `device` [m, S] after a sample of `dt` [s], and books what was stored or released.
-  void settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept;
+  /// Moves to `device` [m, S], and books what was stored or released.
+  void move(const Eigen::Vector3d& device, EnergyLedger& ledger) noexcept;
+  /// By how much that changed the force of the potentials [N]; between move and settle.
+  [[nodiscard]] Eigen::Vector3d change() noexcept;
+  /// Lowers the gains for a debt, and raises them as the ledger pays. @param dt [s], of the sample
+  /// that ended
+  void settle(double dt, EnergyLedger& ledger) noexcept;
   /// Adds the forces to be held. @param velocity of the device [m/s, S]  @param dt [s], of the next
   /// sample
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
   /// Takes the held share of the other forces, [0, 1].
   void shown(double extra) noexcept { shown_ = force_ + extra * held_; }
   /// Scales the potentials, and the force, by `factor` in [0, 1].
-  void attenuate(double factor, EnergyPort& port) noexcept;
+  void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   /// The whole force that is shown [N, S], after shown().
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return shown_; }
@@ -51,17 +56,16 @@ class RegionForces {
     double gain = 0.0;
   };
 
-  void move(std::size_t index, const Eigen::Vector3d& device) noexcept;
+  void enter(std::size_t index, const Eigen::Vector3d& device) noexcept;
   void sum_up() noexcept;
   [[nodiscard]] double most_gain() const noexcept;
-  static void scale_gain(State& state, double factor, EnergyPort& port) noexcept;
-  static bool raise_gain(State& state, double most, double dt, EnergyPort& port) noexcept;
+  static void scale_gain(State& state, double factor, EnergyLedger& ledger) noexcept;
+  static bool raise_gain(State& state, double most, double dt, EnergyLedger& ledger) noexcept;
 
   const EffectPlan& plan_;
   std::vector<State> states_;
   double cap_;
   bool begins_ = true;
-  Eigen::Vector3d at_ = Eigen::Vector3d::Zero();     // [m], of the device
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  // [N], of the potentials
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   // [N], wanted by the others
   Eigen::Vector3d shown_ = Eigen::Vector3d::Zero();  // [N]

@@ -369,7 +369,7 @@ double RemoteContact::greatest_store() const noexcept {
   return std::max(spring_.stored(), coming_store_);
 }
 
-void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
+void RemoteContact::answer(EnergyLedger& ledger, EnergyDemand& own, double spare,
                            bool contested) noexcept {
   if (!answer_) return;
   answer_ = false;
@@ -381,13 +381,13 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
   request.share = std::max(0.0, request.most + kSpareShare - account_->believed);
   request.contested = contested;
   request.near = tracker_.age() < kNearAge;
-  own.level -= account_->give(port, gift(request, own));
+  own.level -= account_->give(ledger, gift(request, own));
 }
 
-void RemoteContact::give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept {
+void RemoteContact::give_for_a_blow(EnergyLedger& ledger, EnergyDemand& own, double dt) noexcept {
   if (!blow_.is_on() || !touching() || !hand_.has_device) return;
   const double wanted = blow_.gift(tracker_.age(), own.surplus(), dt);
-  if (wanted > 0) own.level -= account_->give(port, wanted);
+  if (wanted > 0) own.level -= account_->give(ledger, wanted);
 }
 
 void RemoteContact::ask(double need, double spring_need) noexcept {

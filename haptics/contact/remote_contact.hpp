@@ -14,7 +14,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/passivity/contact_spring.hpp"
 #include "reckon/haptics/passivity/energy_demand.hpp"
-#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/passivity/energy_ledger.hpp"
 
 namespace reckon::haptics {
 
@@ -60,9 +60,9 @@ class RemoteContact {
   /// Marks the account as in use in this servo step.
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
 
-  /// Credits pending gifts of the owner, as far as the port accepts them now.
-  void claim(EnergyPort& port) noexcept {
-    if (!leaving_) account_->claim(port);
+  /// Credits pending gifts of the owner, as far as the ledger accepts them now.
+  void claim(EnergyLedger& ledger) noexcept {
+    if (!leaving_) account_->claim(ledger);
   }
 
   /// Settles the spring at the present position of our hand.
@@ -81,9 +81,9 @@ class RemoteContact {
   [[nodiscard]] double greatest_store() const noexcept;
   /// Answers a received account, if there is one. @param own our own need; lowered by the energy
   /// given @param spare see first_tier()  @param contested whether others request energy too
-  void answer(EnergyPort& port, EnergyDemand& own, double spare, bool contested) noexcept;
+  void answer(EnergyLedger& ledger, EnergyDemand& own, double spare, bool contested) noexcept;
   /// Gives energy without a request if our hand strikes the remote one. @param dt [s], of this step
-  void give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept;
+  void give_for_a_blow(EnergyLedger& ledger, EnergyDemand& own, double dt) noexcept;
   /// Requests energy of the owner [J].
   void ask(double need, double spring_need) noexcept;
   /// Neither requests nor answers.

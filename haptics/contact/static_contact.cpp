@@ -4,128 +4,111 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
+#include "reckon/haptics/contact/load_sum.hpp"
 #include "reckon/haptics/contact/region_share.hpp"
 
 namespace reckon::haptics {
 namespace {
 
-constexpr double kRampSeconds = 0.1;
-constexpr double kFadeSeconds = 0.5;
-constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
+double depth_of(const ContactResult& result) noexcept {
+  return result.in_contact ? result.objects[result.deepest].depth : -1.0;
+}
 
 }  // namespace
 
-StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double radius)
-    : solver_(plan, radius, stiffness_cap),
-      regions_(plan, kRegionsOverWalls * stiffness_cap),
-      cap_(stiffness_cap) {}
-
-void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
-  result_ = solver_.reset(device);
-  at_ = device;
-  measure_stiffness();
-  gain_ = result_.in_contact ? 0.0 : 1.0;
-  fades_in_ = result_.in_contact;
-  force_.setZero();
-  regions_.reset(device);
+template <int axes>
+StaticContactOf<axes>::StaticContactOf(const EffectPlan& plan, double stiffness_cap, double radius,
+                                       std::size_t probes)
+    : regions_(plan, kRegionsOverWalls * stiffness_cap) {
+  while (walls_.size() < probes) walls_.emplace_back(plan, stiffness_cap, radius);
 }
 
-void StaticContact::measure_stiffness() noexcept {
-  stiffness_ = 0.0;
-  for (const std::uint32_t i : result_.touched) {
-    stiffness_ = std::max(stiffness_, solver_.stiffness_of(i));
+template <int axes>
+void StaticContactOf<axes>::reset(const Tool& tool) noexcept {
+  for (std::size_t i = 0; i < walls_.size(); ++i) walls_[i].reset(tool.place(i));
+  regions_.reset(tool.place());
+  deepest_ = 0;
+}
+
+template <int axes>
+void StaticContactOf<axes>::settle(const Tool& tool, double dt, Port& port) noexcept {
+  const bool in_steps = port.reads_in_steps();
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Eigen::Vector3d change = walls_[i].move(tool.place(i), dt, port);
+    if (in_steps) port.follow(tool.at_port(i, change), tool.motion());
+    walls_[i].settle(dt, port);
   }
-}
-
-void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept {
-  const double before = stored();
-  const Eigen::Vector3d force = result_.force;
-  result_ = solver_.step(device, dt);
-  measure_stiffness();
-  port.book(before - stored());
-  if (port.reads_in_steps()) {
-    port.follow(gain_ * (result_.force - force), device - at_);
-    at_ = device;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    if (depth_of(walls_[i].result()) > depth_of(result())) deepest_ = i;
   }
+  if (regions_.empty()) return;
+  regions_.move(tool.place(), port);
+  if (in_steps) port.follow(tool.at_port(0, regions_.change()), tool.motion());
+  regions_.settle(dt, port);
+}
 
-  // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
-  const double debt = port.debt();
-  if (debt > 0) {
-    if (debt > kHiccup * stored()) drop();
-    scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, port);
+template <int axes>
+void StaticContactOf<axes>::load(const Tool& tool, double dt, Load& load) noexcept {
+  LoadSum<axes> sum(load);
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    PortLoad& one = sum.of_probe();
+    if (i == 0 && !regions_.empty()) regions_.load(tool.velocity(), dt, one);
+    walls_[i].load(tool.velocity(i), dt, one);
+    sum.add(tool, i);
   }
-  const double most = most_gain();
-  if (gain_ > most) scale_gain(most / gain_, port);
-  follow_patches(dt, port);
-  raise_gain(dt, port);
-  if (!regions_.empty()) regions_.settle(device, dt, port);
+  sum.finish(tool);
 }
 
-// Nobody put in the storage that a stretched spring gains when its stiffness grows. The port pays
-// for it, first from the energy of the sample.
-void StaticContact::follow_patches(double dt, EnergyPort& port) noexcept {
-  share_ = patch_share_ = 1.0;
-  if (!solver_.on_patches() || !(gain_ > 0)) return;
-  const double before = stored();
-  result_ = solver_.follow_patches(dt, std::max(0.0, port.level()) / gain_);
-  port.book(before - stored());
-  measure_stiffness();
-  share_ = patch_share_ = solver_.patch_share();
+template <int axes>
+double StaticContactOf<axes>::lacks() const noexcept {
+  double sum = 0.0;
+  for (const WallContact& walls : walls_) sum += walls.lacks();
+  return sum;
 }
 
-double StaticContact::most_gain() const noexcept {
-  return stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
+template <int axes>
+void StaticContactOf<axes>::shown(double extra) noexcept {
+  for (WallContact& walls : walls_) walls.shown(extra);
+  if (!regions_.empty()) regions_.shown(extra);
 }
 
-void StaticContact::scale_gain(double factor, EnergyPort& port) noexcept {
-  port.book(stored() * (1.0 - factor));
-  gain_ *= factor;
+template <int axes>
+void StaticContactOf<axes>::attenuate(double factor, EnergyLedger& ledger) noexcept {
+  for (WallContact& walls : walls_) walls.attenuate(factor, ledger);
+  if (!regions_.empty()) regions_.attenuate(factor, ledger);
 }
 
-void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
-  const double full = result_.stored_energy;
-  const double most = most_gain();
-  if (!(full > 0)) {
-    gain_ = most;
-    fades_in_ = false;
-    return;
-  }
-  const double wanted = std::min(most - gain_, dt / (fades_in_ ? kFadeSeconds : kRampSeconds));
-  const double rise = std::clamp(port.level() / full, 0.0, std::max(0.0, wanted));
-  port.book(-rise * full);
-  gain_ += rise;
-  if (rise < wanted) share_ *= gain_ / most;
-  if (!(gain_ < most)) fades_in_ = false;
+template <int axes>
+Eigen::Vector3d StaticContactOf<axes>::force() const noexcept {
+  Eigen::Vector3d sum = regions_.force();
+  for (const WallContact& walls : walls_) sum = walls.force() + sum;
+  return sum;
 }
 
-// The effects' forces belong to no storage, and the port limits them. Here they are limited so that
-// the sum never pulls the hand to the surface.
-void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
-  if (!regions_.empty()) regions_.load(velocity, dt, load);
-  extra_.setZero();
-  force_ = gain_ * result_.force;
-  if (result_.objects.empty()) return;
-  load.walls += force_;
-  load.walls_slope += gain_ * stiffness_;
-  load.walls_stored += stored();
-  const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt, gain_);
-  const double size = wanted.norm();
-  const double spring = force_.norm();
-  if (!(size > 0) || !std::isfinite(size)) return;
-  if (result_.in_contact && !(spring > 0)) return;  // a pull cannot be recognised
-
-  const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
-  extra_ = along < 0 ? Eigen::Vector3d(std::min(1.0, spring / -along) * wanted) : wanted;
-  load.extra += extra_;
+template <int axes>
+double StaticContactOf<axes>::share() const noexcept {
+  double least = 1.0;
+  for (const WallContact& walls : walls_) least = std::min(least, walls.share());
+  return least;
 }
 
-void StaticContact::attenuate(double factor, EnergyPort& port) noexcept {
-  const double keep = std::clamp(factor, 0.0, 1.0);
-  scale_gain(keep, port);
-  force_ *= keep;
-  if (!regions_.empty()) regions_.attenuate(keep, port);
+template <int axes>
+double StaticContactOf<axes>::asked() const noexcept {
+  double sum = 0.0;
+  for (const WallContact& walls : walls_) sum += walls.asked();
+  return sum;
 }
+
+template <int axes>
+typename StaticContactOf<axes>::Force StaticContactOf<axes>::held_back(
+    const Tool& tool) const noexcept {
+  Force sum = Force::Zero();
+  for (std::size_t i = 0; i < walls_.size(); ++i) sum += tool.at_port(i, walls_[i].held_back());
+  return sum;
+}
+
+template class StaticContactOf<3>;
+template class StaticContactOf<6>;
 
 }  // namespace reckon::haptics

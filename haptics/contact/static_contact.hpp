@@ -1,95 +1,80 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The static scene of a device, walls and regions: scales the contact solver's force so that the
-// sampled wall stays passive for this device, and books the storage of its springs.
+// The static scene at a device: the walls that the probes of its tool touch, and the regions that
+// the tool is in.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <deque>
 
-#include "reckon/haptics/contact/contact_solver.hpp"
 #include "reckon/haptics/contact/region_forces.hpp"
+#include "reckon/haptics/contact/tool.hpp"
+#include "reckon/haptics/contact/wall_contact.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
 
 namespace reckon::haptics {
 
-/// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2, booked whole.
-///
-/// The greatest gain brings the stiffest touched object under the cap. A lower gain rises to it in
-/// 100 ms as the port pays. It is full again when nothing is touched. If the device starts inside
-/// an object, or the force was cut to zero while it was pressed, the gain begins at zero and rises
-/// within half a second on a loan; lacks() returns its amount. If a contact crosses a border
-/// between patches, its springs follow as in PatchBlend, paid by the port. Order of calls within a
-/// step: settle, load, shown, attenuate.
-class StaticContact {
+/// Contact of a tool with all static objects, each probe for itself, and the forces of all regions,
+/// which act at the first probe. All of them are paid by the device's one port. Order of calls
+/// within a step: settle, load, shown, attenuate.
+/// @tparam axes of the device: 3, with a point for a tool, or 6
+template <int axes>
+class StaticContactOf {
  public:
+  using Force = AxisForces<axes>;
+  using Tool = ToolOf<axes>;
+  using Port = EnergyPortOf<axes>;
+  using Load = PortLoadOf<axes>;
+
   /// @param plan outlives this object  @param stiffness_cap [N/m] of any object; regions together
   /// have a third of it besides, see static_cap()
-  /// @param radius of the probe [m], >= 0
-  StaticContact(const EffectPlan& plan, double stiffness_cap, double radius = 0.0);
+  /// @param radius of the probes [m], >= 0  @param probes of the tool, 1 or more
+  StaticContactOf(const EffectPlan& plan, double stiffness_cap, double radius = 0.0,
+                  std::size_t probes = 1);
 
-  /// Restarts at `device` [m, S].
-  void reset(const Eigen::Vector3d& device) noexcept;
-
-  /// Moves the contact to `device` [m] after a sample of `dt` [s], and books the stored or released
-  /// energy.
-  void settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept;
-
+  /// Restarts where the tool is.
+  void reset(const Tool& tool) noexcept;
+  /// Follows the tool after a sample of `dt` [s], and books the stored or released energy.
+  void settle(const Tool& tool, double dt, Port& port) noexcept;
   /// Adds the forces to be held: springs, and the effects' forces, which never pull.
-  /// @param velocity of the device [m/s]  @param dt [s], of the next sample
-  void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
-
-  /// The force was cut to zero: touched objects fade in again.
-  void drop() noexcept { fades_in_ = fades_in_ || result_.stored_energy > 0; }
+  /// @param dt [s], of the next sample
+  void load(const Tool& tool, double dt, Load& load) noexcept;
+  /// The forces were cut to zero: touched objects fade in again.
+  void drop() noexcept {
+    for (WallContact& walls : walls_) walls.drop();
+  }
   /// Energy that the walls lack for their full storage while a loan is allowed [J]; else 0.
-  [[nodiscard]] double lacks() const noexcept {
-    return fades_in_ ? (most_gain() - gain_) * result_.stored_energy : 0.0;
-  }
-
+  [[nodiscard]] double lacks() const noexcept;
   /// Takes the held share of the effects' forces, [0, 1].
-  void shown(double extra) noexcept {
-    force_ = gain_ * result_.force + extra * extra_;
-    if (!regions_.empty()) regions_.shown(extra);
-  }
+  void shown(double extra) noexcept;
+  /// Scales forces and storage by `factor` in [0, 1].
+  void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
-  /// Scales force and storage by `factor` in [0, 1].
-  void attenuate(double factor, EnergyPort& port) noexcept;
-
-  [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
-  /// Of walls and regions [N, S], after shown().
-  [[nodiscard]] Eigen::Vector3d force() const noexcept { return force_ + regions_.force(); }
-  [[nodiscard]] double gain() const noexcept { return gain_; }
-  /// Share of the springs that the available energy allows, [0, 1]; 1 if energy is not short.
-  [[nodiscard]] double share() const noexcept { return share_; }
-  /// Force of the springs at the greatest stiffness that the device can show [N].
-  [[nodiscard]] double asked() const noexcept {
-    return most_gain() / patch_share_ * result_.force.norm();
+  /// Of the probe that is deepest in an object; of the first if none is in any.
+  [[nodiscard]] const ContactResult& result() const noexcept { return walls_[deepest_].result(); }
+  [[nodiscard]] std::size_t deepest() const noexcept { return deepest_; }
+  /// Walls at a probe.
+  [[nodiscard]] const WallContact& walls(std::size_t probe = 0) const noexcept {
+    return walls_[probe];
   }
-  /// Force that the springs lack because the gain is below the cap [N].
-  [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
-    return (most_gain() - gain_) * result_.force;
-  }
-  [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
+  /// Sum of walls and regions at all probes [N, S], after shown().
+  [[nodiscard]] Eigen::Vector3d force() const noexcept;
+  /// Least share of the springs that the available energy allows, [0, 1].
+  [[nodiscard]] double share() const noexcept;
+  /// Force of the springs at the greatest stiffness that the device can show, all probes [N].
+  [[nodiscard]] double asked() const noexcept;
+  /// Force that the springs lack because their gain is below the cap.
+  [[nodiscard]] Force held_back(const Tool& tool) const noexcept;
 
  private:
-  [[nodiscard]] double most_gain() const noexcept;
-  void scale_gain(double factor, EnergyPort& port) noexcept;
-  void follow_patches(double dt, EnergyPort& port) noexcept;
-  void raise_gain(double dt, EnergyPort& port) noexcept;
-  void measure_stiffness() noexcept;
-
-  ContactSolver solver_;
+  std::deque<WallContact> walls_;  // one a probe, fixed at construction; a solver does not move
   RegionForces regions_;
-  double cap_;
-  ContactResult result_;
-  Eigen::Vector3d at_ = Eigen::Vector3d::Zero();  // [m], position of the device
-  double stiffness_ = 0.0;                        // [N/m], of the stiffest object touched
-  double gain_ = 1.0;
-  double share_ = 1.0;
-  double patch_share_ = 1.0;  // share of it for patches that are not paid for
-  bool fades_in_ = false;     // until the gain is full or the contact ends
-  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], wanted by the effects
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  std::size_t deepest_ = 0;
 };
+
+/// At a device of three axes, of which the handle is the one probe.
+using StaticContact = StaticContactOf<3>;
 
 }  // namespace reckon::haptics

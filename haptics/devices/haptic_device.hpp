@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -20,14 +21,19 @@ enum class DeviceKind : std::uint8_t {
 /// What a device can do and what one may rely on. All of it is fixed after construction.
 struct DeviceLimits {
   DeviceKind kind = DeviceKind::impedance;
+  /// 3: gives a position and shows a force. 6: gives a pose and shows a torque too.
+  int axes = 3;
   double max_force = 0.0;      ///< [N], > 0: beyond it the output is scaled, direction kept
   double max_stiffness = 0.0;  ///< [N/m], 0 = no limit of its own (the sampled bound always holds)
   double damping = 0.0;        ///< [N s/m], >= 0: the viscous friction one is *sure* of
   double max_speed = 1.0;      ///< [m/s], faster than this is a fault
   Eigen::Vector3d workspace_min = Eigen::Vector3d::Constant(-0.05);  ///< [m], frame D
   Eigen::Vector3d workspace_max = Eigen::Vector3d::Constant(0.05);   ///< [m], frame D
-  int delay_samples = 0;    ///< writes after which a force is at the handle
-  double resolution = 0.0;  ///< [m], step of its position sensors, along each axis; 0 = exact
+  double max_torque = 0.0;                                           ///< [N m], of 6 axes, > 0
+  double turn_damping = 0.0;     ///< [N m s/rad], of 6 axes, > 0: sure for a turn about any axis
+  double turn_resolution = 0.0;  ///< [rad], step of its angle sensors; 0 = exact
+  int delay_samples = 0;         ///< writes after which a force is at the handle
+  double resolution = 0.0;       ///< [m], step of its position sensors, along each axis; 0 = exact
 };
 
 /// One reading of a device.
@@ -35,6 +41,10 @@ struct DeviceSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], frame D; only with has_velocity
   bool has_velocity = false;
+  /// Of 6 axes: tool -> frame D, a unit quaternion, and its rate [rad/s], frame D, with
+  /// has_velocity.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();
   bool enabled = true;    ///< the operator's (dead man's) switch: force only while it is held
   bool ok = false;        ///< false: no reading this time (unplugged, transfer failed)
   bool watchdog = false;  ///< the device went to zero force by itself since the last read
@@ -42,6 +52,7 @@ struct DeviceSample {
   /// books then stay exact and the force goes on; otherwise everything the contacts hold is written
   /// off.
   std::optional<Eigen::Vector3d> released_at = {};
+  std::optional<Eigen::Quaterniond> released_orientation = {};  ///< of 6 axes, with released_at
   std::uint32_t buttons = 0;
 };
 
@@ -62,6 +73,11 @@ class HapticDevice {
 
   /// @param force [N], frame D, on the operator's hand; held until the next write.
   virtual void write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept = 0;
+  /// The same for a device of 6 axes. @param torque about the handle [N m], frame D
+  virtual void write_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& /*torque*/,
+                            std::chrono::nanoseconds now) noexcept {
+    write(force, now);
+  }
 
  protected:
   HapticDevice() = default;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
@@ -18,30 +16,27 @@ using std::chrono::nanoseconds;
 constexpr double kLongestSubstep = 1e-4;  // [s]
 constexpr nanoseconds kLongestRun{1'000'000'000};
 
-void require(bool good, const char* what, double value) {
-  if (good) return;
-  throw std::invalid_argument(std::string("simulated device: ") + what + ", got " +
-                              std::to_string(value));
-}
-
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script)
     : config_(config), script_(std::move(script)), position_(config.start) {
-  require(config.mass > 0, "mass must be above 0 kg", config.mass);
-  require(config.damping >= 0, "damping must be 0 or more N s/m", config.damping);
-  require(config.hand_stiffness >= 0, "hand stiffness must be 0 or more N/m",
-          config.hand_stiffness);
-  require(config.hand_damping >= 0, "hand damping must be 0 or more N s/m", config.hand_damping);
-  require(config.max_force > 0, "largest force must be above 0 N", config.max_force);
-  require(config.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
-          config.max_stiffness);
-  require(config.delay_samples >= 0 && config.delay_samples <= kMostDelay,
-          "delay must be 0 to 1000 samples", config.delay_samples);
-  require(config.hold > nanoseconds(0) && config.hold <= kWatchdog,
-          "a force must be held for more than 0 and at most 0.01 s", pdu::to_seconds(config.hold));
-  require(config.resolution >= 0, "resolution must be 0 or more m", config.resolution);
-  under_way_.assign(static_cast<std::size_t>(config.delay_samples), Eigen::Vector3d::Zero());
+  require_of_simulated(config.mass > 0, "mass must be above 0 kg", config.mass);
+  require_of_simulated(config.damping >= 0, "damping must be 0 or more N s/m", config.damping);
+  require_of_simulated(config.hand_stiffness >= 0, "hand stiffness must be 0 or more N/m",
+                       config.hand_stiffness);
+  require_of_simulated(config.hand_damping >= 0, "hand damping must be 0 or more N s/m",
+                       config.hand_damping);
+  require_of_simulated(config.max_force > 0, "largest force must be above 0 N", config.max_force);
+  require_of_simulated(config.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
+                       config.max_stiffness);
+  require_of_simulated(config.delay_samples >= 0 && config.delay_samples <= kMostDelay,
+                       "delay must be 0 to 1000 samples", config.delay_samples);
+  require_of_simulated(config.hold > nanoseconds(0) && config.hold <= kWatchdog,
+                       "a force must be held for more than 0 and at most 0.01 s",
+                       pdu::to_seconds(config.hold));
+  require_of_simulated(config.resolution >= 0, "resolution must be 0 or more m", config.resolution);
+  if (config.turn) turn_.emplace(*config.turn);
+  under_way_.assign(static_cast<std::size_t>(config.delay_samples), Wrench::Zero());
 }
 
 DeviceLimits SimulatedDevice::limits() const noexcept {
@@ -52,6 +47,12 @@ DeviceLimits SimulatedDevice::limits() const noexcept {
   limits.max_stiffness = config_.max_stiffness;
   limits.delay_samples = config_.delay_samples;
   limits.resolution = config_.resolution;
+  if (turn_) {
+    limits.axes = 6;
+    limits.max_torque = turn_->config().max_torque;
+    limits.turn_damping = turn_->config().damping;
+    limits.turn_resolution = turn_->config().resolution;
+  }
   return limits;
 }
 
@@ -62,7 +63,8 @@ void SimulatedDevice::plug(bool in) noexcept {
 
 void SimulatedDevice::let_go() noexcept {
   force_.setZero();
-  for (Eigen::Vector3d& force : under_way_) force.setZero();
+  torque_.setZero();
+  for (Wrench& wrench : under_way_) wrench.setZero();
 }
 
 void SimulatedDevice::restart(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity,
@@ -73,12 +75,13 @@ void SimulatedDevice::restart(const Eigen::Vector3d& position, const Eigen::Vect
   let_go();
   position_ = position;
   velocity_ = velocity;
+  if (turn_) turn_->restart(turn_->orientation(), turn_->rate());
   port_work_ = damping_loss_ = hand_work_ = 0.0;
 }
 
 bool SimulatedDevice::holds_force() const noexcept {
-  const auto some = [](const Eigen::Vector3d& force) { return force.squaredNorm() > 0; };
-  return some(force_) || std::any_of(under_way_.begin(), under_way_.end(), some);
+  const auto some = [](const auto& force) { return force.squaredNorm() > 0; };
+  return some(force_) || some(torque_) || std::any_of(under_way_.begin(), under_way_.end(), some);
 }
 
 DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
@@ -95,6 +98,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
     let_go();
     sample.watchdog = true;
     sample.released_at = position_;
+    if (turn_) sample.released_orientation = turn_->orientation();
     run(pdu::to_seconds(elapsed - held));
   } else {
     run(pdu::to_seconds(elapsed));
@@ -108,19 +112,30 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   sample.has_velocity = config_.resolution <= 0;
   const double step = config_.resolution;
   if (step > 0) sample.position = (position_ / step).array().round().matrix() * step;
+  if (turn_) {
+    sample.orientation = turn_->reading();
+    sample.turn_rate = turn_->rate();
+    sample.has_velocity = sample.has_velocity && turn_->config().resolution <= 0;
+  }
   return sample;
 }
 
 void SimulatedDevice::write(const Eigen::Vector3d& force, nanoseconds now) noexcept {
+  write_wrench(force, Eigen::Vector3d::Zero(), now);
+}
+
+void SimulatedDevice::write_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
+                                   nanoseconds now) noexcept {
   written_at_ = now;
-  if (!plugged_ || !force.allFinite()) return let_go();
-  if (under_way_.empty()) {
-    force_ = force;
-    return;
+  if (!plugged_ || !force.allFinite() || !torque.allFinite()) return let_go();
+  Wrench wrench;
+  wrench << force, torque;
+  if (!under_way_.empty()) {
+    std::swap(wrench, under_way_[next_]);
+    next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
   }
-  force_ = under_way_[next_];
-  under_way_[next_] = force;
-  next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
+  force_ = wrench.head<3>();
+  torque_ = wrench.tail<3>();
 }
 
 void SimulatedDevice::run(double duration) noexcept {
@@ -135,6 +150,7 @@ void SimulatedDevice::run(double duration) noexcept {
 void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;
+  if (turn_) target.orientation = turn_->config().start;
   if (script_) target = script_(time_);
   Eigen::Vector3d pull = config_.hand_stiffness * (target.position - position_);
   const double pulls = pull.norm();
@@ -144,6 +160,7 @@ void SimulatedDevice::substep(double h) noexcept {
   velocity_ += h / config_.mass * (hand + force_ - config_.damping * velocity_);
   const Eigen::Vector3d dx = h * velocity_;
   position_ += dx;
+  if (turn_) turn_->step(torque_, target.orientation, target.turn_rate, target.grip, h);
   time_ += h;
   port_work_ -= force_.dot(dx);
   hand_work_ += hand.dot(dx);

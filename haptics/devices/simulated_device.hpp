@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/devices/simulated_turn.hpp"
 
 namespace reckon::haptics {
 
@@ -20,6 +22,9 @@ struct HandTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
+  /// Of a device of six axes: tool -> D, and its rate [rad/s], frame D.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();
   double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: it has let go
   double most_pull = std::numeric_limits<double>::infinity();  ///< [N] >= 0, that the spring gives
 };
@@ -45,12 +50,14 @@ struct SimulatedDeviceConfig {
   std::chrono::nanoseconds hold = HapticDevice::kWatchdog;
   double resolution = 0.0;  ///< [m], encoder step; 0 = exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
+  std::optional<SimulatedTurnConfig> turn{};        ///< none: a device of three axes
 };
 
-/// A point mass with viscous friction, moved by a held force and by a hand: a spring and damper to
-/// a target that a script moves (scripted operator) or that stays where it is (passive operator).
-/// The plant runs at a tenth of a millisecond or finer, semi-implicit, between two reads. Its books
-/// are exact for its own steps: port_work + damping_loss is what a passive environment keeps >= 0.
+/// A point mass with viscous friction, which also turns if it has six axes, moved by a held force
+/// and by a hand: a spring and damper to a target that a script moves (scripted operator) or that
+/// stays where it is (passive operator). The plant runs at a tenth of a millisecond or finer,
+/// semi-implicit, between two reads. Its books are exact for its own steps: port_work +
+/// damping_loss is what a passive environment keeps >= 0.
 class SimulatedDevice : public HapticDevice {
  public:
   static constexpr int kMostDelay = 1000;  ///< [samples]
@@ -62,6 +69,8 @@ class SimulatedDevice : public HapticDevice {
   /// Runs the plant from the last read to `now`; at most 1 s at once.
   [[nodiscard]] DeviceSample read(std::chrono::nanoseconds now) noexcept override;
   void write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept override;
+  void write_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
+                    std::chrono::nanoseconds now) noexcept override;
 
   /// The operator's switch.
   void enable(bool held) noexcept { enabled_ = held; }
@@ -77,17 +86,27 @@ class SimulatedDevice : public HapticDevice {
   [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
   /// Force now at the handle [N].
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
-  /// Energy that the rendered forces took from the handle since the start [J].
-  [[nodiscard]] double port_work() const noexcept { return port_work_; }
+  /// How it turns; none of a device of three axes.
+  [[nodiscard]] const std::optional<SimulatedTurn>& turn() const noexcept { return turn_; }
+  /// Energy that the rendered forces and torques took from the handle since the start [J].
+  [[nodiscard]] double port_work() const noexcept {
+    return turn_ ? port_work_ + turn_->port_work() : port_work_;
+  }
   /// Energy lost in the device's own friction [J].
-  [[nodiscard]] double damping_loss() const noexcept { return damping_loss_; }
+  [[nodiscard]] double damping_loss() const noexcept {
+    return turn_ ? damping_loss_ + turn_->damping_loss() : damping_loss_;
+  }
   /// Energy that the hand put in, less what its damper took [J].
-  [[nodiscard]] double hand_work() const noexcept { return hand_work_; }
+  [[nodiscard]] double hand_work() const noexcept {
+    return turn_ ? hand_work_ + turn_->hand_work() : hand_work_;
+  }
   [[nodiscard]] double kinetic_energy() const noexcept {
     return 0.5 * config_.mass * velocity_.squaredNorm();
   }
 
  private:
+  using Wrench = Eigen::Matrix<double, 6, 1>;  // force, then torque
+
   void let_go() noexcept;
   [[nodiscard]] bool holds_force() const noexcept;
   void run(double duration) noexcept;
@@ -98,7 +117,9 @@ class SimulatedDevice : public HapticDevice {
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> under_way_;  // a ring, the oldest at next_
+  Eigen::Vector3d torque_ = Eigen::Vector3d::Zero();
+  std::optional<SimulatedTurn> turn_;
+  std::vector<Wrench> under_way_;  // a ring, the oldest at next_
   std::size_t next_ = 0;
   std::chrono::nanoseconds read_at_{0};
   std::chrono::nanoseconds written_at_{0};

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
@@ -103,11 +104,21 @@ struct AccountList {
   }
 };
 
+/// How the tool of a device of six axes is held. Frame S.
+struct ToolState {
+  bool turns = false;  ///< false: a device of three axes, and nothing here is said
+  Eigen::Vector3d handle = Eigen::Vector3d::Zero();                 ///< [m], measured
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> S, measured
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m], about the handle, as written
+};
+
 /// Published result of one servo step.
 struct ServoSnapshot : AccountList {
   std::chrono::nanoseconds time{0};
   std::uint64_t step = 0;
-  Eigen::Vector3d device = Eigen::Vector3d::Zero();               ///< [m], measured handle
+  Eigen::Vector3d device = Eigen::Vector3d::Zero();               ///< [m], measured: the handle,
+                                                                  ///< or the tool's first probe
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();                  ///< [m], surface contact point,
                                                                   ///< outside the objects
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s], of the SCP, filtered
@@ -123,7 +134,8 @@ struct ServoSnapshot : AccountList {
   double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
-  bool enabled = false;      ///< operator switch held and no trip pending
+  bool enabled = false;  ///< operator switch held and no trip pending
+  ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
   double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
   /// [J], least value of port_energy + loan so far; >= -1e-9 - late_cost on a device that keeps its
@@ -148,7 +160,10 @@ struct ServoConfig {
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
-  double contact_radius = 0.0;  ///< [m], of the probe against the static scene; 0 (a point) to 1
+  double contact_radius = 0.0;  ///< [m], of the probes against the static scene; 0 (points) to 1
+  /// Of the tool on a device of six axes: 1 to 8 places from the handle [m], in axes of the tool,
+  /// each at most 1 m away. The first is what remote hands touch. None: the handle is the probe.
+  std::vector<Eigen::Vector3d> probes{};
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
   /// [N/s], limit for growth and rotation of the force; its decrease is free. At most, and by
   /// default, the rate of the stiffest surface that the device can hold at 1 m/s.

@@ -7,7 +7,6 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMostGift = 0.9;  // of the present energy
 constexpr int kHalvings = 20;
 
 }  // namespace
@@ -23,6 +22,16 @@ void EnergyPortOf<axes>::pass() noexcept {
     held_.write(chosen_);
   }
   if (doubtful_ > 0) --doubtful_;
+  commit();
+}
+
+// The hand may take |q|^2 T / (4 b) from each force q under way, whatever is booked or shown by
+// then.
+template <int axes>
+void EnergyPortOf<axes>::commit() noexcept {
+  if (held_.delay() == 0) return;
+  const double squares = held_.under_way(Force::Zero()).squares;
+  committed_ = squares > 0 ? squares * period_ / (4.0 * damping()) : 0.0;
 }
 
 template <int axes>
@@ -91,74 +100,6 @@ void EnergyPortOf<axes>::follow(const Force& change, const Force& dx) noexcept {
 }
 
 template <int axes>
-double EnergyPortOf<axes>::credit(double energy) noexcept {
-  const double room = std::max(0.0, kMostKept + booked_ - std::max(0.0, level_));
-  const double fits = energy > 0 ? std::min(energy, room) : 0.0;
-  level_ += fits;
-  unearned_ += fits;
-  return fits;
-}
-
-template <int axes>
-double EnergyPortOf<axes>::credit(double energy, double seen) noexcept {
-  const double fits = credit(std::min({energy, seen + unseen_, receivable()}));
-  unseen_ -= std::max(0.0, fits - seen);
-  receivable_ -= fits;
-  return fits;
-}
-
-template <int axes>
-double EnergyPortOf<axes>::receivable() const noexcept {
-  const double room = std::max(0.0, kReceivedAtOnce + booked_ - std::max(0.0, level_));
-  return std::min(receivable_, room);
-}
-
-// Energy from others that no spring stores.
-template <int axes>
-double EnergyPortOf<axes>::waiting() const noexcept {
-  return std::max(0.0, std::min(unearned_, level_) - booked_);
-}
-
-template <int axes>
-void EnergyPortOf<axes>::wait(double dt) noexcept {
-  unseen_ = std::min(kUnseen, unseen_ + kUnseenPower * dt);
-  const double most = std::max(0.0, kReceivedAtOnce - waiting());
-  receivable_ = std::min(most, receivable_ + received_power_ * dt);
-}
-
-// The hand may take |q|^2 T / (4 b) from each force q under way, whatever is booked or shown by
-// then.
-template <int axes>
-double EnergyPortOf<axes>::spendable() const noexcept {
-  if (held_.delay() == 0) return std::max(0.0, level_);
-  const double squares = held_.under_way(Force::Zero()).squares;
-  const double kept = squares > 0 ? squares * period_ / (4.0 * damping()) : 0.0;
-  return std::max(0.0, level_ - kept);
-}
-
-template <int axes>
-double EnergyPortOf<axes>::give(double wanted) noexcept {
-  const double most = std::min(kMostGift * std::max(0.0, level_), spendable());
-  const double gift = wanted > 0 ? std::min(most, wanted) : 0.0;
-  level_ -= gift;
-  receivable_ = std::min(kReceivedAtOnce, receivable_ + gift);
-  return gift;
-}
-
-template <int axes>
-void EnergyPortOf<axes>::borrow(double energy) noexcept {
-  level_ += energy;
-  owed_ += energy;
-}
-
-template <int axes>
-void EnergyPortOf<axes>::pay_back(double energy) noexcept {
-  const double paid = std::clamp(energy, 0.0, std::min(owed_, spendable()));
-  level_ -= paid;
-  owed_ -= paid;
-}
-
-template <int axes>
 void EnergyPortOf<axes>::clear() noexcept {
   written_off_ += std::min(late_, debt());
   late_ = 0.0;
@@ -170,6 +111,7 @@ template <int axes>
 void EnergyPortOf<axes>::let_go() noexcept {
   held_.drop();
   chosen_.setZero();
+  commit();
 }
 
 // @param walls share of the walls that stays
@@ -190,6 +132,7 @@ template <int axes>
 PortHoldOf<axes> EnergyPortOf<axes>::hold(const Load& load, double dt) noexcept {
   Hold out;
   period_ = dt;
+  commit();
   late_ = std::min(late_, debt());
   late_cost_ = std::max(late_cost_, written_off_ + late_);
   SplitBoundOf<axes> bound = bound_of(load, 1.0, dt);

@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "reckon/haptics/passivity/energy_ledger.hpp"
 #include "reckon/haptics/passivity/held_forces.hpp"
 #include "reckon/haptics/passivity/split.hpp"
 #include "reckon/haptics/passivity/sure_damping.hpp"
@@ -56,26 +56,11 @@ struct PortHoldOf {
 /// O(delay); allocates only at construction.
 /// @tparam axes 3, or 6 for a device that turns
 template <int axes>
-class EnergyPortOf {
+class EnergyPortOf : public EnergyLedger {
  public:
   using Force = AxisForces<axes>;
   using Load = PortLoadOf<axes>;
   using Hold = PortHoldOf<axes>;
-
-  /// Energy credited without observation [J], and the power at which this credit refills [W]. A
-  /// higher value hinders honest peers less if the shown surface lags behind their real one, and
-  /// allows a dishonest peer more.
-  static constexpr double kUnseen = 0.005;
-  static constexpr double kUnseenPower = 0.05;
-
-  /// Greatest energy from all others together at once [J], beyond received_power() over time. It
-  /// limits their part of E that no spring stores, and a single credit. A higher value lets a quick
-  /// blow arrive whole, and a dishonest peer throw a hand that much harder.
-  static constexpr double kReceivedAtOnce = 0.008;
-  /// Greatest energy kept beside the springs' storage [J]. At most kReceivedAtOnce of it may come
-  /// from others than the hand. A higher value returns more at once after a rest (stronger kicks);
-  /// a lower value makes moving surfaces softer.
-  static constexpr double kMostKept = 0.04;
 
   /// @param damping [N s/m] >= 0, guaranteed damping of the device
   /// @param delay [samples] >= 0, from a write to the force at the handle
@@ -86,44 +71,17 @@ class EnergyPortOf {
         samples_(1.0 + delay),
         unsure_(0.5 * std::sqrt(axes) * resolution) {}
 
-  /// Greatest power from all others together, less what was given to them [W] > 0; unlimited at
-  /// first. Excess energy is not lost but stays pending: see receivable().
-  void limit_received_power(double power) noexcept { received_power_ = power; }
-
   /// Books the sample that ended, in which the hand moved by dx [m] in dt [s] > 0, and the missed
   /// samples before it. In missed samples it is unknown how far the hand moved under which force.
   /// So the worst case is booked, and no work of the hand is credited.
   void settle(const Force& dx, double dt) noexcept;
   /// A sample of dt [s] > 0 ended without a reading of the handle.
   void miss(double dt) noexcept;
-  /// Books energy that a wall stored (negative) or released (positive) [J].
-  void book(double energy) noexcept { level_ += energy; }
   /// Whether the handle is read in encoder steps; otherwise follow() does nothing.
   [[nodiscard]] bool reads_in_steps() const noexcept { return unsure_ > 0; }
   /// Books a change of a spring's force by `change` [N] while the reading moved by dx [m]. The hand
   /// crossed an encoder step somewhere between both forces, not under the first one alone.
   void follow(const Force& change, const Force& dx) noexcept;
-  /// Adds energy given to us. @return the part that fits [J].
-  double credit(double energy) noexcept;
-  /// Adds energy that a peer claims to have given. A hand at rest can only pass on what it
-  /// received, and a surface that brings energy is observed to push. So energy is credited as far
-  /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
-  /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
-  double credit(double energy, double seen) noexcept;
-  /// Energy that may be credited now [J], from all peers together. It grows with time, as far as
-  /// there is room.
-  [[nodiscard]] double receivable() const noexcept;
-  /// Advances time by `dt` [s]: both accounts refill.
-  void wait(double dt) noexcept;
-  /// Takes `wanted` [J] for a gift, at most 0.9 E, and keeps the energy that pays for the forces
-  /// under way. @return the energy taken [J].
-  double give(double wanted) noexcept;
-  /// Adds a loan: energy that nobody put in and that is paid back. The caller bounds it. @param
-  /// energy [J] >= 0
-  void borrow(double energy) noexcept;
-  /// Pays back, at most the debt, and keeps the energy that pays for the forces under way. @param
-  /// energy [J] >= 0
-  void pay_back(double energy) noexcept;
 
   /// Chooses the force to hold for the next dt [s], and discards energy above the limits.
   Hold hold(const Load& load, double dt) noexcept;
@@ -138,21 +96,13 @@ class EnergyPortOf {
   /// Discards all energy, because what the hand took since is unknown. The debt stays.
   void clear() noexcept;
 
-  /// E [J]; below 0 only after a late sample or a wall that cost more than was available.
-  [[nodiscard]] double level() const noexcept { return level_; }
-  [[nodiscard]] double debt() const noexcept { return level_ < 0 ? -level_ : 0.0; }
-  /// Debt: borrowed and not yet paid back [J].
-  [[nodiscard]] double owed() const noexcept { return owed_; }
-  /// Energy in no spring [J], after the last hold().
-  [[nodiscard]] double free() const noexcept { return level_ - booked_; }
   [[nodiscard]] double damping() const noexcept { return damping_.damping(); }
+  /// Held in the sample that ended last.
+  [[nodiscard]] const Force& at_handle() const noexcept { return held_.at_handle(); }
   /// Greatest part of an E below 0 that samples longer than the dt of their hold() account for [J],
   /// since the start. Each may take b |dx|^2 (1 / dt - 1 / its length) beyond what was reckoned. 0
   /// for a punctual servo.
   [[nodiscard]] double late_cost() const noexcept { return late_cost_; }
-  /// Energy that the hand put in, plus what the device's damping certainly took [J], since the
-  /// start.
-  [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
   /// Greatest error of absorbed() above the truth from encoder steps [J]: half the diagonal of a
   /// step for each newton by which forces changed, in either direction. 0 without steps.
   [[nodiscard]] double encoder_allowance() const noexcept {
@@ -174,32 +124,13 @@ class EnergyPortOf {
   void note_late(const Force& dx, double dt) noexcept;
   void keep_in_mind(double dt) noexcept;
   void settle_missed(const Force& dx) noexcept;
-  void absorb(double energy) noexcept {
-    level_ += energy;
-    absorbed_ += energy;
-  }
-  void take_back(double energy) noexcept {
-    const double back = std::clamp(energy, 0.0, pushed_);
-    unearned_ += back;
-    pushed_ -= back;
-  }
-  [[nodiscard]] double spendable() const noexcept;
-  [[nodiscard]] double waiting() const noexcept;
+  void commit() noexcept;
 
   SureDampingOf<axes> damping_;
   HeldForcesOf<axes> held_;
-  double samples_;  // samples for which a chosen force has to be paid
-  double unsure_;   // [m], greatest error of a reading
-  double level_ = 0.0;
-  double booked_ = 0.0;  // w S of the last hold
-  double period_ = 0.0;  // [s], of the last hold
-  double owed_ = 0.0;
-  double unearned_ = 0.0;  // of E, given by others
-  double pushed_ = 0.0;    // of that, what left E, as into the hand, and did not return
-  double unseen_ = kUnseen;
-  double received_power_ = std::numeric_limits<double>::infinity();
-  double receivable_ = kReceivedAtOnce;
-  double absorbed_ = 0.0;
+  double samples_;            // samples for which a chosen force has to be paid
+  double unsure_;             // [m], greatest error of a reading
+  double period_ = 0.0;       // [s], of the last hold
   double late_ = 0.0;         // of what E is below 0
   double written_off_ = 0.0;  // of late_, by clear()
   double late_cost_ = 0.0;

@@ -4,21 +4,25 @@
 // limited.
 #pragma once
 
-#include <Eigen/Core>
+#include "reckon/haptics/passivity/split.hpp"
 
 namespace reckon::haptics {
 
 /// Whether `wanted` is at most `most` [N] from some fraction of `held`.
-[[nodiscard]] bool within_reach(const Eigen::Vector3d& held, const Eigen::Vector3d& wanted,
+template <int axes>
+[[nodiscard]] bool within_reach(const AxisForces<axes>& held, const AxisForces<axes>& wanted,
                                 double most) noexcept;
 
 /// `wanted` if it is within reach, else the nearest force within reach: `held` first decreases,
 /// then moves by `most` towards `wanted`. All [N], one frame, finite. @param most >= 0
-[[nodiscard]] Eigen::Vector3d nearest_in_reach(const Eigen::Vector3d& held,
-                                               const Eigen::Vector3d& wanted, double most) noexcept;
+template <int axes>
+[[nodiscard]] AxisForces<axes> nearest_in_reach(const AxisForces<axes>& held,
+                                                const AxisForces<axes>& wanted,
+                                                double most) noexcept;
 
 /// Largest fraction of `wanted`, in [0, 1], that is within reach.
-[[nodiscard]] double part_in_reach(const Eigen::Vector3d& held, const Eigen::Vector3d& wanted,
+template <int axes>
+[[nodiscard]] double part_in_reach(const AxisForces<axes>& held, const AxisForces<axes>& wanted,
                                    double most) noexcept;
 
 }  // namespace reckon::haptics

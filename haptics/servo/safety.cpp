@@ -14,6 +14,15 @@ Safety::Safety(double max_force, double max_power, double max_speed, int hold_st
       hold_steps_(hold_steps) {}
 
 Admission Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) noexcept {
+  return admit(sample, velocity.allFinite(), velocity.norm() > max_speed_);
+}
+
+Admission Safety::admit(const DeviceSample& sample, const Wrench& twist) noexcept {
+  return admit(sample, twist.allFinite(),
+               twist.head<3>().norm() > max_speed_ || twist.tail<3>().norm() > max_turn_);
+}
+
+Admission Safety::admit(const DeviceSample& sample, bool finite, bool fast) noexcept {
   if (held_ > 0) --held_;
   if (forgiven_ > 0 && --forgiven_ == 0) missed_ = 0;
   if (!sample.ok) {
@@ -22,9 +31,9 @@ Admission Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& veloc
     trip(Trip::no_reading);
   } else if (sample.watchdog && !sample.released_at) {
     trip(Trip::watchdog);
-  } else if (!sample.position.allFinite() || !velocity.allFinite()) {
+  } else if (!sample.position.allFinite() || !finite) {
     trip(Trip::not_finite);
-  } else if (velocity.norm() > max_speed_) {
+  } else if (fast) {
     trip(Trip::overspeed);
   }
   return held_ == 0 && sample.enabled ? Admission::shown : Admission::cut;
@@ -36,9 +45,17 @@ double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& veloc
     return 0.0;
   }
   const double size = wanted.norm();
-  const double power = wanted.dot(velocity);
-  const double by_force = size > max_force_ ? max_force_ / size : 1.0;
-  return power > max_power_ ? std::min(by_force, max_power_ / power) : by_force;
+  return within_power(size > max_force_ ? max_force_ / size : 1.0, wanted.dot(velocity));
+}
+
+double Safety::scale(const Wrench& wanted, const Wrench& twist) noexcept {
+  if (!wanted.allFinite()) {
+    trip(Trip::not_finite);
+    return 0.0;
+  }
+  const double excess =
+      std::max(wanted.head<3>().norm() / max_force_, wanted.tail<3>().norm() / max_torque_);
+  return within_power(excess > 1.0 ? 1.0 / excess : 1.0, wanted.dot(twist));
 }
 
 // A lasting cause keeps the force at zero but counts once.

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/passivity/wrench.hpp"
 
 namespace reckon::haptics {
 
@@ -38,26 +40,42 @@ class Safety {
   static constexpr int kMostMissed = 3;
   static constexpr int kForgiven = 500;
 
+  /// Of a device that turns. @param max_torque [N m] > 0  @param max_turn [rad/s] > 0
+  void limit_turns(double max_torque, double max_turn) noexcept {
+    max_torque_ = max_torque;
+    max_turn_ = max_turn;
+  }
+
   /// Call first in each step. @param velocity [m/s], of the handle, any frame.
   [[nodiscard]] Admission admit(const DeviceSample& sample,
                                 const Eigen::Vector3d& velocity) noexcept;
+  /// @param twist velocity [m/s], then turn rate [rad/s]
+  [[nodiscard]] Admission admit(const DeviceSample& sample, const Wrench& twist) noexcept;
 
   /// Factor in [0, 1] for the wanted total force [N]. A force that is not finite gives 0 and a
   /// trip. The power limit uses the present velocity of the hand [m/s] and does not predict its
   /// acceleration within the sample.
   [[nodiscard]] double scale(const Eigen::Vector3d& wanted,
                              const Eigen::Vector3d& velocity) noexcept;
+  /// @param wanted force [N], then torque [N m], on the handle
+  [[nodiscard]] double scale(const Wrench& wanted, const Wrench& twist) noexcept;
 
   /// Trips since construction. Each cause counts once when it begins.
   [[nodiscard]] std::uint64_t trips() const noexcept { return trips_; }
   [[nodiscard]] Trip last_trip() const noexcept { return last_; }
 
  private:
+  [[nodiscard]] Admission admit(const DeviceSample& sample, bool finite, bool fast) noexcept;
+  [[nodiscard]] double within_power(double scale, double power) const noexcept {
+    return power > max_power_ ? std::min(scale, max_power_ / power) : scale;
+  }
   void trip(Trip cause) noexcept;
 
   double max_force_;
   double max_power_;
   double max_speed_;
+  double max_torque_ = 0.0;
+  double max_turn_ = 0.0;
   int hold_steps_;
   int held_ = 0;
   int missed_ = 0;    // failed readings within kForgiven samples

@@ -7,11 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "reckon/haptics/contact/tool.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {
 
+constexpr double kFarthestProbe = 1.0;     // [m]
 constexpr double kMostRegionShare = 0.25;  // of the stiffness that is left for objects
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is reserved for remote hands
 
@@ -21,7 +23,7 @@ void require(bool good, const std::string& text) {
 
 }  // namespace
 
-ServoConfig checked_config(const ServoConfig& c) {
+ServoConfig checked_config(const ServoConfig& c, const DeviceLimits& limits) {
   const double period = pdu::to_seconds(c.period);
   require(period >= 1e-4 && period <= 1e-2,
           "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
@@ -37,6 +39,13 @@ ServoConfig checked_config(const ServoConfig& c) {
           "at most " + std::to_string(kMaxRemoteHands) + " remote hands are possible");
   require(c.device_origin.allFinite() && std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
           "device pose must be finite, its orientation a unit quaternion");
+  require(c.probes.empty() || limits.axes == 6,
+          "a tool with probes needs a device of 6 axes, which shows torque; this one has " +
+              std::to_string(limits.axes));
+  require(c.probes.size() <= kMostProbes,
+          "a tool has at most " + std::to_string(kMostProbes) + " probes");
+  for (const Eigen::Vector3d& probe : c.probes)
+    require(probe.norm() <= kFarthestProbe, "a probe must be within 1 m of the handle");
   return c;
 }
 
@@ -47,6 +56,15 @@ DeviceLimits checked_limits(const DeviceLimits& limits) {
   require(limits.damping >= 0 && std::isfinite(limits.damping),
           "the device's damping must be 0 or more N s/m");
   require(limits.max_speed > 0, "the device's largest speed must be above 0 m/s");
+  require(limits.axes == 3 || limits.axes == 6, "a device has 3 or 6 axes");
+  if (limits.axes == 6) {
+    require(limits.max_torque > 0 && std::isfinite(limits.max_torque),
+            "the device tells no largest torque");
+    require(limits.damping > 0 && limits.turn_damping > 0 && std::isfinite(limits.turn_damping),
+            "a device of 6 axes must have damping in all of them");
+    require(limits.turn_resolution >= 0 && std::isfinite(limits.turn_resolution),
+            "the step of the device's angle sensors must be 0 or more rad");
+  }
   require(limits.delay_samples >= 0, "the device's delay must be 0 or more samples");
   require(limits.resolution >= 0 && std::isfinite(limits.resolution),
           "the step of the device's sensors must be 0 or more m");
@@ -64,17 +82,18 @@ double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limi
          (pdu::to_seconds(config.period) * (1 + 2 * limits.delay_samples));
 }
 
-double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
-  const double share = kMostStaticShare * limits.damping;
-  double damping = 0.0;
+double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double damping,
+                  double per_damping) {
+  const double share = kMostStaticShare * damping;
+  double objects = 0.0;
   for (const PlannedObject& object : plan.objects()) {
-    damping = std::max(damping, object.damping());
+    objects = std::max(objects, object.damping());
   }
   double stiffness = 0.0;
   for (const PlannedRegion& region : plan.regions()) {
     stiffness += region.stiffness();
   }
-  const double whole = per_damping * (share - std::min(damping, 0.5 * share));
+  const double whole = per_damping * (share - std::min(objects, 0.5 * share));
   const double cap = whole - std::min(stiffness, kMostRegionShare * whole);
   return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
 }

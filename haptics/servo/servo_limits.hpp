@@ -13,7 +13,7 @@ namespace reckon::haptics {
 
 /// Returns the setting unchanged. @throws std::invalid_argument if a setting is out of range; the
 /// text says which and why.
-[[nodiscard]] ServoConfig checked_config(const ServoConfig& config);
+[[nodiscard]] ServoConfig checked_config(const ServoConfig& config, const DeviceLimits& limits);
 [[nodiscard]] DeviceLimits checked_limits(const DeviceLimits& limits);
 [[nodiscard]] std::shared_ptr<const EffectPlan> checked_plan(
     std::shared_ptr<const EffectPlan> plan);
@@ -21,8 +21,8 @@ namespace reckon::haptics {
 /// Greatest stiffness for each N s/m of damping [1/s].
 [[nodiscard]] double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits);
 /// Greatest stiffness of a surface of the static scene [N/m].
-/// @param per_damping [1/s], see above
-[[nodiscard]] double static_cap(const EffectPlan& plan, const DeviceLimits& limits,
+/// @param damping [N s/m], sure, that all probes together meet  @param per_damping [1/s], see above
+[[nodiscard]] double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double damping,
                                 double per_damping);
 
 }  // namespace reckon::haptics

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/contact/tool.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -81,8 +82,29 @@ std::optional<Attitude> read_attitude(TomlReader& table) {
   return attitude;
 }
 
+void check_axes(TomlReader& table, const DeviceConfig& device) {
+  if (device.axes != 3 && device.axes != 6)
+    return table.problem("axes", "a device has 3 axes, or 6 with torque: write one of them");
+  if (device.axes == 6) {
+    if (device.source == DeviceSource::pointer)
+      table.problem("axes", "a pointer moves three axes: take out axes = 6, or kind = \"pointer\"");
+    if (!(device.damping > 0))
+      table.problem("damping", "a device of six axes needs damping in all of them");
+    if (device.probes.size() > haptics::kMostProbes) {
+      table.problem("probe", fmt::format("a tool has at most {} probes, this one has {}",
+                                         haptics::kMostProbes, device.probes.size()));
+    }
+    return;
+  }
+  for (const char* key : {"turn_damping", "max_torque", "turn_resolution", "probe"}) {
+    if (table.has(key))
+      table.problem(key, fmt::format("'{}' is of a device that turns: add axes = 6", key));
+  }
+}
+
 void check_device(TomlReader& table, DeviceConfig& device) {
   check_marking(table, device.marking);
+  check_axes(table, device);
   const auto attitude = read_attitude(table);
   if (attitude) device.orientation = device_orientation_of(*attitude);
   if (attitude && table.has("orientation")) {
@@ -98,6 +120,15 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   table.read("delay", delay);
   device.delay_samples = samples_of(delay, rate);
 }
+
+namespace {
+
+Section<ProbeConfig> probe_section() {
+  return {{{"position", &ProbeConfig::position, within("m", -0.5, 0.5),
+            "from the handle, in the tool's axes"}}};
+}
+
+}  // namespace
 
 Section<DeviceConfig> device_section() {
   using Device = DeviceConfig;
@@ -129,6 +160,16 @@ Section<DeviceConfig> device_section() {
       {"max_force", &Device::max_force, within("N", 0.1, 1e3), "it can show"},
       {"damping", &Device::damping, within("N s/m", 0, 1e3),
        "its own friction that one is sure of; the stiffness that it can show grows with it"},
+      {"axes", &Device::axes, within("", 3, 6),
+       "3; or 6: it turns, and shows torque besides the force"},
+      {"turn_damping", &Device::turn_damping, within("N m s/rad", 1e-5, 10),
+       "of six axes: its own friction in turning that one is sure of, about each axis"},
+      {"max_torque", &Device::max_torque, within("N m", 1e-3, 100), "of six axes: it can show"},
+      {"turn_resolution", &Device::turn_resolution, within("rad", 0, 0.1),
+       "of six axes: step of its angle sensors; 0: exact"},
+      {"probe", &Device::probes, probe_section(),
+       "of six axes: a place of the tool that touches, at most 8; remote hands touch the first. "
+       "None: the handle"},
       {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
        "it can show; 0: as much as damping, rate and delay allow"},
       {"max_speed", &Device::max_speed, within("m/s", 0.01, 100), "faster readings cut the force"},

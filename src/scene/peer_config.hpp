@@ -77,6 +77,10 @@ struct OperatorConfig {
   std::chrono::nanoseconds start{0};                          ///< at rest until then, >= 0
   double stiffness = 300.0;                                   ///< [N/m] of the grip, >= 0
   double damping = 3.0;                                       ///< [N s/m] of the grip, >= 0
+  /// Of a device of six axes: the hand turns it by so much, about each axis of S.
+  Eigen::Vector3d turned = Eigen::Vector3d::Zero();  ///< [rad]; sweep: at `to`, none at `from`
+  double turn_stiffness = 1.0;                       ///< [N m/rad] of the grip, >= 0
+  double turn_damping = 0.02;                        ///< [N m s/rad] of the grip, >= 0
 };
 
 /// Orientation as defined by DIS [rad].
@@ -120,6 +124,11 @@ enum class DeviceSource : std::uint8_t {
   pointer,    ///< a pointer that a person moves, from where its operator holds it at first
 };
 
+/// A place of a tool that touches.
+struct ProbeConfig {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] from the handle, in the tool's axes
+};
+
 /// A simulated haptic device of one peer, and the hand that it moves.
 struct DeviceConfig {
   std::uint32_t peer = 1;             ///< number of its peer, from 1
@@ -130,9 +139,14 @@ struct DeviceConfig {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
   double max_force = 10.0;                                          ///< [N] > 0
-  double damping = 1.0;        ///< [N s/m] >= 0, guaranteed physical damping
-  double max_stiffness = 0.0;  ///< [N/m]; 0: the limit by its damping
-  double max_speed = 2.0;      ///< [m/s] > 0; a faster reading switches the force off
+  double damping = 1.0;             ///< [N s/m] >= 0, guaranteed physical damping
+  double max_stiffness = 0.0;       ///< [N/m]; 0: the limit by its damping
+  int axes = 3;                     ///< 3, or 6: it turns and shows torque
+  double turn_damping = 0.01;       ///< [N m s/rad] > 0, guaranteed, about each axis
+  double max_torque = 1.0;          ///< [N m] > 0
+  double turn_resolution = 0.0;     ///< [rad] >= 0, step of its angle sensors; 0: exact
+  std::vector<ProbeConfig> probes;  ///< of the tool on six axes; none: the handle
+  double max_speed = 2.0;           ///< [m/s] > 0; a faster reading switches the force off
   /// [N/s], fastest change of its force in size and direction; 0: as in haptics::ServoConfig.
   double max_force_rate = 0.0;
   double received_power = 0.2;  ///< [W] > 0, largest average power that others put into its hand

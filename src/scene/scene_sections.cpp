@@ -68,6 +68,9 @@ Section<OperatorConfig> sweep_section() {
   return {{
       {"from", &OperatorConfig::from, within("m", -kWorld, kWorld), "one end, in S"},
       {"to", &OperatorConfig::to, within("m", -kWorld, kWorld), "the other end, in S"},
+      {"turn", &OperatorConfig::turned, within("rad", -kPi, kPi),
+       "how a device of six axes is turned at `to`, about the axis of S of this vector; not at "
+       "`from`"},
       {"period", &OperatorConfig::period, within("s", 0.01, 86400), "period, sinusoidal motion"},
   }};
 }
@@ -182,6 +185,10 @@ Section<OperatorConfig> operator_section() {
           {"stiffness", &OperatorConfig::stiffness, within("N/m", 0, 1e5),
            "stiffness of the grip between hand and device"},
           {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "damping of the grip"},
+          {"turn_stiffness", &OperatorConfig::turn_stiffness, within("N m/rad", 0, 1e3),
+           "the same of a device of six axes, in turning"},
+          {"turn_damping", &OperatorConfig::turn_damping, within("N m s/rad", 0, 10),
+           "damping of that"},
       },
       check_operator};
 }

@@ -76,7 +76,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
 
   entity.move(truth());
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
-    touch->move_point(kHandOrientation.conjugate() * (snapshot.device - snapshot.scp));
+    touch->move_point(orientation().conjugate() * (snapshot.device - snapshot.scp));
     touch->soften(snapshot.softening);
   }
   consider_accounts(entity);
@@ -114,11 +114,19 @@ void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
     entity.consider_accounts(now, accounts());
 }
 
+// The axes of a tool that is not turned are those of S.
+Eigen::Quaterniond HandPort::orientation() const noexcept {
+  const haptics::ToolState& tool = servo().tool;
+  return tool.turns ? tool.orientation * kHandOrientation : kHandOrientation;
+}
+
 EntityTruth HandPort::truth() const noexcept {
   EntityTruth truth;
   truth.time = servo().time;
   truth.position = servo().scp;
-  truth.orientation = kHandOrientation;
+  truth.orientation = orientation();
+  if (servo().tool.turns)
+    truth.angular_velocity = truth.orientation.conjugate() * servo().tool.turn_rate;
   truth.velocity = servo().velocity;
   truth.acceleration = touching_ ? lasting_acceleration() : free_acceleration();
   if (touching_) truth.lasting_velocity = lasting_velocity();

@@ -71,6 +71,7 @@ class HandPort {
   void note_touch(OwnedEntity& entity) noexcept;
   void smooth_velocity() noexcept;
   void consider_accounts(OwnedEntity& entity) noexcept;
+  [[nodiscard]] Eigen::Quaterniond orientation() const noexcept;  // body axes to S
   [[nodiscard]] EntityTruth truth() const noexcept;
   [[nodiscard]] Eigen::Vector3d free_acceleration() const noexcept;
   [[nodiscard]] Eigen::Vector3d lasting_velocity() const noexcept;

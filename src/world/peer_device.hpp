@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <string>
+#include <vector>
 
 namespace reckon::haptics {
 class HapticDevice;
@@ -23,6 +24,8 @@ struct PeerDevice {
   std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
   double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
   double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
+  /// Of the tool on a device of six axes, see haptics::ServoConfig; none: the handle.
+  std::vector<Eigen::Vector3d> probes{};
 };
 
 }  // namespace reckon::peer

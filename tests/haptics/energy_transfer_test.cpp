@@ -13,6 +13,7 @@
 
 #include "reckon/bench/statistics/quantile.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/passivity/softening.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impairment.hpp"

@@ -55,12 +55,15 @@ struct Least {
   const EffectPlan plan(scene);
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
+  PointTool tool;
   Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   Books books;
   for (int i = 0; i < kSteps; ++i) {
     PortLoad load;
-    contact.load(velocity, kSample, load);
+    tool.set_velocity(velocity);
+    contact.load(tool, kSample, load);
     const PortHold held = port.hold(load, kSample);
     if (held.walls < 1.0) contact.attenuate(held.walls, port);
     contact.shown(held.extra);
@@ -76,7 +79,8 @@ struct Least {
     velocity = dx / dt;
     books.settle(force, dx, dt);
     port.settle(dx, dt);
-    contact.settle(device, dt, port);
+    tool.move({device});
+    contact.settle(tool, dt, port);
     EXPECT_TRUE(force.allFinite()) << i;
   }
   return {books.least, port.late_cost()};
@@ -89,15 +93,18 @@ struct Least {
   const PlannedObject& object = plan.objects()[0];
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
+  PointTool tool;
   const Vector3d start = object.to_scene({0.003, 0.001, 0.02 + 1e-6});
   const Vector3d in = object.orientation * Vector3d(0, 0, -1);
   Vector3d device = start, velocity = Vector3d::Zero();
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   Books books;
   int press = 0;
   for (int i = 0; i < 3000; ++i) {
     PortLoad load;
-    contact.load(velocity, kSample, load);
+    tool.set_velocity(velocity);
+    contact.load(tool, kSample, load);
     const PortHold held = port.hold(load, kSample);
     if (held.walls < 1.0) contact.attenuate(held.walls, port);
     contact.shown(held.extra);
@@ -113,7 +120,8 @@ struct Least {
     velocity = dx / kSample;
     books.settle(held.force, dx, kSample);
     port.settle(dx, kSample);
-    contact.settle(device, kSample, port);
+    tool.move({device});
+    contact.settle(tool, kSample, port);
   }
   return books.least;
 }
@@ -124,14 +132,17 @@ struct Least {
   const EffectPlan plan(scene);
   EnergyPort rich(1e12);  // for which everything is allowed
   StaticContact contact(plan, 1e12);
+  PointTool tool;
   Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   Books books;
   double most = 0.0, made = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     PortLoad load;
     rich.borrow(1.0);
-    contact.load(velocity, kSample, load);
+    tool.set_velocity(velocity);
+    contact.load(tool, kSample, load);
     Vector3d force = load.walls + load.extra;
     if (!(force.norm() < 1e3)) force *= 1e3 / force.norm();
     const Vector3d& prey = load.extra.isZero() ? force : load.extra;
@@ -139,8 +150,9 @@ struct Least {
     device += dx;
     velocity = dx / kSample;
     books.settle(force, dx, kSample);
-    contact.settle(device, kSample, rich);
-    const double left = books.energy - contact.stored() - contact.regions().stored();
+    tool.move({device});
+    contact.settle(tool, kSample, rich);
+    const double left = books.energy - contact.walls().stored() - contact.regions().stored();
     most = std::max(most, left);
     made = std::max(made, most - left);
   }

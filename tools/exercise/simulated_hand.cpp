@@ -58,10 +58,16 @@ haptics::HandScript sweep(const peer::OperatorConfig& config) {
     const double period = pdu::to_seconds(config.period);
     const double rate = 2.0 * std::numbers::pi / period;
     const double phase = rate * std::max(0.0, time - pdu::to_seconds(config.start));
+    const double share = 0.5 * (1.0 - std::cos(phase)), change = 0.5 * rate * std::sin(phase);
     const Eigen::Vector3d way = config.to - config.from;
     HandTarget target;
-    target.position = config.from + 0.5 * (1.0 - std::cos(phase)) * way;
-    target.velocity = 0.5 * rate * std::sin(phase) * way;
+    target.position = config.from + share * way;
+    target.velocity = change * way;
+    const double turned = config.turned.norm();
+    if (turned > 0) {
+      target.orientation = Eigen::AngleAxisd(share * turned, config.turned / turned);
+      target.turn_rate = change * config.turned;
+    }
     return target;
   };
 }
@@ -93,6 +99,8 @@ haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandSc
     target.position = R_DS * (target.position - origin);
     target.velocity = R_DS * target.velocity;
     target.push = R_DS * target.push;
+    target.orientation = R_DS * target.orientation;
+    target.turn_rate = R_DS * target.turn_rate;
     return target;
   };
 }
@@ -123,6 +131,14 @@ Held hold(const peer::SceneFile& scene, const peer::DeviceConfig& device,
   made.delay_samples = device.delay_samples;
   made.resolution = device.resolution;
   made.hold = hold_of(device.period);
+  if (device.axes != 6) return held;
+  haptics::SimulatedTurnConfig& turn = made.turn.emplace();
+  turn.damping = device.turn_damping;
+  turn.max_torque = device.max_torque;
+  turn.resolution = device.turn_resolution;
+  turn.hand_stiffness = config.turn_stiffness;
+  turn.hand_damping = config.turn_damping;
+  turn.start = held.script(0.0).orientation;
   return held;
 }
 
@@ -148,6 +164,12 @@ peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t num
   config.from += aside;
   config.to += aside;
   return config;
+}
+
+std::vector<Eigen::Vector3d> probes_of(const peer::DeviceConfig& device) {
+  std::vector<Eigen::Vector3d> places;
+  for (const peer::ProbeConfig& probe : device.probes) places.push_back(probe.position);
+  return places;
 }
 
 std::unique_ptr<haptics::PointerDevice> make_pointer_device(const peer::SceneFile& scene,
@@ -190,7 +212,7 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
     }
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period, config.max_force_rate,
-                           config.received_power});
+                           config.received_power, probes_of(config)});
   }
   return hands;
 }

@@ -28,6 +28,9 @@ namespace reckon::tools {
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
     const peer::SceneFile& scene, std::size_t index, const haptics::HandScript& script = nullptr);
 
+/// Places of its tool [m], as haptics::ServoConfig has them.
+[[nodiscard]] std::vector<Eigen::Vector3d> probes_of(const peer::DeviceConfig& device);
+
 /// One device of a scene, with its limits and its delay, held by its operator as above (numbered
 /// from 1), who moves in S: the servo needs `device.position` and `device.orientation` too. A force
 /// is held for 1.5 servo periods, and 10 ms at most: a step that comes later finds it let go. A

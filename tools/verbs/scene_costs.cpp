@@ -40,7 +40,10 @@ class Stroke {
     step(device);
     return contact_.result().in_contact;
   }
-  void begin(const Vector3d& device) { contact_.reset(device); }
+  void begin(const Vector3d& device) {
+    tool_.reset({device});
+    contact_.reset(tool_);
+  }
   /// CPU of a step [s], the least of some runs.
   double time_round(const Vector3d& place) {
     double least = std::numeric_limits<double>::infinity();
@@ -59,16 +62,19 @@ class Stroke {
   void step(const Vector3d& device) {
     const Vector3d dx = device - last_;
     last_ = device;
+    tool_.move({device});
+    tool_.set_velocity(dx / kPeriod);
     port_.settle(dx, kPeriod);
-    contact_.settle(device, kPeriod, port_);
+    contact_.settle(tool_, kPeriod, port_);
     haptics::PortLoad load;
-    contact_.load(dx / kPeriod, kPeriod, load);
+    contact_.load(tool_, kPeriod, load);
     const haptics::PortHold held = port_.hold(load, kPeriod);
     if (held.walls < 1.0) contact_.attenuate(held.walls, port_);
     contact_.shown(held.extra);
   }
 
   haptics::StaticContact contact_;
+  haptics::PointTool tool_;
   haptics::EnergyPort port_{kDamping};
   Vector3d last_ = Vector3d::Zero();
 };

@@ -65,6 +65,7 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
   config.contact_radius = scene.hand.contact_radius;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   config.max_received_power = device.received_power;
+  config.probes = probes_of(device);
   return config;
 }
 

@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "reckon/haptics/passivity/energy_port.hpp"
+
 namespace reckon::haptics {
 namespace {
 

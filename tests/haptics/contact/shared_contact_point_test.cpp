@@ -256,14 +256,17 @@ TEST(SharedContactPoint, MakesNoEnergyWhereObjectsOfDifferentStiffnessMeet) {
     const EffectPlan plan(world.scene);
     EnergyPort port(kDamping);
     StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
+    PointTool tool;
     Wander hand(3, 0.01);
     Vector3d device(0.05, 0.04, 0.06);
-    contact.reset(device);
+    tool.reset({device});
+    contact.reset(tool);
     double energy = 0.0;
     double felt = 0.0;
     for (int i = 0; i < 6000; ++i) {
       PortLoad load;
-      contact.load(Vector3d::Zero(), kPeriod, load);
+      tool.set_velocity(Vector3d::Zero());
+      contact.load(tool, kPeriod, load);
       const PortHold held = port.hold(load, kPeriod);
       contact.shown(held.extra);
       const Vector3d next = hand.next();
@@ -273,7 +276,8 @@ TEST(SharedContactPoint, MakesNoEnergyWhereObjectsOfDifferentStiffnessMeet) {
       ASSERT_GE(energy, -1e-9) << "tick " << i;
       felt = std::max(felt, held.force.norm());
       port.settle(dx, kPeriod);
-      contact.settle(device, kPeriod, port);
+      tool.move({device});
+      contact.settle(tool, kPeriod, port);
     }
     EXPECT_GT(felt, 1.0);
   }

@@ -29,9 +29,10 @@ struct Outcome {
   double extra = 0.0;  // [N], largest force of the effects
 };
 
-Vector3d hold(StaticContact& contact, EnergyPort& port, const Vector3d& velocity) {
+Vector3d hold(StaticContact& contact, PointTool& tool, EnergyPort& port, const Vector3d& velocity) {
   PortLoad load;
-  contact.load(velocity, kPeriod, load);
+  tool.set_velocity(velocity);
+  contact.load(tool, kPeriod, load);
   const PortHold held = port.hold(load, kPeriod);
   contact.shown(held.extra);
   return held.force;
@@ -43,15 +44,18 @@ Outcome wander(unsigned seed) {
   const EffectPlan plan(box({900.0, 200.0}));
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
+  PointTool tool;
   std::mt19937 random(seed);
   std::normal_distribution<double> any;
   Vector3d device(0.021, 0.019, 0.019);
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   Outcome outcome;
   double energy = 0.0;
   for (int i = 0; i < 20'000; ++i) {
-    Vector3d force = hold(contact, port, 0.3 * Vector3d(any(random), any(random), any(random)));
-    const Vector3d spring = contact.gain() * contact.result().force;
+    Vector3d force =
+        hold(contact, tool, port, 0.3 * Vector3d(any(random), any(random), any(random)));
+    const Vector3d spring = contact.walls().gain() * contact.result().force;
     outcome.extra = std::max(outcome.extra, (force - spring).norm());
     if (i % 97 == 0) {
       contact.attenuate(0.5, port);
@@ -66,7 +70,8 @@ Outcome wander(unsigned seed) {
     energy += -force.dot(dx) + kDamping * dx.squaredNorm() / kPeriod;
     outcome.least = std::min(outcome.least, energy);
     port.settle(dx, kPeriod);
-    contact.settle(device, kPeriod, port);
+    tool.move({device});
+    contact.settle(tool, kPeriod, port);
   }
   return outcome;
 }
@@ -87,16 +92,19 @@ TEST(StaticContact, GivesADampersForceInFullWhileTheLedgerIsFull) {
   const EffectPlan plan(box({500.0, 2.0}));
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
+  PointTool tool;
   Vector3d device(0.03, 0.0, 0.0);
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   const Vector3d dx(-5e-5, 0.0, 0.0);
   for (int i = 0; i < 220; ++i) {
-    hold(contact, port, dx / kPeriod);
+    hold(contact, tool, port, dx / kPeriod);
     port.settle(dx, kPeriod);
-    contact.settle(device += dx, kPeriod, port);
+    tool.move({device += dx});
+    contact.settle(tool, kPeriod, port);
   }
   const Vector3d velocity(-0.05, 0.3, 0.0);
-  const Vector3d force = hold(contact, port, velocity);
+  const Vector3d force = hold(contact, tool, port, velocity);
   EXPECT_NEAR(force.x(), 500.0 * 0.001 + 2.0 * 0.05, 1e-5);
   EXPECT_EQ(force.y(), 0.0) << "along the normal alone";
 }
@@ -105,16 +113,19 @@ TEST(StaticContact, FeelsAWallAsFarAwayAsTheProbesRadius) {
   const EffectPlan plan(box({800.0, 0.0}));
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod, 0.005);
+  PointTool tool;
   Vector3d device(0.03, 0.0, 0.0);
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   const Vector3d dx(-3e-5, 0.0, 0.0);
   for (int i = 0; i < 200; ++i) {
-    hold(contact, port, dx / kPeriod);
+    hold(contact, tool, port, dx / kPeriod);
     port.settle(dx, kPeriod);
-    contact.settle(device += dx, kPeriod, port);
+    tool.move({device += dx});
+    contact.settle(tool, kPeriod, port);
   }
   EXPECT_NEAR(contact.result().scp.x(), 0.025, 1e-8);
-  EXPECT_NEAR(hold(contact, port, dx / kPeriod).x(), 0.8, 1e-4) << "1 mm of 5 is pressed in";
+  EXPECT_NEAR(hold(contact, tool, port, dx / kPeriod).x(), 0.8, 1e-4) << "1 mm of 5 is pressed in";
 }
 
 TEST(StaticContact, NeverPullsTheHandAgainstTheSpringsOfAllObjects) {
@@ -129,17 +140,20 @@ TEST(StaticContact, NeverPullsTheHandAgainstTheSpringsOfAllObjects) {
   const EffectPlan plan(scene);
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
+  PointTool tool;
   const Vector3d start(0.03, 0.1, 0.0);
   const Vector3d end(-0.004, -0.002, 0.0);
-  contact.reset(start);
+  tool.reset({start});
+  contact.reset(tool);
   for (int i = 1; i <= 1000; ++i) {
     const Vector3d dx = 0.001 * (end - start);
-    hold(contact, port, dx / kPeriod);
+    hold(contact, tool, port, dx / kPeriod);
     port.settle(dx, kPeriod);
-    contact.settle(start + 0.001 * i * (end - start), kPeriod, port);
+    tool.move({start + 0.001 * i * (end - start)});
+    contact.settle(tool, kPeriod, port);
   }
-  const Vector3d force = hold(contact, port, Vector3d(0.8, -0.6, 0.0));
-  const Vector3d springs = contact.gain() * contact.result().force;
+  const Vector3d force = hold(contact, tool, port, Vector3d(0.8, -0.6, 0.0));
+  const Vector3d springs = contact.walls().gain() * contact.result().force;
   EXPECT_GT((force - springs).norm(), 0.5) << "the damper is felt";
   EXPECT_NEAR(force.dot(springs), 0.0, 1e-12) << "as far as it does not pull";
 }

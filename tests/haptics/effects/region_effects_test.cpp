@@ -42,13 +42,15 @@ class Place {
   Vector3d move(const Vector3d& place, const Vector3d& velocity = Vector3d::Zero()) {
     for (int i = 0; i < 200; ++i) {  // gains rise
       port_.borrow(10.0);
-      forces_->settle(in_scene(place), kServoPeriod, port_);
+      forces_->move(in_scene(place), port_);
+      forces_->settle(kServoPeriod, port_);
     }
     return load(velocity);
   }
   /// The same after one step, whatever has risen by then.
   Vector3d step(const Vector3d& place) {
-    forces_->settle(in_scene(place), kServoPeriod, port_);
+    forces_->move(in_scene(place), port_);
+    forces_->settle(kServoPeriod, port_);
     return load(Vector3d::Zero());
   }
   [[nodiscard]] double stored() const { return forces_->stored(); }

@@ -21,11 +21,12 @@ double nearest_fall(const Vector3d& held, const Vector3d& wanted) {
 TEST(RateLimit, BindsGrowthAndTurningAndNeverAFall) {
   const Vector3d held(2, 0, 0);
   EXPECT_EQ(nearest_in_reach(held, Vector3d(0.1, 0, 0), 0.5), Vector3d(0.1, 0, 0));
-  EXPECT_EQ(nearest_in_reach(held, Vector3d::Zero(), 0), Vector3d::Zero());
+  const Vector3d none = Vector3d::Zero();
+  EXPECT_EQ(nearest_in_reach(held, none, 0), none);
   EXPECT_EQ(nearest_in_reach(held, Vector3d(5, 0, 0), 0.5), Vector3d(2.5, 0, 0));
   EXPECT_EQ(nearest_in_reach(held, Vector3d(0, 3, 0), 0.5), Vector3d(0, 0.5, 0));
   EXPECT_EQ(nearest_in_reach(held, Vector3d(-3, 0, 0), 0.5), Vector3d(-0.5, 0, 0));
-  EXPECT_EQ(nearest_in_reach(Vector3d::Zero(), Vector3d(0, 0, 9), 0.5), Vector3d(0, 0, 0.5));
+  EXPECT_EQ(nearest_in_reach(none, Vector3d(0, 0, 9), 0.5), Vector3d(0, 0, 0.5));
   EXPECT_EQ(part_in_reach(held, Vector3d(1, 0.2, 0), 0.5), 1.0);
   EXPECT_NEAR(part_in_reach(held, Vector3d(0, 4, 0), 0.5), 0.125, 1e-8);
 }

@@ -13,6 +13,7 @@
 #include <random>
 #include <vector>
 
+#include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 
 namespace reckon::haptics {

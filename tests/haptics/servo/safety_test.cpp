@@ -13,6 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+const Vector3d kStill = Vector3d::Zero();
+
 DeviceSample good() {
   DeviceSample sample;
   sample.ok = true;
@@ -22,11 +24,34 @@ DeviceSample good() {
 TEST(Safety, SaturatesWithoutTurningTheForce) {
   Safety safety(8.0, 2.0, 1.0, 10);
   const Vector3d wanted(30, -40, 0);
-  const Vector3d written = safety.scale(wanted, Vector3d::Zero()) * wanted;
+  const Vector3d written = safety.scale(wanted, kStill) * wanted;
   EXPECT_NEAR(written.norm(), 8.0, 1e-12);
   EXPECT_LE(written.cross(wanted).norm(), 1e-12);
-  EXPECT_EQ(safety.scale(Vector3d(1, 2, 3), Vector3d::Zero()), 1.0);
+  EXPECT_EQ(safety.scale(Vector3d(1, 2, 3), kStill), 1.0);
   EXPECT_EQ(safety.trips(), 0u);
+}
+
+Wrench wrench(const Vector3d& force, const Vector3d& torque) {
+  Wrench both;
+  both << force, torque;
+  return both;
+}
+
+TEST(Safety, LimitsForceTorqueAndPowerOfWhatTurnsByOneShare) {
+  Safety safety(8.0, 2.0, 1.0, 10);
+  safety.limit_turns(0.5, 20.0);
+  const Wrench still = Wrench::Zero();
+  EXPECT_EQ(safety.scale(wrench({1, 0, 0}, {0, 0.4, 0}), still), 1.0);
+  EXPECT_NEAR(safety.scale(wrench({16, 0, 0}, {0, 0.4, 0}), still), 0.5, 1e-12) << "by the force";
+  EXPECT_NEAR(safety.scale(wrench({9, 0, 0}, {0, 0, 2}), still), 0.25, 1e-12) << "by the torque";
+  EXPECT_NEAR(safety.scale(wrench({4, 0, 0}, {0, 0, 0.2}), wrench({0.5, 0, 0}, {0, 0, 10})), 0.5,
+              1e-12)
+      << "4 W of 2";
+  EXPECT_EQ(safety.scale(wrench({NAN, 0, 0}, {0, 0, 0}), still), 0.0);
+  EXPECT_EQ(safety.last_trip(), Trip::not_finite);
+  for (int i = 0; i < 20; ++i) (void)safety.admit(good(), still);
+  EXPECT_EQ(safety.admit(good(), wrench({0, 0, 0}, {12, 12, 12})), Admission::cut);
+  EXPECT_EQ(safety.last_trip(), Trip::overspeed);
 }
 
 TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
@@ -36,19 +61,19 @@ TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
   EXPECT_EQ(safety.scale(force, Vector3d(4, 0, -3)), 1.0) << "across";
   EXPECT_EQ(safety.scale(force, Vector3d(0.1, 0, 0.2)), 1.0) << "1.1 W";
   EXPECT_NEAR(safety.scale(force, Vector3d(0.4, 0, 0.7)), 2.0 / 4.0, 1e-12);
-  EXPECT_NEAR(safety.scale(10 * force, Vector3d(0.4, 0, 0.7)), 2.0 / 40.0, 1e-12);
+  EXPECT_NEAR(safety.scale(Vector3d(10 * force), Vector3d(0.4, 0, 0.7)), 2.0 / 40.0, 1e-12);
   EXPECT_EQ(safety.trips(), 0u);
 }
 
 TEST(Safety, CutsForcesThatAreNotNumbersAndHolds) {
   Safety safety(8.0, 2.0, 1.0, 10);
-  ASSERT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
+  ASSERT_EQ(safety.admit(good(), kStill), Admission::shown);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_EQ(safety.scale(Vector3d(bad, 0, 0), Vector3d::Zero()), 0.0);
+    EXPECT_EQ(safety.scale(Vector3d(bad, 0, 0), kStill), 0.0);
   }
   EXPECT_EQ(safety.last_trip(), Trip::not_finite);
-  for (int i = 0; i < 9; ++i) EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::cut);
-  EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(safety.admit(good(), kStill), Admission::cut);
+  EXPECT_EQ(safety.admit(good(), kStill), Admission::shown);
   EXPECT_EQ(safety.trips(), 1u);
 }
 
@@ -64,14 +89,14 @@ TEST(Safety, CountsLostReadingsAndTheDevicesOwnWatchdog) {
   DeviceSample lost = good();
   lost.ok = false;
   for (int i = 0; i < Safety::kMostMissed; ++i) {
-    EXPECT_EQ(safety.admit(lost, Vector3d::Zero()), Admission::paused);
-    EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
+    EXPECT_EQ(safety.admit(lost, kStill), Admission::paused);
+    EXPECT_EQ(safety.admit(good(), kStill), Admission::shown);
   }
-  EXPECT_EQ(safety.admit(lost, Vector3d::Zero()), Admission::cut);
+  EXPECT_EQ(safety.admit(lost, kStill), Admission::cut);
   EXPECT_EQ(safety.last_trip(), Trip::no_reading);
   DeviceSample let_go = good();
   let_go.watchdog = true;
-  EXPECT_EQ(safety.admit(let_go, Vector3d::Zero()), Admission::cut);
+  EXPECT_EQ(safety.admit(let_go, kStill), Admission::cut);
   EXPECT_EQ(safety.last_trip(), Trip::watchdog);
   EXPECT_EQ(safety.trips(), 2u);
 }
@@ -81,8 +106,8 @@ TEST(Safety, ForgetsAFailedReadingAfterHalfASecond) {
   DeviceSample lost = good();
   lost.ok = false;
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(safety.admit(lost, Vector3d::Zero()), Admission::paused);
-    for (int k = 0; k < Safety::kForgiven; ++k) (void)safety.admit(good(), Vector3d::Zero());
+    EXPECT_EQ(safety.admit(lost, kStill), Admission::paused);
+    for (int k = 0; k < Safety::kForgiven; ++k) (void)safety.admit(good(), kStill);
   }
   EXPECT_EQ(safety.trips(), 0u);
 }
@@ -91,8 +116,8 @@ TEST(Safety, AReleasedSwitchCutsTheForceWithoutATrip) {
   Safety safety(8.0, 2.0, 1.0, 10);
   DeviceSample released = good();
   released.enabled = false;
-  EXPECT_EQ(safety.admit(released, Vector3d::Zero()), Admission::cut);
-  EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
+  EXPECT_EQ(safety.admit(released, kStill), Admission::cut);
+  EXPECT_EQ(safety.admit(good(), kStill), Admission::shown);
   EXPECT_EQ(safety.trips(), 0u);
 }
 

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/contact/wall_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kRampSeconds = 0.1;
+constexpr double kFadeSeconds = 0.5;
+constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
+
+}  // namespace
+
+WallContact::WallContact(const EffectPlan& plan, double stiffness_cap, double radius)
+    : solver_(plan, radius, stiffness_cap), cap_(stiffness_cap) {}
+
+void WallContact::reset(const Eigen::Vector3d& device) noexcept {
+  result_ = solver_.reset(device);
+  measure_stiffness();
+  gain_ = result_.in_contact ? 0.0 : 1.0;
+  fades_in_ = result_.in_contact;
+  force_.setZero();
+}
+
+void WallContact::measure_stiffness() noexcept {
+  stiffness_ = 0.0;
+  for (const std::uint32_t i : result_.touched) {
+    stiffness_ = std::max(stiffness_, solver_.stiffness_of(i));
+  }
+}
+
+Eigen::Vector3d WallContact::move(const Eigen::Vector3d& device, double dt,
+                                  EnergyLedger& ledger) noexcept {
+  const double before = stored();
+  const Eigen::Vector3d force = result_.force;
+  result_ = solver_.step(device, dt);
+  measure_stiffness();
+  ledger.book(before - stored());
+  return gain_ * (result_.force - force);
+}
+
+void WallContact::settle(double dt, EnergyLedger& ledger) noexcept {
+  // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
+  const double debt = ledger.debt();
+  if (debt > 0) {
+    if (debt > kHiccup * stored()) drop();
+    scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, ledger);
+  }
+  const double most = most_gain();
+  if (gain_ > most) scale_gain(most / gain_, ledger);
+  follow_patches(dt, ledger);
+  raise_gain(dt, ledger);
+}
+
+// Nobody put in the storage that a stretched spring gains when its stiffness grows. The ledger pays
+// for it, first from the energy of the sample.
+void WallContact::follow_patches(double dt, EnergyLedger& ledger) noexcept {
+  share_ = patch_share_ = 1.0;
+  if (!solver_.on_patches() || !(gain_ > 0)) return;
+  const double before = stored();
+  result_ = solver_.follow_patches(dt, std::max(0.0, ledger.level()) / gain_);
+  ledger.book(before - stored());
+  measure_stiffness();
+  share_ = patch_share_ = solver_.patch_share();
+}
+
+double WallContact::most_gain() const noexcept {
+  return stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
+}
+
+void WallContact::scale_gain(double factor, EnergyLedger& ledger) noexcept {
+  ledger.book(stored() * (1.0 - factor));
+  gain_ *= factor;
+}
+
+void WallContact::raise_gain(double dt, EnergyLedger& ledger) noexcept {
+  const double full = result_.stored_energy;
+  const double most = most_gain();
+  if (!(full > 0)) {
+    gain_ = most;
+    fades_in_ = false;
+    return;
+  }
+  const double wanted = std::min(most - gain_, dt / (fades_in_ ? kFadeSeconds : kRampSeconds));
+  const double rise = std::clamp(ledger.level() / full, 0.0, std::max(0.0, wanted));
+  ledger.book(-rise * full);
+  gain_ += rise;
+  if (rise < wanted) share_ *= gain_ / most;
+  if (!(gain_ < most)) fades_in_ = false;
+}
+
+// The effects' forces belong to no storage, and the port limits them. Here they are limited so that
+// the sum never pulls the hand to the surface.
+void WallContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
+  extra_.setZero();
+  force_ = gain_ * result_.force;
+  if (result_.objects.empty()) return;
+  load.walls += force_;
+  load.walls_slope += gain_ * stiffness_;
+  load.walls_stored += stored();
+  const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt, gain_);
+  const double size = wanted.norm();
+  const double spring = force_.norm();
+  if (!(size > 0) || !std::isfinite(size)) return;
+  if (result_.in_contact && !(spring > 0)) return;  // a pull cannot be recognised
+
+  const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
+  extra_ = along < 0 ? Eigen::Vector3d(std::min(1.0, spring / -along) * wanted) : wanted;
+  load.extra += extra_;
+}
+
+void WallContact::attenuate(double factor, EnergyLedger& ledger) noexcept {
+  const double keep = std::clamp(factor, 0.0, 1.0);
+  scale_gain(keep, ledger);
+  force_ *= keep;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The walls that one probe touches: scales the contact solver's force so that the sampled wall
+// stays passive for this device, and books the storage of its springs.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
+
+namespace reckon::haptics {
+
+/// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2, booked whole.
+///
+/// The greatest gain brings the stiffest touched object under the cap. A lower gain rises to it in
+/// 100 ms as the ledger pays. It is full again when nothing is touched. If the device starts inside
+/// an object, or the force was cut to zero while it was pressed, the gain begins at zero and rises
+/// within half a second on a loan; lacks() returns its amount. If a contact crosses a border
+/// between patches, its springs follow as in PatchBlend, paid by the ledger. Order of calls within
+/// a step: move, settle, load, shown, attenuate.
+class WallContact {
+ public:
+  /// @param plan outlives this object  @param stiffness_cap [N/m] of any object
+  /// @param radius of the probe [m], >= 0
+  WallContact(const EffectPlan& plan, double stiffness_cap, double radius = 0.0);
+
+  /// Restarts at `device` [m, S].
+  void reset(const Eigen::Vector3d& device) noexcept;
+
+  /// Moves the contact to `device` [m] after a sample of `dt` [s], and books the stored or released
+  /// energy. @return by how much that changed the force of the springs [N]
+  Eigen::Vector3d move(const Eigen::Vector3d& device, double dt, EnergyLedger& ledger) noexcept;
+  /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s], of that sample
+  void settle(double dt, EnergyLedger& ledger) noexcept;
+
+  /// Adds the forces to be held: springs, and the effects' forces, which never pull.
+  /// @param velocity of the device [m/s]  @param dt [s], of the next sample
+  void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
+
+  /// The force was cut to zero: touched objects fade in again.
+  void drop() noexcept { fades_in_ = fades_in_ || result_.stored_energy > 0; }
+  /// Energy that the walls lack for their full storage while a loan is allowed [J]; else 0.
+  [[nodiscard]] double lacks() const noexcept {
+    return fades_in_ ? (most_gain() - gain_) * result_.stored_energy : 0.0;
+  }
+
+  /// Takes the held share of the effects' forces, [0, 1].
+  void shown(double extra) noexcept { force_ = gain_ * result_.force + extra * extra_; }
+
+  /// Scales force and storage by `factor` in [0, 1].
+  void attenuate(double factor, EnergyLedger& ledger) noexcept;
+
+  [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
+  /// [N, S], after shown().
+  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
+  [[nodiscard]] double gain() const noexcept { return gain_; }
+  /// Share of the springs that the available energy allows, [0, 1]; 1 if energy is not short.
+  [[nodiscard]] double share() const noexcept { return share_; }
+  /// Force of the springs at the greatest stiffness that the device can show [N].
+  [[nodiscard]] double asked() const noexcept {
+    return most_gain() / patch_share_ * result_.force.norm();
+  }
+  /// Force that the springs lack because the gain is below the cap [N].
+  [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
+    return (most_gain() - gain_) * result_.force;
+  }
+  [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
+
+ private:
+  [[nodiscard]] double most_gain() const noexcept;
+  void scale_gain(double factor, EnergyLedger& ledger) noexcept;
+  void follow_patches(double dt, EnergyLedger& ledger) noexcept;
+  void raise_gain(double dt, EnergyLedger& ledger) noexcept;
+  void measure_stiffness() noexcept;
+
+  ContactSolver solver_;
+  double cap_;
+  ContactResult result_;
+  double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
+  double gain_ = 1.0;
+  double share_ = 1.0;
+  double patch_share_ = 1.0;  // share of it for patches that are not paid for
+  bool fades_in_ = false;     // until the gain is full or the contact ends
+  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], wanted by the effects
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace reckon::haptics

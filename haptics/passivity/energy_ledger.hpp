@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The energy of one haptic device: what the hand put in, what others gave, what is lent. The forces
+// that may be held with it: energy_port.hpp.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace reckon::haptics {
+
+/// One level E for all contacts of a device, which includes the storage of the springs that others
+/// move. It knows energy only: no force, no axis. One thread; O(1); allocates nothing.
+class EnergyLedger {
+ public:
+  /// Energy credited without observation [J], and the power at which this credit refills [W]. A
+  /// higher value hinders honest peers less if the shown surface lags behind their real one, and
+  /// allows a dishonest peer more.
+  static constexpr double kUnseen = 0.005;
+  static constexpr double kUnseenPower = 0.05;
+
+  /// Greatest energy from all others together at once [J], beyond received_power() over time. It
+  /// limits their part of E that no spring stores, and a single credit. A higher value lets a quick
+  /// blow arrive whole, and a dishonest peer throw a hand that much harder.
+  static constexpr double kReceivedAtOnce = 0.008;
+  /// Greatest energy kept beside the springs' storage [J]. At most kReceivedAtOnce of it may come
+  /// from others than the hand. A higher value returns more at once after a rest (stronger kicks);
+  /// a lower value makes moving surfaces softer.
+  static constexpr double kMostKept = 0.04;
+
+  /// Greatest power from all others together, less what was given to them [W] > 0; unlimited at
+  /// first. Excess energy is not lost but stays pending: see receivable().
+  void limit_received_power(double power) noexcept { received_power_ = power; }
+
+  /// Books energy that a wall stored (negative) or released (positive) [J].
+  void book(double energy) noexcept { level_ += energy; }
+  /// Adds energy given to us. @return the part that fits [J].
+  double credit(double energy) noexcept;
+  /// Adds energy that a peer claims to have given. A hand at rest can only pass on what it
+  /// received, and a surface that brings energy is observed to push. So energy is credited as far
+  /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
+  /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
+  double credit(double energy, double seen) noexcept;
+  /// Energy that may be credited now [J], from all peers together. It grows with time, as far as
+  /// there is room.
+  [[nodiscard]] double receivable() const noexcept;
+  /// Advances time by `dt` [s]: both accounts refill.
+  void wait(double dt) noexcept;
+  /// Takes `wanted` [J] for a gift, at most 0.9 E, and keeps the energy that pays for the forces
+  /// under way. @return the energy taken [J].
+  double give(double wanted) noexcept;
+  /// Adds a loan: energy that nobody put in and that is paid back. The caller bounds it. @param
+  /// energy [J] >= 0
+  void borrow(double energy) noexcept;
+  /// Pays back, at most the debt, and keeps the energy that pays for the forces under way. @param
+  /// energy [J] >= 0
+  void pay_back(double energy) noexcept;
+
+  /// E [J]; below 0 only after a late sample or a wall that cost more than was available.
+  [[nodiscard]] double level() const noexcept { return level_; }
+  [[nodiscard]] double debt() const noexcept { return level_ < 0 ? -level_ : 0.0; }
+  /// Debt: borrowed and not yet paid back [J].
+  [[nodiscard]] double owed() const noexcept { return owed_; }
+  /// Energy in no spring [J], after the last hold().
+  [[nodiscard]] double free() const noexcept { return level_ - booked_; }
+  /// Energy that the hand put in, plus what the device's damping certainly took [J], since the
+  /// start.
+  [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
+
+ protected:
+  EnergyLedger() = default;
+  EnergyLedger(const EnergyLedger&) = default;
+  EnergyLedger& operator=(const EnergyLedger&) = default;
+  ~EnergyLedger() = default;
+
+  void absorb(double energy) noexcept {
+    level_ += energy;
+    absorbed_ += energy;
+  }
+  void take_back(double energy) noexcept {
+    const double back = std::clamp(energy, 0.0, pushed_);
+    unearned_ += back;
+    pushed_ -= back;
+  }
+  [[nodiscard]] double waiting() const noexcept;
+  [[nodiscard]] double spendable() const noexcept { return std::max(0.0, level_ - committed_); }
+
+  double level_ = 0.0;
+  double booked_ = 0.0;     // w S of the last hold
+  double committed_ = 0.0;  // of level_, pays for the forces under way
+  double unearned_ = 0.0;   // of level_, given by others
+  double pushed_ = 0.0;     // of that, what left it, as into the hand, and did not return
+
+ private:
+  double owed_ = 0.0;
+  double unseen_ = kUnseen;
+  double received_power_ = std::numeric_limits<double>::infinity();
+  double receivable_ = kReceivedAtOnce;
+  double absorbed_ = 0.0;
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the servos of all devices share, however many axes these have: settings, limits, inputs and
+// outputs. ServoLoop is the public face.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+
+#include "reckon/haptics/contact/near_hands.hpp"
+#include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+namespace reckon::haptics {
+
+/// A servo without its step.
+class ServoCore {
+ public:
+  /// See ServoLoop.
+  static constexpr double kSoonFelt = 0.2;
+
+  virtual ~ServoCore() = default;
+  ServoCore(const ServoCore&) = delete;
+  ServoCore& operator=(const ServoCore&) = delete;
+
+  virtual void step(std::chrono::nanoseconds now) noexcept = 0;
+  [[nodiscard]] virtual bool has_near() noexcept = 0;
+  [[nodiscard]] bool take_news(double moved) noexcept;
+
+  [[nodiscard]] TripleBuffer<ContactSet>& contacts() noexcept { return contacts_; }
+  [[nodiscard]] TripleBuffer<ServoSnapshot>& snapshots() noexcept { return snapshots_; }
+  void trace(TraceRing* ring) noexcept { trace_ = ring; }
+
+  [[nodiscard]] const EffectPlan& plan() const noexcept { return *plan_; }
+  [[nodiscard]] const DeviceLimits& limits() const noexcept { return limits_; }
+  [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
+  [[nodiscard]] double force_rate_limit() const noexcept { return max_rate_; }
+  [[nodiscard]] double power_limit() const noexcept { return max_power_; }
+  [[nodiscard]] double force_limit() const noexcept { return step_.force_limit; }
+  [[nodiscard]] double remote_stiffness_limit() const noexcept { return step_.stiffness_limit; }
+  [[nodiscard]] double body_stiffness_limit() const noexcept { return step_.body_stiffness_limit; }
+
+ protected:
+  ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
+            const ServoConfig& config);
+
+  /// Sets the limits of stiffness, rate and power. @return that of walls [N/m]
+  /// @param probe damping that meets a spring at the first probe  @param tool that meets springs
+  /// at all of them [N s/m]  @param bend [1/s], see ToolOf
+  double cap_for(double probe, double tool, double bend) noexcept;
+  void note_time() noexcept;
+
+  HapticDevice& device_;
+  DeviceLimits limits_;
+  ServoConfig config_;
+  std::shared_ptr<const EffectPlan> plan_;
+  double period_;                 // [s], nominal
+  double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
+  double static_cap_ = 0.0;       // [N/m]
+  double max_rate_ = 0.0;         // [N/s], growth and rotation of the force
+  double max_power_ = 0.0;        // [W], into a yielding hand
+
+  TripleBuffer<ContactSet> contacts_;
+  TripleBuffer<ServoSnapshot> snapshots_;
+  TraceRing* trace_ = nullptr;
+
+  StepContext step_;
+  std::uint64_t count_ = 0;
+  std::chrono::nanoseconds stepped_at_{0};
+  double elapsed_ = 0.0;  // [s], since the last step
+  ServoTally tally_;
+
+ private:
+  Eigen::Vector3d seen_at_ = Eigen::Vector3d::Zero();  // [m, S], of the probe as last seen
+  std::chrono::nanoseconds seen_{0}, moved_{0};        // times of news
+};
+
+/// The servo of a device by its axes. @throws std::invalid_argument as ServoLoop
+[[nodiscard]] std::unique_ptr<ServoCore> make_servo(HapticDevice& device,
+                                                    std::shared_ptr<const EffectPlan> plan,
+                                                    const ServoConfig& config);
+
+}  // namespace reckon::haptics

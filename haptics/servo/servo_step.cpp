@@ -1,0 +1,433 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/servo/servo_step.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reckon/haptics/contact/energy_exchange.hpp"
+#include "reckon/haptics/contact/load_sum.hpp"
+#include "reckon/haptics/passivity/rate_limit.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr double kToSpare = 1.05;     // times the energy that the whole force needs
+constexpr int kHoldSteps = 100;       // of zero force after a trip
+constexpr double kStill = 0.02;       // [m/s], a hand with a tremor is at rest too
+constexpr double kRest = 1.0;         // [s]
+constexpr double kReadFor = 0.002;    // [s]: within it an encoder step may be no motion
+constexpr double kUnit = 1e-6;        // of a quaternion's length
+constexpr double kTurnMisfit = 1e-4;  // [rad], of the filter of turns
+
+double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(symmetric, Eigen::EigenvaluesOnly);
+  return (1.0 + 1e-9) * solver.eigenvalues()(2);
+}
+
+template <int axes>
+EnergyPortOf<axes> port_of(const DeviceLimits& limits, const ToolOf<axes>& tool) {
+  return EnergyPortOf<axes>(tool.damping(), limits.delay_samples,
+                            tool.step_at_port(limits.resolution, limits.turn_resolution));
+}
+
+}  // namespace
+
+template <int axes>
+ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
+                               const ServoConfig& config)
+    : ServoCore(device, std::move(plan), config),
+      tool_({limits_.damping, limits_.turn_damping}, config_.probes),
+      static_(*plan_,
+              cap_for(tool_.probe_damping(), tool_.tool_damping(), tool_.bend(step_.force_limit)),
+              config_.contact_radius, tool_.size()),
+      port_(port_of(limits_, tool_)),
+      hands_(config_.max_contacts),
+      port_rate_(tool_.size_at_port(max_rate_)),
+      safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
+      turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)) {
+  port_.limit_received_power(config_.max_received_power);
+  if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
+}
+
+template <int axes>
+void ServoStepOf<axes>::step(nanoseconds now) noexcept {
+  DeviceSample reading = device_.read(now);
+  if constexpr (axes == 6) reading.ok &= std::abs(reading.orientation.norm() - 1.0) < kUnit;
+  step_.now = now;
+  note_time();
+  if (sample(reading)) settle();
+  const Admission admission = safety_.admit(reading, tool_.twist());
+  const bool enabled = admission == Admission::shown;
+  step_.transfer = config_.transfer && enabled;
+
+  port_.wait(step_.dt);
+  if (contacts_.update()) hands_.take(contacts_.read(), step_, count_);
+  hands_.advance(step_, count_, port_);
+
+  Load wanted = load();
+  if (step_.transfer) {
+    step_.engaged = exchange(wanted);
+  } else {
+    // Without forces the hand needs no energy: what others gave it would be lost.
+    for (RemoteContact* remote : hands_.all()) remote->ask_nothing();
+  }
+  const Force force = hold(wanted);
+  if (enabled && static_.share() < 1.0) {
+    tally_.walls.note(static_.share(), static_.asked(), step_.dt);
+  }
+  const RegionForces& regions = static_.regions();
+  if (regions.share() < 1.0 && enabled) {
+    tally_.effects.note(regions.share(), regions.asked(), step_.dt);
+  }
+  const double scale = enabled ? safety_.scale(tool_.wrench(force), tool_.twist()) : 0.0;
+  note_limit(force, scale);
+  if (scale < 1.0) port_.attenuate(scale);
+  if (scale < 1.0 && admission != Admission::paused) reduce(scale);
+  written_ = scale > 0.0 ? Force(scale * force) : Force::Zero();
+  write();
+  publish(enabled);
+  ++count_;
+}
+
+template <int axes>
+bool ServoStepOf<axes>::has_near() noexcept {
+  if (!hands_.empty() || !written_.isZero(0.0)) return true;
+  if (count_ >= next_search_) {
+    next_search_ = count_ + 8;
+    near_surface_ = false;
+    for (std::size_t i = 0; i < tool_.size() && !near_surface_; ++i)
+      near_surface_ = plan_->has_within(tool_.place(i), kSoonFelt + config_.probe_radius);
+  }
+  return near_surface_;
+}
+
+template <int axes>
+double ServoStepOf<axes>::sure_speed() const noexcept {
+  return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
+}
+
+// Energy has been short for a second while the hand held still in touch, so that nobody will supply
+// it. Hands that part and meet again ring, and would go on for as long as a loan pays.
+template <int axes>
+bool ServoStepOf<axes>::at_rest() noexcept {
+  const bool touches = std::ranges::any_of(hands_.all(), &RemoteContact::touching);
+  const bool is = touches && softening_.share() < 1.0 && sure_speed() <= kStill;
+  rested_ = is ? rested_ + step_.dt : 0.0;
+  return rested_ >= kRest;
+}
+
+template <int axes>
+std::size_t ServoStepOf<axes>::exchange(const Load& load) noexcept {
+  const bool rests = at_rest();
+  const double walls = static_.lacks();
+  // Without neighbours, loan or debt there is nothing to do.
+  if (hands_.empty() && !(walls > 0) && !(port_.owed() > 0)) return 0;
+  const double spare = tool_.at_probe(port_.spare(load.walls_slope, period_));
+  return exchange_energy(hands_.all(), port_, {spare, walls, sure_speed(), rests, step_.dt});
+}
+
+// A contact whose force is cut to zero lets go, and fades in again from there.
+template <int axes>
+void ServoStepOf<axes>::reduce(double scale) noexcept {
+  static_.attenuate(scale, port_);
+  if (scale > 0.0) return;
+  static_.drop();
+  for (RemoteContact* remote : hands_.all()) remote->drop();
+}
+
+// A cut lowers the gain of the walls, which at once begins to rise again. Their full force is
+// therefore greater than the force of this step.
+template <int axes>
+void ServoStepOf<axes>::note_limit(const Force& force, double scale) noexcept {
+  limit_share_ = 1.0;
+  if (!(scale > 0.0) || scale >= 1.0) return;
+  const Force asked = force + static_.held_back(tool_);
+  limit_share_ = std::min(1.0, scale * force.norm() / asked.norm());
+  tally_.limit.note(limit_share_, newtons(asked), step_.dt);
+}
+
+template <int axes>
+HandlePose ServoStepOf<axes>::pose_of(const Vector3d& position,
+                                      const Eigen::Quaterniond& orientation) const noexcept {
+  HandlePose pose;
+  pose.position = config_.device_origin + config_.device_orientation * position;
+  if constexpr (axes == 6) pose.orientation = config_.device_orientation * orientation;
+  return pose;
+}
+
+// A failed reading leaves the hand where it was; the held force is cut in this step.
+template <int axes>
+bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
+  step_.dt = period_;
+  if (!reading.ok || !reading.position.allFinite()) {
+    ++tally_.failed;
+    port_.miss(elapsed_);
+    return false;
+  }
+  const HandlePose pose = pose_of(reading.position, reading.orientation);
+  step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
+  sampled_at_ = step_.now;
+  if (!std::exchange(started_, true)) {
+    tool_.reset(pose);
+    forfeit(pose);
+  }
+  if (reading.watchdog) let_go(reading, pose);
+  tool_.move(pose);
+  step_.probe = tool_.place();
+  note_velocity(reading);
+  return true;
+}
+
+template <int axes>
+void ServoStepOf<axes>::note_velocity(const DeviceSample& reading) noexcept {
+  const double time = pdu::to_seconds(step_.now);
+  const bool measured = reading.has_velocity && reading.velocity.allFinite();
+  if constexpr (axes == 3) {
+    device_motion_.add(step_.probe, time);
+    tool_.set_velocity(measured ? Vector3d(config_.device_orientation * reading.velocity)
+                                : device_motion_.velocity());
+  } else {
+    device_motion_.add(tool_.pose().position, time);
+    turned_ += tool_.step().template tail<3>();
+    turn_motion_.add(turned_, time);
+    const bool turns = measured && reading.turn_rate.allFinite();
+    tool_.set_velocity(
+        turns ? Vector3d(config_.device_orientation * reading.velocity) : device_motion_.velocity(),
+        turns ? Vector3d(config_.device_orientation * reading.turn_rate) : turn_motion_.velocity());
+  }
+  step_.velocity = tool_.velocity();
+}
+
+template <int axes>
+std::optional<HandlePose> ServoStepOf<axes>::released_at(
+    const DeviceSample& reading) const noexcept {
+  if (!reading.released_at || !reading.released_at->allFinite()) return std::nullopt;
+  if constexpr (axes == 3) return pose_of(*reading.released_at, reading.orientation);
+  const auto& orientation = reading.released_orientation;
+  if (!orientation || !(std::abs(orientation->norm() - 1.0) < kUnit)) return std::nullopt;
+  return pose_of(*reading.released_at, *orientation);
+}
+
+// The device dropped the force by itself. Up to that place the sample is a normal one, and after it
+// the hand moved without a force. If the place is unknown, the energy exchanged with the hand is
+// unknown too.
+template <int axes>
+void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& pose) noexcept {
+  ++tally_.let_go;
+  if (const auto released = released_at(reading)) {
+    tool_.move(*released);
+    step_.probe = tool_.place();
+    settle();
+    port_.let_go();
+  } else {
+    forfeit(pose);
+  }
+  written_.setZero();
+}
+
+template <int axes>
+void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
+  ToolOf<axes> there = tool_;
+  there.reset(pose);
+  port_.clear();
+  static_.reset(there);
+  for (RemoteContact* remote : hands_.all()) remote->forfeit(there.place());
+}
+
+template <int axes>
+void ServoStepOf<axes>::settle() noexcept {
+  const Force dx = tool_.motion();
+  port_.settle(dx, elapsed_);
+  if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
+  static_.settle(tool_, step_.dt, port_);
+  Vector3d change = Vector3d::Zero();
+  const bool in_steps = port_.reads_in_steps();
+  for (RemoteContact* remote : hands_.all()) {
+    if (in_steps) change -= remote->spring().force();
+    remote->settle(step_);
+    if (in_steps) change += remote->spring().force();
+  }
+  if (in_steps) port_.follow(tool_.at_port(0, crowd_share_ * held_.springs * change), dx);
+}
+
+// All springs are one force to the hand: opposite forces cancel and cost nothing.
+template <int axes>
+typename ServoStepOf<axes>::Load ServoStepOf<axes>::load() noexcept {
+  Load load;
+  static_.load(tool_, period_, load);
+  load_hands(load);
+  soften_crowd(load);
+  return load;
+}
+
+template <int axes>
+void ServoStepOf<axes>::load_hands(Load& load) noexcept {
+  LoadSum<axes> sum(load);
+  PortLoad& one = sum.of_probe();
+  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
+  std::size_t touched = 0;
+  for (const RemoteContact* remote : hands_.all()) {
+    if (!remote->touching()) continue;
+    const ContactSpring& spring = remote->spring();
+    one.springs += spring.force();
+    one.stored += spring.stored();
+    one.extra += remote->damper(step_);
+    one.springs_slope = std::max(one.springs_slope, spring.greatest_slope());
+    slopes += spring.slope();
+    ++touched;
+  }
+  if (touched > 0) tally_.hands += step_.dt;
+  if (touched > 1) one.springs_slope = greatest_eigenvalue(slopes);
+  sum.add(tool_, 0);
+  sum.finish(tool_);
+}
+
+// If the springs together are stiffer than the device can show, they would buzz at the expense of
+// the ledger. So all are softened by the same factor.
+template <int axes>
+void ServoStepOf<axes>::soften_crowd(Load& load) noexcept {
+  const double whole = axes == 3 ? body_stiffness_limit() : stiffness_per_damping_;
+  const double most = whole - load.walls_slope;
+  const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
+  const double step = step_.dt / RemoteContact::kRamp;
+  crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
+  tally_.crowd.note_force(crowd_share_, tool_.force(load.springs), step_.dt);
+  load.springs *= crowd_share_;
+  load.stored *= crowd_share_;
+  load.springs_slope *= crowd_share_;
+}
+
+template <int axes>
+typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
+  held_ = port_.hold(load, period_);
+  if (held_.walls < 1.0) {
+    static_.attenuate(held_.walls, port_);
+    load.walls *= held_.walls;
+    load.walls_slope *= held_.walls;
+    load.walls_stored *= held_.walls;
+  }
+  tally_.held_back.note_force(held_.springs, tool_.force(load.springs), step_.dt);
+  tally_.effects.note_force(held_.extra, tool_.force(load.extra), step_.dt);
+  static_.shown(held_.extra);
+  const Force force = keep_rate(load, held_.force);
+  const double whole = held_.force.norm();
+  const double reached = whole > 0 ? std::min(1.0, force.norm() / whole) : 1.0;
+  const double share = crowd_share_ * held_.springs * reached;
+  for (RemoteContact* remote : hands_.all()) remote->shown(share, port_.free());
+  tally_.rate.note(reached, newtons(held_.force), step_.dt);
+  if (softening_.share() < 1.0) {
+    tally_.softened.note(softening_.share(), newtons(load.springs) / softening_.share(), step_.dt);
+  }
+  soften(load, held_.springs);
+  return force;
+}
+
+// A crease, an edge or a quick blow turns the force within one sample. The force follows at a
+// limited rate, which the port accounts for like any held force. If the energy does not allow that,
+// the whole force is reduced.
+template <int axes>
+typename ServoStepOf<axes>::Force ServoStepOf<axes>::keep_rate(const Load& load,
+                                                               const Force& wanted) noexcept {
+  if (!wanted.allFinite()) return wanted;  // safety handles it
+  const double most = port_rate_ * elapsed_;
+  const Force near_by = nearest_in_reach(written_, wanted, most);
+  if (near_by == wanted || port_.hold_instead(load, near_by, period_)) return near_by;
+  const double part = part_in_reach(written_, wanted, most);
+  static_.attenuate(part, port_);
+  port_.attenuate(part);
+  return part * wanted;
+}
+
+template <int axes>
+void ServoStepOf<axes>::soften(const Load& load, double held) noexcept {
+  double whole = 0.0;  // [J]
+  if (load.stored > 0) {
+    const double pays = port_.spare(load.walls_slope, period_);
+    if (pays > 0) whole = load.springs.squaredNorm() / (4 * pays);
+  }
+  softening_.learn(held, port_.level() > kToSpare * whole, load.stored > 0, step_.dt);
+  step_.softening = softening_.share();
+}
+
+template <int axes>
+void ServoStepOf<axes>::write() noexcept {
+  const Eigen::Quaterniond to_device = config_.device_orientation.conjugate();
+  if constexpr (axes == 3) {
+    device_.write(to_device * written_, step_.now);
+  } else {
+    const Wrench wrench = tool_.wrench(written_);
+    device_.write_wrench(to_device * Vector3d(wrench.head<3>()),
+                         to_device * Vector3d(wrench.tail<3>()), step_.now);
+  }
+}
+
+template <int axes>
+void ServoStepOf<axes>::publish(bool enabled) noexcept {
+  const ContactResult& mesh = static_.result();
+  if (mesh.in_contact) tally_.scene += step_.dt;
+  // Others feel the hand at the first probe.
+  const ContactResult& first = static_.walls().result();
+  const Vector3d scp = first.in_contact ? first.scp : step_.probe;
+  scp_motion_.add(scp, pdu::to_seconds(step_.now));
+  ServoSnapshot& out = snapshots_.write_slot();
+  out.time = step_.now;
+  out.step = count_;
+  out.device = step_.probe;
+  out.scp = scp;
+  out.velocity = first.in_contact ? scp_motion_.velocity() : step_.velocity;
+  out.acceleration = scp_motion_.acceleration();
+  out.device_velocity = step_.velocity;
+  out.device_acceleration = device_motion_.acceleration();
+  out.force = tool_.force(written_);
+  if constexpr (axes == 6) {
+    const Wrench wrench = tool_.wrench(written_);
+    out.tool.turns = true;
+    out.tool.handle = tool_.pose().position;
+    out.tool.orientation = tool_.pose().orientation;
+    out.tool.turn_rate = tool_.twist().template tail<3>();
+    out.tool.torque = wrench.tail<3>();
+  }
+  out.mesh_force = static_.force();
+  out.mesh_normal = mesh.normal;
+  out.mesh_patch = mesh.in_contact ? mesh.objects[mesh.deepest].patch : 0;
+  out.in_mesh_contact = mesh.in_contact;
+  out.spring_share = held_.springs;
+  out.crowd_share = crowd_share_;
+  out.extra_share = held_.extra;
+  out.limit_share = limit_share_;
+  out.enabled = enabled;
+  out.mesh_ledger = port_.free();
+  out.trips = safety_.trips();
+  out.count = 0;
+  bool refused = false;
+  for (const RemoteContact* remote : hands_.all()) {
+    out.contacts[out.count++] = remote->account(step_, held_.extra);
+    refused |= remote->refused();
+  }
+  if (refused) tally_.refused += step_.dt;
+  out.tally = tally_;
+  out.left_out = hands_.left_out();
+  out.port_energy = port_.absorbed() + hands_.transferred();
+  out.encoder_allowance = port_.encoder_allowance();
+  out.softening = crowd_share_ * softening_.share();
+  out.loan = port_.owed();
+  port_min_ = std::min(port_min_, out.port_energy + out.loan);
+  out.port_energy_min = port_min_;
+  out.late_cost = port_.late_cost();
+  out.loan_most = loan_most_ = std::max(loan_most_, out.loan);
+  if (trace_ != nullptr) trace_->push(out);
+  snapshots_.publish();
+}
+
+template class ServoStepOf<3>;
+template class ServoStepOf<6>;
+
+}  // namespace reckon::haptics

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The step of a servo: read, predict, contact, gate, safety, write, publish.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "reckon/haptics/contact/static_contact.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/passivity/softening.hpp"
+#include "reckon/haptics/servo/motion_filter.hpp"
+#include "reckon/haptics/servo/safety.hpp"
+#include "reckon/haptics/servo/servo_core.hpp"
+
+namespace reckon::haptics {
+
+/// The servo of a device with `axes` axes, 3 or 6. Remote hands touch the first probe of its tool.
+template <int axes>
+class ServoStepOf final : public ServoCore {
+ public:
+  /// As ServoLoop.
+  ServoStepOf(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
+              const ServoConfig& config);
+
+  void step(std::chrono::nanoseconds now) noexcept override;
+  [[nodiscard]] bool has_near() noexcept override;
+
+ private:
+  using Force = AxisForces<axes>;  // in the port's coordinates
+  using Load = PortLoadOf<axes>;
+
+  void reduce(double scale) noexcept;
+  [[nodiscard]] std::size_t exchange(const Load& load) noexcept;  // number of contacts engaged
+  [[nodiscard]] bool at_rest() noexcept;
+  [[nodiscard]] double sure_speed() const noexcept;  // [m/s], lower bound
+  void note_limit(const Force& force, double scale) noexcept;
+  [[nodiscard]] HandlePose pose_of(const Eigen::Vector3d& position,
+                                   const Eigen::Quaterniond& orientation) const noexcept;
+  [[nodiscard]] std::optional<HandlePose> released_at(const DeviceSample& reading) const noexcept;
+  void let_go(const DeviceSample& reading, const HandlePose& pose) noexcept;
+  void forfeit(const HandlePose& pose) noexcept;
+  bool sample(const DeviceSample& reading) noexcept;
+  void note_velocity(const DeviceSample& reading) noexcept;
+  void settle() noexcept;
+  [[nodiscard]] Load load() noexcept;
+  void load_hands(Load& load) noexcept;
+  void soften_crowd(Load& load) noexcept;
+  [[nodiscard]] Force hold(Load& load) noexcept;
+  [[nodiscard]] Force keep_rate(const Load& load, const Force& wanted) noexcept;
+  void soften(const Load& load, double held) noexcept;
+  void write() noexcept;
+  void publish(bool enabled) noexcept;
+  [[nodiscard]] double newtons(const Force& force) const noexcept {
+    return tool_.force(force).norm();
+  }
+
+  ToolOf<axes> tool_;
+  StaticContactOf<axes> static_;
+  EnergyPortOf<axes> port_;
+  NearHands hands_;
+  Softening softening_;
+  double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
+  PortHoldOf<axes> held_;     // shares of the load that the port held
+  double limit_share_ = 1.0;  // share of that within the greatest force
+  double port_rate_;          // max_rate_ in the port's coordinates
+  Safety safety_;
+  MotionFilter device_motion_;
+  MotionFilter scp_motion_;
+  MotionFilter turn_motion_;                          // of a device that turns
+  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  // [rad], sum of all turns
+  std::uint64_t next_search_ = 0;                     // of surfaces, by count_
+  bool near_surface_ = true;
+  double rested_ = 0.0;  // [s], time short of energy and at rest
+  bool started_ = false;
+  std::chrono::nanoseconds sampled_at_{0};  // last good reading
+  Force written_ = Force::Zero();           // held since the last step
+  double port_min_ = 0.0;
+  double loan_most_ = 0.0;
+};
+
+}  // namespace reckon::haptics

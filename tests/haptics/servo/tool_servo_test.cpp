@@ -1,0 +1,414 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The servo of a device of six axes, with tools of several probes: closed forms of the wrench, and
+// the energy by the device's own books.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "reckon/haptics/contact/tool.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kPeriod = milliseconds(1);
+
+Quaterniond turn(double angle, const Vector3d& axis) {
+  return Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+SimulatedDeviceConfig six_axes() {
+  SimulatedDeviceConfig config;
+  config.turn = SimulatedTurnConfig{};
+  return config;
+}
+
+SceneObject floor_at(double height, double stiffness) {
+  SceneObject object;
+  object.shape = PlaneShape{Vector3d::UnitZ()};
+  object.pose.position = {0, 0, height};
+  object.effects.of<SpringDamper>() = {stiffness, 0.0};
+  return object;
+}
+
+/// A servo on a simulated device, on a clock that is stepped.
+class Bench {
+ public:
+  Bench(const SimulatedDeviceConfig& device, HandScript script, const Scene& scene,
+        std::vector<Vector3d> probes, ServoConfig config = {})
+      : device_(device, std::move(script)) {
+    config.probes = std::move(probes);
+    servo_.emplace(device_, EffectPlan(scene), config);
+  }
+
+  const ServoSnapshot& step(nanoseconds period = kPeriod) {
+    now_ += period;
+    servo_->step(now_);
+    EXPECT_TRUE(servo_->snapshots().update());
+    least_ = std::min(least_, device_.port_work() + device_.damping_loss());
+    return servo_->snapshots().read();
+  }
+  const ServoSnapshot& run(int steps) {
+    for (int i = 1; i < steps; ++i) step();
+    return step();
+  }
+  [[nodiscard]] SimulatedDevice& device() { return device_; }
+  [[nodiscard]] const ServoLoop& servo() const { return *servo_; }
+  /// Least of what the port took and the device's damping [J].
+  [[nodiscard]] double least() const { return least_; }
+
+ private:
+  SimulatedDevice device_;
+  std::optional<ServoLoop> servo_;
+  nanoseconds now_{0};
+  double least_ = 0.0;
+};
+
+// A bar of two probes, pressed by a hand on a floor of 500 N/m: each probe stands on it, and the
+// device gets their sum and r x F.
+TEST(ToolServo, ShowsTheForceAndTheTorqueOfEachProbe) {
+  const std::vector<Vector3d> probes{{0.03, 0, -0.02}, {-0.05, 0.01, -0.02}};
+  const double tilt = 0.02;
+  const auto script = [&](double t) {
+    HandTarget target;
+    target.position = {0, 0, 0.02 - 0.004 * std::min(1.0, t)};
+    target.orientation = turn(tilt * std::min(1.0, t), Vector3d(0, 1, 0));
+    return target;
+  };
+  Scene scene;
+  scene.objects = {floor_at(0.0, 500.0)};
+  SimulatedDeviceConfig config = six_axes();
+  config.start = {0, 0, 0.02};
+  Bench bench(config, script, scene, probes);
+  const ServoSnapshot& out = bench.run(3000);
+  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+  int pressed = 0;
+  for (const Vector3d& probe : probes) {
+    const Vector3d lever = out.tool.orientation * probe;
+    const double depth = -(out.tool.handle + lever).z();
+    if (depth <= 0) continue;
+    ++pressed;
+    const Vector3d one(0, 0, 500.0 * depth);
+    force += one;
+    torque += lever.cross(one);
+  }
+  EXPECT_EQ(pressed, 2);
+  EXPECT_GT(force.norm(), 0.2);
+  EXPECT_GT(torque.norm(), 0.005);
+  // 1e-7 of the size is the clearance of a plane.
+  EXPECT_NEAR((out.force - force).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((out.tool.torque - torque).norm(), 0.0, 1e-7);
+  EXPECT_NEAR((bench.device().turn()->orientation().angularDistance(out.tool.orientation)), 0.0,
+              1e-9);
+  const Vector3d first = out.tool.handle + out.tool.orientation * probes[0];
+  EXPECT_NEAR((out.device - first).norm(), 0.0, 1e-15) << "others feel the first probe";
+}
+
+TEST(ToolServo, OfOneProbeAtTheHandleIsTheServoOfThreeAxes) {
+  const auto script = [](double t) {
+    HandTarget target;
+    target.position = {0.01 * std::sin(3 * t), 0.004 * std::cos(5 * t), 0.008 * std::cos(9 * t)};
+    return target;
+  };
+  Scene scene;
+  scene.objects = {floor_at(0.0, 700.0)};
+  SimulatedDeviceConfig three;
+  Bench point(three, script, scene, {});
+  Bench turning(six_axes(), script, scene, {});
+  double most = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const ServoSnapshot a = point.step();
+    const ServoSnapshot b = turning.step();
+    most = std::max(most, a.force.norm());
+    ASSERT_NEAR((a.force - b.force).norm(), 0.0, 1e-6) << i;
+    ASSERT_NEAR(b.tool.torque.norm(), 0.0, 1e-12) << i;
+  }
+  EXPECT_GT(most, 1.0);
+}
+
+// A lever multiplies what a turn meets: the stiffness that is sure falls with it.
+TEST(ToolServo, SoftensWallsByTheLeversOfItsProbes) {
+  const SimulatedDeviceConfig config = six_axes();
+  Scene scene;
+  scene.objects = {floor_at(0.0, 5000.0)};
+  const double handle = Bench(config, {}, scene, {}).servo().static_stiffness_limit();
+  const double b = config.damping, turning = config.turn->damping;
+  for (const double lever : {0.02, 0.1, 0.3}) {
+    const Bench bench(config, {}, scene, {Vector3d(lever, 0, 0)});
+    const double sure = 1.0 / (1.0 / b + lever * lever / turning);
+    EXPECT_LT(bench.servo().static_stiffness_limit(), handle * sure / b);
+    EXPECT_GT(bench.servo().remote_stiffness_limit(), 0.85 * 0.95 * sure / 1e-3) << lever;
+    EXPECT_LE(bench.servo().remote_stiffness_limit(), 0.95 * sure / 1e-3) << lever;
+  }
+}
+
+TEST(ToolServo, RefusesWhatItCannotShow) {
+  SimulatedDevice three{SimulatedDeviceConfig{}};
+  ServoConfig config;
+  config.probes = {Vector3d(0.1, 0, 0)};
+  EXPECT_THROW(ServoLoop(three, EffectPlan(), config), std::invalid_argument)
+      << "a device without torque turns no tool";
+  SimulatedDevice six{six_axes()};
+  config.probes.assign(9, Vector3d::Zero());
+  EXPECT_THROW(ServoLoop(six, EffectPlan(), config), std::invalid_argument);
+  config.probes = {Vector3d(1.1, 0, 0)};
+  EXPECT_THROW(ServoLoop(six, EffectPlan(), config), std::invalid_argument);
+  SimulatedDeviceConfig stiff = six_axes();
+  stiff.turn->damping = 0.0;
+  EXPECT_THROW(SimulatedDevice{stiff}, std::invalid_argument);
+}
+
+// A corner of a floor and a box: probes come and go, edges, taps and turns.
+Scene corner(std::mt19937& random) {
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  Scene scene;
+  scene.objects = {floor_at(0.0, 100.0 * std::pow(50.0, any(random)))};
+  SceneObject box;
+  box.shape = BoxShape{Vector3d(0.02, 0.03, 0.04)};
+  box.pose.position = {0.03, 0.0, 0.02};
+  box.pose.orientation = turn(any(random), Vector3d(any(random), 0.3, any(random)));
+  box.effects.of<SpringDamper>() = {100.0 * std::pow(50.0, any(random)), 3.0 * any(random)};
+  if (any(random) < 0.5) box.effects.declare<StickSlipFriction>() = {0.5, 0.3};
+  scene.objects.push_back(box);
+  return scene;
+}
+
+/// A handle without mass that an opponent moves. It puts in next to nothing: it presses and twists
+/// by microns from the very surface, and lets go along what takes most out of the force and torque
+/// that are held.
+class Opponent : public HapticDevice {
+ public:
+  /// @param start of the handle  @param claim times its damping is what it states
+  Opponent(unsigned seed, const Vector3d& start, double claim)
+      : random_(seed), claim_(claim), start_(start), position_(start) {
+    damping_ = {0.3 + any(0, 1.5), 0.002 * std::pow(20.0, any(0, 1))};
+  }
+
+  [[nodiscard]] DeviceLimits limits() const noexcept override {
+    DeviceLimits limits;
+    limits.axes = 6;
+    limits.max_force = 10.0;
+    limits.max_torque = 0.5;
+    limits.damping = claim_ * damping_.translation;
+    limits.turn_damping = claim_ * damping_.rotation;
+    limits.max_speed = 10.0;
+    return limits;
+  }
+  [[nodiscard]] DeviceSample read(nanoseconds /*now*/) noexcept override {
+    move();
+    DeviceSample sample;
+    sample.ok = true;
+    sample.position = position_;
+    sample.orientation = orientation_;
+    return sample;
+  }
+  void write(const Vector3d& /*force*/, nanoseconds /*now*/) noexcept override {}
+  void write_wrench(const Vector3d& force, const Vector3d& torque, nanoseconds) noexcept override {
+    force_ = force;
+    torque_ = torque;
+    felt_ = std::max(felt_, torque.norm());
+  }
+  /// Of all that it was given, and the damping that it has [J].
+  [[nodiscard]] double least() const { return least_; }
+  [[nodiscard]] double felt() const { return felt_; }
+  [[nodiscard]] double any(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random_);
+  }
+
+ private:
+  Vector3d way() { return {any(-1, 1), any(-1, 1), any(-1, 1)}; }
+  void move() {
+    constexpr double kT = 1e-3;
+    Vector3d dx = Vector3d(0, 0, any(-5e-6, 0)) + 1e-6 * way(), turned = stray_ * way();
+    if (press_-- <= 0) {
+      dx = 0.5 * kT / damping_.translation * force_;
+      turned = 0.5 * kT / damping_.rotation * torque_;
+      if (press_ < -4) {
+        press_ = static_cast<int>(any(1.0, 80.0));
+        stray_ = 1e-4 * std::pow(0.01, any(0, 1));
+        dx = 0.2 * (start_ - position_);
+      }
+    }
+    const double angle = turned.norm();
+    position_ += dx;
+    if (angle > 0) orientation_ = (turn(angle, turned) * orientation_).normalized();
+    energy_ += -force_.dot(dx) - torque_.dot(turned) +
+               (damping_.translation * dx.squaredNorm() + damping_.rotation * angle * angle) / kT;
+    least_ = std::min(least_, energy_);
+  }
+
+  std::mt19937 random_;
+  double claim_;
+  AxisDamping damping_;
+  Vector3d start_, position_;
+  Quaterniond orientation_ = Quaterniond::Identity();
+  Vector3d force_ = Vector3d::Zero(), torque_ = Vector3d::Zero();
+  double energy_ = 0.0, least_ = 0.0, felt_ = 0.0;
+  double stray_ = 0.0;
+  int press_ = 0;
+};
+
+struct Feat {
+  double least = 0.0;
+  double torque = 0.0;
+};
+Feat oppose(unsigned seed, double claim) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  std::vector<Vector3d> probes(1 + random() % 4);
+  double lowest = 0.0;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    probes[i] = 0.06 * Vector3d(any(random), any(random), any(random));
+    if (random() % 2 == 0) probes[i].z() = probes[0].z();  // several touch at once
+    lowest = i == 0 ? probes[0].z() : std::min(lowest, probes[i].z());
+  }
+  Opponent device(seed, {0, 0, 1e-6 - lowest}, claim);
+  Scene scene;
+  scene.objects = {floor_at(0.0, 5000.0)};
+  ServoConfig config;
+  config.probes = probes;
+  ServoLoop servo(device, EffectPlan(scene), config);
+  nanoseconds now{0};
+  for (int i = 0; i < 4000; ++i) servo.step(now += kPeriod);
+  return {device.least(), device.felt()};
+}
+
+TEST(ToolServo, AnOpponentGetsNothingOutOfIt) {
+  double least = 0.0, torque = 0.0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const Feat one = oppose(seed, 1.0);
+    EXPECT_GE(one.least, -1e-9) << "seed " << seed;
+    least = std::min(least, one.least);
+    torque = std::max(torque, one.torque);
+  }
+  EXPECT_GT(torque, 1e-3) << "nothing was tried";
+  int won = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) won += oppose(seed, 8.0).least < -1e-6 ? 1 : 0;
+  EXPECT_GT(won, 10) << "an opponent that finds nothing where eight times the damping is believed";
+  std::printf("least %.3g J, greatest torque %.3g N m\n", least, torque);
+}
+
+struct Outcome {
+  double least = 0.0;      // of the device's books
+  double stated = 0.0;     // least port energy that the servo states
+  double torque = 0.0;     // greatest
+  double allowance = 0.0;  // for encoder steps, and late steps
+};
+
+// What moves a tool: a hand that strokes, pushes and twists at random, and lets go at times.
+Outcome stroke(unsigned seed, bool in_steps, bool late) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  SimulatedDeviceConfig config = six_axes();
+  config.damping = 0.3 + 1.5 * std::abs(any(random));
+  config.turn->damping = 0.002 * std::pow(20.0, std::abs(any(random)));
+  config.turn->inertia = 2e-5 * std::pow(10.0, std::abs(any(random)));
+  config.turn->max_torque = 0.3;
+  config.delay_samples = seed % 3 == 2 ? 1 : 0;
+  config.start = {0, 0, 0.06};
+  if (in_steps) {
+    config.resolution = 1e-5;
+    config.turn->resolution = 2e-4;
+  }
+  std::vector<Vector3d> probes(1 + random() % 4);
+  for (Vector3d& probe : probes) probe = 0.06 * Vector3d(any(random), any(random), any(random));
+  const double a = 2 + 8 * std::abs(any(random)), b = 2 + 8 * std::abs(any(random));
+  const Vector3d axis(any(random), any(random), any(random));
+  const auto script = [=](double t) {
+    HandTarget target;
+    target.position = {0.02 * std::sin(a * t), 0.02 * std::cos(b * t),
+                       0.02 + 0.03 * std::cos(0.7 * a * t)};
+    target.orientation = turn(0.8 * std::sin(b * t), axis);
+    target.grip = std::fmod(t, 1.7) < 1.4 ? 1.0 : 0.0;
+    return target;
+  };
+  const Scene scene = corner(random);
+  Bench bench(config, script, scene, probes);
+  Outcome out;
+  for (int i = 0; i < 4000; ++i) {
+    const bool is_late = late && random() % 20 == 0;
+    const ServoSnapshot& step =
+        bench.step(is_late ? nanoseconds(1'000'000 + random() % 2'000'000) : kPeriod);
+    EXPECT_TRUE(step.force.allFinite() && step.tool.torque.allFinite()) << i;
+    out.torque = std::max(out.torque, step.tool.torque.norm());
+    out.stated = step.port_energy_min;
+    out.allowance = std::max(out.allowance, step.encoder_allowance + step.late_cost);
+    if (testing::Test::HasFailure()) break;
+  }
+  out.least = bench.least();
+  return out;
+}
+
+TEST(ToolServo, NeverGivesEnergyByTheDevicesOwnBooks) {
+  double least = 0.0, torque = 0.0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const Outcome one = stroke(seed, false, false);
+    EXPECT_GE(one.least, -1e-9) << "seed " << seed;
+    EXPECT_GE(one.stated, -1e-9) << "seed " << seed;
+    least = std::min(least, one.least);
+    torque = std::max(torque, one.torque);
+  }
+  EXPECT_GT(torque, 0.05) << "nothing was tried";
+  std::printf("least %.3g J, greatest torque %.3g N m\n", least, torque);
+}
+
+TEST(ToolServo, KeepsItsBooksWithEncodersAndLateSteps) {
+  double worst = 0.0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const Outcome one = stroke(seed, seed % 2 == 0, true);
+    EXPECT_GE(one.least, -one.allowance - 1e-9) << "seed " << seed;
+    worst = std::min(worst, one.least + one.allowance);
+  }
+  std::printf("least beyond the allowance %.3g J\n", worst);
+}
+
+TEST(ToolServo, CutsTheForceOfAReadingThatIsNoPose) {
+  class Broken : public SimulatedDevice {
+   public:
+    using SimulatedDevice::SimulatedDevice;
+    DeviceSample read(nanoseconds now) noexcept override {
+      DeviceSample sample = SimulatedDevice::read(now);
+      if (broken) sample.orientation.coeffs() *= 1.5;
+      return sample;
+    }
+    bool broken = false;
+  };
+  Broken device(six_axes());
+  Scene scene;
+  scene.objects = {floor_at(0.001, 500.0)};
+  ServoLoop servo(device, EffectPlan(scene), {});
+  nanoseconds now{0};
+  const auto step = [&] {
+    servo.step(now += kPeriod);
+    EXPECT_TRUE(servo.snapshots().update());
+    return servo.snapshots().read();
+  };
+  for (int i = 0; i < 1000; ++i) step();
+  EXPECT_GT(step().force.norm(), 0.1);
+  device.broken = true;
+  EXPECT_GT(step().tally.failed, 0u);
+  for (int i = 0; i < 10; ++i) step();
+  EXPECT_EQ(step().force.norm(), 0.0);
+  EXPECT_GT(step().trips, 0u);
+  device.broken = false;
+  for (int i = 0; i < 1500; ++i) step();
+  EXPECT_GT(step().force.norm(), 0.1) << "and comes back by itself";
+}
+
+}  // namespace
+}  // namespace reckon::haptics
