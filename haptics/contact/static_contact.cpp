@@ -21,12 +21,13 @@ template <int axes>
 StaticContactOf<axes>::StaticContactOf(const EffectPlan& plan, double stiffness_cap, double radius,
                                        std::size_t probes)
     : regions_(plan, kRegionsOverWalls * stiffness_cap) {
-  while (walls_.size() < probes) walls_.emplace_back(plan, stiffness_cap, radius);
+  size_ = std::clamp<std::size_t>(probes, 1, kMost);
+  for (std::size_t i = 0; i < size(); ++i) walls_[i].emplace(plan, stiffness_cap, radius);
 }
 
 template <int axes>
 void StaticContactOf<axes>::reset(const Tool& tool) noexcept {
-  for (std::size_t i = 0; i < walls_.size(); ++i) walls_[i].reset(tool.place(i));
+  for (std::size_t i = 0; i < size(); ++i) walls_[i]->reset(tool.place(i));
   regions_.reset(tool.place());
   deepest_ = 0;
 }
@@ -34,14 +35,12 @@ void StaticContactOf<axes>::reset(const Tool& tool) noexcept {
 template <int axes>
 void StaticContactOf<axes>::settle(const Tool& tool, double dt, Port& port) noexcept {
   const bool in_steps = port.reads_in_steps();
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
-    const Eigen::Vector3d change = walls_[i].move(tool.place(i), dt, port);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Eigen::Vector3d change = walls_[i]->move(tool.place(i), dt, port);
     if (in_steps) port.follow(tool.at_port(i, change), tool.motion());
-    walls_[i].settle(dt, port);
+    walls_[i]->settle(dt, port);
   }
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
-    if (depth_of(walls_[i].result()) > depth_of(result())) deepest_ = i;
-  }
+  if constexpr (axes != 3) find_deepest();
   if (regions_.empty()) return;
   regions_.move(tool.place(), port);
   if (in_steps) port.follow(tool.at_port(0, regions_.change()), tool.motion());
@@ -49,12 +48,19 @@ void StaticContactOf<axes>::settle(const Tool& tool, double dt, Port& port) noex
 }
 
 template <int axes>
+void StaticContactOf<axes>::find_deepest() noexcept {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (depth_of(walls_[i]->result()) > depth_of(result())) deepest_ = i;
+  }
+}
+
+template <int axes>
 void StaticContactOf<axes>::load(const Tool& tool, double dt, Load& load) noexcept {
   LoadSum<axes> sum(load);
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     PortLoad& one = sum.of_probe();
     if (i == 0 && !regions_.empty()) regions_.load(tool.velocity(), dt, one);
-    walls_[i].load(tool.velocity(i), dt, one);
+    walls_[i]->load(tool.velocity(i), dt, one);
     sum.add(tool, i);
   }
   sum.finish(tool);
@@ -63,40 +69,40 @@ void StaticContactOf<axes>::load(const Tool& tool, double dt, Load& load) noexce
 template <int axes>
 double StaticContactOf<axes>::lacks() const noexcept {
   double sum = 0.0;
-  for (const WallContact& walls : walls_) sum += walls.lacks();
+  for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->lacks();
   return sum;
 }
 
 template <int axes>
 void StaticContactOf<axes>::shown(double extra) noexcept {
-  for (WallContact& walls : walls_) walls.shown(extra);
+  for (std::size_t i = 0; i < size(); ++i) walls_[i]->shown(extra);
   if (!regions_.empty()) regions_.shown(extra);
 }
 
 template <int axes>
 void StaticContactOf<axes>::attenuate(double factor, EnergyLedger& ledger) noexcept {
-  for (WallContact& walls : walls_) walls.attenuate(factor, ledger);
+  for (std::size_t i = 0; i < size(); ++i) walls_[i]->attenuate(factor, ledger);
   if (!regions_.empty()) regions_.attenuate(factor, ledger);
 }
 
 template <int axes>
 Eigen::Vector3d StaticContactOf<axes>::force() const noexcept {
   Eigen::Vector3d sum = regions_.force();
-  for (const WallContact& walls : walls_) sum = walls.force() + sum;
+  for (std::size_t i = 0; i < size(); ++i) sum = walls_[i]->force() + sum;
   return sum;
 }
 
 template <int axes>
 double StaticContactOf<axes>::share() const noexcept {
   double least = 1.0;
-  for (const WallContact& walls : walls_) least = std::min(least, walls.share());
+  for (std::size_t i = 0; i < size(); ++i) least = std::min(least, walls_[i]->share());
   return least;
 }
 
 template <int axes>
 double StaticContactOf<axes>::asked() const noexcept {
   double sum = 0.0;
-  for (const WallContact& walls : walls_) sum += walls.asked();
+  for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->asked();
   return sum;
 }
 
@@ -104,7 +110,7 @@ template <int axes>
 typename StaticContactOf<axes>::Force StaticContactOf<axes>::held_back(
     const Tool& tool) const noexcept {
   Force sum = Force::Zero();
-  for (std::size_t i = 0; i < walls_.size(); ++i) sum += tool.at_port(i, walls_[i].held_back());
+  for (std::size_t i = 0; i < size(); ++i) sum += tool.at_port(i, walls_[i]->held_back());
   return sum;
 }
 

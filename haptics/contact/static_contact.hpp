@@ -5,8 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
-#include <deque>
+#include <optional>
 
 #include "reckon/haptics/contact/region_forces.hpp"
 #include "reckon/haptics/contact/tool.hpp"
@@ -42,7 +43,7 @@ class StaticContactOf {
   void load(const Tool& tool, double dt, Load& load) noexcept;
   /// The forces were cut to zero: touched objects fade in again.
   void drop() noexcept {
-    for (WallContact& walls : walls_) walls.drop();
+    for (std::size_t i = 0; i < size(); ++i) walls_[i]->drop();
   }
   /// Energy that the walls lack for their full storage while a loan is allowed [J]; else 0.
   [[nodiscard]] double lacks() const noexcept;
@@ -52,11 +53,11 @@ class StaticContactOf {
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   /// Of the probe that is deepest in an object; of the first if none is in any.
-  [[nodiscard]] const ContactResult& result() const noexcept { return walls_[deepest_].result(); }
-  [[nodiscard]] std::size_t deepest() const noexcept { return deepest_; }
+  [[nodiscard]] const ContactResult& result() const noexcept { return walls(deepest()).result(); }
+  [[nodiscard]] std::size_t deepest() const noexcept { return axes == 3 ? 0 : deepest_; }
   /// Walls at a probe.
   [[nodiscard]] const WallContact& walls(std::size_t probe = 0) const noexcept {
-    return walls_[probe];
+    return *walls_[probe];
   }
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
   /// Sum of walls and regions at all probes [N, S], after shown().
@@ -69,7 +70,13 @@ class StaticContactOf {
   [[nodiscard]] Force held_back(const Tool& tool) const noexcept;
 
  private:
-  std::deque<WallContact> walls_;  // one a probe, fixed at construction; a solver does not move
+  static constexpr std::size_t kMost = axes == 3 ? 1 : kMostProbes;
+
+  [[nodiscard]] std::size_t size() const noexcept { return axes == 3 ? 1 : size_; }
+  void find_deepest() noexcept;
+
+  std::array<std::optional<WallContact>, kMost> walls_;  // of the probes
+  std::size_t size_ = 1;
   RegionForces regions_;
   std::size_t deepest_ = 0;
 };

@@ -12,12 +12,10 @@
 #include <cstddef>
 #include <span>
 
+#include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/passivity/wrench.hpp"
 
 namespace reckon::haptics {
-
-/// Probes of a tool.
-inline constexpr std::size_t kMostProbes = 8;
 
 /// Where a handle is.
 struct HandlePose {

@@ -36,15 +36,18 @@ struct DeviceLimits {
   double resolution = 0.0;       ///< [m], step of its position sensors, along each axis; 0 = exact
 };
 
+/// How a device of six axes is turned.
+struct DeviceTurn {
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> D, a unit one
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();  ///< [rad/s], frame D; only with has_velocity
+};
+
 /// One reading of a device.
 struct DeviceSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], frame D; only with has_velocity
   bool has_velocity = false;
-  /// Of 6 axes: tool -> frame D, a unit quaternion, and its rate [rad/s], frame D, with
-  /// has_velocity.
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();
+  std::optional<DeviceTurn> turn = {};  ///< of 6 axes; a reading of these without it failed
   bool enabled = true;    ///< the operator's (dead man's) switch: force only while it is held
   bool ok = false;        ///< false: no reading this time (unplugged, transfer failed)
   bool watchdog = false;  ///< the device went to zero force by itself since the last read
@@ -52,7 +55,7 @@ struct DeviceSample {
   /// books then stay exact and the force goes on; otherwise everything the contacts hold is written
   /// off.
   std::optional<Eigen::Vector3d> released_at = {};
-  std::optional<Eigen::Quaterniond> released_orientation = {};  ///< of 6 axes, with released_at
+  std::optional<Eigen::Quaterniond> released_turned = {};  ///< tool -> D, of 6 axes, at that moment
   std::uint32_t buttons = 0;
 };
 

@@ -18,8 +18,12 @@ constexpr nanoseconds kLongestRun{1'000'000'000};
 
 }  // namespace
 
-SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script)
-    : config_(config), script_(std::move(script)), position_(config.start) {
+SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script,
+                                 TurnScript turns)
+    : config_(config),
+      script_(std::move(script)),
+      turns_(std::move(turns)),
+      position_(config.start) {
   require_of_simulated(config.mass > 0, "mass must be above 0 kg", config.mass);
   require_of_simulated(config.damping >= 0, "damping must be 0 or more N s/m", config.damping);
   require_of_simulated(config.hand_stiffness >= 0, "hand stiffness must be 0 or more N/m",
@@ -98,7 +102,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
     let_go();
     sample.watchdog = true;
     sample.released_at = position_;
-    if (turn_) sample.released_orientation = turn_->orientation();
+    if (turn_) sample.released_turned = turn_->orientation();
     run(pdu::to_seconds(elapsed - held));
   } else {
     run(pdu::to_seconds(elapsed));
@@ -113,36 +117,53 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   const double step = config_.resolution;
   if (step > 0) sample.position = (position_ / step).array().round().matrix() * step;
   if (turn_) {
-    sample.orientation = turn_->reading();
-    sample.turn_rate = turn_->rate();
+    sample.turn = {turn_->reading(), turn_->rate()};
     sample.has_velocity = sample.has_velocity && turn_->config().resolution <= 0;
   }
   return sample;
 }
 
 void SimulatedDevice::write(const Eigen::Vector3d& force, nanoseconds now) noexcept {
-  write_wrench(force, Eigen::Vector3d::Zero(), now);
+  written_at_ = now;
+  if (!plugged_ || !force.allFinite()) return let_go();
+  if (under_way_.empty()) {
+    force_ = force;
+    return;
+  }
+  Wrench& next = under_way_[next_];
+  force_ = next.head<3>();
+  next.head<3>() = force;
+  next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
 }
 
 void SimulatedDevice::write_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
                                    nanoseconds now) noexcept {
-  written_at_ = now;
-  if (!plugged_ || !force.allFinite() || !torque.allFinite()) return let_go();
-  Wrench wrench;
-  wrench << force, torque;
+  if (!torque.allFinite()) return let_go();
+  torque_ = torque;
   if (!under_way_.empty()) {
-    std::swap(wrench, under_way_[next_]);
-    next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
+    torque_ = under_way_[next_].tail<3>();
+    under_way_[next_].tail<3>() = torque;
   }
-  force_ = wrench.head<3>();
-  torque_ = wrench.tail<3>();
+  write(force, now);
 }
 
 void SimulatedDevice::run(double duration) noexcept {
   if (!(duration > 0)) return;
   const double steps = std::max(1.0, std::ceil(duration / kLongestSubstep - 1e-9));
   const double h = duration / steps;
+  if (turn_) run_turn(static_cast<int>(steps), h);
   for (int i = 0; i < static_cast<int>(steps); ++i) substep(h);
+}
+
+// Turning and moving do not depend on each other while force and torque are held.
+void SimulatedDevice::run_turn(int steps, double h) noexcept {
+  DeviceTurn target{turn_->config().start, Eigen::Vector3d::Zero()};
+  for (int i = 0; i < steps; ++i) {
+    const double time = time_ + i * h;
+    if (turns_) target = turns_(time);
+    const double grip = script_ ? script_(time).grip : 1.0;
+    turn_->step(torque_, target.orientation, target.rate, grip, h);
+  }
 }
 
 // Semi-implicit Euler: velocity first, and every book with the velocity that moves the handle, so
@@ -150,7 +171,6 @@ void SimulatedDevice::run(double duration) noexcept {
 void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;
-  if (turn_) target.orientation = turn_->config().start;
   if (script_) target = script_(time_);
   Eigen::Vector3d pull = config_.hand_stiffness * (target.position - position_);
   const double pulls = pull.norm();
@@ -160,7 +180,6 @@ void SimulatedDevice::substep(double h) noexcept {
   velocity_ += h / config_.mass * (hand + force_ - config_.damping * velocity_);
   const Eigen::Vector3d dx = h * velocity_;
   position_ += dx;
-  if (turn_) turn_->step(torque_, target.orientation, target.turn_rate, target.grip, h);
   time_ += h;
   port_work_ -= force_.dot(dx);
   hand_work_ += hand.dot(dx);

@@ -22,9 +22,6 @@ struct HandTarget {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
-  /// Of a device of six axes: tool -> D, and its rate [rad/s], frame D.
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();
   double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: it has let go
   double most_pull = std::numeric_limits<double>::infinity();  ///< [N] >= 0, that the spring gives
 };
@@ -32,6 +29,9 @@ struct HandTarget {
 /// Target at a time [s] since the device's first read. Must not allocate; called about ten times a
 /// step.
 using HandScript = std::function<HandTarget(double)>;
+
+/// How a hand wants a device of six axes to be turned, at such a time; the same rules.
+using TurnScript = std::function<DeviceTurn(double)>;
 
 struct SimulatedDeviceConfig {
   double mass = 0.1;              ///< [kg], > 0; of the handle and what moves with it
@@ -63,7 +63,9 @@ class SimulatedDevice : public HapticDevice {
   static constexpr int kMostDelay = 1000;  ///< [samples]
 
   /// @throws std::invalid_argument for a mass <= 0 or other values out of range.
-  explicit SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script = {});
+  /// @param turns of a device of six axes; none: as at its start
+  explicit SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script = {},
+                           TurnScript turns = {});
 
   [[nodiscard]] DeviceLimits limits() const noexcept override;
   /// Runs the plant from the last read to `now`; at most 1 s at once.
@@ -111,9 +113,11 @@ class SimulatedDevice : public HapticDevice {
   [[nodiscard]] bool holds_force() const noexcept;
   void run(double duration) noexcept;
   void substep(double h) noexcept;
+  void run_turn(int steps, double h) noexcept;
 
   SimulatedDeviceConfig config_;
   HandScript script_;
+  TurnScript turns_;
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();

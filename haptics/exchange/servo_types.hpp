@@ -104,6 +104,9 @@ struct AccountList {
   }
 };
 
+/// Probes of a tool.
+inline constexpr std::size_t kMostProbes = 8;
+
 /// How the tool of a device of six axes is held. Frame S.
 struct ToolState {
   bool turns = false;  ///< false: a device of three axes, and nothing here is said
@@ -111,6 +114,8 @@ struct ToolState {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> S, measured
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m], about the handle, as written
+  std::size_t count = 0;                             ///< of its probes
+  std::array<Eigen::Vector3d, kMostProbes> probes{};  ///< [m], where they are
 };
 
 /// Published result of one servo step.

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "reckon/haptics/contact/tool.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {

@@ -60,7 +60,8 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
 template <int axes>
 void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   DeviceSample reading = device_.read(now);
-  if constexpr (axes == 6) reading.ok &= std::abs(reading.orientation.norm() - 1.0) < kUnit;
+  if constexpr (axes == 6)
+    reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
   step_.now = now;
   note_time();
   if (sample(reading)) settle();
@@ -155,12 +156,9 @@ void ServoStepOf<axes>::note_limit(const Force& force, double scale) noexcept {
 }
 
 template <int axes>
-HandlePose ServoStepOf<axes>::pose_of(const Vector3d& position,
-                                      const Eigen::Quaterniond& orientation) const noexcept {
-  HandlePose pose;
-  pose.position = config_.device_origin + config_.device_orientation * position;
-  if constexpr (axes == 6) pose.orientation = config_.device_orientation * orientation;
-  return pose;
+HandlePose ServoStepOf<axes>::pose_of(const Vector3d& position) const noexcept {
+  return {config_.device_origin + config_.device_orientation * position,
+          Eigen::Quaterniond::Identity()};
 }
 
 // A failed reading leaves the hand where it was; the held force is cut in this step.
@@ -172,7 +170,8 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
     port_.miss(elapsed_);
     return false;
   }
-  const HandlePose pose = pose_of(reading.position, reading.orientation);
+  HandlePose pose = pose_of(reading.position);
+  if constexpr (axes == 6) pose.orientation = turned(reading.turn->orientation);
   step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
   if (!std::exchange(started_, true)) {
@@ -198,10 +197,11 @@ void ServoStepOf<axes>::note_velocity(const DeviceSample& reading) noexcept {
     device_motion_.add(tool_.pose().position, time);
     turned_ += tool_.step().template tail<3>();
     turn_motion_.add(turned_, time);
-    const bool turns = measured && reading.turn_rate.allFinite();
+    const bool turns = measured && reading.turn->rate.allFinite();
     tool_.set_velocity(
         turns ? Vector3d(config_.device_orientation * reading.velocity) : device_motion_.velocity(),
-        turns ? Vector3d(config_.device_orientation * reading.turn_rate) : turn_motion_.velocity());
+        turns ? Vector3d(config_.device_orientation * reading.turn->rate)
+              : turn_motion_.velocity());
   }
   step_.velocity = tool_.velocity();
 }
@@ -210,10 +210,13 @@ template <int axes>
 std::optional<HandlePose> ServoStepOf<axes>::released_at(
     const DeviceSample& reading) const noexcept {
   if (!reading.released_at || !reading.released_at->allFinite()) return std::nullopt;
-  if constexpr (axes == 3) return pose_of(*reading.released_at, reading.orientation);
-  const auto& orientation = reading.released_orientation;
-  if (!orientation || !(std::abs(orientation->norm() - 1.0) < kUnit)) return std::nullopt;
-  return pose_of(*reading.released_at, *orientation);
+  HandlePose pose = pose_of(*reading.released_at);
+  if constexpr (axes == 6) {
+    const auto& orientation = reading.released_turned;
+    if (!orientation || !(std::abs(orientation->norm() - 1.0) < kUnit)) return std::nullopt;
+    pose.orientation = turned(*orientation);
+  }
+  return pose;
 }
 
 // The device dropped the force by itself. Up to that place the sample is a normal one, and after it
@@ -374,7 +377,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
   // Others feel the hand at the first probe.
-  const ContactResult& first = static_.walls().result();
+  const ContactResult& first = axes == 3 ? mesh : static_.walls().result();
   const Vector3d scp = first.in_contact ? first.scp : step_.probe;
   scp_motion_.add(scp, pdu::to_seconds(step_.now));
   ServoSnapshot& out = snapshots_.write_slot();
@@ -394,6 +397,8 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
     out.tool.orientation = tool_.pose().orientation;
     out.tool.turn_rate = tool_.twist().template tail<3>();
     out.tool.torque = wrench.tail<3>();
+    out.tool.count = tool_.size();
+    for (std::size_t i = 0; i < tool_.size(); ++i) out.tool.probes[i] = tool_.place(i);
   }
   out.mesh_force = static_.force();
   out.mesh_normal = mesh.normal;

@@ -38,8 +38,10 @@ class ServoStepOf final : public ServoCore {
   [[nodiscard]] bool at_rest() noexcept;
   [[nodiscard]] double sure_speed() const noexcept;  // [m/s], lower bound
   void note_limit(const Force& force, double scale) noexcept;
-  [[nodiscard]] HandlePose pose_of(const Eigen::Vector3d& position,
-                                   const Eigen::Quaterniond& orientation) const noexcept;
+  [[nodiscard]] HandlePose pose_of(const Eigen::Vector3d& position) const noexcept;
+  [[nodiscard]] Eigen::Quaterniond turned(const Eigen::Quaterniond& in_device) const noexcept {
+    return config_.device_orientation * in_device;
+  }
   [[nodiscard]] std::optional<HandlePose> released_at(const DeviceSample& reading) const noexcept;
   void let_go(const DeviceSample& reading, const HandlePose& pose) noexcept;
   void forfeit(const HandlePose& pose) noexcept;

@@ -25,7 +25,8 @@ class SceneRun:
 
     time [s]; peer, device: from 1; contacts: hands touched; patch: of the object, below the surface point
     handle, surface_point [m], velocity [m/s], force and its parts of the object, of hands, and of hands as their records
-    say [N]: (n, 3); ledger, need, energy [J]
+    say [N]: (n, 3); of a device of six axes torque [N m], orientation (n, 4: w x y z, tool to S), turn_rate [rad/s], of
+    others 0 and no turn; ledger, need, energy [J]
     numbers: what the whole run cost, by name: pose_error [m] and force_error [N] with p50, p99, max; datagrams, octets,
     hand_contact [s], scene_contact [s], peak_force [N], least_energy [J]
     """
@@ -40,6 +41,9 @@ class SceneRun:
     mesh_force: NDArray[numpy.float64]
     hand_force: NDArray[numpy.float64]
     record_force: NDArray[numpy.float64]
+    torque: NDArray[numpy.float64]
+    orientation: NDArray[numpy.float64]
+    turn_rate: NDArray[numpy.float64]
     ledger: NDArray[numpy.float64]
     need: NDArray[numpy.float64]
     energy: NDArray[numpy.float64]

@@ -30,7 +30,8 @@ using std::chrono::nanoseconds;
 struct Trace {
   std::vector<double> time;
   std::vector<std::uint32_t> peer, device, contacts, patch;
-  std::vector<double> handle, surface_point, velocity, force, mesh_force, hand_force, record_force;
+  std::vector<double> handle, surface_point, velocity, force, mesh_force, hand_force, record_force,
+      torque, orientation, turn_rate;
   std::vector<double> ledger, need, energy;
 
   void add(std::size_t of_peer, std::size_t of_device, const haptics::ServoSnapshot& step);
@@ -61,6 +62,10 @@ void Trace::add(std::size_t of_peer, std::size_t of_device, const haptics::Servo
   add_triple(mesh_force, step.mesh_force);
   add_triple(hand_force, hands);
   add_triple(record_force, records);
+  add_triple(torque, step.tool.torque);
+  const Eigen::Quaterniond& q = step.tool.orientation;
+  orientation.insert(orientation.end(), {q.w(), q.x(), q.y(), q.z()});
+  add_triple(turn_rate, step.tool.turn_rate);
   ledger.push_back(all_ledgers);
   need.push_back(all_needs);
   energy.push_back(step.port_energy);
@@ -78,6 +83,9 @@ py::dict columns_of_trace(Trace&& trace) {
   all["mesh_force"] = array_of(std::move(trace.mesh_force), 3);
   all["hand_force"] = array_of(std::move(trace.hand_force), 3);
   all["record_force"] = array_of(std::move(trace.record_force), 3);
+  all["torque"] = array_of(std::move(trace.torque), 3);
+  all["orientation"] = array_of(std::move(trace.orientation), 4);
+  all["turn_rate"] = array_of(std::move(trace.turn_rate), 3);
   all["ledger"] = array_of(std::move(trace.ledger));
   all["need"] = array_of(std::move(trace.need));
   all["energy"] = array_of(std::move(trace.energy));

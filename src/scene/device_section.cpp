@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/contact/tool.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"

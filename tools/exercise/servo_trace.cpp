@@ -14,8 +14,8 @@
 
 namespace reckon::tools {
 
-ServoTrace::ServoTrace(const std::filesystem::path& file)
-    : name_(file.string()), file_(std::fopen(name_.c_str(), "w")) {
+ServoTrace::ServoTrace(const std::filesystem::path& file, bool turns)
+    : name_(file.string()), turns_(turns), file_(std::fopen(name_.c_str(), "w")) {
   if (file_ == nullptr) {
     throw UsageError(
         fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
@@ -23,8 +23,10 @@ ServoTrace::ServoTrace(const std::filesystem::path& file)
   std::fputs(
       "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
       "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
-      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device\n",
+      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device",
       file_);
+  if (turns_) std::fputs(",tx_Nm,ty_Nm,tz_Nm,qw,qx,qy,qz,wx_radps,wy_radps,wz_radps", file_);
+  std::fputs("\n", file_);
 }
 
 ServoTrace::~ServoTrace() {
@@ -55,8 +57,15 @@ void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::Serv
   }
   vector(hands);
   vector(records);
-  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{},{},{}\n"), ledger, need,
-                 step.port_energy, step.count, step.mesh_patch, device + 1);
+  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{},{},{}"), ledger, need, step.port_energy,
+                 step.count, step.mesh_patch, device + 1);
+  if (turns_) {
+    const Eigen::Quaterniond& q = step.tool.orientation;
+    vector(step.tool.torque);
+    fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{:.9g}"), q.w(), q.x(), q.y(), q.z());
+    vector(step.tool.turn_rate);
+  }
+  line_ += '\n';
   std::fwrite(line_.data(), 1, line_.size(), file_);
 }
 

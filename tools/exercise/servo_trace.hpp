@@ -14,8 +14,9 @@ namespace reckon::tools {
 /// A CSV file with a header line; SI units, scene frame.
 class ServoTrace {
  public:
+  /// @param turns with columns of torque, orientation and turn rate
   /// @throws UsageError where the file cannot be written.
-  explicit ServoTrace(const std::filesystem::path& file);
+  explicit ServoTrace(const std::filesystem::path& file, bool turns = false);
   ~ServoTrace();
   ServoTrace(const ServoTrace&) = delete;
   ServoTrace& operator=(const ServoTrace&) = delete;
@@ -27,6 +28,7 @@ class ServoTrace {
 
  private:
   std::string name_;
+  bool turns_;
   std::string line_;
   std::FILE* file_;
 };

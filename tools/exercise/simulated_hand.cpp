@@ -58,17 +58,26 @@ haptics::HandScript sweep(const peer::OperatorConfig& config) {
     const double period = pdu::to_seconds(config.period);
     const double rate = 2.0 * std::numbers::pi / period;
     const double phase = rate * std::max(0.0, time - pdu::to_seconds(config.start));
-    const double share = 0.5 * (1.0 - std::cos(phase)), change = 0.5 * rate * std::sin(phase);
     const Eigen::Vector3d way = config.to - config.from;
     HandTarget target;
-    target.position = config.from + share * way;
-    target.velocity = change * way;
-    const double turned = config.turned.norm();
-    if (turned > 0) {
-      target.orientation = Eigen::AngleAxisd(share * turned, config.turned / turned);
-      target.turn_rate = change * config.turned;
-    }
+    target.position = config.from + 0.5 * (1.0 - std::cos(phase)) * way;
+    target.velocity = 0.5 * rate * std::sin(phase) * way;
     return target;
+  };
+}
+
+/// In axes of the device; as the sweep goes.
+haptics::TurnScript turns_of(const peer::DeviceConfig& device, const peer::OperatorConfig& config) {
+  const Eigen::Quaterniond from_S = device.orientation.conjugate();
+  return [from_S, config](double time) {
+    const double rate = 2.0 * std::numbers::pi / pdu::to_seconds(config.period);
+    const double phase = rate * std::max(0.0, time - pdu::to_seconds(config.start));
+    const double whole = config.turned.norm(), share = 0.5 * (1.0 - std::cos(phase));
+    haptics::DeviceTurn turn{from_S, Eigen::Vector3d::Zero()};
+    if (!(whole > 0)) return turn;
+    turn.orientation = from_S * Eigen::AngleAxisd(share * whole, config.turned / whole);
+    turn.rate = from_S * (0.5 * rate * std::sin(phase) * config.turned);
+    return turn;
   };
 }
 
@@ -99,8 +108,6 @@ haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandSc
     target.position = R_DS * (target.position - origin);
     target.velocity = R_DS * target.velocity;
     target.push = R_DS * target.push;
-    target.orientation = R_DS * target.orientation;
-    target.turn_rate = R_DS * target.turn_rate;
     return target;
   };
 }
@@ -114,12 +121,13 @@ nanoseconds hold_of(nanoseconds period) {
 struct Held {
   haptics::SimulatedDeviceConfig config;
   haptics::HandScript script;
+  haptics::TurnScript turns;
 };
 
 Held hold(const peer::SceneFile& scene, const peer::DeviceConfig& device,
           const haptics::HandScript& path) {
   const peer::OperatorConfig config = operator_of(scene, device.operator_number);
-  Held held{{}, in_axes_of(device, path ? path : script_of(config))};
+  Held held{{}, in_axes_of(device, path ? path : script_of(config)), turns_of(device, config)};
   haptics::SimulatedDeviceConfig& made = held.config;
   made.hand_stiffness = config.stiffness;
   made.hand_damping = config.damping;
@@ -138,7 +146,7 @@ Held hold(const peer::SceneFile& scene, const peer::DeviceConfig& device,
   turn.resolution = device.turn_resolution;
   turn.hand_stiffness = config.turn_stiffness;
   turn.hand_damping = config.turn_damping;
-  turn.start = held.script(0.0).orientation;
+  turn.start = held.turns(0.0).orientation;
   return held;
 }
 
@@ -187,7 +195,8 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::Scen
     return make_pointer_device(scene, device);
   }
   Held held = hold(scene, device, path);
-  return std::make_unique<haptics::SimulatedDevice>(held.config, std::move(held.script));
+  return std::make_unique<haptics::SimulatedDevice>(held.config, std::move(held.script),
+                                                    std::move(held.turns));
 }
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneFile& scene,

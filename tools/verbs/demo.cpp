@@ -205,8 +205,9 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
   print_pose_error(out, cost);
   print_force_error(out, cost, exercise);
   if (cost.servo.steps > 0) {
-    spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
-               fmt::format("us  ({} periods missed, {} steps)", cost.servo.missed, cost.servo.steps));
+    spread_row(
+        out, "servo late", microseconds(cost.servo.lateness), 1.0,
+        fmt::format("us  ({} periods missed, {} steps)", cost.servo.missed, cost.servo.steps));
     print_loops(out, cost.servo.loops);
     fmt::print(out, "  servo thread               {}\n", cost.servo.thread);
   }
@@ -310,7 +311,12 @@ int run(const DemoOptions& options, const Console& console) {
     throw EnvironmentError(error.what());
   }
   std::unique_ptr<ServoTrace> trace;
-  if (!options.trace.empty()) trace = std::make_unique<ServoTrace>(options.trace);
+  if (!options.trace.empty()) {
+    trace = std::make_unique<ServoTrace>(
+        options.trace, std::ranges::any_of(scene.devices, [](const peer::DeviceConfig& device) {
+          return device.axes == 6;
+        }));
+  }
   std::optional<HandTwins> twins;
   if (flags) twins.emplace(scene, *exercise);
   std::optional<DemoPage> page;

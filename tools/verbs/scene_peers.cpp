@@ -58,6 +58,21 @@ std::string limits_of(const peer::DeviceConfig& device) {
       device.delay_samples == 0 ? "at once" : about(device.delay_samples * period, "s") + " late");
 }
 
+std::string tool_of(const peer::DeviceConfig& device) {
+  std::string text =
+      fmt::format("six axes: {}, {}; ", peer::format_quantity(device.max_torque, "N m"),
+                  peer::format_quantity(device.turn_damping, "N m s/rad"));
+  if (device.probes.empty()) return text + "touches with the handle";
+  double farthest = 0.0;
+  for (const peer::ProbeConfig& probe : device.probes)
+    farthest = std::max(farthest, probe.position.norm());
+  return text + fmt::format("touches with {} of its tool, up to {} from the handle",
+                            device.probes.size() == 1
+                                ? "a probe"
+                                : fmt::format("{} probes", device.probes.size()),
+                            peer::format_quantity(farthest, "m"));
+}
+
 haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   haptics::ServoConfig config;
   config.period = device.period;
@@ -116,11 +131,13 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan
 
 Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                const peer::DeviceConfig& device) {
-  return {{"held by", holder_of(scene, device)},
-          {"stands at", point(device.position)},
-          {"limits", limits_of(device)},
-          {"force grows by", growth_of(scene, device)},
-          {"stiffness", stiffness_of(scene, plan, device)}};
+  Facts facts = {{"held by", holder_of(scene, device)},
+                 {"stands at", point(device.position)},
+                 {"limits", limits_of(device)},
+                 {"force grows by", growth_of(scene, device)},
+                 {"stiffness", stiffness_of(scene, plan, device)}};
+  if (device.axes == 6) facts.insert(facts.begin() + 3, {"turns", tool_of(device)});
+  return facts;
 }
 
 // --- entities ---

@@ -28,6 +28,19 @@ Eigen::Vector3d hand_force(const ServoSnapshot& step) {
   return sum;
 }
 
+static_assert(ToolMark::kMost == haptics::kMostProbes);
+
+ToolMark tool_mark(std::uint16_t index, const ServoSnapshot& step) {
+  ToolMark mark;
+  mark.hand = index;
+  mark.count = static_cast<std::uint16_t>(step.tool.count);
+  mark.handle = step.tool.handle.cast<float>();
+  mark.torque = step.tool.torque.cast<float>();
+  for (std::size_t i = 0; i < step.tool.count; ++i)
+    mark.probes[i] = step.tool.probes[i].cast<float>();
+  return mark;
+}
+
 bool is_in_contact(const ServoSnapshot& step) {
   return step.in_mesh_contact ||
          std::any_of(step.contacts.begin(),
@@ -113,6 +126,7 @@ HandFrame OwnHands::frame(std::chrono::nanoseconds steady_to_utc, bool knows_all
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandMark& hand = frame.hands.emplace_back(mark(i));
     frame.ids.push_back(hands_[i].id);
+    if (hands_[i].step.tool.turns) frame.tools.push_back(tool_mark(hand.index, hands_[i].step));
     if (const auto& twin = hands_[i].twin)
       frame.twins.push_back({hand.index, twin->energy, twin->resets});
     frame.time = std::max(frame.time, hands_[i].step.time + steady_to_utc);

@@ -246,6 +246,7 @@ const ReceivedWorld& ViewStage::world_for(Watcher& watcher, Time time) {
 void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   rows.entities.clear();
   rows.hands.clear();
+  rows.tools.clear();
   rows.contacts.clear();
   rows.time = seconds(time);
   rows.epoch = history_.roster().epoch();
@@ -285,6 +286,7 @@ void ViewStage::add_hands(Time time, PictureRows& rows) const {
   const HandFrame* frame = hands_at(time);
   if (frame == nullptr) return;
   rows.hands = frame->hands;
+  rows.tools = frame->tools;
   for (std::size_t i = 0; i < rows.hands.size() && i < frame->ids.size(); ++i)
     rows.hands[i].slot = history_.roster().slot_of(frame->ids[i]);
 }

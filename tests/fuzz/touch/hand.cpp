@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/tests/fuzz/touch/solids.hpp"
 
 namespace reckon::fuzz {

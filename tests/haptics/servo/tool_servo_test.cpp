@@ -50,8 +50,9 @@ SceneObject floor_at(double height, double stiffness) {
 class Bench {
  public:
   Bench(const SimulatedDeviceConfig& device, HandScript script, const Scene& scene,
-        std::vector<Vector3d> probes, ServoConfig config = {})
-      : device_(device, std::move(script)) {
+        std::vector<Vector3d> probes, TurnScript turns = {})
+      : device_(device, std::move(script), std::move(turns)) {
+    ServoConfig config;
     config.probes = std::move(probes);
     servo_.emplace(device_, EffectPlan(scene), config);
   }
@@ -87,14 +88,16 @@ TEST(ToolServo, ShowsTheForceAndTheTorqueOfEachProbe) {
   const auto script = [&](double t) {
     HandTarget target;
     target.position = {0, 0, 0.02 - 0.004 * std::min(1.0, t)};
-    target.orientation = turn(tilt * std::min(1.0, t), Vector3d(0, 1, 0));
     return target;
+  };
+  const auto turns = [&](double t) {
+    return DeviceTurn{turn(tilt * std::min(1.0, t), Vector3d(0, 1, 0)), Vector3d::Zero()};
   };
   Scene scene;
   scene.objects = {floor_at(0.0, 500.0)};
   SimulatedDeviceConfig config = six_axes();
   config.start = {0, 0, 0.02};
-  Bench bench(config, script, scene, probes);
+  Bench bench(config, script, scene, probes, turns);
   const ServoSnapshot& out = bench.run(3000);
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   int pressed = 0;
@@ -214,7 +217,7 @@ class Opponent : public HapticDevice {
     DeviceSample sample;
     sample.ok = true;
     sample.position = position_;
-    sample.orientation = orientation_;
+    sample.turn = {orientation_, Vector3d::Zero()};
     return sample;
   }
   void write(const Vector3d& /*force*/, nanoseconds /*now*/) noexcept override {}
@@ -333,12 +336,14 @@ Outcome stroke(unsigned seed, bool in_steps, bool late) {
     HandTarget target;
     target.position = {0.02 * std::sin(a * t), 0.02 * std::cos(b * t),
                        0.02 + 0.03 * std::cos(0.7 * a * t)};
-    target.orientation = turn(0.8 * std::sin(b * t), axis);
     target.grip = std::fmod(t, 1.7) < 1.4 ? 1.0 : 0.0;
     return target;
   };
+  const auto turns = [=](double t) {
+    return DeviceTurn{turn(0.8 * std::sin(b * t), axis), Vector3d::Zero()};
+  };
   const Scene scene = corner(random);
-  Bench bench(config, script, scene, probes);
+  Bench bench(config, script, scene, probes, turns);
   Outcome out;
   for (int i = 0; i < 4000; ++i) {
     const bool is_late = late && random() % 20 == 0;
@@ -383,7 +388,7 @@ TEST(ToolServo, CutsTheForceOfAReadingThatIsNoPose) {
     using SimulatedDevice::SimulatedDevice;
     DeviceSample read(nanoseconds now) noexcept override {
       DeviceSample sample = SimulatedDevice::read(now);
-      if (broken) sample.orientation.coeffs() *= 1.5;
+      if (broken) sample.turn->orientation.coeffs() *= 1.5;
       return sample;
     }
     bool broken = false;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -76,6 +77,43 @@ TEST(DeviceSection, RefusesAPointerWhoseOperatorMovesTooOrHasNoDamping) {
               HasSubstr("x.toml:2:8: a pointer needs a grip with damping"));
 }
 
+TEST(DeviceSection, OfSixAxesTurnsAToolOfSomeProbes) {
+  const DeviceConfig device = device_of(R"(
+axes = 6
+turn_damping = "0.02 Nm s/rad"
+max_torque = "500 mN m"
+turn_resolution = "0.1 deg"
+[[device.probe]]
+position = "40 0 0 mm"
+[[device.probe]]
+position = "-60 0 0 mm"
+)");
+  EXPECT_EQ(device.axes, 6);
+  EXPECT_NEAR(device.turn_damping, 0.02, 1e-15);
+  EXPECT_EQ(device.max_torque, 0.5);
+  EXPECT_NEAR(device.turn_resolution, 0.1 * std::numbers::pi / 180, 1e-15);
+  ASSERT_EQ(device.probes.size(), 2u);
+  EXPECT_EQ(device.probes[1].position, Vector3d(-0.06, 0, 0));
+  EXPECT_EQ(device_of("").axes, 3);
+  EXPECT_TRUE(device_of("axes = 6\n").probes.empty()) << "the handle touches";
+}
+
+TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
+  const auto refused = [](const std::string& lines) {
+    return refusal("[[device]]\n" + lines + kOperator);
+  };
+  EXPECT_THAT(refused("[[device.probe]]\nposition = \"40 0 0 mm\"\n"),
+              HasSubstr("'probe' is of a device that turns: add axes = 6"));
+  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"), HasSubstr("'max_torque' is of a device that"));
+  EXPECT_THAT(refused("axes = 4\n"),
+              HasSubstr("x.toml:2:8: a device has 3 axes, or 6 with torque"));
+  EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping in all of them"));
+  EXPECT_THAT(refused("axes = 6\nkind = \"pointer\"\n"), HasSubstr("a pointer moves three axes"));
+  std::string nine = "axes = 6\n";
+  for (int i = 0; i < 9; ++i) nine += "[[device.probe]]\n";
+  EXPECT_THAT(refused(nine), HasSubstr("a tool has at most 8 probes, this one has 9"));
+}
+
 // Whatever rate is accepted: one period missed and the next one late by half of one.
 TEST(DeviceSection, TheSlowestServoMayMissAPeriodAndTheDeviceHoldsItsForce) {
   for (int rate = 50; rate <= 1000; rate += 50) {
@@ -100,6 +138,10 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.max_force_rate, standard.max_force_rate);
   EXPECT_EQ(silent.received_power, standard.received_power);
   EXPECT_EQ(silent.resolution, standard.resolution);
+  EXPECT_EQ(silent.axes, standard.axes);
+  EXPECT_EQ(silent.turn_damping, standard.turn_damping);
+  EXPECT_EQ(silent.max_torque, standard.max_torque);
+  EXPECT_EQ(silent.turn_resolution, standard.turn_resolution);
   EXPECT_EQ(silent.period, standard.period);
   EXPECT_EQ(silent.delay_samples, standard.delay_samples);
   EXPECT_EQ(silent.source, standard.source);

@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -63,6 +65,35 @@ TEST(SimulatedDevice, TellsTheServoTheLimitsOfItsTable) {
   EXPECT_EQ(limits.max_stiffness, 3000);
   EXPECT_EQ(limits.max_speed, 0.5);
   EXPECT_EQ(limits.delay_samples, 4);
+}
+
+TEST(SimulatedDevice, IsTurnedAsItsOperatorSaysHoweverItStands) {
+  const peer::SceneFile file = scene(
+      "[[operator]]\nsweep = { from = \"0 0 0 m\", to = \"0.1 0 0 m\", turn = \"0 40 0 deg\", "
+      "period = "
+      "\"2 s\" }\nturn_stiffness = \"2 N m/rad\"\n"
+      "[[device]]\naxes = 6\nmax_torque = \"0.5 N m\"\nturn_damping = \"0.02 N m s/rad\"\n"
+      "[[device]]\naxes = 6\nheading = \"50 deg\"\nroll = \"-70 deg\"\n"
+      "[[device.probe]]\nposition = \"3 0 0 cm\"\n");
+  const haptics::DeviceLimits limits = make_simulated_device(file, file.devices[0])->limits();
+  EXPECT_EQ(limits.axes, 6);
+  EXPECT_EQ(limits.max_torque, 0.5);
+  EXPECT_EQ(limits.turn_damping, 0.02);
+  for (const peer::DeviceConfig& config : file.devices) {
+    const auto device = make_simulated_device(file, config);
+    Eigen::Quaterniond at = Eigen::Quaterniond::Identity();
+    for (auto now = 0ms; now <= 1s; now += 1ms) {
+      const Eigen::Quaterniond in_device = device->read(now).turn->orientation;
+      at = config.orientation * in_device;
+      if (now == 0ms) {
+        EXPECT_LE(at.angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
+      }
+    }
+    const Eigen::Quaterniond whole(
+        Eigen::AngleAxisd(40 * std::numbers::pi / 180, Vector3d::UnitY()));
+    EXPECT_LE(at.angularDistance(whole), 0.03) << "within the lag of the grip";
+  }
+  EXPECT_EQ(probes_of(file.devices[1]), std::vector<Vector3d>{Vector3d(0.03, 0, 0)});
 }
 
 TEST(SimulatedDevice, OfASceneWithoutAnyIsTheHandOfThatNumber) {

@@ -17,11 +17,12 @@ import { drawnRegions } from './drawn_regions.js';
 import { drawnPatches } from './drawn_patches.js';
 import { drawnHandGhosts } from './drawn_hand_ghosts.js';
 import { drawnHands } from './drawn_hands.js';
+import { drawnTools } from './drawn_tools.js';
 import { drawnTouchEntities } from './drawn_touch_entities.js';
 import { drawnForces } from './drawn_forces.js';
 import { drawnCones } from './drawn_cones.js';
 
 export const DRAWN = [
   drawnCells, drawnBeacons, drawnTrails, drawnGhosts, drawnEntities, drawnContacts, drawnGroups, drawnContactGroups, drawnFollowed,
-  drawnFloor, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTouchEntities, drawnForces, drawnCones,
+  drawnFloor, drawnSolids, drawnRegions, drawnPatches, drawnHandGhosts, drawnHands, drawnTools, drawnTouchEntities, drawnForces, drawnCones,
 ];

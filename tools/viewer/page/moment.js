@@ -93,6 +93,11 @@ function between(old, hand, s) {
   const force = mix(old.force, hand.force, s);
   return {
     ...hand, force, newtons: Math.hypot(...force), position: mix(old.position, hand.position, s),
-    surface: mix(old.surface, hand.surface, s),
+    surface: mix(old.surface, hand.surface, s), tool: toolBetween(old.tool, hand.tool, s),
   };
+}
+
+function toolBetween(old, tool, s) {
+  if (!old || !tool || old.probes.length !== tool.probes.length) return tool;
+  return { ...tool, handle: mix(old.handle, tool.handle, s), probes: tool.probes.map((probe, i) => mix(old.probes[i], probe, s)) };
 }

@@ -7,6 +7,7 @@ const HEAD = 32;
 const ENTITY = 44;
 const HAND = 72;
 const CONTACT = 28;
+const TOOL = 124;
 
 export const PICTURE_FLAGS = { live: 1, paused: 2, end: 4, gap: 8 };
 export const HAND_FLAGS = {
@@ -23,13 +24,14 @@ export function decodePicture(buffer) {
   const entities = view.getUint16(16, true);
   const hands = view.getUint16(18, true);
   const contacts = view.getUint16(20, true);
-  const length = HEAD + ENTITY * entities + HAND * hands + CONTACT * contacts;
+  const tools = view.getUint16(28, true);
+  const length = HEAD + ENTITY * entities + HAND * hands + CONTACT * contacts + TOOL * tools;
   if (buffer.byteLength !== length) throw new Error(`a picture of ${buffer.byteLength} octets, its counts give ${length}`);
-  return new Picture(buffer, view, entities, hands, contacts);
+  return new Picture(buffer, view, entities, hands, contacts, tools);
 }
 
 class Picture {
-  constructor(buffer, view, entities, hands, contacts) {
+  constructor(buffer, view, entities, hands, contacts, tools) {
     this.buffer = buffer;
     this.entities = entities;
     this.number = view.getUint32(4, true);
@@ -45,6 +47,18 @@ class Picture {
     this.hands = Array.from({ length: hands }, (_, i) => this.hand(view, firstHand + HAND * i));
     const firstContact = firstHand + HAND * hands;
     this.contacts = Array.from({ length: contacts }, (_, i) => this.contact(view, firstContact + CONTACT * i));
+    const firstTool = firstContact + CONTACT * contacts;
+    for (let i = 0; i < tools; ++i) this.putTool(view, firstTool + TOOL * i);
+  }
+
+  // The tool of a hand whose device turns.
+  putTool(view, at) {
+    const hand = this.hands.find(({ index }) => index === view.getUint16(at, true));
+    if (!hand) return;
+    const vector = (offset) => [0, 4, 8].map((k) => number(view.getFloat32(at + offset + k, true)));
+    const count = Math.min(view.getUint16(at + 2, true), 8);
+    const torque = vector(16);
+    hand.tool = { handle: vector(4), torque, newtonMetres: Math.hypot(...torque), probes: Array.from({ length: count }, (_, i) => vector(28 + 12 * i)) };
   }
 
   hand(view, at) {

@@ -96,14 +96,23 @@ void write_contact(Writer& out, const ContactMark& contact) {
   out.vector(contact.force);
 }
 
+void write_tool(Writer& out, const ToolMark& tool) {
+  out.u16(tool.hand);
+  out.u16(tool.count);
+  out.vector(tool.handle);
+  out.vector(tool.torque);
+  for (const Eigen::Vector3f& probe : tool.probes) out.vector(probe);
+}
+
 }  // namespace
 
 void encode_picture(const PictureRows& rows, std::string& out) {
   const std::size_t entities = std::min(rows.entities.size(), kMostPictureRows);
   const std::size_t hands = std::min(rows.hands.size(), kMostPictureRows);
   const std::size_t contacts = std::min(rows.contacts.size(), kMostPictureRows);
+  const std::size_t tools = std::min(rows.tools.size(), kMostPictureRows);
   out.resize(kPictureHead + kEntityOctets * entities + kHandOctets * hands +
-             kContactOctets * contacts);
+             kContactOctets * contacts + kToolOctets * tools);
   Writer writer(out.data());
   writer.u32(kPictureMagic);
   writer.u32(0);
@@ -113,10 +122,12 @@ void encode_picture(const PictureRows& rows, std::string& out) {
   writer.u16(static_cast<std::uint16_t>(contacts));
   writer.u16(rows.flags);
   writer.u32(rows.epoch);
-  writer.u32(0);
+  writer.u16(static_cast<std::uint16_t>(tools));
+  writer.u16(0);
   for (std::size_t i = 0; i < entities; ++i) write_entity(writer, rows.entities[i]);
   for (std::size_t i = 0; i < hands; ++i) write_hand(writer, rows.hands[i]);
   for (std::size_t i = 0; i < contacts; ++i) write_contact(writer, rows.contacts[i]);
+  for (std::size_t i = 0; i < tools; ++i) write_tool(writer, rows.tools[i]);
 }
 
 void number_picture(std::string& octets, std::uint32_t number) {

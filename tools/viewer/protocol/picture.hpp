@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,7 +18,7 @@ namespace reckon::tools {
 
 inline constexpr std::uint32_t kPictureMagic = 0x31564B52;  ///< "RKV1": the version of the layout
 inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 44, kHandOctets = 72,
-                             kContactOctets = 28;
+                             kContactOctets = 28, kToolOctets = 28 + 12 * 8;
 inline constexpr std::uint16_t kNoNumber = 0xFFFF;  ///< no slot, no cell
 /// Rows of a kind that a picture has at most; more are left out.
 inline constexpr std::size_t kMostPictureRows = 0xFFFE;
@@ -73,6 +74,17 @@ struct HandMark {
   float twin_force = 0;                              ///< [N], without the gate
 };
 
+/// The tool of a hand whose device turns.
+struct ToolMark {
+  static constexpr std::size_t kMost = 8;
+
+  std::uint16_t hand = 0;   ///< index of it
+  std::uint16_t count = 0;  ///< probes, <= kMost
+  Eigen::Vector3f handle = Eigen::Vector3f::Zero();
+  Eigen::Vector3f torque = Eigen::Vector3f::Zero();  ///< [N m], about the handle, on the hand
+  std::array<Eigen::Vector3f, kMost> probes{};       ///< where they are; the rest is zero
+};
+
 /// A contact between two entities, as a listener computes it.
 struct ContactMark {
   std::uint16_t felt = kNoNumber, feeling = kNoNumber;  ///< slots: whose model, and who is pushed
@@ -87,6 +99,7 @@ struct PictureRows {
   std::vector<EntityMark> entities;
   std::vector<HandMark> hands;
   std::vector<ContactMark> contacts;
+  std::vector<ToolMark> tools;
 };
 
 /// The octets, in the place of what `out` held.

@@ -31,13 +31,14 @@ const { plotForce } = await take('plot_force.js');
 const { plotEnergy } = await take('plot_energy.js');
 const { digits, foreign, roundUp } = await take('words.js');
 
-function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, flags = 1 }) {
-  const view = new DataView(new ArrayBuffer(32 + 44 * entities.length + 72 * hands.length + 28 * contacts));
+function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, tools = [], flags = 1 }) {
+  const view = new DataView(new ArrayBuffer(32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * tools.length));
   view.setUint32(0, 0x31564b52, true);
   view.setUint32(4, number, true);
   view.setFloat64(8, time, true);
   [entities.length, hands.length, contacts, flags].forEach((x, i) => view.setUint16(16 + 2 * i, x, true));
   view.setUint32(24, 7, true);
+  view.setUint16(28, tools.length, true);
   entities.forEach(({ slot, x = 0, error = 0, turn = [32767, 0, 0, 0] }, i) => {
     const at = 32 + 44 * i;
     view.setUint16(at, slot, true);
@@ -60,8 +61,23 @@ function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0
     force.forEach((x, k) => view.setFloat32(at + 32 + 4 * k, x, true));
     [5, 6, 7, 8].forEach((x, k) => view.setFloat32(at + 56 + 4 * k, x, true));
   });
+  tools.forEach(({ hand, torque = [0, 0, 0], handle = [0, 0, 0], probes }, i) => {
+    const at = 32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * i;
+    view.setUint16(at, hand, true);
+    view.setUint16(at + 2, probes.length, true);
+    [handle, torque, ...probes].forEach((v, j) => v.forEach((x, k) => view.setFloat32(at + 4 + 12 * j + 4 * k, x, true)));
+  });
   return view.buffer;
 }
+
+test('A tool belongs to the hand of its number, and moves as it does', () => {
+  const at = (time, x) => decodePicture(picture({
+    time, hands: [{ index: 0 }, { index: 4 }], tools: [{ hand: 4, torque: [0, 3, 4], handle: [x, 0, 0], probes: [[x, 1, 0], [x, 2, 0]] }],
+  }));
+  const [bare, held] = at(1, 2).hands;
+  assert.equal(bare.tool, undefined);
+  assert.deepEqual([held.tool.handle, held.tool.probes, held.tool.newtonMetres], [[2, 0, 0], [[2, 1, 0], [2, 2, 0]], 5]);
+});
 
 test('A picture gives each field back', () => {
   const decoded = decodePicture(picture({

@@ -43,13 +43,18 @@ PictureRows rows() {
   picture.contacts.resize(1);
   picture.contacts[0].feeling = 9;
   picture.contacts[0].force = {0, 0, 2};
+  picture.tools.resize(1);
+  picture.tools[0].hand = 3;
+  picture.tools[0].count = 2;
+  picture.tools[0].torque = {0, 0.5F, 0};
+  picture.tools[0].probes[1] = {7, 8, 9};
   return picture;
 }
 
 TEST(Picture, IsAsLongAsItsCountsSay) {
   std::string octets;
   encode_picture(rows(), octets);
-  EXPECT_EQ(octets.size(), 32U + 2 * 44 + 72 + 28);
+  EXPECT_EQ(octets.size(), 32U + 2 * 44 + 72 + 28 + 124);
   encode_picture({}, octets);
   EXPECT_EQ(octets.size(), 32U);
 }
@@ -84,6 +89,12 @@ TEST(Picture, HasEachThingAtItsPlace) {
   EXPECT_EQ(at<float>(octets, hand + 68), 4.5F);
   EXPECT_EQ(at<std::uint16_t>(octets, hand + 72 + 2), 9);
   EXPECT_EQ(at<float>(octets, hand + 72 + 24), 2.0F);
+  EXPECT_EQ(at<std::uint16_t>(octets, 28), 1) << "tools";
+  const std::size_t tool = hand + 72 + 28;
+  EXPECT_EQ(at<std::uint16_t>(octets, tool), 3);
+  EXPECT_EQ(at<std::uint16_t>(octets, tool + 2), 2);
+  EXPECT_EQ(at<float>(octets, tool + 20), 0.5F);
+  EXPECT_EQ(at<float>(octets, tool + 28 + 12 + 8), 9.0F);
 }
 
 TEST(Picture, MarksAHandAsItsReadersOwn) {
