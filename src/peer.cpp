@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -34,16 +35,25 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   return config;
 }
 
-std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(const SceneFile& scene,
-                                                             const PeerOptions& options,
-                                                             std::span<const PeerDevice> devices) {
+// Bodies need a hand of their peer to move.
+std::shared_ptr<haptics::BodyWorld> make_bodies(const SceneFile& scene,
+                                                std::span<const PeerDevice> devices) {
+  const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
+  if (devices.empty() || std::ranges::none_of(scene.scene.objects, moves)) return nullptr;
+  return std::make_shared<haptics::BodyWorld>(haptics::EffectPlan(scene.scene),
+                                              scene.scene.gravity);
+}
+
+std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(
+    const SceneFile& scene, const PeerOptions& options, std::span<const PeerDevice> devices,
+    const std::shared_ptr<haptics::BodyWorld>& bodies) {
   refuse_baseline(scene);
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
   if (devices.empty()) return servos;
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);
   for (const PeerDevice& device : devices) {
-    servos.push_back(std::make_unique<haptics::ServoLoop>(*device.device, plan,
-                                                          servo_config(scene, options, device)));
+    servos.push_back(std::make_unique<haptics::ServoLoop>(
+        *device.device, plan, servo_config(scene, options, device), bodies));
   }
   return servos;
 }
@@ -79,7 +89,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
                                     : nullptr),
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
-      servos_(make_servos(scene, options, devices)),
+      bodies_(make_bodies(scene, devices)),
+      servos_(make_servos(scene, options, devices, bodies_)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap,
             urgent_ring(scene, urgent_.get())),

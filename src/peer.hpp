@@ -29,8 +29,9 @@
 #include "reckon/peer/world/peer_view.hpp"
 
 namespace reckon::haptics {
+class BodyWorld;
 class ServoLoop;
-}
+}  // namespace reckon::haptics
 
 namespace reckon::peer {
 
@@ -135,6 +136,8 @@ class Peer {
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
+  /// The scene's bodies, or null; their published() has one reader thread.
+  [[nodiscard]] haptics::BodyWorld* bodies() noexcept { return bodies_.get(); }
   /// Records every step of the servo of one device, numbered from 0, into `ring`; call while no
   /// loop runs.
   void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept;
@@ -168,6 +171,7 @@ class Peer {
   std::unique_ptr<DatagramRing> urgent_;  // of the urgent tier, if the scene has one
   DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
+  std::shared_ptr<haptics::BodyWorld> bodies_;  // of the servos, which share it
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
   std::chrono::nanoseconds servo_period_;
   struct ServoDue {

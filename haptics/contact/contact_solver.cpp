@@ -77,7 +77,15 @@ ContactSolver::ContactSolver(const EffectPlan& plan, double radius, double patch
   touched_.reserve(count);
   noted_.resize(count);
   states_.reserve(count);
+  moving_.reserve(
+      static_cast<std::size_t>(std::ranges::count_if(plan.objects(), &PlannedObject::moves)));
   for (const PlannedObject& object : plan.objects()) {
+    objects_.push_back(&object);
+    if (object.moves()) {
+      const ObjectMotion start{object.position, Eigen::Quaterniond(object.orientation)};
+      moving_.push_back({static_cast<std::uint32_t>(objects_.size() - 1), object, start, start});
+      objects_.back() = &moving_.back().now;
+    }
     states_.push_back({SurfaceContactPoint(radius), object.effects});
     states_.back().follows = has_follower(object.effects);
     any_follows_ |= states_.back().follows;
@@ -89,7 +97,7 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   if (!usable(device)) return nothing();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     contacts_[i] = {};
-    states_[i].effects = plan_.objects()[i].effects;
+    states_[i].effects = objects_[i]->effects;
     states_[i].touched_at = 0;
   }
   near_.resize(states_.size());
@@ -102,10 +110,39 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   return sum(device);
 }
 
+void ContactSolver::place(std::uint32_t body, const ObjectMotion& motion) noexcept {
+  MovingObject& moving = moving_[body];
+  moving.before = moving.motion;
+  moving.motion = motion;
+  moving.now.place(motion.position, motion.orientation.toRotationMatrix());
+}
+
+// The contact point goes on with the body that holds it most. A body that comes from elsewhere
+// pushes it.
+void ContactSolver::carry() noexcept {
+  const MovingObject* holder = nullptr;
+  for (const MovingObject& moving : moving_) {
+    const ObjectContact& contact = contacts_[moving.object];
+    if (!contact.in_contact) continue;
+    if (holder == nullptr || contact.depth > contacts_[holder->object].depth) holder = &moving;
+  }
+  if (holder != nullptr) scp_ = holder->now.to_scene(holder->before_of(scp_));
+  for (const MovingObject& moving : moving_) {
+    if (&moving == holder || !moving.is_moved()) continue;
+    SurfaceContactPoint point(radius_);
+    point.set_free(moving.before_of(scp_));
+    point.update(moving.now.shape, moving.now.to_object(scp_), nullptr);
+    if (!point.in_contact()) continue;
+    scp_ = moving.now.to_scene(point.scp());
+    if (alone_ != moving.object) alone_ = kNobody;
+  }
+}
+
 ContactResult ContactSolver::step(const Vector3d& device, double dt) noexcept {
   if (!usable(device)) return nothing();
   if (!started_) return reset(device);
   if (any_follows_) follow_place(dt);
+  if (!moving_.empty()) carry();
   find_near(device);
   settle(device);
   for (const std::uint32_t i : near_) states_[i].started_inside &= contacts_[i].in_contact;
@@ -118,7 +155,7 @@ void ContactSolver::follow_place(double dt) noexcept {
   for (const std::uint32_t i : touched_) {
     ObjectState& state = states_[i];
     if (!state.follows) continue;
-    const Vector3d place = plan_.objects()[i].place_of(scp_);
+    const Vector3d place = objects_[i]->place_of(scp_);
     const bool slid = cones_[i]->sliding();
     const double pressed = std::max(contacts_[i].force.dot(contacts_[i].normal), 0.0);
     const double slip = slid ? (place - state.place).norm() / dt : 0.0;
@@ -147,7 +184,7 @@ void ContactSolver::find_near(const Vector3d& device) noexcept {
 }
 
 bool ContactSolver::within_reach(std::uint32_t index, const Vector3d& device) const noexcept {
-  const PlannedObject& object = plan_.objects()[index];
+  const PlannedObject& object = *objects_[index];
   const double reach = (device - scp_).norm() + radius_ + 2.0 * clearance_of(object.shape);
   return distance_below(object.shape, object.to_object(device)) <= reach;
 }
@@ -158,7 +195,7 @@ std::uint32_t ContactSolver::overlapped(const Vector3d& p) const noexcept {
   const Vector3d room = Vector3d::Constant(radius_);
   plan_.visit_near({p - room, p + room}, [&](std::uint32_t index) {
     if (found != kNobody) return;
-    const PlannedObject& object = plan_.objects()[index];
+    const PlannedObject& object = *objects_[index];
     if (states_[index].point.overlaps(object.shape, object.to_object(p))) found = index;
   });
   return found;
@@ -169,7 +206,7 @@ bool ContactSolver::push_out(Vector3d& p) const noexcept {
   for (int round = 0; round < kPushes; ++round) {
     const std::uint32_t index = overlapped(p);
     if (index == kNobody) return true;
-    const PlannedObject& object = plan_.objects()[index];
+    const PlannedObject& object = *objects_[index];
     SurfaceContactPoint point(radius_);
     point.reset(object.shape, object.to_object(p));
     p = object.to_scene(point.scp());
@@ -195,13 +232,13 @@ void ContactSolver::place_outside(const Vector3d& device) noexcept {
   alone_ = kNobody;
   std::uint32_t moved = kNobody;
   for (std::uint32_t i = 0; i < states_.size(); ++i) {
-    const PlannedObject& object = plan_.objects()[i];
+    const PlannedObject& object = *objects_[i];
     const Vector3d local = object.to_object(device);
     states_[i].started_inside = states_[i].point.reset(object.shape, local);
     if (states_[i].point.scp() != local) moved = i;
   }
   if (moved == kNobody) return;
-  Vector3d p = plan_.objects()[moved].to_scene(states_[moved].point.scp());
+  Vector3d p = objects_[moved]->to_scene(states_[moved].point.scp());
   if (overlapped(p) == kNobody) {
     alone_ = moved;
   } else if (!push_out(p)) {
@@ -232,7 +269,7 @@ void ContactSolver::settle(const Vector3d& device) noexcept {
 }
 
 void ContactSolver::settle_on_one(std::uint32_t index, const Vector3d& device) noexcept {
-  const PlannedObject& object = plan_.objects()[index];
+  const PlannedObject& object = *objects_[index];
   SurfaceContactPoint& point = states_[index].point;
   if (alone_ != index) point.set_free(object.to_object(scp_));
   const Vector3d local = object.to_object(device);
@@ -249,7 +286,7 @@ void ContactSolver::settle_on_one(std::uint32_t index, const Vector3d& device) n
 void ContactSolver::settle_among(const Vector3d& device) noexcept {
   bool sliding = false;
   for (const std::uint32_t i : touched_) sliding |= cones_[i] != nullptr && cones_[i]->sliding();
-  const ObjectObstacles obstacles{plan_, cones_, reached_, radius_, scp_};
+  const ObjectObstacles obstacles{objects_, cones_, reached_, radius_, scp_};
   const Vector3d goal = device - scp_;
   ContactWalk<ObjectObstacles> walk{obstacles, goal, Vector3d::Zero(), sliding};
   alone_ = kNobody;
@@ -262,7 +299,7 @@ void ContactSolver::settle_among(const Vector3d& device) noexcept {
   const std::size_t count = holders(walk, reached_.front(), scp_ - device, shares);
   share_way(scp_ - device, std::span(shares).first(count));
   for (const ContactShare& share : std::span(shares).first(count)) {
-    const PlannedObject& object = plan_.objects()[share.object];
+    const PlannedObject& object = *objects_[share.object];
     contacts_[share.object].normal = share.push.normalized();
     contacts_[share.object].scp = scp_;
     const Vector3d local = object.to_object(device);
@@ -274,7 +311,7 @@ void ContactSolver::settle_among(const Vector3d& device) noexcept {
 }
 
 SurfaceFeel ContactSolver::goal_of(std::uint32_t index) const noexcept {
-  SurfaceFeel goal = plan_.objects()[index].patches->feel_of(contacts_[index].patch);
+  SurfaceFeel goal = objects_[index]->patches->feel_of(contacts_[index].patch);
   goal.surface.stiffness = std::min(goal.surface.stiffness, patch_cap_);
   return goal;
 }
@@ -287,7 +324,7 @@ void ContactSolver::apply(std::uint32_t index, const SurfaceFeel& feel) noexcept
 
 // A new contact begins with the patch below it. An existing one changes to it gradually.
 void ContactSolver::note_touch(std::uint32_t index, std::uint32_t triangle) noexcept {
-  const PlannedObject& object = plan_.objects()[index];
+  const PlannedObject& object = *objects_[index];
   ObjectState& state = states_[index];
   state.began = state.touched_at == 0 || state.touched_at + 1 < step_;
   state.touched_at = step_;
@@ -302,19 +339,19 @@ void ContactSolver::note_touch(std::uint32_t index, std::uint32_t triangle) noex
 ContactResult ContactSolver::follow_patches(double dt, double energy) noexcept {
   patch_share_ = 1.0;
   for (const std::uint32_t i : touched_) {
-    if (plan_.objects()[i].patches == nullptr) continue;
+    if (objects_[i]->patches == nullptr) continue;
     PatchBlend& blend = states_[i].blend;
     energy -= blend.follow(goal_of(i), contacts_[i].depth, dt, std::max(0.0, energy));
     patch_share_ = std::min(patch_share_, blend.share());
     apply(i, blend.now());
-    feel(i, states_[i].held_at, plan_.objects()[i].to_object(last_device_));
+    feel(i, states_[i].held_at, objects_[i]->to_object(last_device_));
   }
   return sum(last_device_);
 }
 
 bool ContactSolver::on_patches() const noexcept {
   return std::ranges::any_of(
-      touched_, [&](std::uint32_t index) { return plan_.objects()[index].patches != nullptr; });
+      touched_, [&](std::uint32_t index) { return objects_[index]->patches != nullptr; });
 }
 
 double ContactSolver::stiffness_of(std::uint32_t index) const noexcept {
@@ -326,7 +363,7 @@ double ContactSolver::stiffness_of(std::uint32_t index) const noexcept {
 // Forces of one object's springs, in its axes, for a contact with known place and normal.
 void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
                          const Vector3d& device) noexcept {
-  const PlannedObject& object = plan_.objects()[index];
+  const PlannedObject& object = *objects_[index];
   ObjectContact& contact = contacts_[index];
   states_[index].held_at = scp;
   contact.in_contact = true;
@@ -340,7 +377,7 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
 }
 
 ContactedObject ContactSolver::contacted(std::uint32_t index, double gain) const noexcept {
-  const PlannedObject& object = plan_.objects()[index];
+  const PlannedObject& object = *objects_[index];
   const ObjectContact& contact = contacts_[index];
   ContactedObject seen;
   seen.place = object.place_of(contact.scp);
@@ -355,12 +392,21 @@ ContactedObject ContactSolver::contacted(std::uint32_t index, double gain) const
 // What effects see of a mesh.
 void ContactSolver::stroke(std::uint32_t index, EffectContact& seen,
                            ContactedObject& contacted) noexcept {
-  const PlannedObject& object = plan_.objects()[index];
+  const PlannedObject& object = *objects_[index];
   MeshStroke& stroke = states_[index].stroke;
   stroke.follow(contacted.place, object.place_of(last_device_),
                 object.orientation.transpose() * seen.normal, contacted.triangle, contacted.began);
   contacted.place = stroke.place();
   seen.normal = object.orientation * stroke.normal();
+}
+
+// Of what is at this point of a body.
+Vector3d ContactSolver::velocity_of(std::uint32_t index, const Vector3d& point) const noexcept {
+  for (const MovingObject& moving : moving_) {
+    if (moving.object != index) continue;
+    return moving.motion.velocity_at(point);
+  }
+  return Vector3d::Zero();
 }
 
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double gain) noexcept {
@@ -370,6 +416,7 @@ Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double
     PlannedEffects& effects = states_[i].effects;
     EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
                        contact.depth, dt,          contact.in_contact};
+    if (objects_[i]->moves()) seen.velocity -= velocity_of(i, contact.scp);
     if (!effects.has_declared_forces()) {
       effects.for_each_always([&]<class Effect>(Effect& effect) {
         if constexpr (GivesForce<Effect>) total += effect.force(seen);
@@ -378,7 +425,7 @@ Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double
     }
     ContactedObject object = contacted(i, gain);
     if (contact.in_contact) seen.object = &object;
-    if (contact.in_contact && plan_.objects()[i].is_mesh()) stroke(i, seen, object);
+    if (contact.in_contact && objects_[i]->is_mesh()) stroke(i, seen, object);
     effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (GivesForce<Effect>) total += effect.force(seen);
     });

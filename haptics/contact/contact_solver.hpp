@@ -78,6 +78,15 @@ class ContactSolver {
   /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
+  /// The objects of the plan that move, in its order.
+  [[nodiscard]] std::size_t moving() const noexcept { return moving_.size(); }
+  /// Moves one of them, before a step. The SCP goes on with the body that holds it; one that comes
+  /// from elsewhere pushes it.
+  void place(std::uint32_t body, const ObjectMotion& motion) noexcept;
+  /// Of what is at `point` [m, S] of an object [m/s]; zero of one that stands still.
+  [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
+                                            const Eigen::Vector3d& point) const noexcept;
+
   /// Moves the SCP to where it settles for this device position [m, S]. Any position is allowed.
   /// One that is not finite or beyond 1e9 m gives no force and the last scp, and changes nothing.
   /// The first call resets. No allocation. Examines the objects touched before and those no farther
@@ -123,6 +132,24 @@ class ContactSolver {
     bool began = false;                                 // its contact is new in this step
   };
 
+  /// An object that moves: where it is, and was one step ago.
+  struct MovingObject {
+    std::uint32_t object = 0;  // its number in the plan
+    PlannedObject now;
+    ObjectMotion motion{}, before{};
+
+    // Of a point that stayed where it was, a step ago. Its axes are those of the object: a body's
+    // shape has no origin of its own.
+    [[nodiscard]] Eigen::Vector3d before_of(const Eigen::Vector3d& p_S) const noexcept {
+      return before.orientation.conjugate() * (p_S - before.position);
+    }
+    [[nodiscard]] bool is_moved() const noexcept {
+      return motion.position != before.position ||
+             motion.orientation.coeffs() != before.orientation.coeffs();
+    }
+  };
+
+  void carry() noexcept;
   [[nodiscard]] bool within_reach(std::uint32_t index,
                                   const Eigen::Vector3d& device) const noexcept;
   void find_near(const Eigen::Vector3d& device) noexcept;
@@ -145,6 +172,8 @@ class ContactSolver {
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 
   const EffectPlan& plan_;
+  std::vector<MovingObject> moving_;
+  std::vector<const PlannedObject*> objects_;  // of the plan, where they are now
   std::vector<ObjectState> states_;
   std::vector<ObjectContact> contacts_;
   double radius_;

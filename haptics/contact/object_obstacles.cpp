@@ -18,7 +18,7 @@ bool ObjectObstacles::sweep(const Vector3d& p, const Vector3d& step, SweepHit& h
                                 from.cwiseMax(to).array() + radius);
   bool found = false;
   for (const std::uint32_t index : within_reach) {
-    const PlannedObject& object = plan.objects()[index];
+    const PlannedObject& object = *objects[index];
     if (!object.bounds.intersects(way)) continue;
     const Vector3d origin = object.orientation.transpose() * ((anchor - object.position) + p);
     SweepHit one;
@@ -35,7 +35,7 @@ bool ObjectObstacles::sweep(const Vector3d& p, const Vector3d& step, SweepHit& h
 
 bool ObjectObstacles::within(const Vector3d& p) const noexcept {
   return std::any_of(within_reach.begin(), within_reach.end(), [&](std::uint32_t index) {
-    const PlannedObject& object = plan.objects()[index];
+    const PlannedObject& object = *objects[index];
     const Vector3d local = object.orientation.transpose() * ((anchor - object.position) + p);
     return is_within(object.shape, local, radius);
   });
@@ -44,7 +44,7 @@ bool ObjectObstacles::within(const Vector3d& p) const noexcept {
 double ObjectObstacles::clearance() const noexcept {
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t index : within_reach) {
-    least = std::min(least, clearance_of(plan.objects()[index].shape));
+    least = std::min(least, clearance_of(objects[index]->shape));
   }
   return least;
 }

@@ -16,9 +16,9 @@ namespace reckon::haptics {
 /// A probe of `radius` [m] among the objects. p is relative to `anchor` [m, S], so that planes and
 /// levels stay small at any distance of the objects from the origin.
 struct ObjectObstacles {
-  const EffectPlan& plan;
-  std::span<FrictionCone* const> cones;         ///< per object; null if it is smooth
-  std::span<const std::uint32_t> within_reach;  ///< objects that the walk may meet
+  std::span<const PlannedObject* const> objects;  ///< of the plan, where they are now
+  std::span<FrictionCone* const> cones;           ///< per object; null if it is smooth
+  std::span<const std::uint32_t> within_reach;    ///< objects that the walk may meet
   double radius;
   Eigen::Vector3d anchor;
 

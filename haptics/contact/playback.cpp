@@ -64,7 +64,8 @@ bool Playback::is_blow(double closing, double age) noexcept {
 }
 
 void Playback::begin(double age) noexcept {
-  if (age > kLate) behind_ = std::max(behind_, std::min(kFarthestBehind, kForJitter * age + kCycle));
+  if (age > kLate)
+    behind_ = std::max(behind_, std::min(kFarthestBehind, kForJitter * age + kCycle));
 }
 
 void Playback::catch_up(double by) noexcept { behind_ = std::max(0.0, behind_ - by); }

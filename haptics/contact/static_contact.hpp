@@ -34,6 +34,10 @@ class StaticContactOf {
   StaticContactOf(const EffectPlan& plan, double stiffness_cap, double radius = 0.0,
                   std::size_t probes = 1);
 
+  /// One of the objects that move goes on, before settle(); see ContactSolver.
+  void place(std::uint32_t body, const ObjectMotion& motion) noexcept {
+    for (std::size_t i = 0; i < size(); ++i) walls_[i]->place(body, motion);
+  }
   /// Restarts where the tool is.
   void reset(const Tool& tool) noexcept;
   /// Follows the tool after a sample of `dt` [s], and books the stored or released energy.

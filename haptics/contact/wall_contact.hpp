@@ -25,6 +25,10 @@ class WallContact {
   /// @param radius of the probe [m], >= 0
   WallContact(const EffectPlan& plan, double stiffness_cap, double radius = 0.0);
 
+  /// One of the objects that move goes on, before move(); see ContactSolver.
+  void place(std::uint32_t body, const ObjectMotion& motion) noexcept {
+    solver_.place(body, motion);
+  }
   /// Restarts at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
 
@@ -52,6 +56,13 @@ class WallContact {
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
+  /// Of an object that is touched: its part of force() [N, S], springs and, of the deepest one,
+  /// effects.
+  [[nodiscard]] Eigen::Vector3d force_of(std::uint32_t index) const noexcept {
+    const Eigen::Vector3d springs = gain_ * result_.objects[index].force;
+    if (index != result_.deepest) return springs;
+    return springs + (force_ - gain_ * result_.force);
+  }
   /// [N, S], after shown().
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] double gain() const noexcept { return gain_; }
@@ -70,6 +81,7 @@ class WallContact {
  private:
   [[nodiscard]] double most_gain() const noexcept;
   void scale_gain(double factor, EnergyLedger& ledger) noexcept;
+  void lend_for_motion(EnergyLedger& ledger) noexcept;
   void follow_patches(double dt, EnergyLedger& ledger) noexcept;
   void raise_gain(double dt, EnergyLedger& ledger) noexcept;
   void measure_stiffness() noexcept;
@@ -77,6 +89,8 @@ class WallContact {
   ContactSolver solver_;
   double cap_;
   ContactResult result_;
+  double period_ = 0.0;     // [s], of the samples
+  double lent_ = 0.0;       // [J], see lend_for_motion()
   double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;

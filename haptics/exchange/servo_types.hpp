@@ -142,7 +142,8 @@ struct ServoSnapshot : AccountList {
   bool enabled = false;  ///< operator switch held and no trip pending
   ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
-  double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
+  /// [J], absorbed from the hand + sure damping + received - given, to and from hands and bodies.
+  double port_energy = 0.0;
   /// [J], least value of port_energy + loan so far; >= -1e-9 - late_cost on a device that keeps its
   /// limits.
   double port_energy_min = 0.0;

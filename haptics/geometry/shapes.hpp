@@ -34,6 +34,7 @@ class HalfSpace {
   /// @throws std::invalid_argument for a zero or non-finite normal.
   explicit HalfSpace(const PlaneShape& shape);
   /// Whether a probe at p overlaps the solid.
+  [[nodiscard]] const Eigen::Vector3d& normal() const noexcept { return normal_; }
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double radius = 0.0) const noexcept;
   /// A point near p at which an SCP may rest; p is inside. The nearest such point for a radius of
   /// 0.

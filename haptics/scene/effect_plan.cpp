@@ -176,7 +176,8 @@ PlannedObject plan_object(const SceneObject& object) {
                         Vector3d::Zero(),
                         {},
                         plan_effects(object),
-                        nullptr};
+                        nullptr,
+                        object.matter};
   // A mesh whose vertices are far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
     planned.origin = (*mesh)->origin();
@@ -230,6 +231,12 @@ bool is_bounded(const Eigen::AlignedBox3d& box) {
 
 }  // namespace
 
+void PlannedObject::place(const Vector3d& at, const Eigen::Matrix3d& turned) noexcept {
+  position = at;
+  orientation = turned;
+  bounds = place_bounds(*this);
+}
+
 EffectPlan::EffectPlan(const Scene& scene) {
   const auto named = [](const char* what, const std::string& name, auto&& plan) {
     const std::string where = std::string(what) + " \"" + name + "\": ";
@@ -254,7 +261,8 @@ void EffectPlan::plant_tree() {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const PlannedObject& object = objects_[i];
-    if (acts_from_afar(object.effects) || !is_bounded(object.bounds)) {
+    has_bodies_ |= object.moves();
+    if (acts_from_afar(object.effects) || !is_bounded(object.bounds) || object.moves()) {
       always_.push_back(i);
     } else {
       in_tree_.push_back(i);
@@ -279,7 +287,7 @@ bool EffectPlan::has_within(const Eigen::Vector3d& at, double reach) const noexc
   const Eigen::Vector3d room = Eigen::Vector3d::Constant(reach);
   visit_near({at - room, at + room}, [&](std::uint32_t index) {
     const PlannedObject& object = objects_[index];
-    found = found || acts_from_afar(object.effects) ||
+    found = found || acts_from_afar(object.effects) || object.moves() ||
             distance_below(object.shape, object.to_object(at)) <= reach;
   });
   return found;

@@ -21,6 +21,19 @@
 
 namespace reckon::haptics {
 
+/// Where an object that moves is, and how. Frame S.
+struct ObjectMotion {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< object -> S
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< [m/s], of its origin
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
+
+  /// Of the place of the object that is at `point` [m] now [m/s].
+  [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& point) const noexcept {
+    return velocity + turn_rate.cross(point - position);
+  }
+};
+
 /// One object for the servo.
 struct PlannedObject {
   std::string name;
@@ -35,7 +48,12 @@ struct PlannedObject {
   PlannedEffects effects;      ///< as declared; contacts copy them
   /// Patches of a mesh, or null. With patches, `effects` are those of triangles in no patch.
   std::shared_ptr<const SurfacePatches> patches;
+  Matter matter;
 
+  /// A body: its pose here is the one that it has at the start.
+  [[nodiscard]] bool moves() const noexcept { return matter.mass > 0; }
+  /// Takes another pose. @param at [m], S
+  void place(const Eigen::Vector3d& at, const Eigen::Matrix3d& turned) noexcept;
   /// Stiffness of all its springs together [N/m]; that of the stiffest patch if there are any.
   [[nodiscard]] double stiffness() const noexcept;
   /// Damping of the device that its effects reserve, besides the need of the springs [N s/m]; the
@@ -94,6 +112,7 @@ class EffectPlan {
 
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
   [[nodiscard]] const std::vector<PlannedRegion>& regions() const noexcept { return regions_; }
+  [[nodiscard]] bool has_bodies() const noexcept { return has_bodies_; }
   /// Calls visit(index) once for each object whose bounds meet `box` [m, S]. It also visits objects
   /// that have no bounds, or an effect that acts at a distance. Any order, no allocation;
   /// logarithmic in the objects with bounds.
@@ -124,6 +143,7 @@ class EffectPlan {
   std::vector<std::uint32_t> always_;   // indices of objects, ascending
   std::vector<std::uint32_t> in_tree_;  // indices of the others, by their number in the tree
   BoundingVolumeTree tree_;
+  bool has_bodies_ = false;
 };
 
 }  // namespace reckon::haptics

@@ -31,6 +31,13 @@ struct SurfacePatch {
   std::optional<Friction> friction;  ///< none: smooth
 };
 
+/// What an object is to the bodies of its scene.
+struct Matter {
+  double mass = 0.0;         ///< [kg]; above 0: it is a body itself, and moves when it is pushed
+  double friction = 0.5;     ///< >= 0; of a pair, the geometric mean
+  double restitution = 0.0;  ///< 0 to 1; of a pair, the greater one
+};
+
 /// One touchable object. An effect that is not declared is never constructed.
 struct SceneObject {
   std::string name;
@@ -40,6 +47,7 @@ struct SceneObject {
   std::vector<SurfacePatch> patches;  ///< of a mesh; other triangles have `effects`
   /// Those of the program, in the order of their keys.
   std::vector<DeclaredCustomEffect> custom_effects{};
+  Matter matter{};
 };
 
 /// A part of space in which effects act; nothing solid.
@@ -54,6 +62,7 @@ struct Scene {
   std::string name;
   std::vector<SceneObject> objects;
   std::vector<SceneRegion> regions{};
+  Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2], S; of bodies
 };
 
 }  // namespace reckon::haptics

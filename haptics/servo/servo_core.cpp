@@ -17,11 +17,12 @@ constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or of a yi
 }  // namespace
 
 ServoCore::ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-                     const ServoConfig& config)
+                     const ServoConfig& config, std::shared_ptr<BodyWorld> bodies)
     : device_(device),
       limits_(checked_limits(device.limits())),
       config_(checked_config(config, limits_)),
       plan_(checked_plan(std::move(plan))),
+      bodies_(checked_bodies(std::move(bodies), *plan_, config_)),
       period_(pdu::to_seconds(config.period)),
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)) {
   step_.period = period_;
@@ -63,10 +64,11 @@ bool ServoCore::take_news(double moved) noexcept {
 }
 
 std::unique_ptr<ServoCore> make_servo(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-                                      const ServoConfig& config) {
+                                      const ServoConfig& config,
+                                      std::shared_ptr<BodyWorld> bodies) {
   if (device.limits().axes == 6)
-    return std::make_unique<ServoStepOf<6>>(device, std::move(plan), config);
-  return std::make_unique<ServoStepOf<3>>(device, std::move(plan), config);
+    return std::make_unique<ServoStepOf<6>>(device, std::move(plan), config, std::move(bodies));
+  return std::make_unique<ServoStepOf<3>>(device, std::move(plan), config, std::move(bodies));
 }
 
 }  // namespace reckon::haptics

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/contact/near_hands.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
@@ -44,8 +45,8 @@ class ServoCore {
   [[nodiscard]] double body_stiffness_limit() const noexcept { return step_.body_stiffness_limit; }
 
  protected:
-  ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-            const ServoConfig& config);
+  ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
+            std::shared_ptr<BodyWorld> bodies);
 
   /// Sets the limits of stiffness, rate and power. @return that of walls [N/m]
   /// @param probe damping that meets a spring at the first probe  @param tool that meets springs
@@ -57,6 +58,7 @@ class ServoCore {
   DeviceLimits limits_;
   ServoConfig config_;
   std::shared_ptr<const EffectPlan> plan_;
+  std::shared_ptr<BodyWorld> bodies_;
   double period_;                 // [s], nominal
   double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
   double static_cap_ = 0.0;       // [N/m]
@@ -81,6 +83,7 @@ class ServoCore {
 /// The servo of a device by its axes. @throws std::invalid_argument as ServoLoop
 [[nodiscard]] std::unique_ptr<ServoCore> make_servo(HapticDevice& device,
                                                     std::shared_ptr<const EffectPlan> plan,
-                                                    const ServoConfig& config);
+                                                    const ServoConfig& config,
+                                                    std::shared_ptr<BodyWorld> bodies);
 
 }  // namespace reckon::haptics

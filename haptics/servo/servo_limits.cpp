@@ -75,6 +75,22 @@ std::shared_ptr<const EffectPlan> checked_plan(std::shared_ptr<const EffectPlan>
   return plan;
 }
 
+std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies, const EffectPlan& plan,
+                                          const ServoConfig& config) {
+  if (!plan.has_bodies()) return nullptr;
+  require(bodies != nullptr, "the scene has bodies, which need a BodyWorld to move in");
+  for (const PlannedObject& object : plan.objects()) {
+    if (!object.moves()) continue;
+    const double most = stiffest_push(object.matter.mass, pdu::to_seconds(config.period));
+    require(object.stiffness() <= most,
+            "body '" + object.name + "' of " + std::to_string(object.matter.mass) +
+                " kg is too light for its stiffness of " + std::to_string(object.stiffness()) +
+                " N/m at this rate: at most " + std::to_string(most) +
+                " N/m are right, or more mass, or a higher rate");
+  }
+  return bodies;
+}
+
 // K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
 double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
   return config.stiffness_share * 2.0 /

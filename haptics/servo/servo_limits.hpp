@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -17,6 +18,10 @@ namespace reckon::haptics {
 [[nodiscard]] DeviceLimits checked_limits(const DeviceLimits& limits);
 [[nodiscard]] std::shared_ptr<const EffectPlan> checked_plan(
     std::shared_ptr<const EffectPlan> plan);
+/// Null where the plan has no bodies.
+[[nodiscard]] std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies,
+                                                        const EffectPlan& plan,
+                                                        const ServoConfig& config);
 
 /// Greatest stiffness for each N s/m of damping [1/s].
 [[nodiscard]] double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits);

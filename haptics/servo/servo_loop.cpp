@@ -10,7 +10,7 @@ ServoLoop::ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& c
     : ServoLoop(device, std::make_shared<const EffectPlan>(std::move(plan)), config) {}
 
 ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-                     const ServoConfig& config)
-    : core_(make_servo(device, std::move(plan), config)) {}
+                     const ServoConfig& config, std::shared_ptr<BodyWorld> bodies)
+    : core_(make_servo(device, std::move(plan), config, std::move(bodies))) {}
 
 }  // namespace reckon::haptics

@@ -20,8 +20,9 @@ class ServoLoop {
   /// @param device outlives the loop; its limits are read once, here.
   /// @param plan not null; never modified, so that all servos of a process may share it
   /// @throws std::invalid_argument when a setting is out of range; the text says which and why.
-  ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-            const ServoConfig& config);
+  /// @param bodies of the plan, if it has any; shared by the servos of one thread and one rate
+  ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
+            std::shared_ptr<BodyWorld> bodies = nullptr);
   /// The same with a plan that no other servo shares.
   ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& config);
 

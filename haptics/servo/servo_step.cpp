@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
@@ -42,8 +43,8 @@ EnergyPortOf<axes> port_of(const DeviceLimits& limits, const ToolOf<axes>& tool)
 
 template <int axes>
 ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-                               const ServoConfig& config)
-    : ServoCore(device, std::move(plan), config),
+                               const ServoConfig& config, std::shared_ptr<BodyWorld> bodies)
+    : ServoCore(device, std::move(plan), config, std::move(bodies)),
       tool_({limits_.damping, limits_.turn_damping}, config_.probes),
       static_(*plan_,
               cap_for(tool_.probe_damping(), tool_.tool_damping(), tool_.bend(step_.force_limit)),
@@ -54,6 +55,7 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
       turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)) {
   port_.limit_received_power(config_.max_received_power);
+  if (bodies_) pushes_.reserve(tool_.size() * bodies_->states().size());
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
 }
 
@@ -64,6 +66,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
     reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
   step_.now = now;
   note_time();
+  if (bodies_) bodies_->advance_to(now);
   if (sample(reading)) settle();
   const Admission admission = safety_.admit(reading, tool_.twist());
   const bool enabled = admission == Admission::shown;
@@ -94,6 +97,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (scale < 1.0 && admission != Admission::paused) reduce(scale);
   written_ = scale > 0.0 ? Force(scale * force) : Force::Zero();
   write();
+  if (bodies_) push_bodies(held_.force);
   publish(enabled);
   ++count_;
 }
@@ -250,6 +254,7 @@ void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
   port_.settle(dx, elapsed_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
+  if (bodies_) follow_bodies();
   static_.settle(tool_, step_.dt, port_);
   Vector3d change = Vector3d::Zero();
   const bool in_steps = port_.reads_in_steps();
@@ -259,6 +264,39 @@ void ServoStepOf<axes>::settle() noexcept {
     if (in_steps) change += remote->spring().force();
   }
   if (in_steps) port_.follow(tool_.at_port(0, crowd_share_ * held_.springs * change), dx);
+}
+
+// Walls that move: what a push did on its body is gone from the port, and what the body gave back
+// came into it.
+template <int axes>
+void ServoStepOf<axes>::follow_bodies() noexcept {
+  for (const std::size_t push : pushes_) {
+    const double work = bodies_->work(push);
+    port_.book(-work);
+    to_bodies_ += work;
+  }
+  pushes_.clear();
+  const std::span<const BodyState> states = bodies_->states();
+  for (std::uint32_t i = 0; i < states.size(); ++i) static_.place(i, states[i]);
+}
+
+// @param held force that the port chose; the one that is written may be less, or lag behind
+template <int axes>
+void ServoStepOf<axes>::push_bodies(const Force& held) noexcept {
+  const double whole = held.squaredNorm();
+  const double share = whole > 0 ? std::max(0.0, written_.dot(held) / whole) : 0.0;
+  const std::span<const BodyState> states = bodies_->states();
+  for (std::size_t probe = 0; probe < tool_.size(); ++probe) {
+    const WallContact& walls = static_.walls(probe);
+    for (const std::uint32_t index : walls.result().touched) {
+      const auto body = std::ranges::find(states, index, &BodyState::object);
+      if (body == states.end()) continue;
+      const std::size_t push =
+          bodies_->push(static_cast<std::size_t>(body - states.begin()),
+                        walls.result().objects[index].scp, -share * walls.force_of(index));
+      if (push != BodyWorld::kNoPush) pushes_.push_back(push);
+    }
+  }
 }
 
 // All springs are one force to the hand: opposite forces cancel and cost nothing.
@@ -420,7 +458,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   if (refused) tally_.refused += step_.dt;
   out.tally = tally_;
   out.left_out = hands_.left_out();
-  out.port_energy = port_.absorbed() + hands_.transferred();
+  out.port_energy = port_.absorbed() + hands_.transferred() - to_bodies_;
   out.encoder_allowance = port_.encoder_allowance();
   out.softening = crowd_share_ * softening_.share();
   out.loan = port_.owed();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
@@ -24,7 +25,7 @@ class ServoStepOf final : public ServoCore {
  public:
   /// As ServoLoop.
   ServoStepOf(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
-              const ServoConfig& config);
+              const ServoConfig& config, std::shared_ptr<BodyWorld> bodies);
 
   void step(std::chrono::nanoseconds now) noexcept override;
   [[nodiscard]] bool has_near() noexcept override;
@@ -48,6 +49,8 @@ class ServoStepOf final : public ServoCore {
   bool sample(const DeviceSample& reading) noexcept;
   void note_velocity(const DeviceSample& reading) noexcept;
   void settle() noexcept;
+  void follow_bodies() noexcept;
+  void push_bodies(const Force& held) noexcept;
   [[nodiscard]] Load load() noexcept;
   void load_hands(Load& load) noexcept;
   void soften_crowd(Load& load) noexcept;
@@ -76,7 +79,9 @@ class ServoStepOf final : public ServoCore {
   Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  // [rad], sum of all turns
   std::uint64_t next_search_ = 0;                     // of surfaces, by count_
   bool near_surface_ = true;
-  double rested_ = 0.0;  // [s], time short of energy and at rest
+  std::vector<std::size_t> pushes_;  // of this servo, in the last step
+  double to_bodies_ = 0.0;           // [J], work on them since the start, less what they gave
+  double rested_ = 0.0;              // [s], time short of energy and at rest
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};  // last good reading
   Force written_ = Force::Zero();           // held since the last step

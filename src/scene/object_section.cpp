@@ -49,9 +49,20 @@ void check_shape(TomlReader& table, const haptics::Shape& shape) {
   }
 }
 
+// Whatever else an object is, a body is a box or a sphere, without patches.
+void check_body(TomlReader& table, const haptics::SceneObject& object) {
+  if (!(object.matter.mass > 0)) return;
+  const bool can = std::holds_alternative<haptics::BoxShape>(object.shape) ||
+                   std::holds_alternative<haptics::SphereShape>(object.shape);
+  if (!can)
+    table.problem("mass",
+                  "only boxes and spheres move yet: give one of them, or take the mass out");
+}
+
 void check_object(TomlReader& table, haptics::SceneObject& object) {
   table.require("name");
   check_shape(table, object.shape);
+  check_body(table, object);
   check_solid(table, object);
   object.pose.orientation = read_orientation(table);
   read_effects(table, object.effects);
@@ -107,6 +118,12 @@ Section<haptics::SceneObject> object_section() {
        "of its origin in S"},
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
        "turned about S's x, then y, then z axis"},
+      {"mass", in(&Object::matter, &haptics::Matter::mass), declared("kg", 1e-3, 1e3),
+       "of a box or sphere: it is a body, and moves when it is pushed; absent: it stands still"},
+      {"body_friction", in(&Object::matter, &haptics::Matter::friction), within("", 0, 10),
+       "between bodies and to what stands still; of a pair, the geometric mean"},
+      {"restitution", in(&Object::matter, &haptics::Matter::restitution), within("", 0, 1),
+       "how much of its speed a body keeps in a hit; of a pair, the greater one"},
       {"patch", patches, patch_section(),
        "mesh: the faces of a material or group with other properties"},
   };

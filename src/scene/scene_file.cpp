@@ -106,6 +106,32 @@ Eigen::Quaterniond read_orientation(TomlReader& table) {
          Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
 }
 
+namespace {
+
+// Bodies move under the hands of one peer.
+void check_bodies(TomlReader& file, const SceneFile& scene) {
+  const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
+  if (std::ranges::none_of(scene.scene.objects, moves)) return;
+  const auto first = [](const auto& owned) { return owned.peer == 1; };
+  const bool alone =
+      std::ranges::all_of(scene.devices, first) && std::ranges::all_of(scene.entities, first);
+  if (scene.devices.empty() || !alone) {
+    file.problem("object",
+                 "a scene with bodies (mass) is of one peer yet: give it [[device]] tables of peer "
+                 "1, and nothing to another peer");
+    return;
+  }
+  const auto same = [&](const DeviceConfig& device) {
+    return device.period == scene.devices.front().period;
+  };
+  if (!std::ranges::all_of(scene.devices, same)) {
+    file.problem("device",
+                 "devices of different rates cannot push the same bodies: give them one rate");
+  }
+}
+
+}  // namespace
+
 void check_file(TomlReader& file, SceneFile& out) {
   const Section<haptics::SceneObject> section = object_section();
   std::set<std::string> names;
@@ -120,6 +146,7 @@ void check_file(TomlReader& file, SceneFile& out) {
   read_regions(file, out);
   read_devices(file, out);
   read_entities(file, out);
+  check_bodies(file, out);
   set_reach_by_extent(out, {file.has("aoim", "cell"), file.has("aoim", "radius")});
   check_aoim_of(file, out);
 }

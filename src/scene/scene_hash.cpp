@@ -62,8 +62,7 @@ void add(Hash& hash, const haptics::BoxShape& box) { hash.fact("box", box.size);
 void add_content(Hash& hash, std::string_view name, const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw SceneFileError(file.string(),
-                         {{0, 0, "cannot be read; name a file that can"}});
+    throw SceneFileError(file.string(), {{0, 0, "cannot be read; name a file that can"}});
   Hash content;
   content.bytes(std::string{std::istreambuf_iterator<char>(stream), {}});
   hash.fact(name, fmt::format("{:016x}", content.value()));
@@ -190,6 +189,18 @@ void add(Hash& hash, const haptics::SceneObject& object) {
   add_patches(hash, object.patches);
 }
 
+void add_bodies(Hash& hash, const haptics::Scene& scene) {
+  bool any = false;
+  for (const haptics::SceneObject& object : scene.objects) any = any || object.matter.mass > 0;
+  if (!any) return;
+  hash.fact("gravity", scene.gravity);
+  for (const haptics::SceneObject& object : scene.objects) {
+    hash.fact("mass", object.matter.mass);
+    hash.fact("body friction", object.matter.friction);
+    hash.fact("restitution", object.matter.restitution);
+  }
+}
+
 void add(Hash& hash, const haptics::SceneRegion& region) {
   hash.fact("region", region.name);
   if (region.shape) std::visit([&](const auto& shape) { add(hash, shape); }, *region.shape);
@@ -221,6 +232,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
     hash.fact("compression", word_of(file.network.compression));
   }
   for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
+  add_bodies(hash, file.scene);
   for (const haptics::SceneRegion& region : file.scene.regions) add(hash, region);
   return hash.value();
 }

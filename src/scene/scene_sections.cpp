@@ -41,6 +41,8 @@ Section<SceneFile> scene_section() {
       {"name", &SceneFile::name, "for display; when absent, the file name without its ending"},
       {"origin", &SceneFile::origin, origin_section(),
        "where the scene's frame S (east, north, up) stands"},
+      {"gravity", in(&SceneFile::scene, &haptics::Scene::gravity), within("m/s2", -100, 100),
+       "what bodies fall by, in S"},
   }};
 }
 

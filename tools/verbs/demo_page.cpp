@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -65,7 +66,11 @@ DemoPage::DemoPage(const ViewFlags& flags, const peer::SceneFile& scene,
   for (std::size_t i = 0; i < exercise.size(); ++i) view_.add_receiver(exercise.peer(i));
 }
 
-void DemoPage::show(const Exercise& exercise) {
+void DemoPage::show(Exercise& exercise) {
+  if (haptics::BodyWorld* bodies = exercise.peer(0).bodies(); bodies != nullptr) {
+    (void)bodies->published().update();
+    view_.hands().take_bodies(bodies->published().read().all());
+  }
   for (std::size_t i = 0; i < exercise.size(); ++i)
     for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)
       view_.hands().set_id(first_[i] + k, exercise.view(i).hands[k].id);

@@ -43,7 +43,7 @@ class DemoPage {
     view_.hands().take(first_[peer] + device, step);
   }
   /// Shows the hands as they are now.
-  void show(const Exercise& exercise);
+  void show(Exercise& exercise);
   void note(const ReceivedNotice& heard) { view_.note(heard.notice.text.data()); }
   [[nodiscard]] const SelfView& view() const noexcept { return view_; }
 

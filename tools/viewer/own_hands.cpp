@@ -61,6 +61,12 @@ void OwnHands::take(std::size_t hand, const ServoSnapshot& step) {
   if (hand < hands_.size() && step.time >= hands_[hand].step.time) hands_[hand].step = step;
 }
 
+void OwnHands::take_bodies(std::span<const haptics::BodyState> bodies) {
+  bodies_.clear();
+  for (const haptics::BodyState& body : bodies)
+    bodies_.push_back({body.position.cast<float>(), body.orientation});
+}
+
 std::vector<TouchHand> OwnHands::names() const {
   std::vector<TouchHand> names;
   for (std::size_t i = 0; i < hands_.size(); ++i)
@@ -123,6 +129,7 @@ HandMark OwnHands::mark(std::size_t index) {
 
 HandFrame OwnHands::frame(std::chrono::nanoseconds steady_to_utc, bool knows_all) {
   HandFrame frame;
+  frame.bodies = bodies_;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandMark& hand = frame.hands.emplace_back(mark(i));
     frame.ids.push_back(hands_[i].id);

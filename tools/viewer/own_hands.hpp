@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/peer/world/peer_view.hpp"
@@ -41,6 +43,9 @@ class OwnHands {
   /// Its entity may get another number while a conflict is settled.
   void set_id(std::size_t hand, const pdu::EntityId& id) { hands_[hand].id = id; }
 
+  /// Where the scene's bodies are.
+  void take_bodies(std::span<const haptics::BodyState> bodies);
+
   [[nodiscard]] std::size_t size() const noexcept { return hands_.size(); }
   /// As they are told once.
   [[nodiscard]] std::vector<TouchHand> names() const;
@@ -64,6 +69,7 @@ class OwnHands {
   [[nodiscard]] std::optional<double> true_force(std::size_t index) const;
 
   peer::HandModel hand_;
+  std::vector<BodyMark> bodies_;
   std::vector<Hand> hands_;
 };
 

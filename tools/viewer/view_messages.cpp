@@ -63,6 +63,7 @@ void append_solid(std::string& out, const DrawnSolid& solid) {
   if (solid.shape == "sphere") object.decimals("radius", solid.radius, kMetreDecimals);
   if (solid.shape == "box") append_point(object.member("size"), solid.size);
   if (solid.shape == "mesh") append_mesh(object, solid);
+  if (solid.body) object.value("body", *solid.body);
   object.decimals("stiffness", solid.stiffness, 1).decimals("friction", solid.friction, 3).end();
 }
 

@@ -247,6 +247,7 @@ void ViewStage::fill(const ReceivedWorld& world, Time time, PictureRows& rows) {
   rows.entities.clear();
   rows.hands.clear();
   rows.tools.clear();
+  rows.bodies.clear();
   rows.contacts.clear();
   rows.time = seconds(time);
   rows.epoch = history_.roster().epoch();
@@ -287,6 +288,7 @@ void ViewStage::add_hands(Time time, PictureRows& rows) const {
   if (frame == nullptr) return;
   rows.hands = frame->hands;
   rows.tools = frame->tools;
+  rows.bodies = frame->bodies;
   for (std::size_t i = 0; i < rows.hands.size() && i < frame->ids.size(); ++i)
     rows.hands[i].slot = history_.roster().slot_of(frame->ids[i]);
 }

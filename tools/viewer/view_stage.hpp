@@ -63,7 +63,8 @@ struct TwinMark {
 struct HandFrame {
   std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
   std::vector<HandMark> hands;
-  std::vector<ToolMark> tools;  ///< of those that turn
+  std::vector<ToolMark> tools;   ///< of those that turn
+  std::vector<BodyMark> bodies;  ///< of the scene
   std::vector<pdu::EntityId> ids;
   std::vector<TwinMark> twins;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What does not yield or only a little: meshes, spheres, boxes and walls of the scene.
+// What does not yield or only a little: meshes, spheres, boxes and walls of the scene, and its bodies where they are.
 import { DoubleSide, Mesh, MeshLambertMaterial } from './libraries.js';
 import { colour } from './colours.js';
 import { solidReach, solidShape } from './solid_shapes.js';
@@ -17,6 +17,7 @@ class Solids {
   constructor(group, view, labels) {
     Object.assign(this, { group, view, labels });
     this.meshes = [];
+    this.moving = [];
     this.number = -1;
   }
 
@@ -24,9 +25,13 @@ class Solids {
 
   update(moment) {
     if (moment.touchNumber !== this.number) this.rebuild(moment);
+    for (const { mesh, body } of this.moving) this.move(mesh, moment.bodies[body]);
     const { solids } = moment.touch;
     if (this.view.rectangle.width <= 400 || solids.length < 2 || solids.length > MOST_NAMED) return;
-    for (const { name, position: [x, y, z] } of solids) this.labels.put(this.view, x, y, z, foreign(name ?? '', 31), 'solid', 8);
+    for (const { name, position, body } of solids) {
+      const [x, y, z] = moment.bodies[body]?.position ?? position;
+      this.labels.put(this.view, x, y, z, foreign(name ?? '', 31), 'solid', 8);
+    }
   }
 
   rebuild(moment) {
@@ -35,8 +40,16 @@ class Solids {
       mesh.geometry.dispose();
       mesh.removeFromParent();
     }
+    this.moving = [];
     this.meshes = moment.touch.solids.flatMap((solid) => this.mesh(solid));
     this.paint();
+  }
+
+  move(mesh, body) {
+    if (!body) return;
+    const [w, x, y, z] = body.turn;
+    mesh.position.fromArray(body.position);
+    mesh.quaternion.set(x, y, z, w).normalize();
   }
 
   mesh(solid) {
@@ -49,6 +62,7 @@ class Solids {
     const [w, x, y, z] = solid.quaternion;
     mesh.quaternion.set(x, y, z, w).normalize();
     this.group.add(mesh);
+    if (solid.body !== undefined) this.moving.push({ mesh, body: solid.body });
     return [mesh];
   }
 }

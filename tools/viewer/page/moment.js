@@ -24,6 +24,7 @@ export class Moment {
     this.touch = { solids: [], regions: [], hands: [] };
     this.touchNumber = (this.touchNumber ?? 0) + 1;
     this.numbers = {};
+    this.bodies = [];
     this.hello = {};
   }
 
@@ -42,6 +43,7 @@ export class Moment {
     for (let i = 0; i < count; ++i) this.place(i, a, b, s);
     this.hands = b.hands.map((hand) => between(a.hands.find((old) => old.index === hand.index), hand, s));
     this.contacts = b.contacts;
+    this.bodies = b.bodies.map((body, i) => bodyBetween(a.bodies[i], body, s));
   }
 
   place(i, a, b, s) {
@@ -95,6 +97,12 @@ function between(old, hand, s) {
     ...hand, force, newtons: Math.hypot(...force), position: mix(old.position, hand.position, s),
     surface: mix(old.surface, hand.surface, s), tool: toolBetween(old.tool, hand.tool, s),
   };
+}
+
+function bodyBetween(old, body, s) {
+  if (!old) return body;
+  const same = old.turn.reduce((sum, x, k) => sum + x * body.turn[k], 0) < 0 ? -1 : 1;
+  return { position: mix(old.position, body.position, s), turn: mix(old.turn.map((x) => same * x), body.turn, s) };
 }
 
 function toolBetween(old, tool, s) {

@@ -8,6 +8,7 @@ const ENTITY = 44;
 const HAND = 72;
 const CONTACT = 28;
 const TOOL = 124;
+const BODY = 20;
 
 export const PICTURE_FLAGS = { live: 1, paused: 2, end: 4, gap: 8 };
 export const HAND_FLAGS = {
@@ -25,13 +26,14 @@ export function decodePicture(buffer) {
   const hands = view.getUint16(18, true);
   const contacts = view.getUint16(20, true);
   const tools = view.getUint16(28, true);
-  const length = HEAD + ENTITY * entities + HAND * hands + CONTACT * contacts + TOOL * tools;
+  const bodies = view.getUint16(30, true);
+  const length = HEAD + ENTITY * entities + HAND * hands + CONTACT * contacts + TOOL * tools + BODY * bodies;
   if (buffer.byteLength !== length) throw new Error(`a picture of ${buffer.byteLength} octets, its counts give ${length}`);
-  return new Picture(buffer, view, entities, hands, contacts, tools);
+  return new Picture(buffer, view, entities, hands, contacts, tools, bodies);
 }
 
 class Picture {
-  constructor(buffer, view, entities, hands, contacts, tools) {
+  constructor(buffer, view, entities, hands, contacts, tools, bodies) {
     this.buffer = buffer;
     this.entities = entities;
     this.number = view.getUint32(4, true);
@@ -49,6 +51,16 @@ class Picture {
     this.contacts = Array.from({ length: contacts }, (_, i) => this.contact(view, firstContact + CONTACT * i));
     const firstTool = firstContact + CONTACT * contacts;
     for (let i = 0; i < tools; ++i) this.putTool(view, firstTool + TOOL * i);
+    const firstBody = firstTool + TOOL * tools;
+    this.bodies = Array.from({ length: bodies }, (_, i) => this.body(view, firstBody + BODY * i));
+  }
+
+  // Of the scene, in the order of their numbers; its turn is w x y z.
+  body(view, at) {
+    return {
+      position: [0, 4, 8].map((k) => number(view.getFloat32(at + k, true))),
+      turn: [12, 14, 16, 18].map((k) => view.getInt16(at + k, true) / 32767),
+    };
   }
 
   // The tool of a hand whose device turns.

@@ -104,6 +104,12 @@ void write_tool(Writer& out, const ToolMark& tool) {
   for (const Eigen::Vector3f& probe : tool.probes) out.vector(probe);
 }
 
+void write_body(Writer& out, const BodyMark& body) {
+  out.vector(body.position);
+  const Eigen::Quaterniond& q = body.orientation;
+  for (const double part : {q.w(), q.x(), q.y(), q.z()}) out.u16(quaternion_part(part));
+}
+
 }  // namespace
 
 void encode_picture(const PictureRows& rows, std::string& out) {
@@ -111,8 +117,9 @@ void encode_picture(const PictureRows& rows, std::string& out) {
   const std::size_t hands = std::min(rows.hands.size(), kMostPictureRows);
   const std::size_t contacts = std::min(rows.contacts.size(), kMostPictureRows);
   const std::size_t tools = std::min(rows.tools.size(), kMostPictureRows);
+  const std::size_t bodies = std::min(rows.bodies.size(), kMostPictureRows);
   out.resize(kPictureHead + kEntityOctets * entities + kHandOctets * hands +
-             kContactOctets * contacts + kToolOctets * tools);
+             kContactOctets * contacts + kToolOctets * tools + kBodyOctets * bodies);
   Writer writer(out.data());
   writer.u32(kPictureMagic);
   writer.u32(0);
@@ -123,11 +130,12 @@ void encode_picture(const PictureRows& rows, std::string& out) {
   writer.u16(rows.flags);
   writer.u32(rows.epoch);
   writer.u16(static_cast<std::uint16_t>(tools));
-  writer.u16(0);
+  writer.u16(static_cast<std::uint16_t>(bodies));
   for (std::size_t i = 0; i < entities; ++i) write_entity(writer, rows.entities[i]);
   for (std::size_t i = 0; i < hands; ++i) write_hand(writer, rows.hands[i]);
   for (std::size_t i = 0; i < contacts; ++i) write_contact(writer, rows.contacts[i]);
   for (std::size_t i = 0; i < tools; ++i) write_tool(writer, rows.tools[i]);
+  for (std::size_t i = 0; i < bodies; ++i) write_body(writer, rows.bodies[i]);
 }
 
 void number_picture(std::string& octets, std::uint32_t number) {

@@ -18,7 +18,7 @@ namespace reckon::tools {
 
 inline constexpr std::uint32_t kPictureMagic = 0x31564B52;  ///< "RKV1": the version of the layout
 inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 44, kHandOctets = 72,
-                             kContactOctets = 28, kToolOctets = 28 + 12 * 8;
+                             kContactOctets = 28, kToolOctets = 28 + 12 * 8, kBodyOctets = 20;
 inline constexpr std::uint16_t kNoNumber = 0xFFFF;  ///< no slot, no cell
 /// Rows of a kind that a picture has at most; more are left out.
 inline constexpr std::size_t kMostPictureRows = 0xFFFE;
@@ -85,6 +85,12 @@ struct ToolMark {
   std::array<Eigen::Vector3f, kMost> probes{};       ///< where they are; the rest is zero
 };
 
+/// A body of the scene; they are in the order of their numbers.
+struct BodyMark {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
 /// A contact between two entities, as a listener computes it.
 struct ContactMark {
   std::uint16_t felt = kNoNumber, feeling = kNoNumber;  ///< slots: whose model, and who is pushed
@@ -100,6 +106,7 @@ struct PictureRows {
   std::vector<HandMark> hands;
   std::vector<ContactMark> contacts;
   std::vector<ToolMark> tools;
+  std::vector<BodyMark> bodies;
 };
 
 /// The octets, in the place of what `out` held.

@@ -161,12 +161,14 @@ ObjectPose placed(const ObjectPose& object, const haptics::CsgPart& part) {
 
 std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene, std::size_t most) {
   std::vector<DrawnSolid> solids;
+  std::uint16_t bodies = 0;
   for (const haptics::SceneObject& object : scene.objects) {
     const auto add = [&](const ObjectPose& pose, const auto& shape) {
       DrawnSolid& solid = solids.emplace_back();
       solid.name = object.name;
       solid.pose = pose;
       solid.pose.orientation.normalize();
+      if (object.matter.mass > 0) solid.body = bodies++;
       solid.stiffness = object.effects.of<haptics::SpringDamper>().stiffness;
       if (const auto* friction = object.effects.find<haptics::StickSlipFriction>())
         solid.friction = friction->static_coefficient;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,8 +30,9 @@ struct DrawnSolid {
   std::vector<std::string> patch_names;  ///< from patch 1 on
   /// Number of its patch 0 among those of all solids, >= 1; 0 where it has none.
   std::uint16_t first_patch = 0;
-  double stiffness = 0;  ///< [N/m]
-  double friction = 0;   ///< static coefficient; 0: smooth
+  std::optional<std::uint16_t> body;  ///< of one that moves: its number among those that do
+  double stiffness = 0;               ///< [N/m]
+  double friction = 0;                ///< static coefficient; 0: smooth
 };
 
 /// All of a scene, in its order. Of a solid made of parts those that are added; one whose mesh

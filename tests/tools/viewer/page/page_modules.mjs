@@ -31,14 +31,15 @@ const { plotForce } = await take('plot_force.js');
 const { plotEnergy } = await take('plot_energy.js');
 const { digits, foreign, roundUp } = await take('words.js');
 
-function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, tools = [], flags = 1 }) {
-  const view = new DataView(new ArrayBuffer(32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * tools.length));
+function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, tools = [], bodies = [], flags = 1 }) {
+  const view = new DataView(new ArrayBuffer(32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * tools.length + 20 * bodies.length));
   view.setUint32(0, 0x31564b52, true);
   view.setUint32(4, number, true);
   view.setFloat64(8, time, true);
   [entities.length, hands.length, contacts, flags].forEach((x, i) => view.setUint16(16 + 2 * i, x, true));
   view.setUint32(24, 7, true);
   view.setUint16(28, tools.length, true);
+  view.setUint16(30, bodies.length, true);
   entities.forEach(({ slot, x = 0, error = 0, turn = [32767, 0, 0, 0] }, i) => {
     const at = 32 + 44 * i;
     view.setUint16(at, slot, true);
@@ -67,8 +68,22 @@ function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0
     view.setUint16(at + 2, probes.length, true);
     [handle, torque, ...probes].forEach((v, j) => v.forEach((x, k) => view.setFloat32(at + 4 + 12 * j + 4 * k, x, true)));
   });
+  bodies.forEach(({ position, turn = [32767, 0, 0, 0] }, i) => {
+    const at = 32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * tools.length + 20 * i;
+    position.forEach((x, k) => view.setFloat32(at + 4 * k, x, true));
+    turn.forEach((q, k) => view.setInt16(at + 12 + 2 * k, q, true));
+  });
   return view.buffer;
 }
+
+test('A body is where its picture has it, and between two of them half way', () => {
+  const at = (time, z) => decodePicture(picture({ time, bodies: [{ position: [0, 0, z] }, { position: [1, 0, z], turn: [0, 0, 32767, 0] }] }));
+  const [, second] = at(0, 2).bodies;
+  assert.deepEqual([second.position, second.turn], [[1, 0, 2], [0, 0, 1, 0]]);
+  const moment = new Moment();
+  moment.set(at(0, 2), at(1, 4), 0.5);
+  assert.deepEqual(moment.bodies[0].position, [0, 0, 3]);
+});
 
 test('A tool belongs to the hand of its number, and moves as it does', () => {
   const at = (time, x) => decodePicture(picture({

@@ -48,13 +48,16 @@ PictureRows rows() {
   picture.tools[0].count = 2;
   picture.tools[0].torque = {0, 0.5F, 0};
   picture.tools[0].probes[1] = {7, 8, 9};
+  picture.bodies.resize(1);
+  picture.bodies[0].position = {0, 0, 6};
+  picture.bodies[0].orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
   return picture;
 }
 
 TEST(Picture, IsAsLongAsItsCountsSay) {
   std::string octets;
   encode_picture(rows(), octets);
-  EXPECT_EQ(octets.size(), 32U + 2 * 44 + 72 + 28 + 124);
+  EXPECT_EQ(octets.size(), 32U + 2 * 44 + 72 + 28 + 124 + 20);
   encode_picture({}, octets);
   EXPECT_EQ(octets.size(), 32U);
 }
@@ -95,6 +98,9 @@ TEST(Picture, HasEachThingAtItsPlace) {
   EXPECT_EQ(at<std::uint16_t>(octets, tool + 2), 2);
   EXPECT_EQ(at<float>(octets, tool + 20), 0.5F);
   EXPECT_EQ(at<float>(octets, tool + 28 + 12 + 8), 9.0F);
+  EXPECT_EQ(at<std::uint16_t>(octets, 30), 1) << "bodies";
+  EXPECT_EQ(at<float>(octets, tool + 124 + 8), 6.0F);
+  EXPECT_EQ(at<std::int16_t>(octets, tool + 124 + 14), -16384);
 }
 
 TEST(Picture, MarksAHandAsItsReadersOwn) {

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The objects of a scene that have a mass, and how they move: pushed by hands, by their weight and
+// by one another, among the objects that stand still.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+namespace reckon::haptics {
+
+/// Where a body is and how it moves: its origin is its middle.
+struct BodyState : ObjectMotion {
+  std::uint32_t object = 0;  ///< its number in the plan
+  bool awake = true;
+};
+
+/// Bodies of a scene, at most.
+inline constexpr std::size_t kMostBodies = 64;
+
+/// All bodies at one time. A copy takes only those that there are.
+struct BodyStates {
+  std::size_t count = 0;
+  std::array<BodyState, kMostBodies> bodies{};
+
+  BodyStates() = default;
+  BodyStates(const BodyStates& other) noexcept { *this = other; }
+  BodyStates& operator=(const BodyStates& other) noexcept {
+    count = other.count;
+    if (this != &other) std::copy_n(other.bodies.begin(), count, bodies.begin());
+    return *this;
+  }
+  [[nodiscard]] std::span<const BodyState> all() const noexcept { return {bodies.data(), count}; }
+};
+
+/// All bodies of one peer. Hands push them from within their servo steps, all on one thread and at
+/// one rate; the first servo of a period steps the world to it. A force is held until then, as at
+/// the handle, so that what a hand gives up and what a body gets are one.
+///
+/// Free flight is exact for a constant force. Contacts are inelastic or bounce by the greater of
+/// both restitutions, and rub by the geometric mean of both frictions. The solver is ODE's exact
+/// step; what energy it makes beyond what was put in is taken out of the bodies' speeds in the
+/// same step, so that a pile never gains any. A body that has been still for kSleep sleeps until it
+/// is pushed or hit.
+///
+/// Allocates at construction, and within the first steps until as many contacts were met as there
+/// will be; then nothing. 3 us for one body, 20 us for ten that lie in a pile.
+class BodyWorld {
+ public:
+  static constexpr std::chrono::milliseconds kSleep{1000};
+  /// Greatest speed [m/s] and turn rate [rad/s]; a body that is pushed faster keeps to them.
+  static constexpr double kFastest = 50.0;
+  static constexpr double kFastestTurn = 200.0;
+
+  /// Bodies are the objects of the plan that have a Matter with a mass; all others stand still.
+  /// @param plan only read here  @param gravity [m/s^2], S
+  /// @throws std::invalid_argument for a body that cannot be one; names it and the remedy
+  BodyWorld(const EffectPlan& plan, const Eigen::Vector3d& gravity);
+  ~BodyWorld();
+  BodyWorld(const BodyWorld&) = delete;
+  BodyWorld& operator=(const BodyWorld&) = delete;
+
+  /// Steps to `now`; does nothing if it is there already. The first call only notes the time. After
+  /// more than 0.1 s without a call the rest of that time is left out.
+  void advance_to(std::chrono::nanoseconds now) noexcept;
+
+  /// Holds `force` [N] at `point` [m] of a body from now until the next advance.
+  /// @return the number of this push, for work(); kNoPush if there is no room for it
+  std::size_t push(std::size_t body, const Eigen::Vector3d& point,
+                   const Eigen::Vector3d& force) noexcept;
+  static constexpr std::size_t kNoPush = static_cast<std::size_t>(-1);
+  /// Work that a push of the period before did on its body [J].
+  [[nodiscard]] double work(std::size_t push) const noexcept;
+
+  [[nodiscard]] std::span<const BodyState> states() const noexcept;
+  /// The same after each advance; one reader thread.
+  [[nodiscard]] TripleBuffer<BodyStates>& published() noexcept { return published_; }
+  /// Kinetic energy and that of the weight, above the places at the start [J].
+  [[nodiscard]] double energy() const noexcept;
+  /// Energy that was taken out because the solver had made it [J], since the start.
+  [[nodiscard]] double taken_out() const noexcept;
+  /// Steps in which the exact solver was lost and an iterative one answered, since the start.
+  [[nodiscard]] std::uint64_t approximated() const noexcept;
+
+ private:
+  void publish() noexcept;
+
+  class Engine;
+  std::unique_ptr<Engine> engine_;
+  TripleBuffer<BodyStates> published_;
+};
+
+/// Stiffest spring of a hand that a body of `mass` [kg] can be pushed with at a rate of `period`
+/// [s], so that the force that is held for a period stays right: period sqrt(K / m) <= 0.15, for
+/// the lighter resistance of a body that turns under it (0.4 m).
+[[nodiscard]] constexpr double stiffest_push(double mass, double period) noexcept {
+  return 0.0225 * 0.4 * mass / (period * period);
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Bodies that no hand holds, against closed forms.
+#include "reckon/haptics/bodies/body_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kStep = std::chrono::milliseconds(1);
+constexpr double kG = 9.81;
+
+/// Objects of a scene, and its world on a clock that is stepped.
+class Table {
+ public:
+  SceneObject& box(double edge, const Vector3d& at, Matter matter) {
+    SceneObject& object = scene_.objects.emplace_back();
+    object.name = "box " + std::to_string(scene_.objects.size());
+    object.shape = BoxShape{Vector3d::Constant(edge)};
+    object.pose.position = at;
+    object.matter = matter;
+    return object;
+  }
+  SceneObject& ball(double radius, const Vector3d& at, Matter matter) {
+    SceneObject& object = box(1.0, at, matter);
+    object.shape = SphereShape{radius};
+    return object;
+  }
+  SceneObject& floor(Matter matter = {}) {
+    SceneObject& object = box(1.0, Vector3d::Zero(), matter);
+    object.shape = PlaneShape{Vector3d::UnitZ()};
+    return object;
+  }
+  void without_gravity() { scene_.gravity.setZero(); }
+  BodyWorld& begin() {
+    plan_.emplace(scene_);
+    world_ = std::make_unique<BodyWorld>(*plan_, scene_.gravity);
+    world_->advance_to(now_);
+    return *world_;
+  }
+  void run(double seconds, nanoseconds step = kStep) {
+    const auto steps = std::llround(seconds / (1e-9 * static_cast<double>(step.count())));
+    for (long i = 0; i < steps; ++i) world_->advance_to(now_ += step);
+  }
+  [[nodiscard]] const BodyState& state(std::size_t body = 0) const {
+    return world_->states()[body];
+  }
+
+ private:
+  Scene scene_;
+  std::optional<EffectPlan> plan_;
+  std::unique_ptr<BodyWorld> world_;
+  nanoseconds now_{1'000'000'000};
+};
+
+TEST(BodyWorld, AFreeBodyFallsAsTheClosedFormSays) {
+  for (const int microseconds : {1000, 250, 3000}) {
+    Table table;
+    table.ball(0.02, {0, 0, 10}, {0.3});
+    BodyWorld& world = table.begin();
+    table.run(0.9, std::chrono::microseconds(microseconds));
+    EXPECT_NEAR(table.state().position.z(), 10 - 0.5 * kG * 0.81, 1e-9) << microseconds;
+    EXPECT_NEAR(table.state().velocity.z(), -kG * 0.9, 1e-9);
+    EXPECT_NEAR(world.energy(), 0.0, 1e-9) << "what it loses in height it gains in speed";
+  }
+}
+
+TEST(BodyWorld, APushGivesForceTimesTimeAndItsWorkIsToldToTheServo) {
+  Table table;
+  table.without_gravity();
+  table.box(0.04, {0, 0, 0}, {0.5});
+  BodyWorld& world = table.begin();
+  nanoseconds now{1'000'000'000};
+  double work = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d at = world.states()[0].position + Vector3d(-0.02, 0.01, 0);
+    const std::size_t push = world.push(0, at, {2, 0, 0});
+    world.advance_to(now += kStep);
+    work += world.work(push);
+  }
+  EXPECT_NEAR(world.states()[0].velocity.x(), 2 * 0.1 / 0.5, 1e-9);
+  EXPECT_LT(world.states()[0].turn_rate.z(), -0.1) << "pushed beside its middle";
+  EXPECT_NEAR(work, world.energy(), 0.01 * work);
+  EXPECT_GE(work, world.energy()) << "no more than was given";
+  world.advance_to(now += kStep);
+  EXPECT_EQ(world.work(0), 0.0) << "a push lasts one period";
+}
+
+TEST(BodyWorld, AHeavierOneThatIsHitGoesOnAndTheLighterComesBack) {
+  Table table;
+  table.without_gravity();
+  table.ball(0.02, {-0.1, 0, 0}, {1.0, 0.0, 1.0});
+  table.ball(0.02, {0, 0, 0}, {2.0, 0.0, 1.0});
+  BodyWorld& world = table.begin();
+  nanoseconds now{1'000'000'000};
+  world.push(0, {-0.1, 0, 0}, {1000, 0, 0});
+  world.advance_to(now + kStep);
+  EXPECT_NEAR(table.state(0).velocity.x(), 1.0, 1e-9);
+  for (int i = 2; i < 200; ++i) world.advance_to(now + i * kStep);
+  EXPECT_NEAR(table.state(0).velocity.x(), -1.0 / 3, 1e-3);
+  EXPECT_NEAR(table.state(1).velocity.x(), 2.0 / 3, 1e-3);
+}
+
+// The friction of a pair is sqrt(0.8 x 0.2) = 0.4.
+TEST(BodyWorld, ABoxSlidesWithItsFrictionWhateverItsWay) {
+  for (const double way : {0.0, 0.4, 0.785, 1.9}) {
+    Table table;
+    table.floor({0.0, 0.8});
+    table.box(0.04, {0, 0, 0.02}, {0.2, 0.2});
+    BodyWorld& world = table.begin();
+    table.run(0.1);
+    nanoseconds now{1'100'000'000};
+    const Vector3d push(std::cos(way), std::sin(way), 0);
+    world.push(0, world.states()[0].position, 200 * push);
+    world.advance_to(now += kStep);
+    const double before = table.state().velocity.head<2>().norm();
+    for (int i = 0; i < 100; ++i) world.advance_to(now += kStep);
+    const double after = table.state().velocity.head<2>().norm();
+    EXPECT_NEAR((before - after) / 0.1, 0.4 * kG, 0.01 * 0.4 * kG) << way;
+  }
+}
+
+TEST(BodyWorld, ABoxStaysWhereItsFrictionHoldsIt) {
+  for (const double share : {0.97, 1.03}) {
+    Table table;
+    table.floor({0.0, 0.5});
+    table.box(0.04, {0, 0, 0.02}, {0.2, 0.5});
+    BodyWorld& world = table.begin();
+    nanoseconds now{1'000'000'000};
+    for (int i = 0; i < 1000; ++i) {
+      Vector3d at = world.states()[0].position;
+      at.z() -= 0.018;
+      world.push(0, at, {share * 0.5 * 0.2 * kG, 0, 0});
+      world.advance_to(now += kStep);
+    }
+    if (share < 1) {
+      EXPECT_LT(std::abs(table.state().position.x()), 1e-4);
+    } else {
+      EXPECT_GT(table.state().position.x(), 0.05);
+    }
+  }
+}
+
+TEST(BodyWorld, AStackOfFiveComesToRestAndSleeps) {
+  Table table;
+  table.floor();
+  for (int i = 0; i < 5; ++i) table.box(0.04, {0.001 * i, 0, 0.0205 + 0.0405 * i}, {0.1});
+  BodyWorld& world = table.begin();
+  table.run(1.5);
+  const double top = table.state(4).position.z();
+  table.run(1.0);
+  EXPECT_LT(std::abs(table.state(4).position.z() - top), 1e-7);
+  EXPECT_NEAR(top, 0.18, 3e-4);
+  table.run(1.0);
+  for (const BodyState& state : world.states()) EXPECT_FALSE(state.awake);
+  const Vector3d rest = table.state(4).position;
+  table.run(1.0);
+  EXPECT_EQ(table.state(4).position, rest) << "no jitter at all";
+  world.push(4, rest, {0.5, 0, 0});
+  table.run(0.02);
+  EXPECT_TRUE(table.state(4).awake) << "woken by a push";
+}
+
+TEST(BodyWorld, AHeavyBoxDoesNotSinkIntoALightOne) {
+  for (const double ratio : {100.0, 1e4}) {
+    Table table;
+    table.floor();
+    table.box(0.04, {0, 0, 0.02}, {0.01});
+    table.box(0.04, {0, 0, 0.06}, {0.01 * ratio});
+    table.begin();
+    table.run(1.0);
+    EXPECT_NEAR(table.state(1).position.z(), 0.06, 1e-4) << ratio;
+  }
+}
+
+TEST(BodyWorld, NoPileEverGainsEnergy) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    Table table;
+    table.floor({0.0, 0.5, 0.3});
+    for (int i = 0; i < 27; ++i) {
+      SceneObject& box = table.box(
+          0.04, {0.075 * (i % 3), 0.075 * (i / 3 % 3), 0.1 + 0.075 * static_cast<double>(i / 9)},
+          {0.02 + 0.1 * std::abs(any(random)), 0.5, 0.5 * std::abs(any(random))});
+      box.pose.orientation = Eigen::Quaterniond(
+          Eigen::AngleAxisd(any(random), Vector3d(any(random), any(random), 1.0).normalized()));
+    }
+    BodyWorld& world = table.begin();
+    double energy = world.energy(), most = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+      table.run(0.001);
+      most = std::max(most, world.energy() - energy);
+      energy = std::min(energy, world.energy());
+    }
+    // What the weight of all is worth over the depth at which contacts rest, 10 um.
+    EXPECT_LT(most, 1e-4) << "seed " << seed;
+    EXPECT_LT(energy, 0.0) << "they fell";
+    for (const BodyState& state : world.states()) {
+      EXPECT_GT(state.position.z(), 0.015) << "none is in the floor";
+      EXPECT_LT(state.position.norm(), 2.0);
+    }
+    std::printf("seed %u: %.2g J taken out, %.2g J above the least, %d approximated\n", seed,
+                world.taken_out(), most, static_cast<int>(world.approximated()));
+  }
+}
+
+TEST(BodyWorld, ABallThatBouncesNeverRisesHigher) {
+  Table table;
+  table.floor({0.0, 0.5, 1.0});
+  table.ball(0.02, {0, 0, 0.52}, {0.1, 0.5, 0.9});
+  table.begin();
+  double highest = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const double before = i == 0 ? 0.52 : highest;
+    while (table.state().velocity.z() <= 0) table.run(0.001);
+    highest = 0.0;
+    while (table.state().velocity.z() > 0) {
+      table.run(0.001);
+      highest = std::max(highest, table.state().position.z());
+    }
+    EXPECT_LE(highest, before + 1e-9) << "bounce " << i;
+    EXPECT_GT(highest, 0.02 + 0.9 * (before - 0.02))
+        << "bounce " << i << ": the greater of 1 and 0.9";
+  }
+}
+
+TEST(BodyWorld, IsTheSameTwice) {
+  const auto run = [] {
+    Table table;
+    table.floor();
+    for (int i = 0; i < 8; ++i)
+      table.box(0.04, {0.01 * (i % 3), 0.012 * (i % 2), 0.05 + 0.05 * i}, {0.05});
+    BodyWorld& world = table.begin();
+    nanoseconds now{1'000'000'000};
+    Vector3d sum = Vector3d::Zero();
+    for (int i = 0; i < 2000; ++i) {
+      world.push(static_cast<std::size_t>(i) % 8, world.states()[0].position, {0.1, 0.05, 0});
+      world.advance_to(now += kStep);
+      for (const BodyState& state : world.states()) sum += state.position + state.turn_rate;
+    }
+    return sum;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(BodyWorld, RefusesWhatCannotMoveByName) {
+  Table plane;
+  plane.floor({1.0});
+  EXPECT_THROW(plane.begin(), std::invalid_argument);
+  Table many;
+  for (int i = 0; i < 65; ++i) many.box(0.01, {0.1 * i, 0, 0}, {0.1});
+  try {
+    many.begin();
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("object 'box 65' has a mass, and a scene moves at most "
+                        "64 bodies"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace reckon::haptics
