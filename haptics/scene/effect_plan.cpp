@@ -90,6 +90,8 @@ ContactShape make_shape(const Shape& shape) {
           return Block(s);
         } else if constexpr (std::is_same_v<S, MeshShape>) {
           return std::make_shared<const SurfaceMesh>(SurfaceMesh::load(s));
+        } else if constexpr (std::is_same_v<S, HeightsShape>) {
+          return std::make_shared<const SurfaceMesh>(SurfaceMesh::load_heights(s));
         } else {
           return std::make_shared<const ImplicitSolid>(s);
         }
@@ -184,7 +186,7 @@ PlannedObject plan_object(const SceneObject& object) {
     planned.patches = plan_patches(object, **mesh);
     if (planned.patches) hold_for(*planned.patches, planned.effects);
   } else if (!object.patches.empty()) {
-    throw std::invalid_argument("only a mesh has patches; take them out");
+    throw std::invalid_argument("only a mesh or a picture has patches; take them out");
   }
   planned.bounds = place_bounds(planned);
   return planned;

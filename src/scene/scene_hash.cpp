@@ -75,6 +75,14 @@ void add(Hash& hash, const haptics::MeshShape& mesh) {
   hash.fact("centre", mesh.centre ? "true" : "false");
 }
 
+void add(Hash& hash, const haptics::HeightsShape& heights) {
+  add_content(hash, "heights", heights.file);
+  hash.fact("width", heights.width);
+  hash.fact("length", heights.length);
+  hash.fact("height", heights.height);
+  hash.fact("base", heights.base);
+}
+
 void add(Hash& hash, const haptics::CylinderShape& cylinder) {
   hash.fact("cylinder", cylinder.radius);
   hash.fact("height", cylinder.height);
