@@ -58,7 +58,7 @@ void check_object(TomlReader& table, haptics::SceneObject& object) {
   check_solid(table, object);
   object.pose.orientation = read_orientation(table);
   read_effects(table, object.effects);
-  read_custom_effects(table, object);
+  read_custom_effects<haptics::GuardedEffect>(table, object.name, object.custom_effects);
   read_patches(table, object);
 }
 

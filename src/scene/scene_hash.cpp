@@ -62,8 +62,7 @@ void add(Hash& hash, const haptics::BoxShape& box) { hash.fact("box", box.size);
 void add_content(Hash& hash, std::string_view name, const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw SceneFileError(file.string(),
-                         {{0, 0, "cannot be read; name a file that can"}});
+    throw SceneFileError(file.string(), {{0, 0, "cannot be read; name a file that can"}});
   Hash content;
   content.bytes(std::string{std::istreambuf_iterator<char>(stream), {}});
   hash.fact(name, fmt::format("{:016x}", content.value()));
@@ -139,8 +138,9 @@ void add_effects_of(Hash& hash, const haptics::EffectDeclarations<Types>& effect
 }
 
 /// What an effect does is not known, only what it is called and takes.
-void add_custom_effects_of(Hash& hash, const haptics::SceneObject& object) {
-  for (const haptics::DeclaredCustomEffect& declared : object.custom_effects) {
+template <class ObjectOrRegion>
+void add_custom_effects_of(Hash& hash, const ObjectOrRegion& owner) {
+  for (const auto& declared : owner.custom_effects) {
     hash.fact("custom effect", declared.effect->name());
     for (std::size_t i = 0; i < declared.values.size(); ++i)
       hash.fact(declared.effect->parameters()[i].key, declared.values[i]);
@@ -204,6 +204,7 @@ void add(Hash& hash, const haptics::SceneRegion& region) {
   hash.fact("position", region.pose.position);
   add(hash, region.pose.orientation);
   add_effects_of(hash, region.effects);
+  add_custom_effects_of(hash, region);
 }
 
 }  // namespace
