@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the shipped scenes' mesh, hand traces and tracks: touchstone.obj, meeting_1.csv, meeting_2.csv,
-hand_trace.csv, hand_trace_2.csv, wall_trace.csv, tip_track.csv, truck_track.csv.
+"""Writes the shipped scenes' mesh, picture, hand traces and tracks: touchstone.obj, land.pgm, meeting_1.csv,
+meeting_2.csv, hand_trace.csv, hand_trace_2.csv, wall_trace.csv, tip_track.csv, truck_track.csv.
 
     make_scene.py [FOLDER]        default: the folder of this script
 
@@ -329,6 +329,29 @@ def truck(time):
     return side * (STRAIGHT / 2.0 + BEND * math.sin(angle)), -side * BEND * math.cos(angle), 0.0
 
 
+LAND = (129, 97)  # pixels
+
+
+def land(x, y):
+    """Height [0, 1] at a place [0, 1] x [0, 1]: a peak, a ridge, and a bowl between them, flat at the edges."""
+    def hill(middle_x, middle_y, width):
+        return math.exp(-((x - middle_x) ** 2 + (y - middle_y) ** 2) / width ** 2)
+    edge = (16 * x * (1 - x) * y * (1 - y)) ** 0.5
+    ridge = math.exp(-(x - 0.72 - 0.1 * math.sin(6 * y)) ** 2 / 0.01)
+    return edge * min(1.0, max(0.0, 0.25 + 0.7 * hill(0.3, 0.6, 0.18) + 0.4 * ridge - 0.25 * hill(0.5, 0.3, 0.15)))
+
+
+def write_land(file):
+    """A PGM picture of 16 bits, the top row towards +y."""
+    columns, rows = LAND
+    with open(file, "wb") as out:
+        out.write(b"P5\n# heights, written by make_scene.py\n%d %d\n65535\n" % LAND)
+        for row in range(rows):
+            for column in range(columns):
+                height = land(column / (columns - 1), 1 - row / (rows - 1))
+                out.write(round(65535 * height).to_bytes(2, "big"))
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     vertices, triangles = make_mesh()
@@ -339,6 +362,7 @@ def main():
             out.write("v " + " ".join(f"{scale * x + 0.0:.7f}" for x in v) + "\n")
         for t in triangles:
             out.write("f " + " ".join(str(i + 1) for i in t) + "\n")
+    write_land(folder / "land.pgm")
     meeting_hand(scale, -1).write(folder / "meeting_1.csv")
     meeting_hand(scale, 1).write(folder / "meeting_2.csv")
     first_hand(scale).write(folder / "hand_trace.csv")

@@ -28,7 +28,7 @@ MAY_KNOW = {
     "pdu": (["pdu"], STANDARD),
     "aoim": (["pdu", "aoim"], STANDARD + r"|<immintrin\.h>"),
     "deadreckon": (["pdu", "deadreckon"], STANDARD + "|<Eigen/"),
-    "haptics": (["pdu", "deadreckon", "haptics"], f"{STANDARD}|{SYSTEM}|<(libusb-1.0|(unsupported/)?Eigen|OpenMesh)/"),
+    "haptics": (["pdu", "deadreckon", "haptics"], f"{STANDARD}|{SYSTEM}|<(libusb-1.0|(unsupported/)?Eigen|OpenMesh|ode)/"),
     "src": (["pdu", "deadreckon", "aoim", "haptics", "src"], "<"),
     "tools": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools"], "<"),
     "python": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "python"], "<"),

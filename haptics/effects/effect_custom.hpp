@@ -7,9 +7,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
@@ -45,35 +48,57 @@ class CustomEffectState {
   [[nodiscard]] virtual double damping() const noexcept = 0;
 };
 
-/// A kind of effect that a program brings. Immutable; any thread.
+/// A kind of effect that a program brings, as scene files know it. Immutable; any thread.
 class CustomEffect {
  public:
   virtual ~CustomEffect() = default;
   CustomEffect(const CustomEffect&) = delete;
   CustomEffect& operator=(const CustomEffect&) = delete;
 
+  /// The tables of a scene file that may declare it: "object" or "region".
+  [[nodiscard]] virtual std::string_view section() const noexcept = 0;
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const std::string& key() const noexcept { return key_; }
   [[nodiscard]] const std::string& cost() const noexcept { return cost_; }
   [[nodiscard]] const std::vector<CustomParameter>& parameters() const noexcept {
     return parameters_;
   }
-  [[nodiscard]] const EffectHookSet& hooks() const noexcept { return hooks_; }
 
+ protected:
+  /// Of a class with the table of an effect.
+  template <class Effect>
+  explicit CustomEffect(std::type_identity<Effect>)
+      : name_(Effect::kName), key_(Effect::kKey), cost_(Effect::kCost) {
+    for (const auto& row : Effect::kParameters)
+      parameters_.push_back({std::string(row.key), std::string(row.unit), row.minimum, row.maximum,
+                             row.default_value, std::string(row.help)});
+  }
+  /// @param values one for each row of parameters(), in its order
+  template <class Effect>
+  static typename Effect::Parameters parameters_of(std::span<const double> values) {
+    typename Effect::Parameters parameters{};
+    for (std::size_t i = 0; i < Effect::kParameters.size(); ++i)
+      parameters.*Effect::kParameters[i].field = values[i];
+    return parameters;
+  }
+
+ private:
+  std::string name_, key_, cost_;
+  std::vector<CustomParameter> parameters_;
+};
+
+/// Of objects.
+class CustomObjectEffect : public CustomEffect {
+ public:
+  [[nodiscard]] std::string_view section() const noexcept override { return "object"; }
+  [[nodiscard]] virtual EffectHookSet hooks() const noexcept = 0;
   /// @param values one for each row of parameters(), in its order
   /// @throws std::invalid_argument when the effect refuses them
   [[nodiscard]] virtual std::unique_ptr<CustomEffectState> make(
       std::span<const double> values) const = 0;
 
  protected:
-  CustomEffect(std::string_view name, std::string_view key, std::string_view cost,
-               std::vector<CustomParameter> parameters, EffectHookSet hooks)
-      : name_(name), key_(key), cost_(cost), parameters_(std::move(parameters)), hooks_(hooks) {}
-
- private:
-  std::string name_, key_, cost_;
-  std::vector<CustomParameter> parameters_;
-  EffectHookSet hooks_;
+  using CustomEffect::CustomEffect;
 };
 
 /// The custom effects that a scene file may declare.
@@ -81,7 +106,7 @@ using CustomEffects = std::vector<std::shared_ptr<const CustomEffect>>;
 
 /// Declared for an object: the effect and one value for each of its parameters.
 struct DeclaredCustomEffect {
-  std::shared_ptr<const CustomEffect> effect;
+  std::shared_ptr<const CustomObjectEffect> effect;
   std::vector<double> values;
 };
 
@@ -154,35 +179,29 @@ class CustomEffectStateOf final : public CustomEffectState {
 
 /// A kind of effect by its class.
 template <class Effect>
-class CustomEffectOf final : public CustomEffect, private CheckedEffect<Effect> {
+class CustomEffectOf final : public CustomObjectEffect, private CheckedEffect<Effect> {
  public:
-  CustomEffectOf()
-      : CustomEffect(Effect::kName, Effect::kKey, Effect::kCost, rows(), kHooks<Effect>) {
+  CustomEffectOf() : CustomObjectEffect(std::type_identity<Effect>{}) {
     static_assert(!AlwaysThere<Effect>, "a program's effect is there where a scene declares it");
   }
 
+  [[nodiscard]] EffectHookSet hooks() const noexcept override { return kHooks<Effect>; }
   [[nodiscard]] std::unique_ptr<CustomEffectState> make(
       std::span<const double> values) const override {
-    typename Effect::Parameters parameters{};
-    for (std::size_t i = 0; i < Effect::kParameters.size(); ++i)
-      parameters.*Effect::kParameters[i].field = values[i];
-    return std::make_unique<CustomEffectStateOf<Effect>>(parameters);
+    return std::make_unique<CustomEffectStateOf<Effect>>(parameters_of<Effect>(values));
   }
+};
 
- private:
-  static std::vector<CustomParameter> rows() {
-    std::vector<CustomParameter> rows;
-    for (const auto& row : Effect::kParameters)
-      rows.push_back({std::string(row.key), std::string(row.unit), row.minimum, row.maximum,
-                      row.default_value, std::string(row.help)});
-    return rows;
-  }
+/// The description of a class: for effects of regions see region_custom.hpp.
+template <class Effect>
+struct CustomDescription {
+  using Type = CustomEffectOf<Effect>;
 };
 
 /// The effects, ready for load_scene_file().
 template <class... Effects>
 [[nodiscard]] CustomEffects custom_effects() {
-  return {std::make_shared<const CustomEffectOf<Effects>>()...};
+  return {std::make_shared<const typename CustomDescription<Effects>::Type>()...};
 }
 
 }  // namespace reckon::haptics

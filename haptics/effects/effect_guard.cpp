@@ -3,7 +3,6 @@
 #include "reckon/haptics/effects/effect_guard.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -57,36 +56,12 @@ bool agree(const Sample& near, const Sample& far, double step, double stiffness)
 
 }  // namespace
 
-/// Measures one call of the effect's code.
-class GuardedEffect::Timing {
- public:
-  explicit Timing(const GuardedEffect& guarded) noexcept
-      : guarded_(guarded), begun_(std::chrono::steady_clock::now()) {}
-  Timing(const Timing&) = delete;
-  Timing& operator=(const Timing&) = delete;
-  ~Timing() {
-    const std::int64_t took =
-        std::chrono::nanoseconds(std::chrono::steady_clock::now() - begun_).count();
-    GuardReport& report = *guarded_.report_;
-    if (took > report.slowest.load(memory_order_relaxed))
-      report.slowest.store(took, memory_order_relaxed);
-    if (++guarded_.calls_ > kCalls) guarded_.calls_ = guarded_.slow_ = 0;
-    if (took > kSlow) ++guarded_.slow_;
-  }
-
- private:
-  const GuardedEffect& guarded_;
-  std::chrono::steady_clock::time_point begun_;
-};
-
 GuardedEffect::GuardedEffect(const DeclaredCustomEffect& declared, const std::string& object)
     : effect_(declared.effect),
       values_(std::make_shared<const std::vector<double>>(declared.values)),
-      report_(std::make_shared<GuardReport>()),
       state_(effect_->make(declared.values)),
-      damping_(state_->damping()) {
-  report_->key = effect_->key();
-  report_->object = object;
+      damping_(state_->damping()),
+      guard_(effect_->key(), object) {
   if (!within(damping_, kMostDamping))
     throw std::invalid_argument(effect_->key() + " reserves a damping of " +
                                 std::to_string(damping_) + " N s/m: give 0 to 10000");
@@ -97,11 +72,10 @@ GuardedEffect::GuardedEffect(const DeclaredCustomEffect& declared, const std::st
 GuardedEffect::GuardedEffect(const GuardedEffect& other)
     : effect_(other.effect_),
       values_(other.values_),
-      report_(other.report_),
       state_(other.state_->copy()),
       damping_(other.damping_),
-      held_(other.held_),
-      off_(other.off_) {}
+      guard_(other.guard_),
+      held_(other.held_) {}
 
 // What was found of the code stays found when a contact starts anew.
 GuardedEffect& GuardedEffect::operator=(const GuardedEffect& other) {
@@ -109,21 +83,14 @@ GuardedEffect& GuardedEffect::operator=(const GuardedEffect& other) {
   if (effect_ != other.effect_) return *this = GuardedEffect(other);
   state_->assign(*other.state_);
   values_ = other.values_;
-  report_ = other.report_;
+  guard_ = other.guard_;
   damping_ = other.damping_;
   return *this;
 }
 
-// Asked where an effect's answers begin to count, so that its force and its energy go together.
-bool GuardedEffect::is_off() const noexcept {
-  if (off_ || slow_ < kSlowCalls) return off_;
-  report_->switched_off.store(true, memory_order_relaxed);
-  return off_ = true;
-}
-
 void GuardedEffect::hold_spring() const noexcept {
   held_ = true;
-  report_->not_booked.store(true, memory_order_relaxed);
+  guard_.report().not_booked.store(true, memory_order_relaxed);
 }
 
 bool GuardedEffect::is_potential_up_to(double depth) const noexcept {
@@ -158,50 +125,34 @@ bool GuardedEffect::is_potential_about(const Vector3d& scp, const Vector3d& devi
   return agree(before, now, step, stiffness) && agree(now, after, step, stiffness);
 }
 
-Vector3d GuardedEffect::bounded(const Vector3d& force) const noexcept {
-  if (!force.allFinite()) {
-    report_->not_finite.fetch_add(1, memory_order_relaxed);
-    return Vector3d::Zero();
-  }
-  const double size = force.stableNorm();
-  if (!(size > kMostForce)) return force;
-  report_->too_strong.fetch_add(1, memory_order_relaxed);
-  return kMostForce * force.stableNormalized();
-}
-
 // The contact point follows the cone, so that a coefficient which is no number would lose it.
 void GuardedEffect::mend_cone() noexcept {
   FrictionCone* cone = state_->cone();
   if (cone == nullptr) return;
   const double at_rest = cone->at_rest(), kinetic = cone->kinetic();
   if (within(at_rest, kMostFriction) && within(kinetic, at_rest)) return;
-  report_->not_finite.fetch_add(1, memory_order_relaxed);
+  guard_.report().not_finite.fetch_add(1, memory_order_relaxed);
   cone->adjust(0.0, 0.0);
 }
 
 void GuardedEffect::follow(const SlidingPlace& place) noexcept {
-  if (is_off()) return;
-  {
-    const Timing timing(*this);
-    state_->follow(place);
-  }
+  if (guard_.is_off()) return;
+  guard_.timed([&] { state_->follow(place); });
   mend_cone();
 }
 
 Vector3d GuardedEffect::spring_force(const Vector3d& scp, const Vector3d& device) const noexcept {
-  if (is_off() || !books()) return Vector3d::Zero();
-  const Timing timing(*this);
-  if (!is_potential_about(scp, device)) {
+  if (guard_.is_off() || !books()) return Vector3d::Zero();
+  return guard_.timed([&]() -> Vector3d {
+    if (is_potential_about(scp, device)) return state_->spring_force(scp, device);
     hold_spring();
     return Vector3d::Zero();
-  }
-  return state_->spring_force(scp, device);
+  });
 }
 
 double GuardedEffect::stored_energy(const Vector3d& scp, const Vector3d& device) const noexcept {
   if (!books()) return 0.0;
-  const Timing timing(*this);
-  return std::max(0.0, state_->stored_energy(scp, device));
+  return guard_.timed([&] { return std::max(0.0, state_->stored_energy(scp, device)); });
 }
 
 // Asked of a plan too, which many threads read: it changes nothing. Its time counts in
@@ -213,14 +164,13 @@ double GuardedEffect::stiffness() const noexcept {
 }
 
 Vector3d GuardedEffect::force(const EffectContact& contact) noexcept {
-  if (is_off()) return Vector3d::Zero();
+  if (guard_.is_off()) return Vector3d::Zero();
   Vector3d total = Vector3d::Zero();
-  {
-    const Timing timing(*this);
-    total += bounded(state_->force(contact));
+  guard_.timed([&] {
+    total += guard_.bounded(state_->force(contact));
     if (held_ && contact.in_contact)
-      total += bounded(state_->spring_force(contact.scp, contact.device));
-  }
+      total += guard_.bounded(state_->spring_force(contact.scp, contact.device));
+  });
   mend_cone();
   return total;
 }

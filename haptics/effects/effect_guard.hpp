@@ -5,48 +5,32 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <atomic>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "reckon/haptics/effects/call_guard.hpp"
 #include "reckon/haptics/effects/effect_custom.hpp"
 
 namespace reckon::haptics {
 
-/// What was seen of a custom effect on one object. Servo threads write it, any thread reads it.
-struct GuardReport {
-  std::string key;                           ///< of the effect
-  std::string object;                        ///< on which it is declared
-  std::atomic<std::uint64_t> not_finite{0};  ///< answers that were no numbers, and are left out
-  std::atomic<std::uint64_t> too_strong{0};  ///< forces above GuardedEffect::kMostForce, cut to it
-  std::atomic<bool> not_booked{false};       ///< its spring is held, see GuardedEffect
-  std::atomic<bool> switched_off{false};     ///< it took too long
-  std::atomic<std::int64_t> slowest{0};      ///< longest call [ns]
-};
-
 /// Runs a custom effect and checks it in each step:
 ///
-/// - An answer that is no number counts as zero. A force is cut to kMostForce.
+/// - An answer that is no number counts as zero. A force is cut to CallGuard::kMostForce.
 /// - A spring is booked as long as it is what StoresEnergy asks for: a function of |device - scp|
 ///   that falls with it, whose gradient is its force and whose curvature is at most stiffness(). It
 ///   is tried at many depths when it is made, and about the present depth in each step. If it fails
 ///   once, its force is a held one from then on, which the energy port bounds without knowing it.
-/// - An effect of which kSlowCalls calls among kCalls took longer than kSlow is switched off. This
-///   is the one place of the servo that reads a clock.
+/// - An effect that is often slow is switched off, see CallGuard.
 ///
 /// A copy has its own state and shares the report. Assignment between copies of one effect does not
 /// allocate.
 class GuardedEffect {
  public:
-  static constexpr double kMostForce = 100.0;     ///< [N]
-  static constexpr double kMostStiffness = 1e6;   ///< [N/m]
-  static constexpr double kMostDamping = 1e4;     ///< [N s/m]
-  static constexpr double kMostDepth = 0.05;      ///< [m], to which a spring is tried
-  static constexpr std::int64_t kSlow = 250'000;  ///< [ns]
-  static constexpr std::uint32_t kSlowCalls = 3;
-  static constexpr std::uint32_t kCalls = 1000;
+  static constexpr double kMostStiffness = 1e6;  ///< [N/m]
+  static constexpr double kMostDamping = 1e4;    ///< [N s/m]
+  static constexpr double kMostDepth = 0.05;     ///< [m], to which a spring is tried
 
   /// @param object its name, for the report
   /// @throws std::invalid_argument when the effect refuses its values, or reserves a damping that
@@ -65,9 +49,11 @@ class GuardedEffect {
     hooks.gives |= hooks.stores;
     return hooks;
   }
-  [[nodiscard]] const CustomEffect& effect() const noexcept { return *effect_; }
+  [[nodiscard]] const CustomObjectEffect& effect() const noexcept { return *effect_; }
   [[nodiscard]] std::span<const double> values() const noexcept { return *values_; }
-  [[nodiscard]] const std::shared_ptr<GuardReport>& report() const noexcept { return report_; }
+  [[nodiscard]] const std::shared_ptr<GuardReport>& report() const noexcept {
+    return guard_.shared_report();
+  }
 
   /// Hook; only if hooks().holds.
   [[nodiscard]] FrictionCone& cone() noexcept { return *state_->cone(); }
@@ -87,24 +73,22 @@ class GuardedEffect {
   [[nodiscard]] double damping() const noexcept { return damping_; }
 
  private:
-  class Timing;
   [[nodiscard]] bool is_potential_up_to(double depth) const noexcept;
   [[nodiscard]] bool is_potential_about(const Eigen::Vector3d& scp,
                                         const Eigen::Vector3d& device) const noexcept;
-  [[nodiscard]] Eigen::Vector3d bounded(const Eigen::Vector3d& force) const noexcept;
-  [[nodiscard]] bool books() const noexcept { return effect_->hooks().stores && !held_ && !off_; }
-  [[nodiscard]] bool is_off() const noexcept;
+  [[nodiscard]] bool books() const noexcept {
+    return effect_->hooks().stores && !held_ && !guard_.was_off();
+  }
   void hold_spring() const noexcept;
   void mend_cone() noexcept;
 
-  std::shared_ptr<const CustomEffect> effect_;
+  std::shared_ptr<const CustomObjectEffect> effect_;
   std::shared_ptr<const std::vector<double>> values_;
-  std::shared_ptr<GuardReport> report_;
   std::unique_ptr<CustomEffectState> state_;
   double damping_ = 0.0;
   // Found while hooks that change nothing of the effect run.
-  mutable bool held_ = false, off_ = false;
-  mutable std::uint32_t calls_ = 0, slow_ = 0;
+  mutable CallGuard guard_;
+  mutable bool held_ = false;
 };
 
 }  // namespace reckon::haptics

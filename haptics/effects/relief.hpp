@@ -22,7 +22,7 @@ namespace reckon::haptics {
 
 /// A picture laid over the object's x-y plane, seen from +z, and repeated without end.
 struct ReliefPicture {
-  std::filesystem::path file;  ///< PNG; empty: random ground by `seed`
+  std::filesystem::path file;  ///< PNG or PGM; empty: random ground by `seed`
   double width = 0.02;         ///< [m], of the picture along the object's x axis
   double height = 1e-4;        ///< [m], from black to white
   double seed = 1.0;           ///< of the random ground
@@ -39,7 +39,7 @@ class Relief : public CountedEffect<Relief> {
   static constexpr std::string_view kKey = "relief";
   static constexpr std::string_view kCost = "sixteen heights of the picture";
   static constexpr EffectFile kFile{
-      "file", "PNG picture beside the scene file, white is high; random ground if absent."};
+      "file", "PNG or PGM beside the scene file, white is high; random ground if absent."};
   static constexpr std::array<EffectParameter<ReliefPicture>, 3> kParameters{{
       {"width", "m", &ReliefPicture::width, 1e-4, 10.0, 0.02,
        "Of the picture along the object's x axis, where it begins anew; lower feels finer."},

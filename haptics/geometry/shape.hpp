@@ -84,7 +84,17 @@ struct MeshShape {
   bool centre = false;    ///< moves the centre of the bounding box to the object's origin
 };
 
+/// A solid block whose upper side has the heights of a picture, seen from +z with its top towards
+/// +y. The origin lies in the middle of the rectangle, at the height of black.
+struct HeightsShape {
+  std::filesystem::path file;  ///< PNG or PGM, as for MeshShape
+  double width = 0.1;          ///< along x, between the outermost columns [m], 1e-4 to 1e3
+  double length = 0.0;         ///< along y [m], to 1e3; 0: pixels are squares
+  double height = 0.01;        ///< of white above black [m], 0 to 1e3
+  double base = 0.01;          ///< of black above the bottom [m], 1e-4 to 1e3
+};
+
 using Shape = std::variant<PlaneShape, SphereShape, BoxShape, MeshShape, CylinderShape, ConeShape,
-                           TorusShape, EllipsoidShape, CsgShape>;
+                           TorusShape, EllipsoidShape, CsgShape, HeightsShape>;
 
 }  // namespace reckon::haptics

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,12 @@ class SurfaceMesh {
   /// @throws std::runtime_error naming the file, the line if there is one, and the remedy: not
   /// readable, no usable triangle, a vertex that is not finite, a corner that does not exist.
   [[nodiscard]] static SurfaceMesh load(const MeshShape& shape);
+
+  /// The solid of a picture, see HeightsShape. Its triangles are named "top", "side" and "bottom".
+  /// @throws std::invalid_argument naming the file or the length, and the remedy
+  /// @param most_pixels a picture of more is thinned, for drawing
+  [[nodiscard]] static SurfaceMesh load_heights(
+      const HeightsShape& shape, std::size_t most_pixels = std::numeric_limits<std::size_t>::max());
 
   /// Builds from indexed triangles [m]. Equal positions are welded, degenerate and repeated
   /// triangles dropped. Neighbours are turned to face the same side, and closed pieces outwards.

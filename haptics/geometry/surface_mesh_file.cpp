@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a mesh file to a SurfaceMesh: polygons cut, scaled, centred.
+// From a file to a SurfaceMesh: of a mesh, polygons cut, scaled, centred; of a picture, a solid.
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "reckon/haptics/geometry/height_field.hpp"
 #include "reckon/haptics/geometry/mesh_repair.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 #include "reckon/haptics/mesh_files/mesh_file.hpp"
@@ -71,6 +72,14 @@ SurfaceMesh SurfaceMesh::load(const MeshShape& shape) {
   } catch (const std::runtime_error& error) {
     throw mesh_error(shape, error.what());
   }
+}
+
+SurfaceMesh SurfaceMesh::load_heights(const HeightsShape& shape, std::size_t most_pixels) {
+  TriangleSoup soup = solid_of(shape, thinned(heights_of(shape), most_pixels));
+  MeshReport report;
+  report.place_word = "face";
+  report.faces = soup.triangles.size();
+  return {std::move(soup), std::move(report)};
 }
 
 }  // namespace reckon::haptics

@@ -5,8 +5,13 @@
 #include <png.h>
 
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+
+#include "reckon/haptics/image_files/pgm_reader.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -18,32 +23,25 @@ struct PngImage {
   PngImage(const PngImage&) = delete;
   PngImage& operator=(const PngImage&) = delete;
   ~PngImage() { png_image_free(&png); }
+
+  [[noreturn]] void refuse() const {
+    throw std::invalid_argument(std::string("is no PNG picture that can be read (") + png.message +
+                                "); write it again");
+  }
 };
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-  throw std::invalid_argument(file.string() + ": " + why);
-}
-
-}  // namespace
-
-GreyImage read_image(const std::filesystem::path& file) {
+GreyImage read_png(std::string_view bytes) {
   PngImage image;
-  const auto fault = [&] {
-    return std::string("is no PNG picture that can be read (") + image.png.message + ")";
-  };
-  if (png_image_begin_read_from_file(&image.png, file.c_str()) == 0) refuse(file, fault());
+  if (png_image_begin_read_from_memory(&image.png, bytes.data(), bytes.size()) == 0) image.refuse();
   const std::size_t width = image.png.width, height = image.png.height;
-  if (width < kLeastPixels || height < kLeastPixels || width > kMostPixels || height > kMostPixels)
-    refuse(file, "has " + std::to_string(width) + " x " + std::to_string(height) +
-                     " pixels: give 4 to 4096 along each edge");
+  check_pixels(width, height);
   // 8 bits are brightness as stored, without the gamma of a screen: a height is no light.
   const bool deep = (image.png.format & PNG_FORMAT_FLAG_LINEAR) != 0;
   image.png.format = deep ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_GRAY;
   GreyImage out{width, height, std::vector<float>(width * height)};
   const png_color black{0, 0, 0};
   const auto read = [&](auto& pixels, float white) {
-    if (png_image_finish_read(&image.png, &black, pixels.data(), 0, nullptr) == 0)
-      refuse(file, fault());
+    if (png_image_finish_read(&image.png, &black, pixels.data(), 0, nullptr) == 0) image.refuse();
     for (std::size_t i = 0; i < pixels.size(); ++i)
       out.pixels[i] = static_cast<float>(pixels[i]) / white;
   };
@@ -55,6 +53,42 @@ GreyImage read_image(const std::filesystem::path& file) {
     read(pixels, 255.0F);
   }
   return out;
+}
+
+std::string read_octets(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw std::invalid_argument("is no file; give the path relative to the scene file");
+  if (std::filesystem::file_size(file, error) > kMostImageOctets)
+    throw std::invalid_argument("is larger than 192 MiB; give a picture of at most 4096 x 4096");
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw std::invalid_argument("cannot be read; see that you may open it");
+  return bytes;
+}
+
+}  // namespace
+
+void check_pixels(std::size_t width, std::size_t height) {
+  if (width >= kLeastPixels && height >= kLeastPixels && width <= kMostPixels &&
+      height <= kMostPixels)
+    return;
+  throw std::invalid_argument("has " + std::to_string(width) + " x " + std::to_string(height) +
+                              " pixels: give 4 to 4096 along each edge");
+}
+
+GreyImage decode_image(std::string_view bytes) {
+  if (is_pgm(bytes)) return read_pgm(bytes);
+  if (bytes.starts_with("\x89PNG")) return read_png(bytes);
+  throw std::invalid_argument("is neither a PNG picture nor a PGM one (P2, P5); give one of them");
+}
+
+GreyImage read_image(const std::filesystem::path& file) {
+  try {
+    return decode_image(read_octets(file));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
 }
 
 }  // namespace reckon::haptics

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace reckon::haptics {
@@ -17,8 +18,18 @@ struct GreyImage {
 
 inline constexpr std::size_t kLeastPixels = 4;    ///< along each edge
 inline constexpr std::size_t kMostPixels = 4096;  ///< along each edge
+/// A file is read up to here [octets]: more than any picture of kMostPixels needs.
+inline constexpr std::size_t kMostImageOctets = 192 << 20;
 
-/// A PNG file of any depth and colour; what is transparent is black.
+/// @throws std::invalid_argument for a picture that is too small or too large
+void check_pixels(std::size_t width, std::size_t height);
+
+/// The octets of a PNG file of any depth and colour, or of a PGM file (P2 or P5) of 8 or 16 bits,
+/// told apart by how they begin. What is transparent is black.
+/// @throws std::invalid_argument with the fault and the remedy
+[[nodiscard]] GreyImage decode_image(std::string_view bytes);
+
+/// The same from a file.
 /// @throws std::invalid_argument naming the file, the fault and the remedy
 [[nodiscard]] GreyImage read_image(const std::filesystem::path& file);
 

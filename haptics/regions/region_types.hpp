@@ -15,6 +15,7 @@
 #include "reckon/haptics/regions/dry_friction.hpp"
 #include "reckon/haptics/regions/oscillation.hpp"
 #include "reckon/haptics/regions/point_spring.hpp"
+#include "reckon/haptics/regions/region_guard.hpp"
 #include "reckon/haptics/regions/region_hooks.hpp"
 #include "reckon/haptics/regions/viscosity.hpp"
 
@@ -41,6 +42,6 @@ static_assert(
 /// The effects that a scene declares for a region.
 using DeclaredRegionEffects = EffectDeclarations<RegionTypes>;
 /// The effects of a region, ready to run; a copy has its own state.
-using PlannedRegionEffects = EffectSet<RegionTypes>;
+using PlannedRegionEffects = EffectSet<RegionTypes, GuardedRegionEffect>;
 
 }  // namespace reckon::haptics

@@ -90,6 +90,8 @@ ContactShape make_shape(const Shape& shape) {
           return Block(s);
         } else if constexpr (std::is_same_v<S, MeshShape>) {
           return std::make_shared<const SurfaceMesh>(SurfaceMesh::load(s));
+        } else if constexpr (std::is_same_v<S, HeightsShape>) {
+          return std::make_shared<const SurfaceMesh>(SurfaceMesh::load_heights(s));
         } else {
           return std::make_shared<const ImplicitSolid>(s);
         }
@@ -119,7 +121,7 @@ Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
 
 template <class Effect>
 std::string_view key_of(const Effect& effect) noexcept {
-  if constexpr (std::is_same_v<Effect, GuardedEffect>) {
+  if constexpr (IsGuarded<Effect>) {
     return effect.effect().key();
   } else {
     return Effect::kKey;
@@ -185,19 +187,23 @@ PlannedObject plan_object(const SceneObject& object) {
     planned.patches = plan_patches(object, **mesh);
     if (planned.patches) hold_for(*planned.patches, planned.effects);
   } else if (!object.patches.empty()) {
-    throw std::invalid_argument("only a mesh has patches; take them out");
+    throw std::invalid_argument("only a mesh or a picture has patches; take them out");
   }
   planned.bounds = place_bounds(planned);
   return planned;
 }
 
+PlannedRegionEffects plan_effects(const SceneRegion& region) {
+  PlannedRegionEffects effects(region.effects);
+  for (const DeclaredCustomRegionEffect& declared : region.custom_effects)
+    effects.add(GuardedRegionEffect(declared, region.name));
+  return effects;
+}
+
 PlannedRegion plan_region(const SceneRegion& region) {
   const Eigen::Quaterniond orientation = checked_orientation(region.pose);
-  PlannedRegion planned{region.name,
-                        {},
-                        orientation.toRotationMatrix(),
-                        region.pose.position,
-                        PlannedRegionEffects(region.effects)};
+  PlannedRegion planned{
+      region.name, {}, orientation.toRotationMatrix(), region.pose.position, plan_effects(region)};
   if (!region.shape) {
     if (region.effects.find<BorderSpring>() != nullptr)
       throw std::invalid_argument("what is everywhere has no border; give it a shape");
@@ -220,6 +226,15 @@ bool acts_from_afar(const PlannedEffects& effects) {
   effects.for_each([&](const auto& effect) {
     const EffectHookSet hooks = hooks_of(effect);
     acts |= hooks.gives && !hooks.in_contact_only;
+  });
+  return acts;
+}
+
+bool acts_outside(const PlannedRegionEffects& effects) {
+  bool acts = effects.find<BorderSpring>() != nullptr;
+  effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (std::is_same_v<Effect, GuardedRegionEffect>)
+      acts |= !effect.effect().hooks().inside_only;
   });
   return acts;
 }
@@ -281,8 +296,7 @@ void EffectPlan::plant_tree() {
 bool EffectPlan::has_within(const Eigen::Vector3d& at, double reach) const noexcept {
   bool found = std::ranges::any_of(regions_, [&](const PlannedRegion& region) {
     const Eigen::Vector3d place = region.orientation.transpose() * (at - region.position);
-    const bool acts_outside = region.effects.find<BorderSpring>() != nullptr;
-    return acts_outside || region.beyond(place).norm() <= reach;
+    return region.beyond(place).norm() <= reach || acts_outside(region.effects);
   });
   const Eigen::Vector3d room = Eigen::Vector3d::Constant(reach);
   visit_near({at - room, at + room}, [&](std::uint32_t index) {
@@ -303,11 +317,11 @@ double EffectPlan::max_stiffness() const noexcept {
 
 std::vector<std::shared_ptr<const GuardReport>> EffectPlan::custom_effects() const {
   std::vector<std::shared_ptr<const GuardReport>> reports;
-  for (const PlannedObject& object : objects_) {
-    object.effects.for_each([&]<class Effect>(const Effect& effect) {
-      if constexpr (std::is_same_v<Effect, GuardedEffect>) reports.push_back(effect.report());
-    });
-  }
+  const auto note = [&]<class Effect>(const Effect& effect) {
+    if constexpr (IsGuarded<Effect>) reports.push_back(effect.report());
+  };
+  for (const PlannedObject& object : objects_) object.effects.for_each(note);
+  for (const PlannedRegion& region : regions_) region.effects.for_each(note);
   return reports;
 }
 

@@ -50,7 +50,9 @@ PlanStage effect_stage(const std::string& object, const Effect& effect) {
   return stage;
 }
 
-PlanStage effect_stage(const std::string& object, const GuardedEffect& guarded) {
+template <class Guarded>
+requires IsGuarded<Guarded> PlanStage effect_stage(const std::string& object,
+                                                   const Guarded& guarded) {
   const CustomEffect& effect = guarded.effect();
   PlanStage stage{effect.name(), object, {}, effect.cost()};
   for (std::size_t i = 0; i < effect.parameters().size(); ++i) {

@@ -56,6 +56,8 @@ struct SceneRegion {
   std::optional<Shape> shape;  ///< a plane (below it), sphere or box; none: everywhere
   ObjectPose pose;
   DeclaredRegionEffects effects;
+  /// Those of the program, in the order of their keys.
+  std::vector<DeclaredCustomRegionEffect> custom_effects{};
 };
 
 struct Scene {

@@ -10,7 +10,6 @@
 namespace reckon::peer {
 namespace {
 
-using haptics::GuardedEffect;
 using haptics::GuardReport;
 
 struct Fault {
@@ -24,12 +23,12 @@ constexpr Fault kFaults[]{
     {[](const GuardReport& report) { return report.too_strong.load() > 0; },
      "the effect {} of {} gives forces above 100 N: they are cut to that"},
     {[](const GuardReport& report) { return report.not_booked.load(); },
-     "the spring of the effect {} of {} is no function of the depth with the energy and the "
+     "the spring of the effect {} of {} is no function of depth or place with the energy and the "
      "stiffness that it states: it is held for each sample and felt as far as energy is there"},
     {[](const GuardReport& report) { return report.switched_off.load(); },
      "the effect {} of {} is switched off: it took up to {:.1f} ms of a servo step"},
 };
-static_assert(GuardedEffect::kMostForce == 100.0, "as the sentence says");
+static_assert(haptics::CallGuard::kMostForce == 100.0, "as the sentence says");
 
 }  // namespace
 

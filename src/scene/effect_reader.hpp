@@ -3,13 +3,17 @@
 // Reads the tables of effects by their own tables of parameters. Private to the scene reader.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "reckon/haptics/effects/effect_declarations.hpp"
 #include "reckon/haptics/effects/effect_guard.hpp"
+#include "reckon/haptics/regions/region_guard.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
 
 namespace reckon::peer {
@@ -26,20 +30,24 @@ void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Para
   }
 }
 
-/// All effects of the program that an object declares.
-inline void read_custom_effects(TomlReader& owner, haptics::SceneObject& object) {
-  for (const auto& effect : owner.custom_effects()) {
-    auto table = owner.table(effect->key());
+/// All effects of the program that an object or a region declares.
+/// @tparam Guarded tries one  @tparam Declared its kind and values
+template <class Guarded, class Declared>
+void read_custom_effects(TomlReader& owner, const std::string& name, std::vector<Declared>& out) {
+  using Kind = typename decltype(Declared::effect)::element_type;
+  for (const auto& any : owner.custom_effects()) {
+    const auto effect = std::dynamic_pointer_cast<Kind>(any);
+    auto table = effect ? owner.table(effect->key()) : std::nullopt;
     if (!table) continue;
     std::vector<double> values;
     for (const haptics::CustomParameter& row : effect->parameters())
       table->number(row.key, values.emplace_back(row.default_value));
     try {
-      (void)haptics::GuardedEffect({effect, values}, object.name);  // checks beyond single rows
+      (void)Guarded({effect, values}, name);  // checks beyond single rows
     } catch (const std::invalid_argument& error) {
       owner.problem(effect->key(), error.what());
     }
-    object.custom_effects.push_back({effect, std::move(values)});
+    out.push_back({effect, std::move(values)});
   }
 }
 

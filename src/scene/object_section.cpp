@@ -32,13 +32,16 @@ void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
 }
 
 void check_shape(TomlReader& table, const haptics::Shape& shape) {
-  (void)only_one(
-      table, {"mesh", "plane", "sphere", "box", "cylinder", "cone", "torus", "ellipsoid", "part"},
-      "the shape");
-  for (const char* key : {"scale_to", "centre", "patch"}) {
+  (void)only_one(table,
+                 {"mesh", "heights", "plane", "sphere", "box", "cylinder", "cone", "torus",
+                  "ellipsoid", "part"},
+                 "the shape");
+  for (const char* key : {"scale_to", "centre"}) {
     if (!table.has(key) || table.has("mesh")) continue;
     table.problem(key, fmt::format("only a mesh takes '{}'; this object has none", key));
   }
+  if (table.has("patch") && !table.has("mesh") && !table.has("heights"))
+    table.problem("patch", "only 'mesh' and 'heights' take 'patch'; this object has neither");
   const auto* box = std::get_if<haptics::BoxShape>(&shape);
   if (box != nullptr && box->size.minCoeff() <= 0) {
     table.problem("box", "'box' has an edge that is not longer than 0 m");
@@ -66,7 +69,7 @@ void check_object(TomlReader& table, haptics::SceneObject& object) {
   check_solid(table, object);
   object.pose.orientation = read_orientation(table);
   read_effects(table, object.effects);
-  read_custom_effects(table, object);
+  read_custom_effects<haptics::GuardedEffect>(table, object.name, object.custom_effects);
   read_patches(table, object);
 }
 
@@ -102,6 +105,8 @@ Section<haptics::SceneObject> object_section() {
                               {"name", &Object::name, "required; unlike all others"},
                               {"mesh", of_shape(&haptics::MeshShape::file),
                                "an OBJ, PLY, STL or OFF file beside the scene file"},
+                              {"heights", as_shape<haptics::HeightsShape>(), heights_section(),
+                               "a block whose upper side is a picture, its middle the origin"},
                           },
                           check_object,
                           add_effects};
@@ -125,7 +130,8 @@ Section<haptics::SceneObject> object_section() {
       {"restitution", in(&Object::matter, &haptics::Matter::restitution), within("", 0, 1),
        "how much of its speed a body keeps in a hit; of a pair, the greater one"},
       {"patch", patches, patch_section(),
-       "mesh: the faces of a material or group with other properties"},
+       "mesh: the faces of a material or group with other properties; heights: top, side or "
+       "bottom"},
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;

@@ -27,7 +27,7 @@ auto of_region_shape(T S::*member) {
 }
 
 bool declares_any(const SceneRegion& region) {
-  bool any = false;
+  bool any = !region.custom_effects.empty();
   region.effects.for_each([&](const auto&) { any = true; });
   return any;
 }
@@ -46,12 +46,15 @@ void check_region(TomlReader& table, SceneRegion& region) {
   }
   region.pose.orientation = read_orientation(table);
   read_effects(table, region.effects);
+  read_custom_effects<haptics::GuardedRegionEffect>(table, region.name, region.custom_effects);
   if (!shaped && table.has("border"))
     table.problem("border", "what is everywhere has no border: give the region a shape");
   if (!declares_any(region)) {
     std::vector<std::string_view> keys;
     haptics::for_each_region_effect(
         [&]<class Effect>(std::type_identity<Effect>) { keys.push_back(Effect::kKey); });
+    for (const auto& effect : table.custom_effects())
+      if (effect->section() == "region") keys.push_back(effect->key());
     table.problem("name", fmt::format("nothing acts in this region: give it one of {}",
                                       fmt::join(keys, ", ")));
   }

@@ -44,7 +44,8 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
 /// Sorted, so that a scene does not depend on the order in which a program names its effects.
 SceneVocabulary vocabulary_of(const haptics::CustomEffects& effects) {
   SceneVocabulary vocabulary{scene_keys(), effects};
-  std::ranges::sort(vocabulary.effects, {}, [](const auto& effect) { return effect->key(); });
+  std::ranges::stable_sort(vocabulary.effects, {},
+                           [](const auto& effect) { return effect->key(); });
   add_custom_effects(vocabulary.effects, vocabulary.keys);
   return vocabulary;
 }

@@ -74,6 +74,14 @@ void add(Hash& hash, const haptics::MeshShape& mesh) {
   hash.fact("centre", mesh.centre ? "true" : "false");
 }
 
+void add(Hash& hash, const haptics::HeightsShape& heights) {
+  add_content(hash, "heights", heights.file);
+  hash.fact("width", heights.width);
+  hash.fact("length", heights.length);
+  hash.fact("height", heights.height);
+  hash.fact("base", heights.base);
+}
+
 void add(Hash& hash, const haptics::CylinderShape& cylinder) {
   hash.fact("cylinder", cylinder.radius);
   hash.fact("height", cylinder.height);
@@ -130,8 +138,9 @@ void add_effects_of(Hash& hash, const haptics::EffectDeclarations<Types>& effect
 }
 
 /// What an effect does is not known, only what it is called and takes.
-void add_custom_effects_of(Hash& hash, const haptics::SceneObject& object) {
-  for (const haptics::DeclaredCustomEffect& declared : object.custom_effects) {
+template <class ObjectOrRegion>
+void add_custom_effects_of(Hash& hash, const ObjectOrRegion& owner) {
+  for (const auto& declared : owner.custom_effects) {
     hash.fact("custom effect", declared.effect->name());
     for (std::size_t i = 0; i < declared.values.size(); ++i)
       hash.fact(declared.effect->parameters()[i].key, declared.values[i]);
@@ -207,6 +216,7 @@ void add(Hash& hash, const haptics::SceneRegion& region) {
   hash.fact("position", region.pose.position);
   add(hash, region.pose.orientation);
   add_effects_of(hash, region.effects);
+  add_custom_effects_of(hash, region);
 }
 
 }  // namespace

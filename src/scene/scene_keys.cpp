@@ -84,17 +84,19 @@ void add_region_effects(Keys& keys) {
 void add_custom_effects(const haptics::CustomEffects& effects, Keys& keys) {
   for (const auto& effect : effects) {
     const bool taken = std::ranges::any_of(keys, [&](const SceneKey& key) {
-      return key.section == "object" && key.key == effect->key();
+      return key.section == effect->section() && key.key == effect->key();
     });
     if (taken)
       throw std::invalid_argument(
           fmt::format("the key '{}' of the effect {} is taken: give it another kKey", effect->key(),
                       effect->name()));
-    keys.push_back(table("object", effect->key(),
+    const std::string section(effect->section());
+    keys.push_back(table(section, effect->key(),
                          fmt::format("the effect {}; costs {}", effect->name(), effect->cost())));
     for (const haptics::CustomParameter& row : effect->parameters())
-      keys.push_back(number("object." + effect->key(), row.key, row.unit, row.minimum, row.maximum,
-                            format_quantity(row.default_value, row.unit), as_row(row.help)));
+      keys.push_back(number(section + "." + effect->key(), row.key, row.unit, row.minimum,
+                            row.maximum, format_quantity(row.default_value, row.unit),
+                            as_row(row.help)));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "reckon/haptics/geometry/height_field.hpp"
 #include "reckon/haptics/geometry/implicit_solid.hpp"
 
 namespace reckon::peer {
@@ -95,6 +96,27 @@ Section<haptics::CsgPart> part_section() {
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;
+}
+
+Section<haptics::HeightsShape> heights_section() {
+  using Shape = haptics::HeightsShape;
+  return {
+      {{"file", &Shape::file, "required; PNG or PGM of 8 or 16 bits beside the scene file"},
+       {"width", &Shape::width, within("m", 1e-4, 1e3),
+        "along x, between the middles of the outermost pixels"},
+       {"length", &Shape::length, declared("m", 1e-4, 1e3),
+        "along y, likewise; pixels are squares when absent"},
+       {"height", &Shape::height, within("m", 0, 1e3), "of white above black, which is at z = 0"},
+       {"base", &Shape::base, within("m", 1e-4, 1e3), "of black above the flat bottom"}},
+      [](TomlReader& table, Shape& shape) {
+        table.require("file");
+        if (shape.file.empty()) return;
+        try {
+          static_cast<void>(haptics::heights_of(shape));
+        } catch (const std::invalid_argument& error) {
+          table.problem("file", error.what());
+        }
+      }};
 }
 
 void check_solid(TomlReader& table, const haptics::SceneObject& object) {

@@ -31,6 +31,7 @@ auto of_shape(T S::*member) {
 [[nodiscard]] Section<haptics::ConeShape> cone_section();
 [[nodiscard]] Section<haptics::TorusShape> torus_section();
 [[nodiscard]] Section<haptics::CsgPart> part_section();
+[[nodiscard]] Section<haptics::HeightsShape> heights_section();
 
 /// The keys of a shape that objects and parts share.
 template <class Owner>

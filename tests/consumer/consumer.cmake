@@ -6,7 +6,7 @@ cmake_policy(VERSION 3.25)
 set(work ${BUILD}/consumer)
 set(stage ${work}/stage)
 file(REMOVE_RECURSE ${work})
-set(programs decoder peer honey own_names)
+set(programs decoder peer honey fog own_names)
 
 function(do)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words)

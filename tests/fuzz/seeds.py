@@ -13,6 +13,7 @@ import pathlib
 import re
 import struct
 import sys
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_DATAGRAMS = 400  # of each capture, one for each type and length
@@ -175,6 +176,18 @@ def viewer_seeds():
     return [stream, stream + b"".join(frames), b"GET / HTTP/1.1\r\nHost: " + host + b"\r\n\r\n", b"".join(frames), *messages]
 
 
+def image_seeds():
+    """Small pictures: PNG of 8 and 16 bits, grey and in colours, and PGM as text and as octets."""
+    def png(bits, kind, octets_a_row):
+        def chunk(name, content):
+            return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+        rows = b"".join(b"\0" + bytes((31 * (i + row)) % 256 for i in range(octets_a_row)) for row in range(4))
+        return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, bits, kind, 0, 0, 0)) +
+                chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    return [png(8, 0, 4), png(16, 0, 8), png(8, 6, 16), b"P5 4 4 255\n" + bytes(range(16)), b"P5 4 4 65535\n" + bytes(range(32)),
+            b"P2\n# heights\n4 4\n15\n" + b"0 3 12 15 " * 4]
+
+
 def words(paths):
     """Lower-case names in quotes: the words of lists in the sources."""
     text = "".join((ROOT / path).read_text() for path in paths)
@@ -220,6 +233,7 @@ def main(folder):
     write(seeds / "membership", membership_seeds(own))
     write(seeds / "leading", leading_seeds(own))
     write(seeds / "viewer", viewer_seeds())
+    write(seeds / "image", image_seeds())
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/aoim_section.cpp",
                                      "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/object_section.cpp",

@@ -66,7 +66,7 @@ TEST(ShippedScene, IsWhatTheScriptWrites) {
   const std::string command =
       "python3 '" + (scenes() / "make_scene.py").string() + "' '" + out.string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  for (const char* name : {"touchstone.obj", "meeting_1.csv", "meeting_2.csv", "hand_trace.csv",
+  for (const char* name : {"touchstone.obj", "land.pgm", "meeting_1.csv", "meeting_2.csv", "hand_trace.csv",
                            "hand_trace_2.csv", "wall_trace.csv", "tip_track.csv", "truck_track.csv"}) {
     EXPECT_EQ(bytes_of(out / name), bytes_of(scenes() / name)) << name;
   }

@@ -86,6 +86,41 @@ struct Least {
   return {books.least, port.late_cost()};
 }
 
+/// A hand that puts in next to nothing in a region: it strays by microns about `start` [m, S] and
+/// then goes with the force, by the step that takes most out or by any. @return least of the books
+/// [J]
+[[nodiscard]] inline double stray_and_let_go(const EffectPlan& plan, const Vector3d& start,
+                                             Random& random) {
+  EnergyPort port(kDamping);
+  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
+  Vector3d device = start, velocity = Vector3d::Zero();
+  contact.reset(device);
+  Books books;
+  int stray = 0;
+  for (int i = 0; i < 3000; ++i) {
+    PortLoad load;
+    contact.load(velocity, kSample, load);
+    const PortHold held = port.hold(load, kSample);
+    if (held.walls < 1.0) contact.attenuate(held.walls, port);
+    contact.shown(held.extra);
+    Vector3d dx =
+        Vector3d(any(random, -4e-6, 4e-6), any(random, -4e-6, 4e-6), any(random, -4e-6, 4e-6));
+    if (stray-- <= 0) {
+      dx = any(random, 0.2, 1.0) * kSample / kDamping * held.force;
+      if (stray < -30) {
+        stray = static_cast<int>(any(random, 1.0, 60.0));
+        dx = 0.2 * (start - device);
+      }
+    }
+    device += dx;
+    velocity = dx / kSample;
+    books.settle(held.force, dx, kSample);
+    port.settle(dx, kSample);
+    contact.settle(device, kSample, port);
+  }
+  return books.least;
+}
+
 /// A hand that puts in next to nothing: it presses by microns from the very surface and lets go by
 /// the step that takes most out. @param plan its first object is a box of 40 mm  @return least of
 /// the books [J]

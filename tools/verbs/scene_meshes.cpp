@@ -26,6 +26,12 @@ void note_distance(const haptics::PlannedObject& object, std::vector<std::string
       haptics::length_text(distance)));
 }
 
+// The file of a mesh, or of the picture that became one.
+std::string file_of(const haptics::Shape& shape) {
+  const auto* picture = std::get_if<haptics::HeightsShape>(&shape);
+  return (picture != nullptr ? picture->file : std::get<haptics::MeshShape>(shape).file).string();
+}
+
 // Patches with a number: a list of name and triangles.
 void append_patches(std::string& out, const haptics::SurfacePatches* patches) {
   out += '[';
@@ -57,12 +63,12 @@ std::vector<MeshFacts> mesh_facts(const LoadedScene& scene) {
   std::vector<MeshFacts> facts;
   const auto& planned = scene.plan.objects();
   for (std::size_t i = 0; i < planned.size(); ++i) {
-    const auto* shape = std::get_if<haptics::MeshShape>(&scene.file.scene.objects[i].shape);
-    if (shape == nullptr) continue;
+    if (!planned[i].is_mesh()) continue;
     using Mesh = std::shared_ptr<const haptics::SurfaceMesh>;
     const haptics::MeshReport& report = std::get<Mesh>(planned[i].shape)->report();
-    MeshFacts& row = facts.emplace_back(MeshFacts{planned[i].name, shape->file.string(), report,
-                                                  planned[i].patches, haptics::mesh_notes(report)});
+    MeshFacts& row =
+        facts.emplace_back(MeshFacts{planned[i].name, file_of(scene.file.scene.objects[i].shape),
+                                     report, planned[i].patches, haptics::mesh_notes(report)});
     note_distance(planned[i], row.notes);
     if (row.patches == nullptr) continue;
     std::ranges::copy(haptics::patch_notes(*row.patches), std::back_inserter(row.notes));

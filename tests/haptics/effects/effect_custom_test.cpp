@@ -148,7 +148,7 @@ class Sleeper : public OneLevel<Sleeper> {
 
 template <class Effect>
 DeclaredCustomEffect declare(double level) {
-  return {custom_effects<Effect>().front(), {level}};
+  return {std::make_shared<const CustomEffectOf<Effect>>(), {level}};
 }
 
 /// A turned box, with one custom effect at most.
@@ -227,7 +227,7 @@ TEST(CustomEffect, AnswersThatAreNoNumbersCountAsNothingAndAreReported) {
     const std::vector<Vector3d> with = stroke(plan), without = stroke(EffectPlan(box()));
     for (std::size_t i = 0; i < with.size(); ++i) {
       ASSERT_TRUE(with[i].allFinite());
-      ASSERT_LE((with[i] - without[i]).norm(), 1.000001 * GuardedEffect::kMostForce);
+      ASSERT_LE((with[i] - without[i]).norm(), 1.000001 * CallGuard::kMostForce);
     }
     const GuardReport& report = *plan.custom_effects()[0];
     EXPECT_EQ(report.too_strong > 0, strong);
@@ -258,7 +258,7 @@ TEST(CustomEffect, OneThatTakesTooLongIsSwitchedOff) {
   EXPECT_GE(report.slowest, 2'000'000);
   int felt = 0;
   for (std::size_t i = 0; i < with.size(); ++i) felt += with[i] != without[i] ? 1 : 0;
-  EXPECT_LE(felt, static_cast<int>(GuardedEffect::kSlowCalls));
+  EXPECT_LE(felt, static_cast<int>(CallGuard::kSlowCalls));
   EXPECT_EQ(with.back(), without.back());
 }
 

@@ -134,8 +134,9 @@ TEST(ImageFile, ReadsGreyColourAndSixteenBits) {
 TEST(ImageFile, RefusesWhatIsNoPictureWithTheRemedy) {
   const test::ScratchFolder folder;
   EXPECT_THAT(refusal(folder.file("none.png")), testing::HasSubstr("none.png"));
-  std::ofstream(folder.file("text.png")) << "P2 4 4 255";
-  EXPECT_THAT(refusal(folder.file("text.png")), testing::HasSubstr("is no PNG picture"));
+  EXPECT_THAT(refusal(folder.file("")), testing::HasSubstr("is no file; give the path"));
+  std::ofstream(folder.file("text.png")) << "GIF89a";
+  EXPECT_THAT(refusal(folder.file("text.png")), testing::HasSubstr("neither a PNG picture nor"));
   write_png(folder.file("small.png"), 3, 9, PNG_FORMAT_GRAY, std::vector<std::uint8_t>(27));
   EXPECT_THAT(refusal(folder.file("small.png")), testing::HasSubstr("give 4 to 4096"));
   write_png(folder.file("long.png"), 4097, 4, PNG_FORMAT_GRAY, std::vector<std::uint8_t>(4 * 4097));
@@ -143,7 +144,65 @@ TEST(ImageFile, RefusesWhatIsNoPictureWithTheRemedy) {
   // A file that ends early.
   write_png(folder.file("whole.png"), 64, 64, PNG_FORMAT_GRAY, std::vector<std::uint8_t>(4096, 7));
   std::filesystem::resize_file(folder.file("whole.png"), 60);
-  EXPECT_NE(refusal(folder.file("whole.png")), "read");
+  EXPECT_THAT(refusal(folder.file("whole.png")), testing::HasSubstr("is no PNG picture"));
+}
+
+std::string refusal_of(std::string_view bytes) {
+  try {
+    static_cast<void>(decode_image(bytes));
+    return "read";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+TEST(ImageFile, ReadsGreyMapsOfNetpbmAsTextAndAsOctets) {
+  // A fifth, and white, at their places; by hand after pgm(5).
+  const auto check = [](std::string_view bytes) {
+    const GreyImage image = decode_image(bytes);
+    ASSERT_EQ(image.width, 4U);
+    ASSERT_EQ(image.height, 5U);
+    ASSERT_EQ(image.pixels.size(), 20U);
+    EXPECT_NEAR(image.pixels[1], 0.2, 1e-6);
+    EXPECT_EQ(image.pixels[4], 1.0F);
+    for (const std::size_t black : {0U, 2U, 3U, 5U, 19U}) EXPECT_EQ(image.pixels[black], 0.0F);
+  };
+  const std::string rest(15, '\0');
+  check("P2\n4 5\n15\n0 3 0 0\n15 0 0 0\n0 0 0 0\n0 0 0 0 0 0 0 0");
+  check("P2 # of heights\n#\n4#wide\n5\t65535 0 13107 0 0 65535 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
+  check(std::string("P5 4 5 255\n\0\x33\0\0\xff", 16) + rest);
+  check(std::string("P5\n4 5\n65535\n\0\0\x33\x33\0\0\0\0\xff\xff", 23) + rest + rest);
+  check(std::string("P5 4 5 5 \0\1\0\0\5", 14) + rest + "P5 and a second picture");
+
+  // Through the file of an effect, as a scene names it.
+  const test::ScratchFolder folder;
+  std::ofstream(folder.file("steps.pgm")) << "P2 4 4 1 1 0 1 0 0 1 0 1 1 0 1 0 0 1 0 1";
+  EXPECT_NEAR(Relief({folder.file("steps.pgm"), 0.01, 1e-4, 1}).map().at({0.0, 0.0}), 0.0, 1e-6);
+  EXPECT_NEAR(Relief({folder.file("steps.pgm"), 0.01, 1e-4, 1}).map().at({0.25, 0.0}), 1.0, 1e-6);
+}
+
+TEST(ImageFile, RefusesBrokenGreyMapsWithThePlaceAndTakesNoMemoryForMissingPixels) {
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal_of("P5"), HasSubstr("gives no width in its head"));
+  EXPECT_THAT(refusal_of("P2 4"), HasSubstr("gives no height"));
+  EXPECT_THAT(refusal_of("P2 -4 4 1"), HasSubstr("gives no width"));
+  EXPECT_THAT(refusal_of("P2 99999999999 4 1"), HasSubstr("gives no width"));
+  EXPECT_THAT(refusal_of("P5 4 4"), HasSubstr("gives no greatest value"));
+  EXPECT_THAT(refusal_of("P5 3 4 255 "), HasSubstr("3 x 4 pixels: give 4 to 4096"));
+  EXPECT_THAT(refusal_of("P5 4294967295 4294967295 255 "), HasSubstr("give 4 to 4096"));
+  EXPECT_THAT(refusal_of("P5 4 4 0 "), HasSubstr("0 as its greatest value: give 1 to 65535"));
+  EXPECT_THAT(refusal_of("P5 4 4 65536 "), HasSubstr("give 1 to 65535"));
+  EXPECT_THAT(refusal_of("P5 4 4 255"), HasSubstr("no blank after its greatest value"));
+  EXPECT_THAT(refusal_of("P5 4096 4096 65535 ab"), HasSubstr("33554432 octets and 2 are there"));
+  EXPECT_THAT(refusal_of("P5 4 4 255 123456789012345"), HasSubstr("16 octets and 15 are there"));
+  EXPECT_THAT(refusal_of("P5 4 4 9 aaaaaaaaaaaaaaaa"), HasSubstr("row 1, column 1: 97 is above"));
+  EXPECT_THAT(refusal_of("P2 4096 4096 9 1 2"), HasSubstr("ends early"));
+  EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 10 0 0 0 0 0 0 0 0 0"),
+              HasSubstr("row 2, column 3: 10 is above its greatest value 9"));
+  EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 0 0 0 0 0 0 0 0 x 0"),
+              HasSubstr("row 4, column 3: no number"));
+  EXPECT_THAT(refusal_of("P2 4 4 9 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 #"), HasSubstr("no number"));
+  EXPECT_THAT(refusal_of(""), HasSubstr("neither a PNG picture"));
 }
 
 /// A box of 80 mm, turned and moved, with a picture on it.

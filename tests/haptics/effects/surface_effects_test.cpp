@@ -103,7 +103,7 @@ struct Witness : CountedEffect<Witness> {
 TEST_P(SurfaceEffects, TextureIsTheSlopeTimesTheNormalForce) {
   Slab slab(GetParam());
   slab.effects().declare<Texture>() = {4e-5, 0.003, 0.005, 0.0};
-  slab.declare({custom_effects<Witness>().front(), {0.0}});
+  slab.declare({std::make_shared<const CustomEffectOf<Witness>>(), {0.0}});
   const EffectPlan plan = slab.plan();
   ContactSolver solver(plan);
   solver.reset(slab.in_scene({0, 0, 0.03}));

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "reckon/haptics/regions/region_custom.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
@@ -96,6 +97,54 @@ TEST(CustomEffectKeys, AnEffectThatTheProgramLacksIsNamed) {
 TEST(CustomEffectKeys, AKeyThatIsTakenIsRefused) {
   EXPECT_THROW(read("", haptics::custom_effects<Own<3>>()), std::invalid_argument);
   EXPECT_THROW(read("", (haptics::custom_effects<Own<1>, Own<1>>())), std::invalid_argument);
+}
+
+/// Of a region; its key is also that of an effect of objects.
+class Fog : public haptics::CountedEffect<Fog> {
+ public:
+  using Parameters = Values;
+  static constexpr std::string_view kName = "fog", kKey = "honey", kCost = "little";
+  static constexpr std::array<haptics::EffectParameter<Values>, 1> kParameters{
+      {{"strength", "N", &Values::strength, 0.0, 10.0, 1.0, "How much."}}};
+  explicit Fog(const Values& values) : values_(values) {
+    haptics::check_parameters(kParameters, values);
+  }
+  Eigen::Vector3d force(const haptics::RegionPoint&) noexcept { return Eigen::Vector3d::Zero(); }
+  const Values& parameters() const noexcept { return values_; }
+
+ private:
+  Values values_;
+};
+
+SceneFile read_region(const std::string& lines, const CustomEffects& effects) {
+  return parse_scene_file("[[region]]\nname = \"cloud\"\n" + lines, "x.toml", ".", effects);
+}
+
+TEST(CustomEffectKeys, OfRegionsAreTakenThereAlone) {
+  const auto effects = haptics::custom_effects<Own<1>, Own<2>, Fog>();
+  const SceneFile scene = read_region("honey = { strength = \"2 N\" }\n", effects);
+  const auto& declared = scene.scene.regions.at(0).custom_effects;
+  ASSERT_EQ(declared.size(), 1U);
+  EXPECT_EQ(declared[0].effect->name(), "fog");
+  EXPECT_EQ(declared[0].values, std::vector{2.0});
+  EXPECT_EQ(read("honey = {}\n", effects).scene.objects.at(0).custom_effects.at(0).effect->name(),
+            "first");
+  EXPECT_NE(read_region("honey = { strength = 3 }\n", effects).hash, scene.hash);
+  const auto refused = [&](const std::string& lines, const CustomEffects& known) -> std::string {
+    try {
+      static_cast<void>(read_region(lines, known));
+      return "taken";
+    } catch (const SceneFileError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refused("honey = { strength = 11 }\n", effects),
+              HasSubstr("x.toml:3:22: 'strength'"));
+  EXPECT_THAT(refused("resin = {}\n", effects), HasSubstr("'resin'"));
+  EXPECT_THAT(refused("honey = {}\n", haptics::custom_effects<Own<1>>()),
+              HasSubstr("unknown key 'honey'"));
+  EXPECT_THAT(refused("", effects), HasSubstr("border, honey"));
+  EXPECT_THROW(read_region("", (haptics::custom_effects<Fog, Fog>())), std::invalid_argument);
 }
 
 TEST(CustomEffectKeys, CountInTheHashOfTheSceneButNotByTheirOrder) {

@@ -286,6 +286,45 @@ TEST_F(SceneFolder, FindsFilesBesideTheSceneFile) {
   EXPECT_EQ(file.operators.at(0).speed, 2);
 }
 
+TEST_F(SceneFolder, TakesAPictureAsASolidAndItsContentIntoTheHash) {
+  const std::string picture = "P5 4 4 255\n0123456789abcdef";
+  write("land.pgm", picture);
+  const auto scene = [&](const std::string& heights, const std::string& more = "") {
+    return load_scene_file(write(
+        "s.toml",
+        "[[object]]\nname = \"land\"\nheights = { file = \"land.pgm\"" + heights + " }\n" + more));
+  };
+  const SceneFile file =
+      scene(", width = \"8 cm\", height = \"2 cm\"", "patch = [{ name = \"top\" }]\n");
+  const auto& shape = std::get<haptics::HeightsShape>(file.scene.objects.at(0).shape);
+  EXPECT_EQ(shape.file, folder_ / "land.pgm");
+  EXPECT_DOUBLE_EQ(shape.width, 0.08);
+  EXPECT_DOUBLE_EQ(shape.height, 0.02);
+  EXPECT_EQ(shape.length, 0.0);
+  const std::uint64_t hash = scene("").hash;
+  EXPECT_EQ(scene(", width = 0.1, base = \"1 cm\"").hash, hash);
+  for (const char* other : {", width = 0.2", ", length = 0.1", ", height = 0.02", ", base = 0.02"})
+    EXPECT_NE(scene(other).hash, hash) << other;
+  write("land.pgm", picture.substr(0, picture.size() - 1) + "g");
+  EXPECT_NE(scene("").hash, hash);
+
+  const auto refused = [&](const std::string& heights,
+                           const std::string& more = "") -> std::string {
+    try {
+      static_cast<void>(scene(heights, more));
+      return "taken";
+    } catch (const SceneFileError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refused(", width = 0"), HasSubstr("'width' is 0 m"));
+  EXPECT_THAT(refused("", "sphere = 1\n"), HasSubstr("the shape is given twice"));
+  EXPECT_THAT(refused("", "scale_to = 1\n"), HasSubstr("only a mesh takes 'scale_to'"));
+  write("land.pgm", picture.substr(0, picture.size() - 1));
+  EXPECT_THAT(refused(""), HasSubstr("s.toml:3:20: "));
+  EXPECT_THAT(refused(""), HasSubstr("land.pgm: ends early: its pixels need 16 octets"));
+}
+
 TEST_F(SceneFolder, SaysWhichFileIsMissing) {
   try {
     (void)load_scene_file(folder_ / "none.toml");

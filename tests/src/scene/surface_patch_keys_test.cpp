@@ -67,7 +67,7 @@ TEST_F(PatchKeys, ThatCannotBeMeantAreRefusedWithPlaceAndRemedy) {
                            "x.toml");
     FAIL();
   } catch (const SceneFileError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("only a mesh takes 'patch'"));
+    EXPECT_THAT(error.what(), HasSubstr("only 'mesh' and 'heights' take 'patch'"));
   }
 }
 

@@ -123,8 +123,22 @@ struct Drawing {
     for (Eigen::Vector3d& vertex : out.vertices) vertex = vertex.cwiseProduct(solid.semi_axes);
   }
   void operator()(const haptics::MeshShape& shape) const {
+    draw_loaded([&] { return haptics::SurfaceMesh::load(shape); },
+                Eigen::Vector3d::Constant(shape.scale_to));
+  }
+  void operator()(const haptics::HeightsShape& shape) const {
+    // Two triangles a pixel and three for each along the border: not five, however long it is.
+    draw_loaded([&] { return haptics::SurfaceMesh::load_heights(shape, most / 5); },
+                {shape.width, shape.length, shape.height});
+  }
+  void operator()(const haptics::CsgShape&) const {}
+
+ private:
+  /// Its triangles; a box if there are too many, or if it cannot be read.
+  template <class Load>
+  void draw_loaded(Load load, const Eigen::Vector3d& unread) const {
     try {
-      const auto mesh = haptics::SurfaceMesh::load(shape);
+      const haptics::SurfaceMesh mesh = load();
       if (mesh.triangles().size() <= most) {
         if (object != nullptr) draw_patches(*object, mesh, out);
         return draw_mesh(mesh, out);
@@ -133,10 +147,9 @@ struct Drawing {
       out.pose.position += out.pose.orientation * (mesh.origin() + mesh.bounds().center());
     } catch (const std::exception&) {
       // Who runs the scene has said so already.
-      draw_box(Eigen::Vector3d::Constant(shape.scale_to), out);
+      draw_box(unread, out);
     }
   }
-  void operator()(const haptics::CsgShape&) const {}
 };
 
 /// Square of the distance to the nearest corner of this patch [m^2].

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A program with an effect of its own for a region: a simulated hand waves in a ball of fog, for
+// two seconds of simulated time. Exit status 0 when the hand is dragged as the effect says.
+#include "fog.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+
+using namespace reckon;
+using namespace std::chrono_literals;
+
+int main() {
+  const auto scene = peer::parse_scene_file(
+      "[[region]]\n"
+      "name = \"cloud\"\n"
+      "sphere = \"20 cm\"\n"
+      "fog = { thickness = 8 }\n",
+      "cloud.toml", ".", haptics::custom_effects<Fog>());
+  // To and fro by 50 mm once a second.
+  haptics::SimulatedDevice hand({}, [](double t) {
+    haptics::HandTarget target;
+    target.position = {0.05 * std::sin(6.28 * t), 0.0, 0.0};
+    return target;
+  });
+  peer::ManualClock clock(1s, 0s);
+  peer::SimulatedNetwork network({}, clock);
+  peer::Peer peer(scene, {}, network.link(0), hand);
+  peer.start(clock.now());
+  double least = 0.0, most = 0.0;
+  for (int millisecond = 0; millisecond < 2000; ++millisecond, clock.advance(1ms)) {
+    peer.servo_step(clock.now());
+    peer.read_step(clock.now());
+    peer.model_step(clock.now(), clock.utc_now());
+    peer.write_step();
+    const double speed = hand.velocity().x();
+    if (millisecond < 1000 || std::abs(speed) < 0.1) continue;
+    const double drag = -hand.force().x() / (speed * std::abs(speed));
+    least = least == 0.0 ? drag : std::min(least, drag);
+    most = std::max(most, drag);
+  }
+  std::printf("dragged by %.2f to %.2f N s2/m2\n", least, most);
+  return least > 6.0 && most < 10.0 ? 0 : 1;
+}

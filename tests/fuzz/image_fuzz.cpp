@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as a picture: it has the pixels that its head states, each from black to white, or is
+// refused with a sentence. The heap stays within what the largest picture takes.
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+#include "reckon/haptics/image_files/image_file.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+// Pixels as numbers and as octets, and libpng's own.
+constexpr std::size_t kMostHeap = haptics::kMostPixels * haptics::kMostPixels * 12 + (32 << 20);
+
+void check(std::string_view bytes) {
+  const HeapMeter meter;
+  try {
+    const haptics::GreyImage image = haptics::decode_image(bytes);
+    require(image.pixels.size() == image.width * image.height, "pixels are missing");
+    require(std::ranges::all_of(image.pixels, [](float p) { return p >= 0 && p <= 1; }),
+            "a pixel that is neither black nor white nor between them");
+    const bool is_text = bytes.starts_with("P2");
+    require(!bytes.starts_with("P") || image.pixels.size() * (is_text ? 2 : 1) <= bytes.size(),
+            "more pixels than octets");
+  } catch (const std::invalid_argument& error) {
+    require(std::string_view(error.what()).size() > 10, "refused without a sentence");
+    require(!bytes.starts_with("P") || meter.peak() <= 4 * bytes.size() + 4096,
+            "a PGM picture that is refused takes memory for pixels it has not");
+  }
+  require(meter.peak() <= kMostHeap, "more heap than the largest picture takes");
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
