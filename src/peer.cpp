@@ -36,12 +36,10 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
 }
 
 // Bodies need a hand of their peer to move.
-std::shared_ptr<haptics::BodyWorld> make_bodies(const SceneFile& scene,
-                                                std::span<const PeerDevice> devices) {
-  const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
-  if (devices.empty() || std::ranges::none_of(scene.scene.objects, moves)) return nullptr;
-  return std::make_shared<haptics::BodyWorld>(haptics::EffectPlan(scene.scene),
-                                              scene.scene.gravity);
+std::shared_ptr<haptics::BodyWorld> bodies_of(const SceneFile& scene,
+                                              std::span<const PeerDevice> devices) {
+  if (devices.empty()) return nullptr;
+  return haptics::make_bodies(haptics::EffectPlan(scene.scene), scene.scene.gravity);
 }
 
 std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(
@@ -89,7 +87,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
                                     : nullptr),
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
-      bodies_(make_bodies(scene, devices)),
+      bodies_(bodies_of(scene, devices)),
       servos_(make_servos(scene, options, devices, bodies_)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap,

@@ -467,6 +467,10 @@ void BodyWorld::publish() noexcept {
   published_.publish();
 }
 
+std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Vector3d& gravity) {
+  return plan.has_bodies() ? std::make_shared<BodyWorld>(plan, gravity) : nullptr;
+}
+
 std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,
                             const Vector3d& force) noexcept {
   return engine_->push(body, point, force);

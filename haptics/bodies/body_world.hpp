@@ -101,6 +101,10 @@ class BodyWorld {
   TripleBuffer<BodyStates> published_;
 };
 
+/// The world of a plan's bodies; null if it has none. @throws as the constructor
+[[nodiscard]] std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan,
+                                                     const Eigen::Vector3d& gravity);
+
 /// Stiffest spring of a hand that a body of `mass` [kg] can be pushed with at a rate of `period`
 /// [s], so that the force that is held for a period stays right: period sqrt(K / m) <= 0.15, for
 /// the lighter resistance of a body that turns under it (0.4 m).

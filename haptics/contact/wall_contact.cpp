@@ -23,6 +23,7 @@ void WallContact::reset(const Eigen::Vector3d& device) noexcept {
   measure_stiffness();
   gain_ = result_.in_contact ? 0.0 : 1.0;
   fades_in_ = result_.in_contact;
+  lent_ = 0.0;
   force_.setZero();
 }
 

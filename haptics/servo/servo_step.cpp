@@ -66,7 +66,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
     reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
   step_.now = now;
   note_time();
-  if (bodies_) bodies_->advance_to(now);
+  if (bodies_) settle_bodies();
   if (sample(reading)) settle();
   const Admission admission = safety_.admit(reading, tool_.twist());
   const bool enabled = admission == Admission::shown;
@@ -254,7 +254,7 @@ void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
   port_.settle(dx, elapsed_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
-  if (bodies_) follow_bodies();
+  if (bodies_) place_bodies();
   static_.settle(tool_, step_.dt, port_);
   Vector3d change = Vector3d::Zero();
   const bool in_steps = port_.reads_in_steps();
@@ -267,15 +267,20 @@ void ServoStepOf<axes>::settle() noexcept {
 }
 
 // Walls that move: what a push did on its body is gone from the port, and what the body gave back
-// came into it.
+// came into it, whether or not the handle can be read now.
 template <int axes>
-void ServoStepOf<axes>::follow_bodies() noexcept {
+void ServoStepOf<axes>::settle_bodies() noexcept {
+  bodies_->advance_to(step_.now);
   for (const std::size_t push : pushes_) {
     const double work = bodies_->work(push);
     port_.book(-work);
     to_bodies_ += work;
   }
   pushes_.clear();
+}
+
+template <int axes>
+void ServoStepOf<axes>::place_bodies() noexcept {
   const std::span<const BodyState> states = bodies_->states();
   for (std::uint32_t i = 0; i < states.size(); ++i) static_.place(i, states[i]);
 }

@@ -49,7 +49,8 @@ class ServoStepOf final : public ServoCore {
   bool sample(const DeviceSample& reading) noexcept;
   void note_velocity(const DeviceSample& reading) noexcept;
   void settle() noexcept;
-  void follow_bodies() noexcept;
+  void settle_bodies() noexcept;
+  void place_bodies() noexcept;
   void push_bodies(const Force& held) noexcept;
   [[nodiscard]] Load load() noexcept;
   void load_hands(Load& load) noexcept;

@@ -93,13 +93,16 @@ struct Least {
                                              Random& random) {
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
+  PointTool tool;
   Vector3d device = start, velocity = Vector3d::Zero();
-  contact.reset(device);
+  tool.reset({device});
+  contact.reset(tool);
   Books books;
   int stray = 0;
   for (int i = 0; i < 3000; ++i) {
     PortLoad load;
-    contact.load(velocity, kSample, load);
+    tool.set_velocity(velocity);
+    contact.load(tool, kSample, load);
     const PortHold held = port.hold(load, kSample);
     if (held.walls < 1.0) contact.attenuate(held.walls, port);
     contact.shown(held.extra);
@@ -116,7 +119,8 @@ struct Least {
     velocity = dx / kSample;
     books.settle(held.force, dx, kSample);
     port.settle(dx, kSample);
-    contact.settle(device, kSample, port);
+    tool.move({device});
+    contact.settle(tool, kSample, port);
   }
   return books.least;
 }

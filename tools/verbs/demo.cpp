@@ -45,7 +45,8 @@ constexpr double kRawOctets = 144 + 32 + 8 + 72;
 struct DemoOptions {
   SceneOptions scene;
   std::string trace;
-  std::uint64_t peers = 2;
+  std::optional<std::uint64_t> asked_peers;
+  std::uint64_t peers = 2;  // what is run
   std::optional<nanoseconds> duration;
   bool json = false;
   bool simulated_time = false;
@@ -64,7 +65,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo --view");
   line.word("SCENE", options.scene.scene, false,
             fmt::format("scene file; default: {} as installed", kDefaultScene));
-  line.option("--peers", options.peers, "how many peers, 1 to 64");
+  line.option("--peers", options.asked_peers,
+              "how many peers, 1 to 64; 2, or the one of a scene with bodies");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
   line.option("--trace", options.trace, "write every servo step of every device to this CSV file");
@@ -292,9 +294,19 @@ void say_where(const DemoOptions& options, const peer::SceneFile& scene, const C
              scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
 }
 
-int run(const DemoOptions& options, const Console& console) {
+/// Bodies are of one peer; the others would not see them move.
+std::uint64_t peers_of(const DemoOptions& options, const peer::SceneFile& scene) {
+  const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
+  if (std::ranges::none_of(scene.scene.objects, moves)) return options.asked_peers.value_or(2);
+  if (options.asked_peers.value_or(1) == 1) return 1;
+  throw UsageError("the bodies (mass) of this scene are of one peer yet: take --peers out");
+}
+
+int run(const DemoOptions& asked, const Console& console) {
+  DemoOptions options = asked;
   check_flags(options);
-  peer::SceneFile scene = load_scene(options.scene, kDefaultScene, options.peers);
+  peer::SceneFile scene = load_scene(options.scene, kDefaultScene, options.asked_peers.value_or(2));
+  options.peers = peers_of(options, scene);
   if (!scene.network.peers.empty())
     fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
                counted(scene.network.peers.size(), "peer"));

@@ -6,9 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <memory>
 #include <string_view>
 #include <utility>
+#include <variant>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -118,7 +123,9 @@ std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& 
 std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                          const peer::DeviceConfig& device) {
   const auto simulated = make_simulated_device(scene, device);
-  const haptics::ServoLoop servo(*simulated, plan, servo_of(scene, device));
+  const auto shared = std::make_shared<const haptics::EffectPlan>(plan);
+  const haptics::ServoLoop servo(*simulated, shared, servo_of(scene, device),
+                                 haptics::make_bodies(plan, scene.scene.gravity));
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));
@@ -178,6 +185,32 @@ Facts facts_of(const peer::EntityConfig& entity, const peer::EntityTrack& track)
           {"felt", model_of(entity)}};
 }
 
+/// What moves when it is pushed, and what does not even stand in its way.
+std::vector<PeerFact> body_facts(const haptics::EffectPlan& plan) {
+  std::size_t count = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  std::string passed;
+  for (const haptics::PlannedObject& object : plan.objects()) {
+    if (std::holds_alternative<std::shared_ptr<const haptics::ImplicitSolid>>(object.shape))
+      passed += (passed.empty() ? "" : ", ") + object.name;
+    if (!object.moves()) continue;
+    ++count;
+    least = std::min(least, object.matter.mass);
+    most = std::max(most, object.matter.mass);
+  }
+  if (count == 0) return {};
+  const std::string mass = least < most
+                               ? fmt::format("{} to {}", peer::format_quantity(least, "kg"),
+                                             peer::format_quantity(most, "kg"))
+                               : peer::format_quantity(most, "kg");
+  std::vector<PeerFact> rows{{1, fmt::format("bodies {}", count), "mass", mass},
+                             {1, fmt::format("bodies {}", count), "step",
+                              "in that of its hands, some 2 us for each that lies "
+                              "on another or is pushed"}};
+  if (!passed.empty()) rows.push_back({1, fmt::format("bodies {}", count), "go through", passed});
+  return rows;
+}
+
 void add(std::vector<PeerFact>& rows, std::uint32_t number, const std::string& has, Facts facts) {
   for (auto& [what, how] : facts) rows.push_back({number, has, std::move(what), std::move(how)});
 }
@@ -193,6 +226,7 @@ std::vector<PeerFact> peer_facts(const peer::SceneFile& scene, const haptics::Ef
       add(rows, number, fmt::format("device {} {}", ++count, device.marking),
           facts_of(scene, plan, device));
     }
+    if (number == 1) std::ranges::copy(body_facts(plan), std::back_inserter(rows));
     const auto entities = peer::entities_of(scene, number);
     const auto tracks = peer::tracks_of(entities);
     for (std::size_t i = 0; i < entities.size(); ++i) {

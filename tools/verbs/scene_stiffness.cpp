@@ -10,6 +10,7 @@
 #include <memory>
 #include <set>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/contact/region_share.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -75,7 +76,9 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
       haptics::ServoConfig config;
       config.period = device.period;
       config.probe_radius = scene.hand.radius;
-      const haptics::ServoLoop servo(*simulated, shared, config);
+      config.probes = probes_of(device);
+      const haptics::ServoLoop servo(*simulated, shared, config,
+                                     haptics::make_bodies(plan, scene.scene.gravity));
       std::string name = fmt::format("device {}", ++count);
       if (!device.marking.empty()) name += " " + device.marking;
       devices.push_back({number, std::move(name), peer::stiffness_of(servo, scene.hand)});

@@ -194,18 +194,22 @@ Scene haze(std::vector<DeclaredCustomRegionEffect> effects = {}) {
 /// Forces on a way from outside through the box and out again.
 std::vector<Vector3d> wave(const EffectPlan& plan, int steps = 400) {
   StaticContact contact(plan, 1e9);
+  PointTool tool;
   EnergyPort port(1.0);
   const auto at = [](double t) -> Vector3d {
     return {0.09 * std::cos(16 * t), 0.02 + 0.01 * std::sin(9 * t), 0.003};
   };
   std::vector<Vector3d> forces;
-  contact.reset(at(0.0));
+  tool.reset({at(0.0)});
+  contact.reset(tool);
   for (int i = 0; i < steps; ++i) {
     const double t = 0.001 * i;
     port.borrow(10.0);
-    contact.settle(at(t), 0.001, port);
+    tool.move({at(t)});
+    contact.settle(tool, 0.001, port);
     PortLoad load;
-    contact.load((at(t) - at(t - 0.001)) / 0.001, 0.001, load);
+    tool.set_velocity((at(t) - at(t - 0.001)) / 0.001);
+    contact.load(tool, 0.001, load);
     forces.push_back(load.walls + load.extra);
   }
   return forces;

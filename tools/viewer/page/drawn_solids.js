@@ -21,7 +21,10 @@ class Solids {
     this.number = -1;
   }
 
-  paint() { for (const { material } of this.meshes) material.color = colour('stone'); }
+  paint() {
+    for (const { material } of this.meshes) material.color = colour('stone');
+    for (const { mesh } of this.moving) mesh.material.color = colour('moving');
+  }
 
   update(moment) {
     if (moment.touchNumber !== this.number) this.rebuild(moment);
