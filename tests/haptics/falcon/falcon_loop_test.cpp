@@ -13,6 +13,7 @@
 #include <fstream>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -174,12 +175,14 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
     FalconModelOptions options;
     options.seed = seed;
     options.tick_at = 0.05 * seed - 0.025;
-    options.hand_stiffness = 50 + 20 * seed;
-    const double wave = 2 * std::numbers::pi * (0.5 + 0.2 * seed);
+    options.mass = seed % 3 == 0 ? 0.5 : 0.1;
+    options.hand_stiffness = 20 * seed;
+    options.hand_damping = seed % 2 == 0 ? 0 : 2;  // most of what stops the handle is the device's
+    const double wave = 2 * std::numbers::pi * (0.5 + 0.3 * seed);
     Plugged falcon(options, [=](double t) {
       const double turn = wave * std::min(t, 2.5);  // then it holds still
       return Vector3d(0.01 * std::sin(0.7 * turn), 0.01 * std::cos(turn),
-                      0.012 * std::sin(turn) - 0.004);
+                      0.015 * std::sin(turn) - 0.01);
     });
     falcon.run(std::chrono::seconds(4));
     EXPECT_GE(falcon.least_books, -1e-9) << "seed " << seed;
@@ -209,6 +212,32 @@ TEST(FalconLoop, UnpluggedTheForceIsZeroWithin10Ms) {
   EXPECT_FALSE(falcon.last.enabled);
   EXPECT_FALSE(falcon.loop.stage());
   EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("unplugged")));
+}
+
+TEST(FalconLoop, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> instant(0, 400);
+  // In and out: a hand that only holds still would not pay back what each ramp borrows.
+  Plugged falcon({}, [](double t) { return Vector3d(0, 0, 0.02 * std::sin(3 * t) - 0.01); });
+  for (int i = 0; i < 60; ++i) {
+    // Also while it is set up, and while the force ramps up.
+    falcon.run(milliseconds(i % 2 == 0 ? 1000 : 0) +
+               std::chrono::microseconds(997) * instant(random));
+    falcon.shim.unplug();
+    if (i % 3 == 0) falcon.model.forget();
+    falcon.run(milliseconds(10));
+    ASSERT_TRUE(falcon.last.force.isZero(0)) << "round " << i;
+    falcon.run(milliseconds(10 + instant(random)));
+    if (i % 3 == 0) falcon.model.wake();
+    falcon.shim.plug();
+  }
+  double felt = 0;
+  for (int i = 0; i < 3000; ++i) {
+    falcon.run(milliseconds(1));
+    felt = std::max(felt, falcon.model.force().z());
+  }
+  EXPECT_GT(felt, 0.5);
+  EXPECT_GE(falcon.least_books, -1e-9);
 }
 
 TEST(FalconLoop, PluggedInAgainItGoesOnByItselfAndTheForceRampsUp) {

@@ -51,6 +51,7 @@ class FalconModel final : public UsbModel {
   void split(bool on) { splits_ = on; }           ///< reports come in pieces
   void forget();                                  ///< without power: firmware, homing, motors
   void home() { homed_ = true; }
+  void wake() { has_firmware_ = homed_ = true; }  ///< as after loading and homing
 
   // Its own books.
   [[nodiscard]] double port_work() const { return port_work_; }        ///< [J], of the motors

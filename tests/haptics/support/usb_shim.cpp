@@ -50,6 +50,7 @@ void UsbShim::plug() {
   file_ = ::memfd_create("usb", MFD_CLOEXEC);
   const auto octets = model_.descriptors();
   if (file_ < 0 || ::write(file_, octets.data(), octets.size()) < 0) std::abort();
+  requests_.clear();
   plugged_ = true;
 }
 
@@ -79,8 +80,9 @@ int UsbShim::answer(unsigned long request, void* argument) {
     case USBDEVFS_GET_SPEED:
       return 2;  // full speed
     case USBDEVFS_GET_CAPABILITIES:
-      *static_cast<std::uint32_t*>(argument) =
-          USBDEVFS_CAP_BULK_CONTINUATION | USBDEVFS_CAP_NO_PACKET_SIZE_LIM;
+      *static_cast<std::uint32_t*>(argument) = USBDEVFS_CAP_BULK_CONTINUATION |
+                                               USBDEVFS_CAP_NO_PACKET_SIZE_LIM |
+                                               USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
       return 0;
     case USBDEVFS_CONTROL:
       return control(argument);
