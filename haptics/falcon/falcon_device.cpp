@@ -19,7 +19,9 @@ void check_setting(bool good, const char* what, double value) {
   throw std::invalid_argument(std::string("Falcon: ") + what + ", got " + std::to_string(value));
 }
 
-DeviceLimits limits_of(const FalconSettings& settings) {
+}  // namespace
+
+DeviceLimits falcon_limits(const FalconSettings& settings) {
   check_setting(settings.max_force > 0, "largest force must be above 0 N", settings.max_force);
   check_setting(settings.damping >= 0, "damping must be 0 or more N s/m", settings.damping);
   check_setting(settings.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
@@ -27,6 +29,8 @@ DeviceLimits limits_of(const FalconSettings& settings) {
   check_setting(settings.max_speed > 0, "largest speed must be above 0 m/s", settings.max_speed);
   check_setting(settings.period > nanoseconds(0), "the servo's period must be above 0 ns",
                 static_cast<double>(settings.period.count()));
+  check_setting(settings.chain > nanoseconds(0), "delay must be above 0 ns",
+                static_cast<double>(settings.chain.count()));
   DeviceLimits limits;
   limits.max_force = std::min(settings.max_force, FalconSettings::kMostForce);
   limits.damping = FalconSettings::kSureShare * settings.damping;
@@ -35,16 +39,13 @@ DeviceLimits limits_of(const FalconSettings& settings) {
   limits.workspace_min = Eigen::Vector3d::Constant(-FalconGeometry::kReach);
   limits.workspace_max = Eigen::Vector3d::Constant(FalconGeometry::kReach);
   limits.resolution = FalconGeometry::kResolution;
-  const nanoseconds chain = 3 * FalconSettings::kExchange;
   limits.delay_samples =
-      static_cast<int>((chain + settings.period - nanoseconds(1)) / settings.period);
+      static_cast<int>((settings.chain + settings.period - nanoseconds(1)) / settings.period);
   return limits;
 }
 
-}  // namespace
-
 FalconDevice::FalconDevice(FalconExchange& exchange, const FalconSettings& settings)
-    : exchange_(exchange), limits_(limits_of(settings)) {}
+    : exchange_(exchange), limits_(falcon_limits(settings)) {}
 
 void FalconDevice::take_readings() noexcept {
   FalconReading reading;

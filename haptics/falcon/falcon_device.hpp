@@ -23,12 +23,23 @@ struct FalconSettings {
   /// as they are while the handle turns the arms.
   static constexpr double kSureShare = 0.9;
 
+  /// [N s/m], taken as sure where nobody has measured it: a low guess, for none is published.
+  static constexpr double kAssumedDamping = 0.3;
+  /// Of the chain where nobody has measured it: three exchanges.
+  static constexpr std::chrono::nanoseconds kChain = 3 * kExchange;
+
   double max_force = kMostForce;  ///< [N], > 0; more than kMostForce is no more
   double damping = 0.0;           ///< [N s/m], >= 0, that one is sure of
   double max_stiffness = 0.0;     ///< [N/m], 0 = as much as damping, period and delay allow
   double max_speed = 2.0;         ///< [m/s]
   std::chrono::nanoseconds period{1'000'000};  ///< of the servo
+  /// Of the whole chain, > 0, rounded up to periods. Where it is too short readings fail, more
+  /// often the shorter it is, and no energy is made.
+  std::chrono::nanoseconds chain = kChain;
 };
+
+/// What a servo relies on. @throws std::invalid_argument for settings out of their range
+[[nodiscard]] DeviceLimits falcon_limits(const FalconSettings& settings);
 
 /// Reads and writes are atomics and copies: no lock, no allocation, no system call. Another thread
 /// (FalconLoop) has the device.

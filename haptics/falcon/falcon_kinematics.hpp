@@ -45,6 +45,20 @@ struct FalconGeometry {
 /// Count that is nearest to an angle [rad]; the ends of int16_t where it is beyond them.
 [[nodiscard]] std::int16_t falcon_count(double angle) noexcept;
 
+/// A direction in the Falcon's axes as in those of frame D, which are a device's: x to the right, y
+/// away from the operator, z up.
+[[nodiscard]] inline Eigen::Vector3d device_axes(const Eigen::Vector3d& v_falcon) noexcept {
+  return {v_falcon.x(), -v_falcon.z(), v_falcon.y()};
+}
+/// And back.
+[[nodiscard]] inline Eigen::Vector3d falcon_axes(const Eigen::Vector3d& v_D) noexcept {
+  return {v_D.x(), v_D.z(), -v_D.y()};
+}
+/// A place of FalconGeometry's axes in frame D [m], whose origin is the middle of the work space.
+[[nodiscard]] inline Eigen::Vector3d device_place(const Eigen::Vector3d& p_falcon) noexcept {
+  return device_axes(p_falcon - Eigen::Vector3d(0, 0, FalconGeometry::kMiddle));
+}
+
 /// The handle at three angles.
 struct FalconPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], in the axes of FalconGeometry

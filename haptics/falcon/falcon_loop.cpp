@@ -105,6 +105,13 @@ void FalconLoop::step(microseconds longest) {
 }
 
 void FalconLoop::tell_stage() {
+  const nanoseconds exchange = session_->exchange_time();
+  if (exchange > nanoseconds(0) && !timed_) {
+    timed_ = true;
+    const auto tenths = static_cast<int>((exchange + microseconds(99)) / microseconds(100));
+    tell("an exchange takes " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) +
+         " ms at most: three of them and a half are enough for the 'delay' of its [[device]]");
+  }
   const FalconStage stage = session_->stage();
   if (stage == FalconStage::silent || told_ == stage) return;
   told_ = stage;

@@ -87,6 +87,7 @@ class FalconLoop {
   std::chrono::nanoseconds next_try_{0};
   std::string problem_;  // told already
   std::optional<FalconStage> told_;
+  bool timed_ = false;  // and told so
   std::atomic<bool> stopped_{false};
   std::mutex telling_;  // never taken by the servo
   std::vector<std::string> notices_;

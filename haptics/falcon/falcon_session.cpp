@@ -35,6 +35,10 @@ void FalconSession::take(std::span<const std::uint8_t> octets, nanoseconds now) 
     if (!report || !awaiting_) continue;
     awaiting_ = false;
     heard_at_ = now;
+    if (stage_ == FalconStage::running && timed_ < kTimed) {
+      longest_ = std::max(longest_, now - sent_at_);
+      ++timed_;
+    }
     answer(*report);
   }
 }
@@ -56,7 +60,7 @@ void FalconSession::answer(const FalconReport& report) noexcept {
   stage_ = FalconStage::running;
   if (servo_silent_) return;
   FalconReading reading;
-  reading.position = pose->position - Eigen::Vector3d(0, 0, FalconGeometry::kMiddle);
+  reading.position = device_place(pose->position);
   reading.before = before;
   reading.after = sent_;
   reading.run = run_;
@@ -101,8 +105,8 @@ std::optional<FalconCommand> FalconSession::next(nanoseconds now) noexcept {
 std::array<std::int16_t, 3> FalconSession::motors() const noexcept {
   const auto ahead = falcon_pose(angles_ + kAhead * turn_);
   const Eigen::Matrix3d& jacobian = ahead ? ahead->jacobian : jacobian_;
-  const Eigen::Vector3d words =
-      kWordsPerTorque * falcon_torques(jacobian, exchange_.force.read().force);
+  const Eigen::Vector3d force = falcon_axes(exchange_.force.read().force);
+  const Eigen::Vector3d words = kWordsPerTorque * falcon_torques(jacobian, force);
   std::array<std::int16_t, 3> motors{};
   for (std::size_t i = 0; i < motors.size(); ++i) {
     const double word = std::clamp(words[static_cast<Eigen::Index>(i)], -kMostWord, kMostWord);

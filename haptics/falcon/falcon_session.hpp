@@ -61,6 +61,11 @@ class FalconSession {
   [[nodiscard]] std::uint32_t run() const noexcept { return run_; }
   /// Reports that came too late, since the begin.
   [[nodiscard]] std::uint64_t late() const noexcept { return late_; }
+  /// Longest of the first kTimed exchanges; 0: there were not so many yet.
+  [[nodiscard]] std::chrono::nanoseconds exchange_time() const noexcept {
+    return timed_ < kTimed ? std::chrono::nanoseconds(0) : longest_;
+  }
+  static constexpr int kTimed = 500;
   /// Octets that were no reports, since the begin.
   [[nodiscard]] std::uint64_t malformed() const noexcept { return parser_.malformed(); }
 
@@ -84,6 +89,8 @@ class FalconSession {
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
   std::uint64_t late_ = 0;
+  int timed_ = 0;
+  std::chrono::nanoseconds longest_{0};
 };
 
 }  // namespace reckon::haptics

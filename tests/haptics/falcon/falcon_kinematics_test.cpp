@@ -180,6 +180,14 @@ TEST(FalconKinematics, CountsAndAnglesAgree) {
   EXPECT_NEAR(falcon_count_step() * pose->jacobian.col(0).norm(), 41e-6, 6e-6);
 }
 
+TEST(FalconKinematics, FrameDIsThatOfADeviceXRightYAwayZUp) {
+  EXPECT_EQ(device_place({0, 0, G::kMiddle}), Vector3d(0, 0, 0));
+  EXPECT_EQ(device_axes({0, 0, 1}), Vector3d(0, -1, 0)) << "towards the operator";
+  EXPECT_EQ(device_axes({0, 1, 0}), Vector3d(0, 0, 1)) << "up";
+  const Vector3d v(1, 2, 3);
+  EXPECT_EQ(device_axes(falcon_axes(v)), v);
+}
+
 TEST(FalconKinematics, AFalconSolvesInTheWorkSpaceWithinItsStatedStep) {
   std::mt19937 random(5);
   double most = 0;

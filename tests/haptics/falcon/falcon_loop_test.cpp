@@ -65,10 +65,11 @@ Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)};
 class Plugged {
  public:
   explicit Plugged(const FalconModelOptions& options = {},
-                   std::function<Vector3d(double)> hand = pressing, FalconFirmware firmware = {})
+                   std::function<Vector3d(double)> hand = pressing, FalconFirmware firmware = {},
+                   const FalconSettings& chosen = settings())
       : model(options, std::move(hand)),
         shim(model),
-        device(exchange, settings()),
+        device(exchange, chosen),
         servo(device, EffectPlan(wall()), servo_config()),
         loop(exchange, loop_options(std::move(firmware))) {
     model.beside([this](nanoseconds now) {
@@ -200,6 +201,33 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
       "least %.3g J without any allowance, the meter above the books by %.3g J at most, "
       "allowance to %.3g J, %llu readings failed of 80,000\n",
       least, meter, most_allowance, static_cast<unsigned long long>(failed));
+}
+
+// Where the chip's timer is in time for the next frame, an exchange takes 1 ms: half of what is
+// allowed for. It says so, and a wall may be twice as stiff.
+TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
+  const double standard = [] { return Plugged().servo.static_stiffness_limit(); }();
+  FalconSettings quick = settings();
+  quick.chain = std::chrono::microseconds(3500);
+  Plugged falcon({}, pressing, {}, quick);
+  EXPECT_GT(falcon.servo.static_stiffness_limit(), 1.4 * standard);
+  falcon.run(std::chrono::seconds(3));
+  EXPECT_THAT(falcon.notices, Contains(HasSubstr("an exchange takes 1.")));
+  EXPECT_LE(falcon.last.tally.failed, 300U) << "while it was set up";
+  EXPECT_GT(falcon.model.force().z(), 0.5);
+  EXPECT_GE(falcon.least_books, -1e-9);
+}
+
+// One that is too short is not believed: readings fail, forces stay away, no energy is made.
+TEST(FalconLoop, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
+  FalconSettings quick = settings();
+  quick.chain = milliseconds(2);
+  FalconModelOptions slow;
+  slow.tick_at = 0.15;
+  Plugged falcon(slow, pressing, {}, quick);
+  falcon.run(std::chrono::seconds(3));
+  EXPECT_GT(falcon.last.tally.failed, 500U);
+  EXPECT_GE(falcon.least_books, -1e-9);
 }
 
 TEST(FalconLoop, UnpluggedTheForceIsZeroWithin10Ms) {
@@ -383,9 +411,9 @@ TEST(FalconLoop, WithoutHomingThereIsNoForceAndTheUserIsToldWhatToDo) {
 
 TEST(FalconLoop, AtTheEndOfItsReachThereIsNoForce) {
   double out = 0;
-  Plugged falcon({}, [&](double t) { return Vector3d(pressing(t) + Vector3d(0, 0, out)); });
+  Plugged falcon({}, [&](double t) { return Vector3d(pressing(t) - Vector3d(0, out, 0)); });
   falcon.press();
-  out = 0.085;
+  out = 0.08;
   falcon.run(std::chrono::seconds(1));
   EXPECT_THAT(falcon.notices, Contains(HasSubstr("end of its reach")));
   EXPECT_TRUE(falcon.motors_rest());

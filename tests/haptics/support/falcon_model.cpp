@@ -21,11 +21,15 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kStep = microseconds(50);
 constexpr nanoseconds kFrame = milliseconds(1);
-constexpr nanoseconds kOctet = nanoseconds(6'667);  // at 1.5 Mbaud
+constexpr nanoseconds kOctet = nanoseconds(6'667);    // at 1.5 Mbaud
 constexpr nanoseconds kWatchdog = milliseconds(100);  // of its own
-constexpr std::size_t kPacket = 62;                 // octets, beside two of status
+constexpr std::size_t kPacket = 62;                   // octets, beside two of status
 
-Vector3d middle() { return {0, 0, FalconGeometry::kMiddle}; }
+// Frame D in the Falcon's own axes, which the model moves in.
+Vector3d turned(const Vector3d& v_D) { return {v_D.x(), v_D.z(), -v_D.y()}; }
+Vector3d place(const Vector3d& p_D) {
+  return turned(p_D) + Vector3d(0, 0, FalconGeometry::kMiddle);
+}
 
 }  // namespace
 
@@ -33,15 +37,22 @@ FalconModel::FalconModel(const FalconModelOptions& options, std::function<Vector
     : options_(options),
       hand_(std::move(hand)),
       random_(options.seed),
-      position_(middle() + hand_(0)),
+      position_(place(hand_(0))),
       has_firmware_(options.has_firmware),
       homed_(options.homed) {
   move(0);
 }
 
-Vector3d FalconModel::position() const { return position_ - middle(); }
+Vector3d FalconModel::position() const {
+  return {position_.x(), FalconGeometry::kMiddle - position_.z(), position_.y()};
+}
 
 Vector3d FalconModel::force() const {
+  const Vector3d own = own_force();
+  return {own.x(), -own.z(), own.y()};
+}
+
+Vector3d FalconModel::own_force() const {
   Vector3d torques;
   for (int i = 0; i < 3; ++i) torques[i] = -1e-4 * motors_[static_cast<std::size_t>(i)];
   return jacobian_.transpose().inverse() * torques;
@@ -74,11 +85,11 @@ void FalconModel::move(double h) {
   const Vector3d before = angles_;
   if (h > 0) {
     const double t = pdu::to_seconds(now_);
-    const Vector3d target = middle() + hand_(t);
-    const Vector3d speed = (hand_(t + 1e-4) - hand_(t)) / 1e-4;
+    const Vector3d target = place(hand_(t));
+    const Vector3d speed = turned(hand_(t + 1e-4) - hand_(t)) / 1e-4;
     const Vector3d hand = options_.hand_stiffness * (target - position_) +
                           options_.hand_damping * (speed - velocity_);
-    velocity_ += h / options_.mass * (hand + force() - options_.damping * velocity_);
+    velocity_ += h / options_.mass * (hand + own_force() - options_.damping * velocity_);
     position_ += h * velocity_;
     damping_loss_ += h * options_.damping * velocity_.squaredNorm();
   }

@@ -57,7 +57,7 @@ class FalconModel final : public UsbModel {
   [[nodiscard]] double port_work() const { return port_work_; }        ///< [J], of the motors
   [[nodiscard]] double damping_loss() const { return damping_loss_; }  ///< [J]
   [[nodiscard]] Eigen::Vector3d position() const;                      ///< [m], frame D
-  [[nodiscard]] Eigen::Vector3d force() const;                         ///< [N], of the motors
+  [[nodiscard]] Eigen::Vector3d force() const;  ///< [N], of the motors, frame D
   [[nodiscard]] std::array<std::int16_t, 3> motors() const { return motors_; }
   [[nodiscard]] std::uint64_t commands() const { return commands_; }
   [[nodiscard]] bool has_firmware() const { return has_firmware_; }
@@ -71,6 +71,7 @@ class FalconModel final : public UsbModel {
 
  private:
   void move(double h);
+  [[nodiscard]] Eigen::Vector3d own_force() const;
   void run_line();
   void take(std::uint8_t octet);
   void obey();
