@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/falcon/falcon_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -59,6 +60,24 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
   }
 }
 
+// What the driver knows of its device is not said once more.
+void check_driver(TomlReader& table, DeviceConfig& device) {
+  if (device.driver != DeviceDriver::falcon) {
+    if (table.has("firmware"))
+      table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
+    return;
+  }
+  if (device.source == DeviceSource::pointer)
+    table.problem("kind", "a person holds a Falcon, and no pointer moves it: take kind out");
+  if (table.has("resolution"))
+    table.problem("resolution", "the driver knows the steps of a Falcon: take it out");
+  if (5 * device.period > 2 * haptics::FalconSession::kSilence)
+    table.problem("rate",
+                  "a Falcon is let go after 8 ms without a force, which one missed period "
+                  "must not bring about: 400 Hz is enough");
+  use_driver(device, device.driver, table.has("damping"), table.has("delay"));
+}
+
 }  // namespace
 
 void check_marking(TomlReader& table, const std::string& marking) {
@@ -97,6 +116,7 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   std::chrono::nanoseconds delay{0};
   table.read("delay", delay);
   device.delay_samples = samples_of(delay, rate);
+  check_driver(table, device);
 }
 
 Section<DeviceConfig> device_section() {
@@ -113,6 +133,11 @@ Section<DeviceConfig> device_section() {
            "who moves it: its operator; or a pointer, from where its operator, a passive one, "
            "holds "
            "it at first"},
+          {"driver", &Device::driver,
+           "what it is: simulated; or a Novint Falcon on USB, which a person holds; in simulated "
+           "time its operator stands in"},
+          {"firmware", &Device::firmware,
+           "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
           {"reach", &Device::reach, within("m", 0.001, 10),
            "of a pointer: so far from there it takes the hand, along each axis of the device"},
           {"marking", &Device::marking,
