@@ -34,6 +34,7 @@ constexpr nanoseconds kHelloTime = milliseconds(20);
 constexpr nanoseconds kAnswerTime = milliseconds(50);
 constexpr int kAnswers = 3;
 constexpr nanoseconds kEchoTime = milliseconds(500);
+constexpr nanoseconds kFarewell = milliseconds(10);
 constexpr std::size_t kPiece = 58;  // octets of firmware whose echo is awaited
 constexpr microseconds kLook{500};
 
@@ -66,7 +67,17 @@ FalconLoop::FalconLoop(FalconExchange& exchange, FalconLoopOptions options)
   }
 }
 
-FalconLoop::~FalconLoop() = default;
+// The device would hold the last force for as long as it likes.
+FalconLoop::~FalconLoop() {
+  if (!line_) return;
+  const nanoseconds end = options_.clock() + kFarewell;
+  const auto drain = [&] {
+    while (line_->is_sending() && options_.clock() < end) line_->pump(kLook);
+  };
+  drain();
+  line_->send(octets_of(FalconCommand{}));
+  drain();
+}
 
 std::optional<FalconStage> FalconLoop::stage() const noexcept {
   if (!session_) return std::nullopt;
@@ -121,13 +132,15 @@ void FalconLoop::tell_stage() {
   if (stage == FalconStage::running) tell("ready: forces are shown");
 }
 
+// What is still there is set up at once: that tells it a zero.
 void FalconLoop::detach(const std::string& why) {
+  const bool is_gone = line_->fault() == UsbFault::gone;
   run_ = session_->run() + 1;
   session_.reset();
   line_.reset();
   told_.reset();
   problem_.clear();
-  next_try_ = options_.clock() + kRetry;
+  next_try_ = options_.clock() + (is_gone ? nanoseconds(kRetry) : nanoseconds(0));
   tell(why + ": its force is zero; it is taken up again as soon as it is there");
 }
 

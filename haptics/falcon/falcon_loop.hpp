@@ -55,7 +55,10 @@ class FalconLoop {
 
   /// @param exchange outlives it @throws std::runtime_error where the host has no USB
   FalconLoop(FalconExchange& exchange, FalconLoopOptions options);
+  /// Tells the device a zero; waits 10 ms for it at most.
   ~FalconLoop();
+  FalconLoop(const FalconLoop&) = delete;
+  FalconLoop& operator=(const FalconLoop&) = delete;
 
   /// Waits for the device so long at most, except while setting it up, and does what is due.
   void step(std::chrono::microseconds longest);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -71,7 +72,7 @@ class Plugged {
         shim(model),
         device(exchange, chosen),
         servo(device, EffectPlan(wall()), servo_config()),
-        loop(exchange, loop_options(std::move(firmware))) {
+        loop(std::make_unique<FalconLoop>(exchange, loop_options(std::move(firmware)))) {
     model.beside([this](nanoseconds now) {
       if (now < next_step_) return;
       next_step_ += period_;
@@ -82,8 +83,8 @@ class Plugged {
   void run(nanoseconds time) {
     const nanoseconds end = model.now() + time;
     while (model.now() < end) {
-      loop.step(milliseconds(1));
-      for (std::string& notice : loop.take_notices()) notices.push_back(std::move(notice));
+      loop->step(milliseconds(1));
+      for (std::string& notice : loop->take_notices()) notices.push_back(std::move(notice));
     }
   }
 
@@ -101,7 +102,7 @@ class Plugged {
   FalconExchange exchange;
   FalconDevice device;
   ServoLoop servo;
-  FalconLoop loop;
+  std::unique_ptr<FalconLoop> loop;
   std::vector<std::string> notices;
   bool servo_runs = true;
   double least_own = 0;    // [J], of the device's own books with loan
@@ -238,7 +239,7 @@ TEST(FalconLoop, UnpluggedTheForceIsZeroWithin10Ms) {
   falcon.run(milliseconds(10));
   EXPECT_TRUE(falcon.last.force.isZero(0));
   EXPECT_FALSE(falcon.last.enabled);
-  EXPECT_FALSE(falcon.loop.stage());
+  EXPECT_FALSE(falcon.loop->stage());
   EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("unplugged")));
 }
 
@@ -318,6 +319,14 @@ TEST(FalconLoop, AServoThatIsSilentLeavesNoForceAfter10Ms) {
   EXPECT_GT(falcon.model.force().z(), 0.5);
 }
 
+TEST(FalconLoop, AtTheEndOfTheProgramTheDeviceIsToldAZero) {
+  Plugged falcon;
+  falcon.press();
+  falcon.loop.reset();
+  falcon.model.pass(std::chrono::microseconds(500));  // the octets are on the line
+  EXPECT_TRUE(falcon.motors_rest());
+}
+
 TEST(FalconLoop, ATransferThatIsLateIsZeroWithin10Ms) {
   Plugged falcon;
   falcon.press();
@@ -359,6 +368,7 @@ TEST(FalconLoop, AStallIsSaidAndTheLineSetUpAgain) {
   falcon.model.stall();
   falcon.run(milliseconds(10));
   EXPECT_TRUE(falcon.last.force.isZero(0));
+  EXPECT_TRUE(falcon.motors_rest());
   EXPECT_THAT(falcon.notices, Contains(HasSubstr("refuses transfers")));
   falcon.run(std::chrono::seconds(3));
   EXPECT_GT(falcon.model.force().z(), 0.5);
@@ -370,6 +380,7 @@ TEST(FalconLoop, AShortTransferIsSaidAndTheLineSetUpAgain) {
   falcon.model.cut();
   falcon.run(milliseconds(10));
   EXPECT_TRUE(falcon.last.force.isZero(0));
+  EXPECT_TRUE(falcon.motors_rest());
   EXPECT_THAT(falcon.notices, Contains(HasSubstr("cut short")));
   falcon.run(std::chrono::seconds(3));
   EXPECT_GT(falcon.model.force().z(), 0.5);
@@ -381,7 +392,7 @@ TEST(FalconLoop, ReportsInPiecesAreFeltAsWholeOnes) {
   falcon.run(std::chrono::seconds(3));
   // Pieces take the chip's timer again and again: an exchange may be longer than 2 ms.
   EXPECT_GE(falcon.least_books, -1e-9);
-  EXPECT_TRUE(falcon.loop.stage());
+  EXPECT_TRUE(falcon.loop->stage());
   falcon.model.split(false);
   falcon.run(std::chrono::seconds(2));
   EXPECT_GT(falcon.model.force().z(), 0.5);
@@ -429,7 +440,7 @@ TEST(FalconLoop, ALatencyTimerThatCannotBeSetIsRefused) {
   falcon.run(std::chrono::seconds(1));
   EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("reads 16 ms where 1 ms was set")));
   EXPECT_TRUE(falcon.motors_rest());
-  EXPECT_FALSE(falcon.loop.stage());
+  EXPECT_FALSE(falcon.loop->stage());
 }
 
 std::vector<std::uint8_t> program() {
