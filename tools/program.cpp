@@ -30,6 +30,7 @@ Verb cut();
 Verb scene();
 Verb key();
 Verb tune();
+Verb devices();
 Verb doctor();
 Verb bench();
 Verb figures();
@@ -57,6 +58,7 @@ std::span<const Verb> list() {
       verb::scene(),
       verb::key(),
       verb::tune(),
+      verb::devices(),
       verb::doctor(),
       verb::bench(),
       verb::figures(),

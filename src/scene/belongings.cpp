@@ -57,4 +57,33 @@ std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities) {
   return tracks;
 }
 
+void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay) {
+  device.driver = driver;
+  if (driver != DeviceDriver::falcon) return;
+  haptics::FalconSettings settings;
+  settings.max_force = device.max_force;
+  settings.max_stiffness = device.max_stiffness;
+  settings.max_speed = device.max_speed;
+  settings.period = device.period;
+  settings.damping = says_damping ? device.damping : haptics::FalconSettings::kAssumedDamping;
+  if (says_delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
+  const haptics::DeviceLimits limits = haptics::falcon_limits(settings);
+  device.max_force = limits.max_force;
+  device.damping = limits.damping;
+  device.delay_samples = limits.delay_samples;
+  device.resolution = limits.resolution;
+}
+
+haptics::FalconSettings falcon_settings_of(const DeviceConfig& device) {
+  haptics::FalconSettings settings;
+  settings.max_force = device.max_force;
+  // use_driver() left the servo's share of it.
+  settings.damping = device.damping / haptics::FalconSettings::kSureShare;
+  settings.max_stiffness = device.max_stiffness;
+  settings.max_speed = device.max_speed;
+  settings.period = device.period;
+  settings.chain = device.delay_samples * device.period;
+  return settings;
+}
+
 }  // namespace reckon::peer

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/falcon/falcon_device.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 
@@ -33,5 +34,12 @@ inline constexpr std::uint32_t kMostPeers = 64;
 /// The true motion of each entity, in their order; a file shared by several is read once.
 /// @throws CsvError "file:line:column: what" if a track cannot be read.
 [[nodiscard]] std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities);
+
+/// The device gets this driver, and with it the limits of what the driver drives, as far as they
+/// are not its own: `says_damping` and `says_delay` tell that the device's damping and delay are
+/// those of a Falcon, not of what is simulated.
+void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay);
+/// For the driver of a Falcon that the device has.
+[[nodiscard]] haptics::FalconSettings falcon_settings_of(const DeviceConfig& device);
 
 }  // namespace reckon::peer

@@ -12,6 +12,7 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/haptics/falcon/falcon_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -60,6 +61,24 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
   }
 }
 
+// What the driver knows of its device is not said once more.
+void check_driver(TomlReader& table, DeviceConfig& device) {
+  if (device.driver != DeviceDriver::falcon) {
+    if (table.has("firmware"))
+      table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
+    return;
+  }
+  if (device.source == DeviceSource::pointer)
+    table.problem("kind", "a person holds a Falcon, and no pointer moves it: take kind out");
+  if (table.has("resolution"))
+    table.problem("resolution", "the driver knows the steps of a Falcon: take it out");
+  if (5 * device.period > 2 * haptics::FalconSession::kSilence)
+    table.problem("rate",
+                  "a Falcon is let go after 8 ms without a force, which one missed period "
+                  "must not bring about: 400 Hz is enough");
+  use_driver(device, device.driver, table.has("damping"), table.has("delay"));
+}
+
 }  // namespace
 
 void check_marking(TomlReader& table, const std::string& marking) {
@@ -88,6 +107,8 @@ void check_axes(TomlReader& table, const DeviceConfig& device) {
   if (device.axes == 6) {
     if (device.source == DeviceSource::pointer)
       table.problem("axes", "a pointer moves three axes: take out axes = 6, or kind = \"pointer\"");
+    if (device.driver == DeviceDriver::falcon)
+      table.problem("axes", "a Falcon has three axes: take out axes = 6, or driver = \"falcon\"");
     if (!(device.damping > 0))
       table.problem("damping", "a device of six axes needs damping in all of them");
     if (device.probes.size() > haptics::kMostProbes) {
@@ -119,6 +140,7 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   std::chrono::nanoseconds delay{0};
   table.read("delay", delay);
   device.delay_samples = samples_of(delay, rate);
+  check_driver(table, device);
 }
 
 namespace {
@@ -144,6 +166,11 @@ Section<DeviceConfig> device_section() {
            "who moves it: its operator; or a pointer, from where its operator, a passive one, "
            "holds "
            "it at first"},
+          {"driver", &Device::driver,
+           "what it is: simulated; or a Novint Falcon on USB, which a person holds; in simulated "
+           "time its operator stands in"},
+          {"firmware", &Device::firmware,
+           "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
           {"reach", &Device::reach, within("m", 0.001, 10),
            "of a pointer: so far from there it takes the hand, along each axis of the device"},
           {"marking", &Device::marking,

@@ -124,16 +124,24 @@ enum class DeviceSource : std::uint8_t {
   pointer,    ///< a pointer that a person moves, from where its operator holds it at first
 };
 
+/// What a device is.
+enum class DeviceDriver : std::uint8_t {
+  simulated,  ///< a mass that its operator holds
+  falcon,     ///< a Novint Falcon on USB, that a person holds
+};
+
 /// A place of a tool that touches.
 struct ProbeConfig {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] from the handle, in the tool's axes
 };
 
-/// A simulated haptic device of one peer, and the hand that it moves.
+/// A haptic device of one peer, and the hand that it moves.
 struct DeviceConfig {
   std::uint32_t peer = 1;             ///< number of its peer, from 1
   std::uint32_t operator_number = 1;  ///< number of the [[operator]] that holds it, from 1
   DeviceSource source = DeviceSource::simulated;
+  DeviceDriver driver = DeviceDriver::simulated;
+  std::filesystem::path firmware;  ///< of a Falcon; absolute once loaded; empty: none is loaded
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin

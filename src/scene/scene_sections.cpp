@@ -211,7 +211,7 @@ const Section<SceneFile>& file_section() {
           {"operator", &SceneFile::operators, operator_section(),
            "one simulated hand for each table, and what moves it"},
           {"device", devices, device_section(),
-           "one simulated device of one peer; where a file has none, each peer has one"},
+           "one device of one peer; where a file has none, each peer has a simulated one"},
           {"entity", entities, entity_section(),
            "an entity that no device moves: a vehicle, a post, a robot's tip"},
           {"dead_reckoning", &SceneFile::dead_reckoning, dead_reckoning_section(),

@@ -39,6 +39,10 @@ inline constexpr auto kWords<DeviceSource> = std::to_array<Word<DeviceSource>>(
     {{"simulated", DeviceSource::simulated}, {"pointer", DeviceSource::pointer}});
 
 template <>
+inline constexpr auto kWords<DeviceDriver> = std::to_array<Word<DeviceDriver>>(
+    {{"simulated", DeviceDriver::simulated}, {"falcon", DeviceDriver::falcon}});
+
+template <>
 inline constexpr auto kWords<haptics::CsgOperation> =
     std::to_array<Word<haptics::CsgOperation>>({{"add", haptics::CsgOperation::add},
                                                 {"subtract", haptics::CsgOperation::subtract},

@@ -225,6 +225,8 @@ def main(folder):
     write(seeds / "unicast", [own["unicast_frame"][:12] + bytes([0, group, 0, 0]) + touch for group in (0, 1, 2, 7)] +
           [touch, own["unicast_frame"], b"10.0.0.7, host-b:3001", b"2001:db8::7,[2001:db8::8]:3002"])
     digits = b"5a" * 32
+    report = b"<BAAAPPPPEDCB\xb6A>"
+    write(seeds / "falcon", [report, b"\x01\x60" + report + report[:7], report[5:] + report, b"<AAAA" + report])
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
                                b"\nepoch 2 from 2026-12-01T06:00:00Z secret " + digits + b"\n"])

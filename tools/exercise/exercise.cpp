@@ -94,6 +94,7 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   const auto number = static_cast<std::uint32_t>(index + 1);
   member.hands = make_simulated_hands(
       scene, number, index < options_.scripts.size() ? options_.scripts[index] : nullptr);
+  if (!options_.simulated_time) real_.plug_in(scene, number, member.hands.wired);
   peer::FederateOptions own;
   own.name = fmt::format("HAND{}", number);
   own.scene = scene;

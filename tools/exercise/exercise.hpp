@@ -25,6 +25,7 @@
 #include "reckon/tools/exercise/loop_report.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
 #include "reckon/tools/exercise/notice_digest.hpp"
+#include "reckon/tools/exercise/real_devices.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -103,6 +104,8 @@ class Exercise {
   [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
   /// Notices of all peers since the last call.
   [[nodiscard]] std::vector<ReceivedNotice> take_notices();
+  /// Sentences of devices that are no simulation, since the last call.
+  [[nodiscard]] std::vector<std::string> device_notices() { return real_.take_notices(); }
   /// Updates a second of peers that would send each hand at each step of its servo.
   [[nodiscard]] double raw_rate() const noexcept;
   /// With (peer, device, step), both numbered from 0.
@@ -130,6 +133,7 @@ class Exercise {
   peer::SteadyClock steady_;
   peer::ManualClock manual_;
   std::unique_ptr<peer::SimulatedNetwork> network_;
+  RealDevices real_;                          // of all members
   std::unique_ptr<peer::ServoThread> servo_;  // of all members
   std::vector<Hand> hands_;                   // of all members, in their order
   std::vector<std::unique_ptr<Member>> members_;

@@ -44,6 +44,7 @@ constexpr double kRawOctets = 144 + 32 + 8 + 72;
 
 struct DemoOptions {
   SceneOptions scene;
+  DeviceChoice device;
   std::string trace;
   std::optional<std::uint64_t> asked_peers;
   std::uint64_t peers = 2;  // what is run
@@ -69,6 +70,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
               "how many peers, 1 to 64; 2, or the one of a scene with bodies");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
+  add_device_flags(line, options.device);
   line.option("--trace", options.trace, "write every servo step of every device to this CSV file");
   line.flag("--simulated-time", options.simulated_time,
             "no sockets and no waiting: simulated network, as fast as the machine goes");
@@ -252,6 +254,7 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
       display.add(heard);
       if (page != nullptr) page->note(heard);
     }
+    display.add(exercise.device_notices());
     if (page != nullptr) page->show(exercise);
     for (std::size_t i = 0; i < peers.size(); ++i)
       peers[i] = {&exercise.view(i), &exercise.peer(i).counters()};
@@ -261,7 +264,10 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
 
 void check_flags(const DemoOptions& options) {
   const auto page = flags_of_switch(options.view);
+  check_device_choice(options.device);
   if (!options.simulated_time) return;
+  if (!options.device.device.empty())
+    throw UsageError("--device: no person keeps up with --simulated-time; leave one of them out");
   if (page)
     throw UsageError(
         "--view: --simulated-time sends nothing that a page could show; leave one out");
@@ -311,6 +317,7 @@ int run(const DemoOptions& asked, const Console& console) {
     fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
                counted(scene.network.peers.size(), "peer"));
   scene.network.peers.clear();
+  choose_device(options.device, scene, 1, options.peers);
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   const auto flags = flags_of_switch(options.view);
   if (flags) let_pages_move_hands(scene, options.peers);

@@ -16,6 +16,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/exercise/attached_devices.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -114,6 +115,27 @@ peer::Finding examine_waking() {
           "sudo setfacl -m u:$USER:w " + file + ", or run as root"};
 }
 
+// Whether devices on USB can be used.
+void examine_usb(std::vector<peer::Finding>& findings) {
+  const UsbLook look = look_at_usb(false);
+  if (!look.problem.empty()) {
+    findings.push_back({peer::FindingLevel::note,
+                        look.problem + ": hands are simulated, or moved by a pointer",
+                        "needed for a real device only"});
+    return;
+  }
+  for (const AttachedDevice& device : look.devices) {
+    if (device.problem.empty())
+      findings.push_back({peer::FindingLevel::ok, device.name + ": it can be opened", ""});
+    else
+      findings.push_back(
+          {peer::FindingLevel::warning, device.name + ": " + device.problem, device.remedy});
+  }
+  if (look.devices.empty())
+    findings.push_back({peer::FindingLevel::ok,
+                        "USB can be used; no device that a hand could hold is attached", ""});
+}
+
 peer::SceneFile scene_of(const DoctorOptions& options) {
   if (options.scene.empty()) return {};
   if (options.ipv6) throw UsageError("--ipv6: the scene sets the address family; leave --ipv6 out");
@@ -159,6 +181,7 @@ int run_doctor(Arguments arguments, const Console& console) {
   fmt::print(console.err, "{}", choice.explanation);
   std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
   findings.push_back(examine_waking());
+  examine_usb(findings);
 
   for (const peer::Finding& finding : findings) {
     if (options.json)

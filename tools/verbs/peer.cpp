@@ -22,6 +22,7 @@
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
+#include "reckon/tools/exercise/real_devices.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -42,6 +43,7 @@ constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
 
 struct PeerVerbOptions {
   SceneOptions scene;
+  DeviceChoice device;
   std::string name;
   std::optional<std::uint64_t> operator_number;
   std::optional<std::uint64_t> application;
@@ -82,6 +84,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
                    "reckon peer scenes/two_hands.toml --iface eth0 --metrics 127.0.0.1:9464");
   line.word("SCENE", options.scene.scene, true, "scene file; all peers need the same");
   add_scene_options(line, options.scene);
+  add_device_flags(line, options.device);
   line.option("--name", options.name,
               "marking of the hand, at most 11 characters; default: the name of this host");
   line.option("--operator", options.operator_number,
@@ -122,7 +125,8 @@ class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
               EntityEvents& events, peer::DatagramTap* tap)
-      : joined_(federate_options(scene, options, hands_, tap), options.events ? &events : nullptr) {
+      : joined_(federate_options(scene, options, hands_, real_, tap),
+                options.events ? &events : nullptr) {
     if (joined_.options().deal) {
       fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
                  joined_.options().scene_peer);
@@ -141,13 +145,16 @@ class RunningPeer {
     return joined_.take_sealing_notices();
   }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
+  /// Of its devices that are no simulation.
+  [[nodiscard]] std::vector<std::string> device_notices() { return real_.take_notices(); }
   /// Its hands that a page may move.
   [[nodiscard]] const std::vector<PointerHand>& pointers() const { return hands_.pointers; }
 
  private:
   static peer::FederateOptions federate_options(const peer::SceneFile& scene,
                                                 const PeerVerbOptions& options,
-                                                SimulatedHands& hands, peer::DatagramTap* tap) {
+                                                SimulatedHands& hands, RealDevices& real,
+                                                peer::DatagramTap* tap) {
     peer::FederateOptions own;
     own.tap = tap;
     own.name = options.name;
@@ -155,10 +162,12 @@ class RunningPeer {
     own.loops = peer::FederateLoops::threads;
     if (options.application) own.application = static_cast<std::uint16_t>(*options.application);
     const bool lends = flags_of_switch(options.view).has_value();
-    const auto make_hands = [&scene, &hands, lends](std::uint32_t number) {
+    const auto make_hands = [&scene, &options, &hands, &real, lends](std::uint32_t number) {
       peer::SceneFile held = scene;
+      choose_device(options.device, held, number, peer::kMostPeers);
       if (lends) let_pages_move_hands(held, number);
       hands = make_simulated_hands(held, number);
+      real.plug_in(held, number, hands.wired);
       return hands.wired;
     };
     if (asks_for_number(scene, options)) {
@@ -171,6 +180,7 @@ class RunningPeer {
   }
 
   SimulatedHands hands_;  // before the peer, which makes them while it joins
+  RealDevices real_;      // as well
   peer::JoinedPeer joined_;
 };
 
@@ -180,12 +190,12 @@ void print_line(std::FILE* out, const std::string& text) {
   std::fflush(out);
 }
 
-void print_notice(std::FILE* out, const peer::Notice& notice, double seconds) {
+void print_notice(std::FILE* out, std::string_view text, double seconds) {
   std::string line;
   JsonObject(line)
       .text("event", "notice")
       .decimals("seconds", seconds, 3)
-      .text("text", notice.text.data())
+      .text("text", text)
       .end("\n");
   print_line(out, line);
 }
@@ -227,13 +237,18 @@ void tell_notices(RunningPeer& running, const Console& console, bool as_events,
   const auto tell = [&](const peer::Notice& notice) {
     display.add({own, notice});
     if (page != nullptr) page->note(notice);
-    if (as_events) print_notice(console.out, notice, pdu::to_seconds(running.elapsed()));
+    if (as_events)
+      print_notice(console.out, notice.text.data(), pdu::to_seconds(running.elapsed()));
   };
   while (const peer::Notice* notice = running.peer().notices().front()) {
     tell(*notice);
     running.peer().notices().pop();
   }
   for (const peer::Notice& notice : running.sealing_notices()) tell(notice);
+  for (std::string& sentence : running.device_notices()) {
+    if (as_events) print_notice(console.out, sentence, pdu::to_seconds(running.elapsed()));
+    display.add({std::move(sentence)});
+  }
 }
 
 std::vector<peer::NamedPeer> read_list(const std::string& list) {
@@ -381,6 +396,7 @@ int run_peer(Arguments arguments, const Console& console) {
                                  options.name, options.name.size(), kLongestMarking));
   if (options.name.empty()) options.name = marking_of_host();
   check_beacons(options.follow);
+  check_device_choice(options.device);
   (void)flags_of_switch(options.view);
   (void)metrics_address(options.metrics);
   if (options.balance && *options.balance < kLookEvery)

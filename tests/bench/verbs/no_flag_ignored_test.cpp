@@ -287,6 +287,7 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--iface", {"lo"}},        {"--key", {key}},
       {"--trace", {csv_}},        {"--simulated-time", {}},
       {"--no-transfer", {}},      {"--json", {}},
+      {"--device", {"falcon"}},   {"--firmware", {corner}},
   };
   Words flags = flags_of({"demo"});
   const std::set<std::string> refused{"--view", "--listen", "--open"};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
@@ -109,9 +110,54 @@ TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
               HasSubstr("x.toml:2:8: a device has 3 axes, or 6 with torque"));
   EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping in all of them"));
   EXPECT_THAT(refused("axes = 6\nkind = \"pointer\"\n"), HasSubstr("a pointer moves three axes"));
+  EXPECT_THAT(refused("axes = 6\ndriver = \"falcon\"\n"), HasSubstr("a Falcon has three axes"));
   std::string nine = "axes = 6\n";
   for (int i = 0; i < 9; ++i) nine += "[[device.probe]]\n";
   EXPECT_THAT(refused(nine), HasSubstr("a tool has at most 8 probes, this one has 9"));
+}
+
+// What a servo may rely on is the driver's to say, as far as the file does not.
+TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
+  EXPECT_EQ(device_of("driver = \"simulated\"\n").driver, DeviceDriver::simulated);
+  const DeviceConfig plain = device_of("driver = \"falcon\"\n");
+  EXPECT_EQ(plain.driver, DeviceDriver::falcon);
+  EXPECT_EQ(plain.max_force, 8.9);
+  EXPECT_EQ(plain.delay_samples, 6);
+  EXPECT_NEAR(plain.damping, 0.9 * 0.3, 1e-12) << "assumed, less a tenth";
+  EXPECT_EQ(plain.resolution, 90e-6);
+
+  const DeviceConfig known = device_of(
+      "driver = \"falcon\"\ndamping = \"2 N s/m\"\ndelay = \"3.5 ms\"\nmax_force = \"5 N\"\n");
+  EXPECT_EQ(known.delay_samples, 4);
+  EXPECT_NEAR(known.damping, 1.8, 1e-12);
+  EXPECT_EQ(known.max_force, 5);
+  // And its device has the same.
+  const haptics::DeviceLimits limits = haptics::falcon_limits(falcon_settings_of(known));
+  EXPECT_EQ(limits.delay_samples, 4);
+  EXPECT_NEAR(limits.damping, 1.8, 1e-12);
+}
+
+TEST(DeviceSection, RefusesWhatAFalconIsNot) {
+  const std::string falcon = "[[device]]\ndriver = \"falcon\"\n";
+  EXPECT_THAT(refusal("[[device]]\ndriver = \"falkon\"\n" + std::string(kOperator)),
+              HasSubstr("did you mean \"falcon\"?"));
+  EXPECT_THAT(refusal(falcon + "kind = \"pointer\"\n" + kOperator),
+              HasSubstr("no pointer moves it"));
+  EXPECT_THAT(refusal(falcon + "resolution = \"10 um\"\n" + kOperator),
+              HasSubstr("knows the steps"));
+  EXPECT_THAT(refusal(falcon + "rate = \"300 Hz\"\n" + kOperator), HasSubstr("400 Hz is enough"));
+  EXPECT_THAT(refusal(falcon + "firmware = \"no_such_file\"\n" + kOperator),
+              HasSubstr("no_such_file"));
+  EXPECT_THAT(refusal("[[device]]\nfirmware = \"no_such_file\"\n" + std::string(kOperator)),
+              HasSubstr("only a Falcon has one"));
+}
+
+// Whose device it is, is each host's own matter.
+TEST(DeviceSection, ADriverDoesNotChangeTheWorld) {
+  const auto hash = [](const std::string& lines) {
+    return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").hash;
+  };
+  EXPECT_EQ(hash("driver = \"falcon\"\n"), hash(""));
 }
 
 // Whatever rate is accepted: one period missed and the next one late by half of one.
@@ -145,6 +191,8 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.period, standard.period);
   EXPECT_EQ(silent.delay_samples, standard.delay_samples);
   EXPECT_EQ(silent.source, standard.source);
+  EXPECT_EQ(silent.driver, standard.driver);
+  EXPECT_EQ(silent.firmware, standard.firmware);
   EXPECT_EQ(silent.reach, standard.reach);
   EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());
 }

@@ -136,10 +136,10 @@ TEST(SceneSections, SayNoKeyTwice) {
 template <class T>
 class SceneWords : public testing::Test {};
 using TypesWithWords =
-    testing::Types<OperatorKind, DeviceSource, pdu::ForceId, pdu::ForceModelKind, aoim::CellScheme,
-                   pdu::CompressedForm, Prediction, deadreckon::AccelerationReading,
-                   std::optional<pdu::DeadReckoningAlgorithm>, const deadreckon::SendRule*,
-                   deadreckon::ConvergenceCurve>;
+    testing::Types<OperatorKind, DeviceSource, DeviceDriver, pdu::ForceId, pdu::ForceModelKind,
+                   aoim::CellScheme, pdu::CompressedForm, Prediction,
+                   deadreckon::AccelerationReading, std::optional<pdu::DeadReckoningAlgorithm>,
+                   const deadreckon::SendRule*, deadreckon::ConvergenceCurve>;
 TYPED_TEST_SUITE(SceneWords, TypesWithWords);
 
 TYPED_TEST(SceneWords, AreReadAsWhatTheyAreWrittenFor) {

@@ -104,6 +104,7 @@ class PeerFlags : public testing::Test {
       facts.insert("serves a page");
     if (result.err.find("metrics: http://127.0.0.1:") != std::string::npos)
       facts.insert("serves metrics");
+    if (result.err.find("Falcon: ") != std::string::npos) facts.insert("speaks of its device");
     for (const std::string& line : result.lines()) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
       if (row.is_discarded()) {
@@ -158,6 +159,7 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
       {"--hand", trace_, "moves"},
       {"--impair", "loss=100%", "hears somebody", false},
       {"--key", key_, host, false},
+      {"--device", "falcon", "speaks of its device"},
   };
   for (const Change& change : changes) {
     const Facts facts = facts_of(scene_, with(mode_, change.flag, change.value));
@@ -177,8 +179,8 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
 
   // Of a flag that is not in this list nobody knows what it does.
   // The test two_applications shows what --application does, those of the viewer the page's flags.
-  Facts known{"SCENE",   "--help", "--operator",    "--json",   "--follow",
-              "--iface", "--seed", "--application", "--listen", "--open"};
+  Facts known{"SCENE",  "--help",        "--operator", "--json", "--follow",  "--iface",
+              "--seed", "--application", "--listen",   "--open", "--firmware"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
@@ -193,6 +195,8 @@ TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
       {"--application", "2"},   // peers agree on their IDs
       {"--listen", "0.0.0.0"},  // there is no page
       {"--metrics", "crane"},   // no port
+      {"--device", "crane"},    // no such driver
+      {"--firmware", corner_},  // no program of a device
   };
   for (const Words& flag : refused) {
     Words words{"peer", scene_, "--for", "10ms"};

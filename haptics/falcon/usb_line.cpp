@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/falcon/usb_line.hpp"
+
+#include <libusb-1.0/libusb.h>
+#include <sys/time.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "reckon/haptics/falcon/falcon_packets.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+constexpr int kInterface = 0;
+constexpr unsigned char kIn = 0x81, kOut = 0x02;
+constexpr std::uint8_t kToChip = 0x40;  // of a vendor, out
+constexpr std::uint8_t kFromChip = 0xC0;
+constexpr std::uint8_t kReadLatency = 10;
+constexpr std::uint16_t kPort = 0;   // of a chip with one
+constexpr unsigned kPatience = 100;  // [ms], of a request
+constexpr std::size_t kInbox = 4096;
+
+std::string reason(int code) { return libusb_strerror(static_cast<libusb_error>(code)); }
+
+UsbFault fault_of(int status) {
+  if (status == LIBUSB_TRANSFER_NO_DEVICE) return UsbFault::gone;
+  return status == LIBUSB_TRANSFER_STALL ? UsbFault::stalled : UsbFault::failed;
+}
+
+}  // namespace
+
+void UsbContext::End::operator()(libusb_context* context) const noexcept { libusb_exit(context); }
+
+UsbContext::UsbContext(bool discover) {
+  if (!discover) libusb_set_option(nullptr, LIBUSB_OPTION_NO_DEVICE_DISCOVERY);
+  libusb_context* context = nullptr;
+  const int code = libusb_init(&context);
+  if (code != 0) throw std::runtime_error("USB cannot be used: " + reason(code));
+  context_.reset(context);
+}
+
+void UsbContext::wait(std::chrono::microseconds longest) noexcept {
+  timeval time{};
+  time.tv_sec = static_cast<time_t>(longest.count() / 1'000'000);
+  time.tv_usec = static_cast<suseconds_t>(longest.count() % 1'000'000);
+  static_cast<void>(libusb_handle_events_timeout_completed(get(), &time, nullptr));
+}
+
+UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor, std::uint16_t product) {
+  UsbOpening opening;
+  opening.problem = "none is attached: plug it in, with its power supply";
+  libusb_device** list = nullptr;
+  const ssize_t count = libusb_get_device_list(context, &list);
+  for (ssize_t i = 0; i < count && opening.handle == nullptr; ++i) {
+    libusb_device_descriptor about{};
+    if (libusb_get_device_descriptor(list[i], &about) != 0) continue;
+    if (about.idVendor != vendor || about.idProduct != product) continue;
+    const int code = libusb_open(list[i], &opening.handle);
+    if (code == LIBUSB_ERROR_ACCESS) {
+      opening.problem = "this user may not open it: see reckon devices for the rule of udev";
+    } else if (code != 0) {
+      opening.problem = "it cannot be opened: " + reason(code);
+    }
+  }
+  if (count >= 0) libusb_free_device_list(list, 1);
+  if (opening.handle != nullptr) opening.problem.clear();
+  return opening;
+}
+
+void UsbLine::Free::operator()(libusb_transfer* transfer) const noexcept {
+  libusb_free_transfer(transfer);
+}
+
+UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle)
+    : context_(context), handle_(handle), inbox_(kInbox) {
+  // Where the kernel drives the chip as a serial port, it gives way and comes back at the end.
+  static_cast<void>(libusb_set_auto_detach_kernel_driver(handle, 1));
+  const int code = libusb_claim_interface(handle, kInterface);
+  if (code != 0) {
+    libusb_close(handle);
+    throw std::runtime_error("another program has it: " + reason(code));
+  }
+  out_.reset(libusb_alloc_transfer(0));
+  for (std::size_t i = 0; i < kListeners; ++i) {
+    in_[i].reset(libusb_alloc_transfer(0));
+    libusb_fill_bulk_transfer(in_[i].get(), handle, kIn, in_octets_[i].data(),
+                              static_cast<int>(kMost), &UsbLine::ended_in, this, 0);
+    listen(in_[i].get());
+  }
+}
+
+UsbLine::~UsbLine() {
+  closing_ = true;
+  if (sending_) libusb_cancel_transfer(out_.get());
+  for (const Transfer& transfer : in_) libusb_cancel_transfer(transfer.get());
+  while (listening_ > 0 || sending_) context_.wait(std::chrono::milliseconds(10));
+  libusb_release_interface(handle_, kInterface);
+  libusb_close(handle_);
+}
+
+bool UsbLine::control(std::uint8_t request, std::uint16_t value) noexcept {
+  return libusb_control_transfer(handle_, kToChip, request, value, kPort, nullptr, 0, kPatience) >=
+         0;
+}
+
+std::uint8_t UsbLine::latency_timer() noexcept {
+  std::uint8_t time = 0;
+  const int count =
+      libusb_control_transfer(handle_, kFromChip, kReadLatency, 0, kPort, &time, 1, kPatience);
+  return count == 1 ? time : std::uint8_t{0};
+}
+
+bool UsbLine::send(std::span<const std::uint8_t> octets) noexcept {
+  if (sending_ || fault_ != UsbFault::none || octets.size() > kMost) return false;
+  std::ranges::copy(octets, out_octets_.begin());
+  libusb_fill_bulk_transfer(out_.get(), handle_, kOut, out_octets_.data(),
+                            static_cast<int>(octets.size()), &UsbLine::ended_out, this, 0);
+  const int code = libusb_submit_transfer(out_.get());
+  if (code == 0) {
+    sending_ = true;
+  } else {
+    fault_ = code == LIBUSB_ERROR_NO_DEVICE ? UsbFault::gone : UsbFault::failed;
+  }
+  return sending_;
+}
+
+void UsbLine::listen(libusb_transfer* transfer) noexcept {
+  const int code = libusb_submit_transfer(transfer);
+  if (code == 0) {
+    ++listening_;
+  } else {
+    fault_ = code == LIBUSB_ERROR_NO_DEVICE ? UsbFault::gone : UsbFault::failed;
+  }
+}
+
+void UsbLine::note(int status) noexcept {
+  if (closing_ || status == LIBUSB_TRANSFER_COMPLETED) return;
+  if (fault_ == UsbFault::none) fault_ = fault_of(status);
+}
+
+// Nobody has read for a long time where the inbox is full: what comes then is of no use.
+void UsbLine::take(const libusb_transfer& transfer) noexcept {
+  const auto count = static_cast<std::size_t>(std::max(0, transfer.actual_length));
+  each_serial_octet({transfer.buffer, count}, [&](std::uint8_t octet) {
+    if (length_ < inbox_.size()) inbox_[length_++] = octet;
+  });
+}
+
+void UsbLine::ended_in(libusb_transfer* transfer) {
+  UsbLine& line = *static_cast<UsbLine*>(transfer->user_data);
+  --line.listening_;
+  line.note(transfer->status);
+  if (transfer->status == LIBUSB_TRANSFER_COMPLETED && !line.closing_) line.take(*transfer);
+  if (!line.closing_ && line.fault_ == UsbFault::none) line.listen(transfer);
+}
+
+void UsbLine::ended_out(libusb_transfer* transfer) {
+  UsbLine& line = *static_cast<UsbLine*>(transfer->user_data);
+  line.sending_ = false;
+  line.note(transfer->status);
+  // What is left of a command would be the begin of the next: the line has to be set up anew.
+  if (!line.closing_ && line.fault_ == UsbFault::none &&
+      transfer->actual_length != transfer->length)
+    line.fault_ = UsbFault::failed;
+}
+
+}  // namespace reckon::haptics

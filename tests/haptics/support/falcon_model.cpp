@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/haptics/support/falcon_model.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "reckon/haptics/falcon/falcon_kinematics.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::test {
+namespace {
+
+using Eigen::Vector3d;
+using haptics::FalconGeometry;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kStep = microseconds(50);
+constexpr nanoseconds kFrame = milliseconds(1);
+constexpr nanoseconds kOctet = nanoseconds(6'667);    // at 1.5 Mbaud
+constexpr nanoseconds kWatchdog = milliseconds(100);  // of its own
+constexpr std::size_t kPacket = 62;                   // octets, beside two of status
+
+// Frame D in the Falcon's own axes, which the model moves in.
+Vector3d turned(const Vector3d& v_D) { return {v_D.x(), v_D.z(), -v_D.y()}; }
+Vector3d place(const Vector3d& p_D) {
+  return turned(p_D) + Vector3d(0, 0, FalconGeometry::kMiddle);
+}
+
+}  // namespace
+
+FalconModel::FalconModel(const FalconModelOptions& options, std::function<Vector3d(double)> hand)
+    : options_(options),
+      hand_(std::move(hand)),
+      random_(options.seed),
+      position_(place(hand_(0))),
+      has_firmware_(options.has_firmware),
+      homed_(options.homed) {
+  move(0);
+}
+
+Vector3d FalconModel::position() const {
+  return {position_.x(), FalconGeometry::kMiddle - position_.z(), position_.y()};
+}
+
+Vector3d FalconModel::force() const {
+  const Vector3d own = own_force();
+  return {own.x(), -own.z(), own.y()};
+}
+
+Vector3d FalconModel::own_force() const {
+  Vector3d torques;
+  for (int i = 0; i < 3; ++i) torques[i] = -1e-4 * motors_[static_cast<std::size_t>(i)];
+  return jacobian_.transpose().inverse() * torques;
+}
+
+void FalconModel::forget() {
+  has_firmware_ = homed_ = loading_ = false;
+  motors_ = {};
+  to_device_.clear();
+  to_host_.clear();
+  packets_.clear();
+  command_.clear();
+  loaded_.clear();
+  greeting_.clear();
+}
+
+void FalconModel::pass(nanoseconds time) {
+  const nanoseconds end = now_ + time;
+  while (now_ < end) {
+    const nanoseconds h = std::min(kStep, end - now_);
+    move(pdu::to_seconds(h));
+    now_ += h;
+    run_line();
+    if (beside_) beside_(now_);
+  }
+}
+
+// Velocity first, as in SimulatedDevice: each book with the velocity that moves the handle.
+void FalconModel::move(double h) {
+  const Vector3d before = angles_;
+  if (h > 0) {
+    const double t = pdu::to_seconds(now_);
+    const Vector3d target = place(hand_(t));
+    const Vector3d speed = turned(hand_(t + 1e-4) - hand_(t)) / 1e-4;
+    const Vector3d hand = options_.hand_stiffness * (target - position_) +
+                          options_.hand_damping * (speed - velocity_);
+    velocity_ += h / options_.mass * (hand + own_force() - options_.damping * velocity_);
+    position_ += h * velocity_;
+    damping_loss_ += h * options_.damping * velocity_.squaredNorm();
+  }
+  const auto angles = haptics::falcon_angles(position_);
+  const auto pose = angles ? haptics::falcon_pose(*angles) : std::nullopt;
+  if (!angles) {  // at the end of its reach
+    position_ -= h * velocity_;
+    velocity_.setZero();
+    return;
+  }
+  angles_ = *angles;
+  if (pose) jacobian_ = pose->jacobian;
+  if (h > 0) {
+    for (int i = 0; i < 3; ++i)
+      port_work_ += 1e-4 * motors_[static_cast<std::size_t>(i)] * (angles_[i] - before[i]);
+  }
+}
+
+void FalconModel::run_line() {
+  if (now_ - obeyed_at_ > kWatchdog) motors_ = {};
+  while (!to_device_.empty() && to_device_.front().first <= now_) {
+    const std::uint8_t octet = to_device_.front().second;
+    to_device_.pop_front();
+    if (!has_firmware_) {
+      echo(octet);
+    } else {
+      take(octet);
+    }
+  }
+  const bool tick = now_ >= next_tick_;
+  if (tick) {
+    const nanoseconds every = milliseconds(std::max(1, latency_));
+    const auto offset = nanoseconds(static_cast<std::int64_t>(1e6 * options_.tick_at));
+    next_tick_ = ((now_ - offset) / every + 1) * every + offset;
+  }
+  std::size_t due = 0;
+  while (due < to_host_.size() && to_host_[due].first <= now_) ++due;
+  if (splits_ && due > 1 && tick) due = 1 + random_() % (due - 1);
+  if (!tick && due < kPacket) return;
+  std::vector<std::uint8_t> packet{0x01, 0x60};
+  for (std::size_t i = 0; i < std::min(due, kPacket); ++i) {
+    packet.push_back(to_host_.front().second);
+    to_host_.pop_front();
+  }
+  // Where nobody listens the chip keeps one packet of status.
+  if (packet.size() == 2 && !packets_.empty()) return;
+  packets_.push_back(std::move(packet));
+}
+
+void FalconModel::take(std::uint8_t octet) {
+  if (octet == '<') command_.clear();
+  command_ += static_cast<char>(octet);
+  if (octet != '>') return;
+  if (command_.size() == 16) obey();
+  command_.clear();
+}
+
+void FalconModel::obey() {
+  ++commands_;
+  obeyed_at_ = now_;
+  for (std::size_t arm = 0; arm < 3; ++arm) {
+    unsigned word = 0;
+    for (std::size_t i = 4; i-- > 0;)
+      word = word << 4 | static_cast<unsigned>(command_[1 + 4 * arm + i] - 'A');
+    motors_[arm] = static_cast<std::int16_t>(word);
+  }
+  if (now_ >= mute_until_) report();
+}
+
+void FalconModel::report() {
+  std::string text = "<";
+  for (int arm = 0; arm < 3; ++arm) {
+    const auto count =
+        static_cast<std::uint16_t>(homed_ ? haptics::falcon_count(angles_[arm]) : std::int16_t{77});
+    for (int i = 0; i < 4; ++i) text += static_cast<char>('A' + (count >> (4 * i) & 15));
+  }
+  text += static_cast<char>('A' + (homed_ ? 0x70 : 0x20) + 4);
+  text += "A>";
+  nanoseconds at = now_;
+  for (char c : text) {
+    if (damaged_ > 0 && random_() % 3 == 0) {
+      c = static_cast<char>(random_());
+      --damaged_;
+    }
+    at += kOctet;
+    to_host_.emplace_back(at, static_cast<std::uint8_t>(c));
+  }
+}
+
+// Without firmware it answers a greeting, and then repeats what it is given.
+void FalconModel::echo(std::uint8_t octet) {
+  const auto say = [&](std::string_view text) {
+    for (const char c : text) to_host_.emplace_back(now_, static_cast<std::uint8_t>(c));
+  };
+  if (!loading_) {
+    greeting_ += static_cast<char>(octet);
+    if (baud_ == 0x4138 && greeting_.ends_with("\x0A\x43\x0D")) say("\x0A\x44\x2C\x0D");
+    if (baud_ == 0x15 && greeting_.ends_with("\x41")) {
+      say("\x41");
+      loading_ = true;
+    }
+    return;
+  }
+  loaded_.push_back(octet);
+  if (damaged_ > 0) {
+    octet = static_cast<std::uint8_t>(octet + 1);
+    --damaged_;
+  }
+  to_host_.emplace_back(now_, octet);
+}
+
+int FalconModel::control(std::uint8_t request, std::uint16_t value,
+                         std::span<std::uint8_t> answer) {
+  if (stalls_ && request == 0) return -EPIPE;
+  if (request == 3) {
+    baud_ = value;
+    // The loader starts what it was given where the line's speed becomes that of the program.
+    if (value == 2 && loading_) {
+      loading_ = false;
+      has_firmware_ = loaded_ == options_.firmware;
+      loaded_.clear();
+    }
+  }
+  if (request == 9) latency_ = options_.latency_set >= 0 ? options_.latency_set : value;
+  if (request == 10 && !answer.empty()) {
+    answer[0] = static_cast<std::uint8_t>(latency_);
+    return 1;
+  }
+  if (request == 0 && value == 1) {
+    to_host_.clear();
+    packets_.clear();
+  }
+  return 0;
+}
+
+void FalconModel::begin_out(std::span<const std::uint8_t> octets) {
+  out_.assign(octets.begin(), octets.end());
+  out_at_ = (now_ / kFrame + 1) * kFrame;
+}
+
+std::optional<int> FalconModel::out_done() {
+  if (std::exchange(stalls_, false)) return -EPIPE;
+  if (now_ < out_at_ || now_ < hangs_until_) return std::nullopt;
+  auto taken = out_.size();
+  if (std::exchange(cuts_, false)) taken /= 2;
+  nanoseconds at = now_;
+  for (std::size_t i = 0; i < taken; ++i) to_device_.emplace_back(at += kOctet, out_[i]);
+  return static_cast<int>(taken);
+}
+
+std::optional<int> FalconModel::in_done(std::span<std::uint8_t> octets) {
+  if (packets_.empty() || now_ < hangs_until_) return std::nullopt;
+  const std::vector<std::uint8_t> packet = std::move(packets_.front());
+  packets_.pop_front();
+  std::ranges::copy(packet, octets.begin());
+  return static_cast<int>(packet.size());
+}
+
+std::vector<std::uint8_t> FalconModel::descriptors() const {
+  return {18,   1,    0x00, 0x02, 0,    0,    0,    64,   0x03,
+          0x04, 0x48, 0xCB, 0x00, 0x04, 0,    0,    0,    1,   // device
+          9,    2,    32,   0,    1,    1,    0,    0x80, 45,  // configuration
+          9,    4,    0,    0,    2,    0xFF, 0xFF, 0xFF, 0,   // interface
+          7,    5,    0x81, 2,    64,   0,    0,               // in
+          7,    5,    0x02, 2,    64,   0,    0};              // out
+}
+
+}  // namespace reckon::test

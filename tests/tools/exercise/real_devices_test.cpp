@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// --device and --firmware, and what stands in the place of a simulated device.
+#include "reckon/tools/exercise/real_devices.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "reckon/haptics/falcon/usb_line.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::DeviceDriver;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr const char* kTwoHands =
+    "[[operator]]\npassive = true\n[[operator]]\npassive = true\nposition = \"0.1 0 0 m\"\n";
+
+template <class Call>
+std::string usage_error(Call&& call) {
+  try {
+    call();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(RealDevices, TheFirstDeviceOfThePeerGetsTheDriverThatIsChosen) {
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({"falcon", ""}, scene, 2, 2);
+  ASSERT_EQ(scene.devices.size(), 2U);
+  EXPECT_EQ(scene.devices[0].driver, DeviceDriver::simulated);
+  EXPECT_EQ(scene.devices[1].driver, DeviceDriver::falcon);
+  EXPECT_EQ(scene.devices[1].peer, 2U);
+  // What was said of a simulated device's friction says nothing of this one.
+  EXPECT_LT(scene.devices[1].damping, 0.5);
+  EXPECT_EQ(scene.devices[1].delay_samples, 6);
+}
+
+TEST(RealDevices, WhatTheFileSaysOfItsFalconStays) {
+  peer::SceneFile scene = peer::parse_scene_file(
+      std::string("[[device]]\ndriver = \"falcon\"\ndamping = \"2 N s/m\"\n") + kTwoHands,
+      "x.toml");
+  choose_device({"falcon", ""}, scene, 1, 2);
+  EXPECT_NEAR(scene.devices.at(0).damping, 1.8, 1e-12);
+}
+
+TEST(RealDevices, NothingChangesWithoutAChoice) {
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({}, scene, 1, 2);
+  EXPECT_TRUE(scene.devices.empty());
+}
+
+TEST(RealDevices, AWrongNameGetsTheNearest) {
+  EXPECT_THAT(usage_error([] {
+                check_device_choice({"falkon", ""});
+              }),
+              AllOf(HasSubstr("--device"), HasSubstr("did you mean 'falcon'?")));
+  EXPECT_THAT(usage_error([] {
+                check_device_choice({"crane", ""});
+              }),
+              HasSubstr("there is falcon"));
+}
+
+TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("program.bin");
+  std::ofstream(file) << std::string(5000, 'x');
+  EXPECT_THAT(usage_error([&] { check_device_choice({"falcon", file}); }), "");
+  EXPECT_THAT(usage_error([&] {
+                check_device_choice({"falcon", folder.file("none")});
+              }),
+              AllOf(HasSubstr("--firmware"), HasSubstr("none")));
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  EXPECT_THAT(usage_error([&] {
+                choose_device({"", file}, scene, 1, 2);
+              }),
+              HasSubstr("add --device falcon"));
+  choose_device({"falcon", file}, scene, 1, 2);
+  EXPECT_EQ(scene.devices.at(0).firmware, file);
+}
+
+TEST(RealDevices, APeerWithoutADeviceCannotHaveOne) {
+  peer::SceneFile scene =
+      peer::parse_scene_file(std::string("[[device]]\npeer = 2\n") + kTwoHands, "x.toml");
+  EXPECT_THAT(usage_error([&] {
+                choose_device({"falcon", ""}, scene, 1, 2);
+              }),
+              HasSubstr("peer 1 has no device"));
+}
+
+// Simulated, it has the very limits that the servo of the real one relies on.
+TEST(RealDevices, WhatIsExplainedOfAFalconIsWhatItsServoReliesOn) {
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({"falcon", ""}, scene, 1, 2);
+  const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
+  const haptics::DeviceLimits real =
+      haptics::falcon_limits(peer::falcon_settings_of(scene.devices[0]));
+  EXPECT_EQ(simulated.max_force, real.max_force);
+  EXPECT_NEAR(simulated.damping, real.damping, 1e-15);
+  EXPECT_EQ(simulated.delay_samples, real.delay_samples);
+  EXPECT_EQ(simulated.resolution, real.resolution);
+  EXPECT_EQ(simulated.max_speed, real.max_speed);
+}
+
+TEST(RealDevices, ADemoGoesOnWithoutTheDeviceAndSaysSoOnce) {
+  try {
+    const haptics::UsbContext usb;
+  } catch (const std::runtime_error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const test::ProgramResult result =
+      test::run_reckon({"demo", "--device", "falcon", "--for", "700ms", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("Falcon: "));
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What is attached to this host that a hand could hold, and what is in the way.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/haptics/falcon/usb_list.hpp"
+
+namespace reckon::tools {
+
+/// A device that there is a driver for.
+struct AttachedDevice {
+  std::string driver;   ///< as --device and [[device]] have it
+  std::string name;     ///< of the product, and where it is
+  std::string use;      ///< how it would be used
+  std::string problem;  ///< why it cannot be used now; empty: it can
+  std::string remedy;   ///< of the problem
+};
+
+/// What a look at USB found.
+struct UsbLook {
+  std::string problem;     ///< why there is no USB here; empty: there is
+  std::size_t others = 0;  ///< devices that there is no driver for
+  std::vector<AttachedDevice> devices;
+};
+
+/// The rule of udev by which the person who sits at this host may open the devices.
+[[nodiscard]] std::string_view udev_rule() noexcept;
+/// Name of the rule's file in its folder.
+inline constexpr const char* kRuleFile = "70-reckon.rules";
+inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";
+
+/// What devices of USB are for us. `said` is what the driver had to say of the one that is open to
+/// us; see ask_falcon().
+[[nodiscard]] UsbLook judge_usb(const std::vector<haptics::UsbDeviceSeen>& seen,
+                                const std::vector<std::string>& said);
+/// Sets a Falcon up without any force, and tells what the driver says of it within 2 s.
+[[nodiscard]] std::vector<std::string> ask_falcon();
+/// Looks at this host. @param ask whether devices that can be opened are set up and asked
+[[nodiscard]] UsbLook look_at_usb(bool ask);
+
+}  // namespace reckon::tools

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The devices of a peer that are no simulation.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/falcon_thread.hpp"
+#include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+
+namespace reckon::tools {
+
+/// --device and --firmware of a demo or a peer.
+struct DeviceChoice {
+  std::string device;    ///< name of a driver; empty: as the scene says
+  std::string firmware;  ///< file; empty: as the scene says
+};
+
+void add_device_flags(CommandLine& line, DeviceChoice& choice);
+
+/// @throws UsageError for a driver that does not exist, with the nearest word, and for a file that
+/// is no firmware
+void check_device_choice(const DeviceChoice& choice);
+
+/// The first device of peer `number` gets the driver that is chosen; nothing changes without a
+/// choice. @throws UsageError for a peer without a device, and for --firmware where no device would
+/// take it
+void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint32_t number,
+                   std::size_t peers);
+
+/// Holds the real devices of a process; outlives the peers that use them.
+class RealDevices {
+ public:
+  /// Puts real devices in the place of the simulated ones of peer `number` that have a driver.
+  /// @param wired that of make_simulated_hands() for that peer @throws std::runtime_error with the
+  /// remedy where the host has no USB, a firmware cannot be read, or a second Falcon is asked for
+  void plug_in(const peer::SceneFile& scene, std::uint32_t number,
+               std::vector<peer::PeerDevice>& wired);
+  /// Sentences since the last call.
+  [[nodiscard]] std::vector<std::string> take_notices();
+
+ private:
+  peer::SteadyClock clock_;
+  std::unique_ptr<peer::FalconThread> falcon_;
+  std::vector<std::string> sentences_;
+};
+
+}  // namespace reckon::tools
