@@ -50,7 +50,12 @@ void start_ode() {
     dInitODE2(0);
     dSetMessageHandler(note_lost);
   });
-  dAllocateODEDataForThread(dAllocateMaskAll);
+}
+
+// What ODE keeps for each thread.
+void know_thread() {
+  thread_local const bool known = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+  static_cast<void>(known);
 }
 
 [[noreturn]] void refuse(const PlannedObject& object, const std::string& why) {
@@ -63,9 +68,11 @@ class BodyWorld::Engine {
  public:
   Engine(const EffectPlan& plan, const Vector3d& gravity) : gravity_(gravity) {
     start_ode();
+    know_thread();
     world_ = dWorldCreate();
     space_ = dSimpleSpaceCreate(nullptr);
     joints_ = dJointGroupCreate(0);
+    ray_ = dCreateRay(nullptr, 1.0);
     keep_within_thread(world_);
     dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
     dWorldSetERP(world_, 0.2);
@@ -134,6 +141,7 @@ class BodyWorld::Engine {
     dBodyID id = nullptr;
     std::uint32_t object = 0;
     double mass = 0.0;
+    double inner = 0.0;  // [m], radius of the ball within it
     Vector3d start = Vector3d::Zero();
     double still = 0.0;  // [s]
     bool flies = true;   // nothing pushes it in this step but its weight
@@ -166,6 +174,7 @@ class BodyWorld::Engine {
   };
 
   void destroy() noexcept {
+    dGeomDestroy(ray_);
     dJointGroupDestroy(joints_);
     dSpaceDestroy(space_);
     dWorldDestroy(world_);
@@ -190,10 +199,12 @@ class BodyWorld::Engine {
     body.start = object.position;
     dMass mass;
     if (std::holds_alternative<Ball>(object.shape)) {
+      body.inner = dGeomSphereGetRadius(geom);
       dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(geom));
     } else {
       dVector3 size;
       dGeomBoxGetLengths(geom, size);
+      body.inner = 0.5 * std::min({size[0], size[1], size[2]});
       dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
     }
     dBodySetMass(body.id, &mass);
@@ -276,7 +287,14 @@ class BodyWorld::Engine {
                   mass.I[10] * rate.z() * rate.z());
   }
 
+  [[nodiscard]] bool rests() const noexcept {
+    return pushes_.empty() &&
+           std::ranges::none_of(bodies_, [](const Body& body) { return dBodyIsEnabled(body.id); });
+  }
+
   void step(double dt) noexcept {
+    if (rests()) return;
+    know_thread();
     apply_pushes();
     for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
     before_.clear();
@@ -286,6 +304,7 @@ class BodyWorld::Engine {
     });
     solve(dt);
     fly_exactly(dt);
+    catch_fast();
     dJointGroupEmpty(joints_);
     double given = 0.0;
     for (std::size_t i = 0; i < pushes_.size(); ++i) {
@@ -379,6 +398,36 @@ class BodyWorld::Engine {
     }
   }
 
+  // A body that would be behind what it hits is put where its middle meets it, and the next step
+  // finds both in touch.
+  void catch_fast() noexcept {
+    for (const Body& body : bodies_) {
+      const Vector3d from(body.at[0], body.at[1], body.at[2]);
+      const Vector3d way = vector(dBodyGetPosition(body.id)) - from;
+      const double length = way.norm();
+      if (!(length > 0.5 * body.inner)) continue;
+      const double free = length_free(body, from, way / length, length);
+      if (!(free < length)) continue;
+      const Vector3d at = from + std::max(0.0, free - 0.9 * body.inner) / length * way;
+      dBodySetPosition(body.id, at.x(), at.y(), at.z());
+    }
+  }
+
+  // How far the middle of a body gets before it meets anything else.
+  [[nodiscard]] double length_free(const Body& body, const Vector3d& from, const Vector3d& way,
+                                   double length) noexcept {
+    dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());
+    dGeomRaySetLength(ray_, length);
+    double free = length;
+    for (int i = 0; i < dSpaceGetNumGeoms(space_); ++i) {
+      const dGeomID geom = dSpaceGetGeom(space_, i);
+      if (dGeomGetBody(geom) == body.id) continue;
+      dContactGeom hit;
+      if (dCollide(ray_, geom, 1, &hit, sizeof hit) > 0) free = std::min(free, hit.depth);
+    }
+    return free;
+  }
+
   // @param given work of all pushes in this step [J]
   void take_out(double given) noexcept {
     const double most = energy_ + given;
@@ -432,6 +481,7 @@ class BodyWorld::Engine {
   dWorldID world_ = nullptr;
   dSpaceID space_ = nullptr;
   dJointGroupID joints_ = nullptr;
+  dGeomID ray_ = nullptr;  // in no space
   Vector3d gravity_;
   std::vector<Matter> matters_;  // of geoms
   std::vector<Body> bodies_;

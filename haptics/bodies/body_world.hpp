@@ -60,7 +60,7 @@ class BodyWorld {
  public:
   static constexpr std::chrono::milliseconds kSleep{1000};
   /// Greatest speed [m/s] and turn rate [rad/s]; a body that is pushed faster keeps to them.
-  static constexpr double kFastest = 50.0;
+  static constexpr double kFastest = 200.0;
   static constexpr double kFastestTurn = 200.0;
 
   /// Bodies are the objects of the plan that have a Matter with a mass; all others stand still.
