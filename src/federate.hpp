@@ -64,8 +64,8 @@ struct ObjectHandle {
 /// origin), SI units.
 class Federate {
  public:
-  /// Joins over UDP multicast. @throws SceneFileError, std::invalid_argument, std::runtime_error or
-  /// std::system_error with the value and the remedy.
+  /// Joins over UDP multicast. @throws SceneFileError, StepTooDear, std::invalid_argument,
+  /// std::runtime_error or std::system_error with the value and the remedy.
   explicit Federate(const FederateOptions& options);
   /// The same with a link and a clock of the caller, for tests and simulated time. Both must
   /// outlive the federate. @param epoch identifies this run of the peer: not 0, and different for

@@ -50,6 +50,9 @@ struct FederateOptions {
   /// none has. In other scenes peers settle a conflict of IDs by taking the next free one; absent:
   /// 1 at first.
   std::optional<std::uint16_t> application;
+  /// Joins although this host cannot make a servo step of the scene within its period, and reports
+  /// that as a notice. Otherwise joining a LAN with devices throws StepTooDear then.
+  bool even_if_slow = false;
   bool transfer = true;       ///< give energy on demand; otherwise no hand can push another
   bool record_shown = false;  ///< fill Peer::shown() at every model step
   /// Stream of the random impairment of the scene: peers with different numbers lose different

@@ -16,6 +16,7 @@
 #include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/step_cost/step_check.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -129,6 +130,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   own.record_shown = options_.record_shown;
   own.record_changes = guest != nullptr;
   peer_ = std::make_unique<Peer>(*options_.scene, own, way, options_.devices);
+  if (lan_) check_step_cost();
   if (sealed_) sealed_->count_in(peer_->counters());
   if (hold_ && !hold_->report().empty())
     static_cast<void>(peer_->notices().push(make_notice("{}", hold_->report())));
@@ -141,6 +143,17 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
     peer_->write_step();
     roll->leave();
   }
+}
+
+// On a LAN time is real. What a caller's clock says may be any.
+void JoinedPeer::check_step_cost() {
+  if (!peer_->has_devices()) return;
+  const SceneFile& scene = *options_.scene;
+  const auto slow = find_step_too_dear(scene.scene, *peer_->plan(), scene.hand.contact_radius,
+                                       peer_->servo_period());
+  if (!slow) return;
+  if (!options_.even_if_slow) throw *slow;
+  static_cast<void>(peer_->notices().push(make_notice("{}", slow->finding())));
 }
 
 std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& own) {

@@ -37,8 +37,8 @@ class JoinedPeer {
  public:
   /// Joins over UDP multicast with a random epoch. @param guest is called in each pass and may use
   /// RemoteEntities::take_changes(); must outlive this; may be null. @throws
-  /// SceneFileError, KeyFileError, RandomSourceError, std::invalid_argument, std::runtime_error or
-  /// std::system_error with the value and the remedy.
+  /// SceneFileError, KeyFileError, RandomSourceError, StepTooDear, std::invalid_argument,
+  /// std::runtime_error or std::system_error with the value and the remedy.
   explicit JoinedPeer(const FederateOptions& options, ModelGuest* guest = nullptr);
   /// The same with a link and a clock of the caller, which must outlive it.
   /// @param epoch identifies this run of the peer: not 0, and different for each run
@@ -83,6 +83,7 @@ class JoinedPeer {
     std::uint32_t epoch;
     aoim::ChainLink secret;
   };
+  void check_step_cost();
   void join(Link& link, std::uint16_t site, const Life& life, ModelGuest* guest);
   [[nodiscard]] std::uint16_t application(std::uint16_t site);
   [[nodiscard]] Link& sealed(Link& link, std::uint16_t site);

@@ -146,6 +146,10 @@ void Peer::servo_step(std::chrono::nanoseconds now) noexcept {
   }
 }
 
+const haptics::EffectPlan* Peer::plan() const noexcept {
+  return servos_.empty() ? nullptr : &servos_.front()->plan();
+}
+
 bool Peer::has_near_servo() noexcept {
   return std::ranges::any_of(servos_, [](const auto& servo) { return servo->has_near(); });
 }

@@ -30,6 +30,7 @@
 
 namespace reckon::haptics {
 class BodyWorld;
+class EffectPlan;
 class ServoLoop;
 }  // namespace reckon::haptics
 
@@ -109,6 +110,8 @@ class Peer {
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return model_.next_step(); }
   /// Whether there is a device, so that servo_step() has to be called.
   [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
+  /// What the servos run; null without devices.
+  [[nodiscard]] const haptics::EffectPlan* plan() const noexcept;
   /// Whether more datagrams are pending for model_step().
   [[nodiscard]] bool has_inbound() const noexcept {
     return !inbound_.empty() || (urgent_ && !urgent_->empty());

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/effects/call_guard.hpp"
+#include "reckon/haptics/effects/effect_call_guard.hpp"
 #include "reckon/haptics/effects/effect_custom.hpp"
 
 namespace reckon::haptics {

@@ -96,12 +96,6 @@ class SolidMaker {
       add(middle, first + next, first + i, kBottom);
     }
   }
-  static double length_of(const HeightsShape& shape, const GreyImage& picture) {
-    if (shape.length > 0.0) return shape.length;
-    return shape.width * static_cast<double>(picture.height - 1) /
-           static_cast<double>(picture.width - 1);
-  }
-
   const HeightsShape& shape_;
   const GreyImage& picture_;
   std::size_t columns_, rows_;
@@ -137,6 +131,12 @@ GreyImage thinned(const GreyImage& picture, std::size_t most_pixels) {
       out.pixels.push_back(picture.pixels[from + column * (picture.width - 1) / (out.width - 1)]);
   }
   return out;
+}
+
+double length_of(const HeightsShape& shape, const GreyImage& picture) noexcept {
+  if (shape.length > 0.0) return shape.length;
+  return shape.width * static_cast<double>(picture.height - 1) /
+         static_cast<double>(picture.width - 1);
 }
 
 TriangleSoup solid_of(const HeightsShape& shape, const GreyImage& picture) {

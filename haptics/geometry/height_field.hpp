@@ -19,6 +19,9 @@ inline constexpr std::size_t kMostFieldPixels = 1 << 20;
 /// than kMostFieldPixels, a length out of its range
 [[nodiscard]] GreyImage heights_of(const HeightsShape& shape);
 
+/// Its length along y [m]: as stated, or of square pixels.
+[[nodiscard]] double length_of(const HeightsShape& shape, const GreyImage& picture) noexcept;
+
 /// At most so many pixels of it, evenly spread and with its border. For drawing.
 [[nodiscard]] GreyImage thinned(const GreyImage& picture, std::size_t most_pixels);
 

@@ -75,7 +75,10 @@ SurfaceMesh SurfaceMesh::load(const MeshShape& shape) {
 }
 
 SurfaceMesh SurfaceMesh::load_heights(const HeightsShape& shape, std::size_t most_pixels) {
-  TriangleSoup soup = solid_of(shape, thinned(heights_of(shape), most_pixels));
+  const GreyImage picture = heights_of(shape);
+  HeightsShape sized = shape;
+  sized.length = length_of(shape, picture);
+  TriangleSoup soup = solid_of(sized, thinned(picture, most_pixels));
   MeshReport report;
   report.place_word = "face";
   report.faces = soup.triangles.size();

@@ -31,6 +31,20 @@ struct MeshData {
   }
 };
 
+/// A cone of slivers that all meet at its tip and at the middle of its base: a ball there is near
+/// each of them.
+inline MeshData sliver_cone(std::uint32_t sides) {
+  MeshData cone{{Vector3d::Zero(), {0, 0, -0.02}}, {}};
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    cone.vertices.emplace_back(0.05 * std::cos(angle), 0.05 * std::sin(angle), -0.02);
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % sides;
+    cone.triangles.push_back({0, a, b});
+    cone.triangles.push_back({1, b, a});
+  }
+  return cone;
+}
+
 /// As an OBJ file that a scene can name.
 inline void write_obj(const MeshData& mesh, const std::filesystem::path& file) {
   std::ofstream out(file);

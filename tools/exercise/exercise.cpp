@@ -110,6 +110,7 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   own.receiver = index;
   own.impairment_changes = options_.impairment_changes;
   own.servo = servo_.get();
+  own.even_if_slow = options_.even_if_slow;
   if (options_.simulated_time) {
     own.loops = peer::FederateLoops::by_hand;
     member.joined = std::make_unique<peer::JoinedPeer>(own, network_->link(index), manual_, epoch);

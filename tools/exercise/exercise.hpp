@@ -44,6 +44,7 @@ struct ExerciseOptions {
   bool trace_contacts = false;      ///< fill contacts()
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
+  bool even_if_slow = false;  ///< real time: see FederateOptions
   bool time_servo = false;  ///< simulated time: measure what servo steps take
 };
 

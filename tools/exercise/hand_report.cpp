@@ -66,7 +66,7 @@ constexpr Kind kKinds[] = {
     {"softened", &ServoTally::softened, &ServoTally::hands, "energy was short for longer"},
     {"crowded", &ServoTally::crowd, &ServoTally::hands, "stiffer together than a device can show"},
     {"walls held back", &ServoTally::walls, nullptr, "energy was short"},
-    {"dampers cut", &ServoTally::effects, nullptr, "energy was short"},
+    {"held forces cut", &ServoTally::effects, nullptr, "energy was short"},
     {"rate limited", &ServoTally::rate, nullptr, "it grew or turned faster than it may"},
     {"force cut", &ServoTally::limit, nullptr, "it was more than the device may show"},
 };
@@ -165,7 +165,7 @@ void append_hand(std::string& out, const HandView* hand) {
   append_shortfall(object.member("softened"), tally.softened);
   append_shortfall(object.member("crowded"), tally.crowd);
   append_shortfall(object.member("walls_held_back"), tally.walls);
-  append_shortfall(object.member("dampers_cut"), tally.effects);
+  append_shortfall(object.member("held_forces_cut"), tally.effects);
   append_shortfall(object.member("rate_limited"), tally.rate);
   append_shortfall(object.member("force_cut"), tally.limit);
   object.value("loan_j", number(hand->servo.loan_most))

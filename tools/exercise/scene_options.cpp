@@ -23,6 +23,8 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
   line.option("--iface", options.iface, "network interface by name, address or index");
   line.offer("--iface", kInterfaces);
   line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
+  line.flag("--even-if-slow", options.even_if_slow,
+            "run a scene whose servo steps take longer here than their period");
 }
 
 namespace {
@@ -38,6 +40,12 @@ void check_key(const peer::SceneFile& scene) {
 }
 
 }  // namespace
+
+std::string refusal_of(const peer::StepTooDear& slow) {
+  return slow.finding() +
+         "; leave out the dearest (reckon scene explain lists them), or run it all the same with "
+         "--even-if-slow";
+}
 
 bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept {
   return law.jitter.count() > 0 || law.loss > 0 || law.burst_loss > 0 || law.reorder > 0 ||

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/step_cost/step_too_dear.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
@@ -22,11 +23,15 @@ struct SceneOptions {
   std::string iface;
   std::string key;  ///< key file of a sealed exercise
   std::optional<std::uint64_t> seed;
+  bool even_if_slow = false;         ///< see FederateOptions
   haptics::CustomEffects effects{};  ///< of the program that reads the scene
 };
 
-/// Declares --mesh, --hand, --impair, --seed, --iface and --key.
+/// Declares --mesh, --hand, --impair, --seed, --iface, --key and --even-if-slow.
 void add_scene_options(CommandLine& line, SceneOptions& options);
+
+/// What is wrong with the scene, and what may be done.
+[[nodiscard]] std::string refusal_of(const peer::StepTooDear& slow);
 
 /// Whether the network draws by its seed what happens to a datagram.
 [[nodiscard]] bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept;

@@ -272,6 +272,8 @@ void check_flags(const DemoOptions& options) {
     throw UsageError(
         "--view: --simulated-time sends nothing that a page could show; leave one out");
   if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");
+  if (options.scene.even_if_slow)
+    throw UsageError("--even-if-slow: --simulated-time takes what time it takes; leave one out");
   if (!options.scene.iface.empty())
     throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
 }
@@ -282,6 +284,7 @@ ExerciseOptions exercise_options(const DemoOptions& options) {
   made.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
   made.simulated_time = options.simulated_time;
   made.transfer = !options.no_transfer;
+  made.even_if_slow = options.scene.even_if_slow;
   made.impairment_changes = made.trace_contacts = flags_of_switch(options.view).has_value();
   return made;
 }
@@ -326,6 +329,8 @@ int run(const DemoOptions& asked, const Console& console) {
     exercise.emplace(scene, exercise_options(options));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
+  } catch (const peer::StepTooDear& slow) {
+    throw EnvironmentError(refusal_of(slow));
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }

@@ -160,6 +160,7 @@ class RunningPeer {
     own.name = options.name;
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
+    own.even_if_slow = options.scene.even_if_slow;
     if (options.application) own.application = static_cast<std::uint16_t>(*options.application);
     const bool lends = flags_of_switch(options.view).has_value();
     const auto make_hands = [&scene, &options, &hands, &real, lends](std::uint32_t number) {
@@ -312,6 +313,8 @@ std::unique_ptr<RunningPeer> joined_peer(const peer::SceneFile& scene,
                                          EntityEvents& events, peer::DatagramTap* tap) {
   try {
     return std::make_unique<RunningPeer>(scene, options, console, events, tap);
+  } catch (const peer::StepTooDear& slow) {
+    throw EnvironmentError(refusal_of(slow));
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }

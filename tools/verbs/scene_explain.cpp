@@ -16,9 +16,9 @@
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/regions/region_types.hpp"
 #include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/step_cost/stage_costs.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
-#include "reckon/tools/verbs/scene_costs.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_peers.hpp"
 #include "reckon/tools/verbs/scene_settings.hpp"
@@ -133,7 +133,7 @@ std::string time_text(double seconds) {
 }
 
 /// What a servo step takes of this host, and whether it can be had.
-std::string step_text(const StageCosts& costs) {
+std::string step_text(const peer::StageCosts& costs) {
   constexpr double kStep = 1e-3, kMost = 0.5;  // [s], and the share of it that is left to the servo
   const std::string what = costs.dearest_object.empty()
                                ? std::string("a step")
@@ -142,7 +142,8 @@ std::string step_text(const StageCosts& costs) {
       fmt::format("measured here: {} takes {:.2g} us of 1,000 ({:.0f} ns without any stage)", what,
                   1e6 * costs.dearest, 1e9 * costs.empty);
   if (costs.dearest < kMost * kStep) return text;
-  return text + "; this host cannot do that at 1 kHz: leave out the dearest stages above";
+  return text + "; this host cannot do that at 1 kHz: leave out the dearest stages above" +
+         (costs.dearest < kStep ? "" : ". demo and peer refuse the scene here");
 }
 
 }  // namespace
@@ -151,7 +152,8 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   const std::vector<SceneDevice> devices = devices_in(scene.file, scene.plan);
   const auto stages = stages_of(scene, devices);
   fmt::print(out, "{}   hash {}\n\n", scene.file.name, hash_text(scene.file.hash));
-  const StageCosts costs = measure_stages(scene, scene.file.hand.contact_radius);
+  const peer::StageCosts costs =
+      peer::measure_stages(scene.file.scene, scene.plan, scene.file.hand.contact_radius);
   TextTable run({{"EACH SERVO STEP"}, {"OBJECT"}, {"WITH"}, {"TAKES", kRight}, {"COST"}});
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const haptics::PlanStage& stage = stages[i];
@@ -204,7 +206,8 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
       .text("hash", hash_text(scene.file.hash))
       .value("stages", stages.size())
       .end("\n");
-  const StageCosts costs = measure_stages(scene, scene.file.hand.contact_radius);
+  const peer::StageCosts costs =
+      peer::measure_stages(scene.file.scene, scene.plan, scene.file.hand.contact_radius);
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const bool known = costs.stages[i] >= 0;
     JsonObject(text)

@@ -50,6 +50,13 @@ std::string sentence(const Group& group, std::size_t devices) {
   const std::string by = group.devices.size() == devices
                              ? (devices == 1 ? "its device" : "every device")
                              : names(group.devices);
+  if (group.first.damps) {
+    return fmt::format(
+        "{} ask for {}{:.6g} N s/m: {:.6g} N s/m are kept for them by {}, and what is beyond is "
+        "felt as far as the hand's motion has paid for it; more damping in [[device]] keeps more",
+        names(group.things), group.things.size() == 1 ? "" : "up to ", group.most_asked,
+        group.first.shown, by);
+  }
   const bool beside = group.first.shown < group.first.alone;
   const std::string remedy = fmt::format(
       "{}; {}more damping, a higher rate or less delay in [[device]] shows more",
@@ -98,6 +105,12 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
     };
     for (const haptics::PlannedObject& object : plan.objects())
       note("object " + object.name, object.stiffness(), can.walls, 0.0);
+    for (const haptics::PlannedObject& object : plan.objects()) {
+      const double kept = haptics::kMostDamperShare * can.damping;
+      if (object.damping() > kept)
+        rows.push_back({device.peer, device.name, "dampers of " + object.name, kept,
+                        object.damping(), 0.0, 0.0, true});
+    }
     for (const haptics::PlannedRegion& region : plan.regions())
       note("region " + region.name, region.stiffness(), haptics::kRegionsOverWalls * can.walls,
            0.0);
@@ -139,7 +152,8 @@ void append_softened(std::string& out, const Softened& row) {
       .text("device", row.device)
       .text("what", row.what)
       .value("shown", fmt::format("{:.6g}", row.shown))
-      .value("asked", row.is_hardening() ? "null" : fmt::format("{:.6g}", row.asked));
+      .value("asked", row.is_hardening() ? "null" : fmt::format("{:.6g}", row.asked))
+      .text("unit", row.damps ? "N s/m" : "N/m");
   if (row.is_hardening()) object.value("from_m", fmt::format("{:.6g}", row.from));
   object.end();
 }

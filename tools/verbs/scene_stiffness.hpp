@@ -29,11 +29,13 @@ struct SceneDevice {
 struct Softened {
   std::uint32_t peer = 1;
   std::string device;  ///< as SceneDevice::name
-  std::string what;    ///< "object NAME", "hand", "entity MARKING"
+  std::string what;    ///< "object NAME", "hand", "entity MARKING", "dampers of NAME"
   double shown = 0.0;  ///< [N/m]
   double asked = 0.0;  ///< [N/m]; 0: a slope that grows by k3 up to the device's limit
   double from = 0.0;   ///< [m], depth from which the device cannot show it
   double alone = 0.0;  ///< [N/m], shown stiffness without the damper beside it; 0: there is none
+  /// Whether it is of dampers: `asked` and what is kept for it of the device's damping [N s/m].
+  bool damps = false;
   [[nodiscard]] bool is_hardening() const noexcept { return asked == 0.0; }
 };
 

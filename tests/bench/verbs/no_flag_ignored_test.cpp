@@ -290,7 +290,7 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--device", {"falcon"}},   {"--firmware", {corner}},
   };
   Words flags = flags_of({"demo"});
-  const std::set<std::string> refused{"--view", "--listen", "--open"};
+  const std::set<std::string> refused{"--view", "--listen", "--open", "--even-if-slow"};
   std::erase_if(flags, [&](const std::string& flag) {
     return flag == "SCENE" || flag == "--help" || refused.contains(flag);
   });
@@ -310,6 +310,9 @@ TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {
   const auto iface = run({"demo", "--simulated-time", "--for", "1s", "--iface", "lo"});
   EXPECT_EQ(iface.status, 2);
   EXPECT_THAT(iface.err, HasSubstr("--iface: --simulated-time has no sockets"));
+  const auto slow = run({"demo", "--simulated-time", "--for", "1s", "--even-if-slow"});
+  EXPECT_EQ(slow.status, 2);
+  EXPECT_THAT(slow.err, HasSubstr("--even-if-slow: --simulated-time takes what time it takes"));
   for (const Words& page : {Words{"--listen", "0.0.0.0"}, Words{"--open"}}) {
     const auto pageless = run(Words{"demo", "--simulated-time", "--for", "1s"} + page);
     EXPECT_EQ(pageless.status, 2);

@@ -102,16 +102,18 @@ TEST_F(HeightField, IsAClosedSolidOfItsVolumeWithNamedSides) {
   }
 }
 
-// A slope of atan(1/8): force and depth as on an inclined plane, within the steps of the greys.
+// Force and depth as on an inclined plane, within the steps of the greys. Up is y.
 TEST_F(HeightField, ASlopeIsFeltAsAPlane) {
-  Land land(drawn([](double x, double) { return 0.5 + x / kWidth; }));
-  const Vector3d normal = Vector3d(-kHeight / kWidth, 0, 1).normalized();
+  const auto height = [](double x, double y) { return 0.5 + 0.3 * x / kWidth - 0.6 * y / kLength; };
+  Land land(drawn(height));
+  const Vector3d normal =
+      Vector3d(-0.3 * kHeight / kWidth, 0.6 * kHeight / kLength, 1).normalized();
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(-0.8, 0.8), depths(0.0005, 0.005);
   for (int i = 0; i < 200; ++i) {
     const double x = 0.5 * kWidth * share(random), y = 0.5 * kLength * share(random);
     const double below = depths(random);
-    const double top = kHeight * (0.5 + x / kWidth);
+    const double top = kHeight * height(x, y);
     const Vector3d force = land.press({x, y, top + 0.01}, {x, y, top - below});
     const Vector3d plane = kStiffness * below * normal.z() * normal;
     // Half a step of grey in depth; in direction a step over a pixel. The contact point rests
@@ -178,6 +180,9 @@ TEST_F(HeightField, ALengthOfItsOwnStretchesItAndWhatCannotBeIsRefused) {
   HeightsShape shape = drawn([](double, double) { return 0.0; });
   shape.length = 0.3;
   EXPECT_NEAR(SurfaceMesh::load_heights(shape).bounds().sizes().y(), 0.3, 1e-12);
+  EXPECT_EQ(SurfaceMesh::load_heights(shape, 100).report().extent,
+            SurfaceMesh::load_heights(shape).report().extent);
+  shape.length = 0.0;
   EXPECT_EQ(SurfaceMesh::load_heights(shape, 100).report().extent,
             SurfaceMesh::load_heights(shape).report().extent);
   EXPECT_LE(SurfaceMesh::load_heights(shape, 100).report().triangles, 500U);

@@ -50,7 +50,7 @@ TEST_F(HandReport, SaysForHowLongAndByHowMuchContactsWereHeldBack) {
   views_[5].servo.tally.crowd = {1.0, 0.5, 4.0};
   views_[6].servo.tally.effects = {1.5, 0.0, 0.2};
   EXPECT_THAT(text(), AllOf(HasSubstr("crowded"), HasSubstr("50 % of 4 N shown"),
-                            HasSubstr("dampers cut                1.5 s, at worst 0 % of 0.2 N")));
+                            HasSubstr("held forces cut            1.5 s, at worst 0 % of 0.2 N")));
 }
 
 TEST_F(HandReport, SaysForHowLongTheForceWasCutAtTheDevicesLimit) {

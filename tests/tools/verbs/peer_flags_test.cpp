@@ -178,9 +178,10 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   EXPECT_THAT(follower, Contains("follows"));
 
   // Of a flag that is not in this list nobody knows what it does.
-  // The test two_applications shows what --application does, those of the viewer the page's flags.
-  Facts known{"SCENE",  "--help",        "--operator", "--json", "--follow",  "--iface",
-              "--seed", "--application", "--listen",   "--open", "--firmware"};
+  // The test two_applications shows what --application does, those of the viewer the page's flags,
+  // and StepTooDear --even-if-slow.
+  Facts known{"SCENE",  "--help",        "--operator", "--json", "--follow",   "--iface",
+              "--seed", "--application", "--listen",   "--open", "--firmware", "--even-if-slow"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }

@@ -283,6 +283,38 @@ TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
   EXPECT_EQ(json["softened"][1]["shown"], 950);
 }
 
+// Of 1 N s/m three quarters are for surfaces, half of it at most for dampers.
+TEST(SceneCheck, TellsWhatDampersAskAndWhatIsKeptForThem) {
+  const auto check = [](const std::string& damping, bool json) {
+    const TemporaryScene scene(
+        "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\nsurface = { stiffness = 100, damping = " +
+        damping + " }\ndrag = { viscosity = 0.125 }\n[hand]\nk1 = 475\n");
+    return json ? run_reckon({"scene", "check", "--json", scene.path()}).out
+                : run_reckon({"scene", "check", scene.path()}).out;
+  };
+  EXPECT_THAT(check("2", false),
+              HasSubstr("note: dampers of wall ask for 2.125 N s/m: 0.375 N s/m are kept for them "
+                        "by its device, and what is beyond is felt as far as"));
+  EXPECT_THAT(check("0.25", false), Not(HasSubstr("dampers")));
+  const auto row = nlohmann::json::parse(check("2", true))["softened"].at(0);
+  EXPECT_EQ(row["what"], "dampers of wall");
+  EXPECT_EQ(row["asked"], 2.125);
+  EXPECT_EQ(row["shown"], 0.375);
+  EXPECT_EQ(row["unit"], "N s/m");
+  // Walls are left what the device itself keeps.
+  const auto felt = [](const std::string& damping) {
+    const TemporaryScene scene(
+        "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\n"
+        "surface = { stiffness = 9000, damping = " +
+        damping + " }\n");
+    const auto json =
+        nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
+    return json["softened"].at(0)["shown"].get<double>();
+  };
+  EXPECT_EQ(felt("0.375"), felt("50"));
+  EXPECT_GT(felt("0.37"), felt("0.375"));
+}
+
 TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
   const TemporaryScene scene(
       std::string(kStiff) +

@@ -11,6 +11,7 @@
 #include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 #include "reckon/tools/viewer/history/history.hpp"
 #include "reckon/tools/viewer/scenery/drawn_groups.hpp"
@@ -257,6 +258,27 @@ TEST(ShownThresholds, AreThreeAtMostAndThoseOfAnEntityByItsMarking) {
   EXPECT_EQ(many.of("B", false), std::nullopt) << "there are two of that name";
   EXPECT_EQ(many.of("HAND1", true), 0.0005);
   EXPECT_EQ(many.of("stranger", false), std::nullopt);
+}
+
+TEST(SolidShapes, DrawAPictureCoarserWhereItHasTooManyTriangles) {
+  const test::ScratchFolder folder;
+  std::ofstream(folder.file("land.pgm")) << "P5 200 100 255\n" << std::string(200 * 100, 'a');
+  haptics::Scene scene;
+  scene.objects.push_back(
+      {"land", haptics::HeightsShape{folder.file("land.pgm"), 0.2, 0.0, 0.02, 0.01}, {}, {}, {}});
+  const auto whole = drawn_solids(scene), coarse = drawn_solids(scene, 3000);
+  EXPECT_EQ(whole[0].triangles.size(), 2U * 199 * 99 + 3 * 2 * 298);
+  ASSERT_EQ(coarse[0].shape, "mesh");
+  EXPECT_LE(coarse[0].triangles.size(), 3000U);
+  EXPECT_GE(coarse[0].triangles.size(), 1000U);
+  const auto extent = [](const DrawnSolid& solid) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : solid.vertices) box.extend(vertex);
+    return Eigen::Vector3d(box.sizes());
+  };
+  EXPECT_LT((extent(whole[0]) - extent(coarse[0])).norm(), 1e-12);
+  scene.objects[0].shape = haptics::HeightsShape{"/none.pgm"};
+  EXPECT_EQ(drawn_solids(scene)[0].shape, "box");
 }
 
 TEST(SolidShapes, DrawTheBoxOfAMeshThatCannotBeRead) {

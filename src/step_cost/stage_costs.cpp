@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/scene_costs.hpp"
+#include "reckon/peer/step_cost/stage_costs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,12 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "reckon/haptics/contact/static_contact.hpp"
 
-namespace reckon::tools {
+namespace reckon::peer {
 namespace {
 
 using Eigen::Vector3d;
@@ -23,6 +25,10 @@ constexpr double kPeriod = 0.001;  // [s]
 constexpr double kDamping = 1.0;   // [N s/m], of the device
 constexpr double kDepth = 0.001;   // [m]
 constexpr int kSteps = 1000, kRuns = 5;
+constexpr double kMostRun = 0.02;    // [s], after which a run ends with fewer steps
+constexpr double kMostSearch = 0.5;  // [s], of measure_dearest_step()
+constexpr int kBatch = 10;           // steps between two looks at the clock
+constexpr int kFewSteps = 50;
 
 double thread_seconds() {
   timespec spent{};
@@ -47,18 +53,26 @@ class Stroke {
   /// CPU of a step [s], the least of some runs.
   double time_round(const Vector3d& place) {
     double least = std::numeric_limits<double>::infinity();
-    for (int run = 0; run < kRuns; ++run) {
-      const double begin = thread_seconds();
-      for (int i = 0; i < kSteps; ++i) {
-        const double turn = 0.02 * i;
-        step(place + 5e-4 * Vector3d(std::cos(turn), std::sin(turn), std::sin(1.3 * turn)));
-      }
-      least = std::min(least, (thread_seconds() - begin) / kSteps);
-    }
+    for (int run = 0; run < kRuns; ++run) least = std::min(least, time_run(place, kSteps));
     return least;
+  }
+  /// CPU of a step [s], the mean of one run.
+  double time_run(const Vector3d& place, int most_steps) {
+    const double begin = thread_seconds();
+    double spent = 0.0;
+    int steps = 0;
+    while (steps < most_steps && spent < kMostRun) {
+      for (int i = 0; i < kBatch; ++i) go_round(place, steps++);
+      spent = thread_seconds() - begin;
+    }
+    return spent / steps;
   }
 
  private:
+  void go_round(const Vector3d& place, int i) {
+    const double turn = 0.02 * i;
+    step(place + 5e-4 * Vector3d(std::cos(turn), std::sin(turn), std::sin(1.3 * turn)));
+  }
   void step(const Vector3d& device) {
     const Vector3d dx = device - last_;
     last_ = device;
@@ -122,13 +136,14 @@ haptics::EffectDeclarations<Types> only(const haptics::EffectDeclarations<Types>
 /// Adds the stages of one object, as EffectPlan::stages() has them.
 class Measurement {
  public:
-  Measurement(const LoadedScene& scene, double radius) : scene_(scene), radius_(radius) {
+  Measurement(const haptics::Scene& scene, const EffectPlan& plan, double radius)
+      : scene_(scene), plan_(plan), radius_(radius) {
     costs_.empty = time_plan(EffectPlan(), Vector3d::Zero(), Vector3d::Zero(), radius_);
   }
 
   void add_object(std::size_t index) {
-    const PlannedObject& planned = scene_.plan.objects()[index];
-    const haptics::DeclaredEffects& declared = scene_.file.scene.objects[index].effects;
+    const PlannedObject& planned = plan_.objects()[index];
+    const haptics::DeclaredEffects& declared = scene_.objects[index].effects;
     const auto place =
         index < kMostMeasured ? place_inside(planned, radius_) : std::optional<Vector3d>();
     const auto time = [&](const haptics::DeclaredEffects& effects) {
@@ -160,8 +175,8 @@ class Measurement {
   }
 
   void add_region(std::size_t index) {
-    const PlannedRegion& planned = scene_.plan.regions()[index];
-    const haptics::DeclaredRegionEffects& declared = scene_.file.scene.regions[index].effects;
+    const PlannedRegion& planned = plan_.regions()[index];
+    const haptics::DeclaredRegionEffects& declared = scene_.regions[index].effects;
     const auto time = [&](const haptics::DeclaredRegionEffects& effects) {
       PlannedRegion copy = planned;
       copy.effects = haptics::PlannedRegionEffects(effects);
@@ -188,7 +203,8 @@ class Measurement {
   static constexpr double kUnknown = -1.0;
   void add(double seconds) { costs_.stages.push_back(seconds); }
 
-  const LoadedScene& scene_;
+  const haptics::Scene& scene_;
+  const EffectPlan& plan_;
   double radius_;
   StageCosts costs_;
   double regions_ = 0.0;
@@ -196,11 +212,39 @@ class Measurement {
 
 }  // namespace
 
-StageCosts measure_stages(const LoadedScene& scene, double radius) {
-  Measurement measurement(scene, radius);
-  for (std::size_t i = 0; i < scene.plan.objects().size(); ++i) measurement.add_object(i);
-  for (std::size_t i = 0; i < scene.plan.regions().size(); ++i) measurement.add_region(i);
+StageCosts measure_stages(const haptics::Scene& scene, const EffectPlan& plan, double radius) {
+  Measurement measurement(scene, plan, radius);
+  for (std::size_t i = 0; i < plan.objects().size(); ++i) measurement.add_object(i);
+  for (std::size_t i = 0; i < plan.regions().size(); ++i) measurement.add_region(i);
   return measurement.costs();
 }
 
-}  // namespace reckon::tools
+DearestStep measure_dearest_step(const haptics::Scene& scene, const EffectPlan& plan, double radius,
+                                 double enough) {
+  std::vector<PlannedRegion> regions = plan.regions();
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    regions[i].effects = haptics::PlannedRegionEffects(scene.regions[i].effects);
+  DearestStep dearest;
+  const double begin = thread_seconds();
+  for (std::size_t i = 0; i < plan.objects().size(); ++i) {
+    if (thread_seconds() - begin > kMostSearch) break;
+    PlannedObject object = plan.objects()[i];
+    const bool bounded = std::holds_alternative<haptics::HalfSpace>(object.shape) ||
+                         std::holds_alternative<haptics::Ball>(object.shape) ||
+                         std::holds_alternative<haptics::Block>(object.shape);
+    const auto place = bounded ? std::optional<Vector3d>() : place_inside(object, radius);
+    if (!place) continue;
+    object.effects = haptics::PlannedEffects(scene.objects[i].effects);
+    const std::string name = object.name;
+    const Vector3d outside = *place + 10.0 * (*place - object.position);
+    const EffectPlan alone({std::move(object)}, regions);
+    Stroke stroke(alone, radius);
+    stroke.begin(outside);
+    double seconds = stroke.time_run(*place, kFewSteps);
+    if (seconds >= enough) seconds = stroke.time_round(*place);
+    if (seconds > dearest.seconds) dearest = {seconds, name};
+  }
+  return dearest;
+}
+
+}  // namespace reckon::peer

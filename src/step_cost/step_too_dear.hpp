@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Why a federate with devices does not join: this host cannot make its servo's steps in time.
+#pragma once
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+namespace reckon::peer {
+
+/// One step takes longer than the period of the servo: whatever else is right, it cannot be had on
+/// this host. what() names the dearest stages and the remedy.
+class StepTooDear : public std::runtime_error {
+ public:
+  StepTooDear(const std::string& finding, double step, std::chrono::nanoseconds period)
+      : std::runtime_error(finding +
+                           "; leave out the dearest, or set FederateOptions::even_if_slow"),
+        finding_(finding),
+        step_(step),
+        period_(period) {}
+  /// What was found, without the remedy.
+  [[nodiscard]] const std::string& finding() const noexcept { return finding_; }
+  /// CPU of the step [s].
+  [[nodiscard]] double step() const noexcept { return step_; }
+  [[nodiscard]] std::chrono::nanoseconds period() const noexcept { return period_; }
+
+ private:
+  std::string finding_;
+  double step_;
+  std::chrono::nanoseconds period_;
+};
+
+}  // namespace reckon::peer
