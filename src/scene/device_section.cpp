@@ -119,7 +119,7 @@ void check_axes(TomlReader& table, const DeviceConfig& device) {
   }
   for (const char* key : {"turn_damping", "max_torque", "turn_resolution", "probe"}) {
     if (table.has(key))
-      table.problem(key, fmt::format("'{}' is of a device that turns: add axes = 6", key));
+      table.problem(key, fmt::format("only a device that turns has '{}': add axes = 6", key));
   }
 }
 

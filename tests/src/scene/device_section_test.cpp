@@ -104,8 +104,8 @@ TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
     return refusal("[[device]]\n" + lines + kOperator);
   };
   EXPECT_THAT(refused("[[device.probe]]\nposition = \"40 0 0 mm\"\n"),
-              HasSubstr("'probe' is of a device that turns: add axes = 6"));
-  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"), HasSubstr("'max_torque' is of a device that"));
+              HasSubstr("only a device that turns has 'probe': add axes = 6"));
+  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"), HasSubstr("only a device that turns has 'max_torque'"));
   EXPECT_THAT(refused("axes = 4\n"),
               HasSubstr("x.toml:2:8: a device has 3 axes, or 6 with torque"));
   EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping in all of them"));

@@ -7,7 +7,7 @@ import { colour, handColour } from './colours.js';
 import { digits } from './words.js';
 
 const MOST = 8;
-const LEAST = 0.0005; // [N m], below it nothing is felt
+const LEAST_TORQUE = 0.0005; // [N m], below it nothing is felt
 
 export const drawnTools = {
   name: 'tools', view: 'touch', says: 'tool and its probes', mark: 'ball hand-0',
@@ -27,7 +27,7 @@ class Tools {
     for (const { index, tool } of moment.hands.slice(0, 64)) {
       if (!tool) continue;
       this.tools.next().set(index, tool, 0.4 * moment.handRadius(index));
-      if (tool.newtonMetres < LEAST || this.view.rectangle.width < 400) continue;
+      if (tool.newtonMetres < LEAST_TORQUE || this.view.rectangle.width < 400) continue;
       const [x, y, z] = tool.handle;
       this.labels.put(this.view, x, y, z, `${digits(1000 * tool.newtonMetres)} mN m`, 'newtons', -16);
     }
