@@ -16,6 +16,7 @@ constexpr int kDepths = 500;  // at which a spring is tried when it is made
 constexpr double kMostFriction = 10.0;
 // Rounding of an effect that computes in double precision.
 constexpr double kRounding = 1e-6;
+constexpr double kExactly = 1e-9;       // of the bound that energy rests on
 constexpr double kLeastForce = 1e-6;    // [N], differences below are rounding
 constexpr double kLeastEnergy = 1e-12;  // [J]
 
@@ -28,15 +29,17 @@ struct Sample {
   bool usable = false;
 };
 
-// A force across the direction, or out of it, is none of a function of the depth.
+// A force across the direction, or out of it, is none of a function of the depth. One that is
+// nowhere below zero, of curvature K, has no slope beyond sqrt(2 K energy).
 Sample sample(const CustomEffectState& state, const Vector3d& scp, const Vector3d& way,
-              double depth) {
+              double depth, double stiffness) {
   const Vector3d device = scp + depth * way;
   const Vector3d force = state.spring_force(scp, device);
   const double energy = state.stored_energy(scp, device);
   const double along = -force.dot(way);
-  const bool usable = force.allFinite() && std::isfinite(energy) && energy >= -kLeastEnergy &&
-                      along >= -kLeastForce &&
+  const double steepest = std::sqrt(2.0 * stiffness * std::max(energy, 0.0));
+  const bool usable = along <= (1.0 + kExactly) * steepest + kLeastForce && force.allFinite() &&
+                      std::isfinite(energy) && energy >= -kLeastEnergy && along >= -kLeastForce &&
                       (force + along * way).norm() <= kLeastForce + kRounding * force.norm();
   return {along, energy, usable};
 }
@@ -102,7 +105,7 @@ bool GuardedEffect::is_potential_up_to(double depth) const noexcept {
   Sample before[3];
   for (int i = 0; i <= kDepths; ++i) {
     for (int way = 0; way < 3; ++way) {
-      const Sample now = sample(*state_, scp, ways[way], i * step);
+      const Sample now = sample(*state_, scp, ways[way], i * step, stiffness);
       if (!now.usable || (i > 0 && !agree(before[way], now, step, stiffness))) return false;
       before[way] = now;
     }
@@ -119,9 +122,9 @@ bool GuardedEffect::is_potential_about(const Vector3d& scp, const Vector3d& devi
   if (!(depth > 0.0)) return true;
   const Vector3d way = (device - scp) / depth;
   const double step = std::min(1e-4, depth);
-  const Sample before = sample(*state_, scp, way, depth - step);
-  const Sample now = sample(*state_, scp, way, depth);
-  const Sample after = sample(*state_, scp, way, depth + step);
+  const Sample before = sample(*state_, scp, way, depth - step, stiffness);
+  const Sample now = sample(*state_, scp, way, depth, stiffness);
+  const Sample after = sample(*state_, scp, way, depth + step, stiffness);
   return agree(before, now, step, stiffness) && agree(now, after, step, stiffness);
 }
 

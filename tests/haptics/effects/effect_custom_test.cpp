@@ -107,20 +107,24 @@ class Wild : public OneLevel<Wild> {
 
 /// A spring of which force, energy and stiffness need not agree: by `level` 1 it states a tenth of
 /// its stiffness, 2 a tenth of its energy, 3 it pushes in, 4 it lets go after some steps, 5 it
-/// grows in time without a word, 6 it states a tenth of both its stiffness and its energy.
+/// grows in time without a word, 6 it states a tenth of both its stiffness and its energy, 7 it
+/// pushes with 2 N that cost nothing and may bend as it likes.
 class Liar : public OneLevel<Liar> {
  public:
   using OneLevel::OneLevel;
   [[nodiscard]] Vector3d spring_force(const Vector3d& scp, const Vector3d& device) const noexcept {
+    if (level() == 7.0) return 2.0 * (scp - device).stableNormalized();
     const double sign = level() == 3.0 ? -1.0 : 1.0;
     const double scale = level() == 5.0 ? 1.0 + 0.02 * steps_ : (late() ? 0.2 : 1.0);
     return sign * scale * kStiffness * (scp - device);
   }
   [[nodiscard]] double stored_energy(const Vector3d& scp, const Vector3d& device) const noexcept {
+    if (level() == 7.0) return 0.0;
     const double share = level() == 2.0 || level() == 6.0 || late() ? 0.1 : 1.0;
     return 0.5 * share * kStiffness * (scp - device).squaredNorm();
   }
   [[nodiscard]] double stiffness() const noexcept {
+    if (level() == 7.0) return 1e6;
     return level() == 1.0 || level() == 6.0 ? 0.1 * kStiffness : kStiffness;
   }
   [[nodiscard]] Vector3d force(const EffectContact&) noexcept {
@@ -238,7 +242,7 @@ TEST(CustomEffect, AnswersThatAreNoNumbersCountAsNothingAndAreReported) {
 }
 
 TEST(CustomEffect, ASpringThatIsNoneIsHeldInsteadOfBooked) {
-  for (const double lie : {1.0, 2.0, 3.0, 4.0, 6.0}) {
+  for (const double lie : {1.0, 2.0, 3.0, 4.0, 6.0, 7.0}) {
     const EffectPlan plan(box({declare<Liar>(lie)}));
     const bool at_once = plan.custom_effects()[0]->not_booked;
     EXPECT_EQ(at_once, lie != 4.0) << lie;
@@ -269,7 +273,7 @@ TEST(CustomEffect, NoneGivesTheHandWhatItDidNotPutIn) {
       [] { return declare<Rubber>(250.0); },  [] { return declare<Rubber>(1e6); },
       [] { return declare<Sandpaper>(0.6); }, [] { return declare<Wild>(1.0); },
       [] { return declare<Wild>(2.0); },      [] { return declare<Lost>(1.0); }};
-  for (const double lie : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0})
+  for (const double lie : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0})
     all.emplace_back([lie] { return declare<Liar>(lie); });
   for (std::size_t which = 0; which < all.size(); ++which) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -283,7 +287,7 @@ TEST(CustomEffect, NoneGivesTheHandWhatItDidNotPutIn) {
 }
 
 TEST(CustomEffect, NoneGivesEnergyToAHandThatPutsInNextToNothing) {
-  for (double lie = 1.0; lie <= 6.0; lie += 1.0) {
+  for (double lie = 1.0; lie <= 7.0; lie += 1.0) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
       Random random(seed);
       EXPECT_GE(adversary::press_and_let_go(EffectPlan(box({declare<Liar>(lie)})), random), -1e-9)
@@ -294,7 +298,7 @@ TEST(CustomEffect, NoneGivesEnergyToAHandThatPutsInNextToNothing) {
 
 // 4 only lets go, which takes nothing.
 TEST(CustomEffect, WithoutTheGateTheSameEffectsGiveEnergy) {
-  for (const double lie : {1.0, 2.0, 3.0, 5.0, 6.0}) {
+  for (const double lie : {1.0, 2.0, 3.0, 5.0, 6.0, 7.0}) {
     double made = 0.0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
       Random random(seed);
