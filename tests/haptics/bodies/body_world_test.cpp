@@ -22,6 +22,7 @@ constexpr double kG = 9.81;
 /// Objects of a scene, and its world on a clock that is stepped.
 class Table {
  public:
+  /// What is returned lasts until the next one is added.
   SceneObject& box(double edge, const Vector3d& at, Matter matter) {
     SceneObject& object = scene_.objects.emplace_back();
     object.name = "box " + std::to_string(scene_.objects.size());
@@ -243,8 +244,9 @@ TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
     table.without_gravity();
     SceneObject& wall = table.box(1.0, {0, 0, 0}, {});
     wall.shape = BoxShape{Vector3d(0.001, 1.0, 1.0)};
-    wall.pose.orientation = Eigen::Quaterniond(
+    const Eigen::Quaterniond turned(
         Eigen::AngleAxisd(0.5 * any(random), Vector3d(0, any(random), any(random)).normalized()));
+    wall.pose.orientation = turned;
     const Vector3d from(-0.3 - 0.1 * std::abs(any(random)), 0.1 * any(random), 0.1 * any(random));
     if (shot % 2 == 0) {
       table.ball(0.005, from, {0.01});
@@ -256,7 +258,7 @@ TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
     const double speed = 100 * std::abs(any(random)) + 1;
     world.push(0, from, 0.01 * speed / 1e-3 * Vector3d(1, 0.2 * any(random), 0.2 * any(random)));
     // Behind the wall, in its own axes.
-    const Vector3d normal = wall.pose.orientation * Vector3d::UnitX();
+    const Vector3d normal = turned * Vector3d::UnitX();
     for (int i = 0; i < 600; ++i) {
       world.advance_to(now += (i % 20 == 0 ? 3 : 1) * kStep);
       if (normal.dot(world.states()[0].position) > 0.002) {
