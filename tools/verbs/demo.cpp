@@ -191,8 +191,10 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
   const DemoMeasurement& measured = exercise.measurement();
-  fmt::print(out, "What {:.1f} s with {} peers cost\n", cost.seconds, exercise.size());
-  if (cost.remote_seen >= 0) {
+  fmt::print(out, "What {:.1f} s with {} cost\n", cost.seconds, counted(exercise.size(), "peer"));
+  if (exercise.size() == 1) {
+    fmt::print(out, "  first remote hand shown    none: one peer\n");
+  } else if (cost.remote_seen >= 0) {
     fmt::print(out, "  first remote hand shown    {:.3f} s after start\n", cost.remote_seen);
   } else {
     fmt::print(out, "  first remote hand shown    never, by at least one peer\n");
