@@ -26,10 +26,10 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kLongestStep = 1e-3;  // [s]
-constexpr double kLongestGap = 0.1;    // [s]
-constexpr int kContacts = 8;           // of a pair, at most
-constexpr std::size_t kMostPushes = 256;
+constexpr double kLongestStep = 1e-3;     // [s]
+constexpr double kLongestGap = 0.1;       // [s]
+constexpr int kContacts = 8;              // of a pair, at most
+constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
 // Depth at which contacts rest [m], so that they last from step to step.
 constexpr double kRestDepth = 1e-5;
 constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
@@ -80,10 +80,11 @@ class BodyWorld::Engine {
     dWorldSetCFM(world_, 1e-7);
     dWorldSetContactSurfaceLayer(world_, kRestDepth);
     dWorldSetContactMaxCorrectingVel(world_, kParting);
-    // Names of surfaces are looked up by geoms, which point to them.
+    // Geoms point to what they are made of, and a step allocates nothing.
     matters_.reserve(plan.objects().size());
     pushes_.reserve(kMostPushes);
     works_.reserve(kMostPushes);
+    before_.reserve(kMostPushes);
     try {
       for (std::uint32_t i = 0; i < plan.objects().size(); ++i) add(plan.objects()[i], i);
     } catch (...) {
@@ -314,6 +315,7 @@ class BodyWorld::Engine {
     }
     take_out(given);
     rest(dt);
+    energy_ = std::min(energy_, energy());  // what falls asleep or is too fast gives some up
   }
 
   // Where the exact solver is lost, the step is taken again by one that always ends near the
