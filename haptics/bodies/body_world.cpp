@@ -6,17 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdarg>
-#include <deque>
 #include <mutex>
-#include <stdexcept>
+#include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "reckon/haptics/bodies/body_geoms.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
-#include "reckon/haptics/geometry/implicit_solid.hpp"
-#include "reckon/haptics/geometry/surface_mesh.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -58,10 +55,6 @@ void know_thread() {
   static_cast<void>(known);
 }
 
-[[noreturn]] void refuse(const PlannedObject& object, const std::string& why) {
-  throw std::invalid_argument("object '" + object.name + "' has a mass, and " + why);
-}
-
 }  // namespace
 
 class BodyWorld::Engine {
@@ -70,7 +63,7 @@ class BodyWorld::Engine {
     start_ode();
     know_thread();
     world_ = dWorldCreate();
-    space_ = dSimpleSpaceCreate(nullptr);
+    geoms_.emplace();
     joints_ = dJointGroupCreate(0);
     ray_ = dCreateRay(nullptr, 1.0);
     keep_within_thread(world_);
@@ -177,18 +170,17 @@ class BodyWorld::Engine {
   void destroy() noexcept {
     dGeomDestroy(ray_);
     dJointGroupDestroy(joints_);
-    dSpaceDestroy(space_);
+    geoms_.reset();
     dWorldDestroy(world_);
-    for (const dTriMeshDataID mesh : meshes_) dGeomTriMeshDataDestroy(mesh);
   }
 
   void add(const PlannedObject& object, std::uint32_t number) {
     const bool moves = object.moves();
     if (moves && bodies_.size() >= kMostBodies) {
-      refuse(object, "a scene moves at most " + std::to_string(kMostBodies) +
-                         " bodies: take the mass of some out");
+      refuse_body(object, "a scene moves at most " + std::to_string(kMostBodies) +
+                              " bodies: take the mass of some out");
     }
-    const dGeomID geom = make_geom(object);
+    const dGeomID geom = geoms_->add(object);
     if (geom == nullptr) return;
     matters_.push_back(object.matter);
     dGeomSetData(geom, &matters_.back());
@@ -218,62 +210,6 @@ class BodyWorld::Engine {
     states_.emplace_back().object = number;
   }
 
-  // Of what stands still too; nothing for a shape that bodies pass through.
-  dGeomID make_geom(const PlannedObject& object) {
-    return std::visit(
-        [&](const auto& shape) -> dGeomID {
-          using S = std::decay_t<decltype(shape)>;
-          if constexpr (std::is_same_v<S, HalfSpace>) {
-            if (object.moves()) refuse(object, "a plane cannot move: give a box");
-            const Vector3d normal = object.orientation * shape.normal();
-            return dCreatePlane(space_, normal.x(), normal.y(), normal.z(),
-                                normal.dot(object.position));
-          } else if constexpr (std::is_same_v<S, Ball>) {
-            return placed(object, dCreateSphere(space_, 0.5 * shape.bounds().sizes().x()));
-          } else if constexpr (std::is_same_v<S, Block>) {
-            const Vector3d size = shape.bounds().sizes();
-            return placed(object, dCreateBox(space_, size.x(), size.y(), size.z()));
-          } else if constexpr (std::is_same_v<S, std::shared_ptr<const SurfaceMesh>>) {
-            if (object.moves()) refuse(object, "only boxes and spheres move yet: give one of them");
-            return placed(object, make_mesh(*shape));
-          } else {
-            refuse_solid(object);
-            return nullptr;
-          }
-        },
-        object.shape);
-  }
-
-  static void refuse_solid(const PlannedObject& object) {
-    if (object.moves()) refuse(object, "only boxes and spheres move yet: give one of them");
-  }
-
-  dGeomID placed(const PlannedObject& object, dGeomID geom) {
-    if (object.moves()) return geom;
-    const Quaterniond q(object.orientation);
-    const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-    dGeomSetPosition(geom, object.position.x(), object.position.y(), object.position.z());
-    dGeomSetQuaternion(geom, turned);
-    return geom;
-  }
-
-  dGeomID make_mesh(const SurfaceMesh& mesh) {
-    std::vector<double>& corners = corners_.emplace_back();
-    std::vector<dTriIndex>& indices = indices_.emplace_back();
-    for (const Triangle& triangle : mesh.triangles()) {
-      for (const Vector3d* corner : {&triangle.a, &triangle.b, &triangle.c}) {
-        indices.push_back(static_cast<dTriIndex>(indices.size()));
-        corners.insert(corners.end(), {corner->x(), corner->y(), corner->z()});
-      }
-    }
-    const dTriMeshDataID data = dGeomTriMeshDataCreate();
-    meshes_.push_back(data);
-    dGeomTriMeshDataBuildDouble(data, corners.data(), 3 * sizeof(double),
-                                static_cast<int>(corners.size() / 3), indices.data(),
-                                static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
-    return dCreateTriMesh(space_, data, nullptr, nullptr, nullptr);
-  }
-
   [[nodiscard]] Quaterniond orientation(std::size_t body) const noexcept {
     const dReal* q = dBodyGetQuaternion(bodies_[body].id);
     return {q[0], q[1], q[2], q[3]};
@@ -300,7 +236,7 @@ class BodyWorld::Engine {
     for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
     before_.clear();
     for (const Push& push : pushes_) before_.push_back(velocity_of(push));
-    dSpaceCollide(space_, this, [](void* self, dGeomID a, dGeomID b) {
+    dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
       static_cast<Engine*>(self)->collide(a, b);
     });
     solve(dt);
@@ -421,8 +357,8 @@ class BodyWorld::Engine {
     dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());
     dGeomRaySetLength(ray_, length);
     double free = length;
-    for (int i = 0; i < dSpaceGetNumGeoms(space_); ++i) {
-      const dGeomID geom = dSpaceGetGeom(space_, i);
+    for (int i = 0; i < dSpaceGetNumGeoms(geoms_->space()); ++i) {
+      const dGeomID geom = dSpaceGetGeom(geoms_->space(), i);
       if (dGeomGetBody(geom) == body.id) continue;
       dContactGeom hit;
       if (dCollide(ray_, geom, 1, &hit, sizeof hit) > 0) free = std::min(free, hit.depth);
@@ -481,7 +417,7 @@ class BodyWorld::Engine {
   }
 
   dWorldID world_ = nullptr;
-  dSpaceID space_ = nullptr;
+  std::optional<BodyGeoms> geoms_;  // begins when ODE has
   dJointGroupID joints_ = nullptr;
   dGeomID ray_ = nullptr;  // in no space
   Vector3d gravity_;
@@ -491,9 +427,6 @@ class BodyWorld::Engine {
   std::vector<Push> pushes_;
   std::vector<Vector3d> before_;  // of the pushes, [m/s]
   std::vector<double> works_;
-  std::vector<dTriMeshDataID> meshes_;
-  std::deque<std::vector<double>> corners_;
-  std::deque<std::vector<dTriIndex>> indices_;
   bool started_ = false;
   nanoseconds time_{0};
   double energy_ = 0.0;

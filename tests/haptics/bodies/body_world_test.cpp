@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <stdexcept>
 #include <string>
+
+#include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -287,6 +290,24 @@ TEST(BodyWorld, IsTheSameTwice) {
     return sum;
   };
   EXPECT_EQ(run(), run());
+}
+
+TEST(BodyWorld, LiesOnAMesh) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("table.obj");
+  std::ofstream(file) << "v -1 -1 -0.1\nv 1 -1 -0.1\nv 1 1 -0.1\nv -1 1 -0.1\n"
+                         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  Table table;
+  MeshShape mesh;
+  mesh.file = file;
+  table.floor().shape = mesh;
+  table.box(0.04, {0.1, 0.05, 0.06}, {0.1});
+  table.ball(0.03, {-0.3, 0.2, 0.06}, {0.2});
+  table.begin();
+  table.run(1.5);
+  EXPECT_NEAR(table.state(0).position.z(), 0.02, 1e-4);
+  EXPECT_NEAR(table.state(1).position.z(), 0.03, 1e-4);
 }
 
 TEST(BodyWorld, RefusesWhatCannotMoveByName) {

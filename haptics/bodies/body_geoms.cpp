@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/bodies/body_geoms.hpp"
+
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <variant>
+
+#include "reckon/haptics/geometry/surface_mesh.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr const char* kYet = "only boxes and spheres move yet: give one of them";
+
+dGeomID placed(const PlannedObject& object, dGeomID geom) {
+  if (object.moves()) return geom;
+  const Quaterniond q(object.orientation);
+  const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
+  dGeomSetPosition(geom, object.position.x(), object.position.y(), object.position.z());
+  dGeomSetQuaternion(geom, turned);
+  return geom;
+}
+
+}  // namespace
+
+void refuse_body(const PlannedObject& object, const std::string& why) {
+  throw std::invalid_argument("object '" + object.name + "' has a mass, and " + why);
+}
+
+BodyGeoms::BodyGeoms() : space_(dSimpleSpaceCreate(nullptr)) {}
+
+BodyGeoms::~BodyGeoms() {
+  dSpaceDestroy(space_);
+  for (const dTriMeshDataID mesh : meshes_) dGeomTriMeshDataDestroy(mesh);
+}
+
+dGeomID BodyGeoms::add(const PlannedObject& object) {
+  return std::visit(
+      [&](const auto& shape) -> dGeomID {
+        using S = std::decay_t<decltype(shape)>;
+        if constexpr (std::is_same_v<S, HalfSpace>) {
+          if (object.moves()) refuse_body(object, "a plane cannot move: give a box");
+          const Vector3d normal = object.orientation * shape.normal();
+          return dCreatePlane(space_, normal.x(), normal.y(), normal.z(),
+                              normal.dot(object.position));
+        } else if constexpr (std::is_same_v<S, Ball>) {
+          return placed(object, dCreateSphere(space_, 0.5 * shape.bounds().sizes().x()));
+        } else if constexpr (std::is_same_v<S, Block>) {
+          const Vector3d size = shape.bounds().sizes();
+          return placed(object, dCreateBox(space_, size.x(), size.y(), size.z()));
+        } else if constexpr (std::is_same_v<S, std::shared_ptr<const SurfaceMesh>>) {
+          if (object.moves()) refuse_body(object, kYet);
+          return placed(object, make_mesh(*shape));
+        } else {
+          if (object.moves()) refuse_body(object, kYet);
+          return nullptr;
+        }
+      },
+      object.shape);
+}
+
+dGeomID BodyGeoms::make_mesh(const SurfaceMesh& mesh) {
+  std::vector<double>& corners = corners_.emplace_back();
+  std::vector<dTriIndex>& indices = indices_.emplace_back();
+  for (const Triangle& triangle : mesh.triangles()) {
+    for (const Vector3d* corner : {&triangle.a, &triangle.b, &triangle.c}) {
+      indices.push_back(static_cast<dTriIndex>(indices.size()));
+      corners.insert(corners.end(), {corner->x(), corner->y(), corner->z()});
+    }
+  }
+  const dTriMeshDataID data = dGeomTriMeshDataCreate();
+  meshes_.push_back(data);
+  dGeomTriMeshDataBuildDouble(data, corners.data(), 3 * sizeof(double),
+                              static_cast<int>(corners.size() / 3), indices.data(),
+                              static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
+  return dCreateTriMesh(space_, data, nullptr, nullptr, nullptr);
+}
+
+}  // namespace reckon::haptics
