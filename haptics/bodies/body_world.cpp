@@ -4,92 +4,41 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstdarg>
-#include <mutex>
-#include <optional>
-#include <string>
 #include <utility>
-#include <variant>
 
-#include "reckon/haptics/bodies/body_geoms.hpp"
-#include "reckon/haptics/bodies/ode_calls.hpp"
+#include "reckon/haptics/bodies/body_push.hpp"
+#include "reckon/haptics/bodies/body_solver.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr double kLongestStep = 1e-3;     // [s]
 constexpr double kLongestGap = 0.1;       // [s]
-constexpr int kContacts = 8;              // of a pair, at most
 constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
-// Depth at which contacts rest [m], so that they last from step to step.
-constexpr double kRestDepth = 1e-5;
-constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
-constexpr double kBounceSpeed = 0.01;  // [m/s]; slower hits do not bounce
-constexpr double kSlipSpeed = 1e-4;    // [m/s]; faster ones rub along their way
-constexpr double kStillSpeed = 1e-3;   // [m/s]
-constexpr double kStillTurn = 0.02;    // [rad/s]
-
-Vector3d vector(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
-
-// The exact solver says so where it found no answer, as in a pile of many contacts at once.
-thread_local bool lost = false;
-void note_lost(int, const char*, va_list) { lost = true; }
-
-void start_ode() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    dInitODE2(0);
-    dSetMessageHandler(note_lost);
-  });
-}
-
-// What ODE keeps for each thread.
-void know_thread() {
-  thread_local const bool known = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
-  static_cast<void>(known);
-}
+constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
+constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
 
 }  // namespace
 
+/// Time, and what hands do to the bodies within a period.
 class BodyWorld::Engine {
  public:
-  Engine(const EffectPlan& plan, const Vector3d& gravity) : gravity_(gravity) {
-    start_ode();
-    know_thread();
-    world_ = dWorldCreate();
-    geoms_.emplace();
-    joints_ = dJointGroupCreate(0);
-    ray_ = dCreateRay(nullptr, 1.0);
-    keep_within_thread(world_);
-    dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
-    dWorldSetERP(world_, 0.2);
-    dWorldSetQuickStepNumIterations(world_, 60);
-    dWorldSetCFM(world_, 1e-7);
-    dWorldSetContactSurfaceLayer(world_, kRestDepth);
-    dWorldSetContactMaxCorrectingVel(world_, kParting);
-    // Geoms point to what they are made of, and a step allocates nothing.
-    matters_.reserve(plan.objects().size());
-    pushes_.reserve(kMostPushes);
+  Engine(const EffectPlan& plan, const Vector3d& gravity) : solver_(plan, gravity) {
+    for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(kMostPushes);
     works_.reserve(kMostPushes);
-    before_.reserve(kMostPushes);
-    try {
-      for (std::uint32_t i = 0; i < plan.objects().size(); ++i) add(plan.objects()[i], i);
-    } catch (...) {
-      destroy();
-      throw;
-    }
-    read_states();
-    energy_ = energy();
+    forces_.reserve(2 * kMostPushes);
+    states_.resize(solver_.size());
+    for (std::size_t i = 0; i < states_.size(); ++i) states_[i].object = solver_.object(i);
+    read_states(0.0);
   }
-  ~Engine() { destroy(); }
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
+
+  std::size_t add_hand() noexcept { return hands_++; }
 
   bool advance_to(nanoseconds now) noexcept {
     if (!std::exchange(started_, true)) time_ = now;
@@ -98,340 +47,179 @@ class BodyWorld::Engine {
     time_ = now;
     works_.assign(pushes_.size(), 0.0);
     const double whole = std::min(gap, kLongestGap);
-    const double steps = std::ceil(whole / kLongestStep - 1e-9);
-    for (int i = 0; i < static_cast<int>(steps); ++i) step(whole / steps);
+    std::size_t steps = 1;
+    for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
+    const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
+    if (pushed != 0 && is_small(pushed)) {
+      // What is pushed goes on in small steps, all else as if nothing were.
+      solver_.only(pushed);
+      const double dt = std::min(kLongestStep, period_ / static_cast<double>(steps));
+      const double length = push_for(whole, dt);
+      solver_.only(~pushed);
+      go_on(whole);
+      solver_.only(BodySolver::all());
+      read_states(length, pushed);
+    } else {
+      read_states(push_for(whole, kLongestStep));
+    }
+    for (BodyPush& push : pushes_) push.renew();
+    std::swap(pushes_, last_);
     pushes_.clear();
-    read_states();
+    stepped_ = 0;
     return true;
   }
 
   std::size_t push(std::size_t body, const Vector3d& point, const Vector3d& force) noexcept {
-    if (body >= bodies_.size() || pushes_.size() >= kMostPushes || !force.allFinite())
+    if (body >= states_.size() || pushes_.size() >= kMostPushes || !force.allFinite())
       return kNoPush;
-    const dReal* at = dBodyGetPosition(bodies_[body].id);
-    const Quaterniond turned = orientation(body);
-    pushes_.push_back({body, turned.conjugate() * (point - vector(at)), force});
+    const ObjectMotion at = solver_.motion(body);
+    pushes_.emplace_back(body, at.orientation.conjugate() * (point - at.position), force);
     return pushes_.size() - 1;
+  }
+
+  std::size_t press(std::size_t hand, const BodySpring& spring) noexcept {
+    if (spring.body >= states_.size() || pushes_.size() >= kMostPushes ||
+        !spring.force.allFinite() || !spring.velocity.allFinite())
+      return kNoPush;
+    const ObjectMotion at = solver_.motion(spring.body);
+    pushes_.emplace_back(hand, spring, at.position, at.orientation);
+    return pushes_.size() - 1;
+  }
+
+  void foresee(std::size_t hand, double period) noexcept {
+    period_ = period;
+    stepped_ |= std::uint64_t{1} << hand % 64;
+    const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
+    if (std::ranges::none_of(pushes_, own)) return;
+    const BodySet pushed = pushed_by(pushes_) | still_pushed();
+    BodySet island = solver_.island(pushed);
+    if (!is_small(island)) {
+      island = pushed;
+      ++coarse_;
+    }
+    const std::size_t steps = steps_for(period);
+    for (BodyPush& push : pushes_)
+      if (own(push)) push.begin(period, steps);
+    solver_.only(island);
+    solver_.keep();
+    const double dt = period / static_cast<double>(steps);
+    for (std::size_t i = 0; i < steps; ++i) foresee_step(hand, dt * static_cast<double>(i), dt);
+    solver_.restore();
+    solver_.only(BodySolver::all());
+    for (BodyPush& push : pushes_)
+      if (own(push)) push.rewind();
+    for (BodyPush& push : last_) push.rewind();
+  }
+
+  [[nodiscard]] Vector3d change(std::size_t push) const noexcept {
+    return push < pushes_.size() ? pushes_[push].change() : Vector3d::Zero();
+  }
+  void hold(std::size_t push, double spring, double changed, const Vector3d& rest) noexcept {
+    if (push < pushes_.size()) pushes_[push].hold(spring, changed, rest);
   }
   [[nodiscard]] double work(std::size_t push) const noexcept {
     return push < works_.size() ? works_[push] : 0.0;
   }
   [[nodiscard]] std::span<const BodyState> states() const noexcept { return states_; }
-  [[nodiscard]] double taken_out() const noexcept { return taken_out_; }
-  [[nodiscard]] std::uint64_t approximated() const noexcept { return lost_; }
-
-  [[nodiscard]] double energy() const noexcept {
-    double sum = 0.0;
-    for (const Body& body : bodies_) {
-      const Vector3d v = vector(dBodyGetLinearVel(body.id));
-      sum += 0.5 * body.mass * v.squaredNorm() + turning_energy(body) -
-             body.mass * gravity_.dot(vector(dBodyGetPosition(body.id)) - body.start);
-    }
-    return sum;
-  }
+  [[nodiscard]] const BodySolver& solver() const noexcept { return solver_; }
+  [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
 
  private:
-  struct Body {
-    dBodyID id = nullptr;
-    std::uint32_t object = 0;
-    double mass = 0.0;
-    double inner = 0.0;  // [m], radius of the ball within it
-    Vector3d start = Vector3d::Zero();
-    double still = 0.0;  // [s]
-    bool flies = true;   // nothing pushes it in this step but its weight
-    // Before a step.
-    std::array<dReal, 3> at{}, velocity{}, turn_rate{}, force{}, torque{};
-    std::array<dReal, 4> turned{};
-
-    void keep() noexcept {
-      std::copy_n(dBodyGetPosition(id), 3, at.begin());
-      std::copy_n(dBodyGetQuaternion(id), 4, turned.begin());
-      std::copy_n(dBodyGetLinearVel(id), 3, velocity.begin());
-      std::copy_n(dBodyGetAngularVel(id), 3, turn_rate.begin());
-      std::copy_n(dBodyGetForce(id), 3, force.begin());
-      std::copy_n(dBodyGetTorque(id), 3, torque.begin());
-    }
-    void restore() const noexcept {
-      const dQuaternion q{turned[0], turned[1], turned[2], turned[3]};
-      dBodySetPosition(id, at[0], at[1], at[2]);
-      dBodySetQuaternion(id, q);
-      dBodySetLinearVel(id, velocity[0], velocity[1], velocity[2]);
-      dBodySetAngularVel(id, turn_rate[0], turn_rate[1], turn_rate[2]);
-      dBodySetForce(id, force[0], force[1], force[2]);
-      dBodySetTorque(id, torque[0], torque[1], torque[2]);
-    }
-  };
-  struct Push {
-    std::size_t body = 0;
-    Vector3d place = Vector3d::Zero();  // in its axes, from its middle
-    Vector3d force = Vector3d::Zero();
-  };
-
-  void destroy() noexcept {
-    dGeomDestroy(ray_);
-    dJointGroupDestroy(joints_);
-    geoms_.reset();
-    dWorldDestroy(world_);
+  [[nodiscard]] static bool is_small(BodySet island) noexcept {
+    return std::popcount(island) <= static_cast<int>(kMostInIsland);
+  }
+  [[nodiscard]] static BodySet pushed_by(std::span<const BodyPush> pushes) noexcept {
+    BodySet out = 0;
+    for (const BodyPush& push : pushes) out |= BodySet{1} << push.body();
+    return out;
+  }
+  // A hand that has not stepped yet in this period still pushes as in the last one.
+  [[nodiscard]] bool is_due(const BodyPush& push) const noexcept {
+    return push.stiffness() > 0 && (stepped_ >> push.hand() % 64 & 1) == 0;
+  }
+  [[nodiscard]] BodySet still_pushed() const noexcept {
+    BodySet out = 0;
+    for (const BodyPush& push : last_)
+      if (is_due(push)) out |= BodySet{1} << push.body();
+    return out;
   }
 
-  void add(const PlannedObject& object, std::uint32_t number) {
-    const bool moves = object.moves();
-    if (moves && bodies_.size() >= kMostBodies) {
-      refuse_body(object, "a scene moves at most " + std::to_string(kMostBodies) +
-                              " bodies: take the mass of some out");
-    }
-    const dGeomID geom = geoms_->add(object);
-    if (geom == nullptr) return;
-    matters_.push_back(object.matter);
-    dGeomSetData(geom, &matters_.back());
-    if (!moves) return;
-    Body& body = bodies_.emplace_back();
-    body.id = dBodyCreate(world_);
-    body.object = number;
-    body.mass = object.matter.mass;
-    body.start = object.position;
-    dMass mass;
-    if (std::holds_alternative<Ball>(object.shape)) {
-      body.inner = dGeomSphereGetRadius(geom);
-      dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(geom));
-    } else {
-      dVector3 size;
-      dGeomBoxGetLengths(geom, size);
-      body.inner = 0.5 * std::min({size[0], size[1], size[2]});
-      dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
-    }
-    dBodySetMass(body.id, &mass);
-    dGeomSetBody(geom, body.id);
-    const Quaterniond q(object.orientation);
-    const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-    dBodySetPosition(body.id, object.position.x(), object.position.y(), object.position.z());
-    dBodySetQuaternion(body.id, turned);
-    dBodySetMaxAngularSpeed(body.id, kFastestTurn);
-    states_.emplace_back().object = number;
+  // So many that the lightest body that is pushed is stepped right.
+  [[nodiscard]] std::size_t steps_for(double period) const noexcept {
+    std::array<double, kMostBodies> stiffness{};
+    for (const BodyPush& push : pushes_) stiffness[push.body()] += push.stiffness();
+    for (const BodyPush& push : last_)
+      if (is_due(push)) stiffness[push.body()] += push.stiffness();
+    double most = 0.0;
+    for (std::size_t i = 0; i < states_.size(); ++i)
+      most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
+    const double wanted = std::ceil(period * std::sqrt(most) / kRight);
+    return static_cast<std::size_t>(std::clamp(wanted, 2.0, double{kMostSubsteps}));
   }
 
-  [[nodiscard]] Quaterniond orientation(std::size_t body) const noexcept {
-    const dReal* q = dBodyGetQuaternion(bodies_[body].id);
-    return {q[0], q[1], q[2], q[3]};
-  }
-  [[nodiscard]] static double turning_energy(const Body& body) noexcept {
-    const dReal* q = dBodyGetQuaternion(body.id);
-    const Vector3d rate =
-        Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * vector(dBodyGetAngularVel(body.id));
-    dMass mass;
-    dBodyGetMass(body.id, &mass);
-    return 0.5 * (mass.I[0] * rate.x() * rate.x() + mass.I[5] * rate.y() * rate.y() +
-                  mass.I[10] * rate.z() * rate.z());
-  }
-
-  [[nodiscard]] bool rests() const noexcept {
-    return pushes_.empty() &&
-           std::ranges::none_of(bodies_, [](const Body& body) { return dBodyIsEnabled(body.id); });
+  void foresee_step(std::size_t hand, double time, double dt) noexcept {
+    forces_.clear();
+    for (BodyPush& push : pushes_)
+      add_force(push, push.hand() == hand ? push.next() : push.mean(time, time + dt));
+    for (BodyPush& push : last_)
+      if (is_due(push)) add_force(push, push.next());
+    solver_.step(dt, forces_);
+    for (BodyPush& push : pushes_)
+      if (push.hand() == hand) follow(push, dt);
+    for (BodyPush& push : last_)
+      if (is_due(push)) follow(push, dt);
   }
 
-  void step(double dt) noexcept {
-    if (rests()) return;
-    know_thread();
-    apply_pushes();
-    for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
-    before_.clear();
-    for (const Push& push : pushes_) before_.push_back(velocity_of(push));
-    dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
-      static_cast<Engine*>(self)->collide(a, b);
-    });
-    solve(dt);
-    fly_exactly(dt);
-    catch_fast();
-    dJointGroupEmpty(joints_);
-    double given = 0.0;
-    for (std::size_t i = 0; i < pushes_.size(); ++i) {
-      const double work = 0.5 * dt * pushes_[i].force.dot(velocity_of(pushes_[i]) + before_[i]);
-      works_[i] += work;
-      given += work;
-    }
-    take_out(given);
-    rest(dt);
-    energy_ = std::min(energy_, energy());  // what falls asleep or is too fast gives some up
+  void add_force(const BodyPush& push, const Vector3d& force) noexcept {
+    forces_.push_back({push.body(), push.place(), force});
+  }
+  void follow(BodyPush& push, double dt) noexcept {
+    push.follow(solver_.velocity(push.body(), push.place()),
+                solver_.motion(push.body()).orientation, dt);
   }
 
-  // Where the exact solver is lost, the step is taken again by one that always ends near the
-  // answer.
-  void solve(double dt) noexcept {
-    for (Body& body : bodies_) body.keep();
-    lost = false;
-    dWorldStep(world_, dt);
-    if (!lost) return;
-    ++lost_;
-    for (Body& body : bodies_) body.restore();
-    dRandSetSeed(1);  // so that it is the same twice
-    dWorldQuickStep(world_, dt);
-  }
-
-  void apply_pushes() noexcept {
-    for (const Push& push : pushes_) {
-      const dBodyID id = bodies_[push.body].id;
-      if (push.force.squaredNorm() > 0 && !dBodyIsEnabled(id)) {
-        dBodyEnable(id);
-        bodies_[push.body].still = 0.0;
+  // All that acts, for `whole` [s], in steps of dt [s] or less. @return their length [s]
+  double push_for(double whole, double dt) noexcept {
+    const double steps = std::ceil(whole / dt - 1e-9);
+    const double length = whole / steps;
+    for (double i = 0; i < steps; ++i) {
+      const double time = i * length, next = time + length;
+      forces_.clear();
+      for (const BodyPush& push : pushes_) add_force(push, push.mean(time, next));
+      solver_.step(length, forces_);
+      for (std::size_t k = 0; k < pushes_.size(); ++k) {
+        works_[k] += forces_[k].work;
+        follow(pushes_[k], length);
       }
-      const Vector3d at = place(push);
-      dBodyAddForceAtPos(id, push.force.x(), push.force.y(), push.force.z(), at.x(), at.y(),
-                         at.z());
+    }
+    return length;
+  }
+  void go_on(double whole) noexcept {
+    const double steps = std::ceil(whole / kLongestStep - 1e-9);
+    for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
+  }
+
+  // @param step [s], in which `fine` were moved last
+  void read_states(double step, BodySet fine = BodySolver::all()) noexcept {
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      static_cast<ObjectMotion&>(states_[i]) = solver_.motion(i);
+      states_[i].awake = solver_.awake(i);
+      states_[i].step = (fine >> i & 1) != 0 ? step : kLongestStep;
     }
   }
 
-  [[nodiscard]] Vector3d place(const Push& push) const noexcept {
-    return vector(dBodyGetPosition(bodies_[push.body].id)) + orientation(push.body) * push.place;
-  }
-
-  [[nodiscard]] Vector3d velocity_of(const Push& push) const noexcept {
-    const dBodyID id = bodies_[push.body].id;
-    return vector(dBodyGetLinearVel(id)) +
-           vector(dBodyGetAngularVel(id)).cross(orientation(push.body) * push.place);
-  }
-
-  void collide(dGeomID a, dGeomID b) noexcept {
-    const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
-    const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
-    if (sleeps(first) && sleeps(second)) return;
-    std::array<dContact, kContacts> contacts{};
-    const int count = dCollide(a, b, kContacts, &contacts[0].geom, sizeof(dContact));
-    if (count == 0) return;
-    const auto* one = static_cast<const Matter*>(dGeomGetData(a));
-    const auto* other = static_cast<const Matter*>(dGeomGetData(b));
-    for (int i = 0; i < count; ++i) {
-      dContact& contact = contacts[static_cast<std::size_t>(i)];
-      contact.surface.mode = dContactApprox1 | dContactBounce;
-      contact.surface.mu = std::sqrt(one->friction * other->friction);
-      contact.surface.bounce = std::max(one->restitution, other->restitution);
-      contact.surface.bounce_vel = kBounceSpeed;
-      rub_along(contact, first, second);
-      dJointAttach(dJointCreateContact(world_, joints_, &contact), first, second);
-    }
-  }
-
-  // Friction is bounded along two axes: where a contact slips, one of them is its way.
-  static void rub_along(dContact& contact, dBodyID first, dBodyID second) noexcept {
-    const Vector3d at = vector(contact.geom.pos), normal = vector(contact.geom.normal);
-    const auto velocity = [&](dBodyID body) -> Vector3d {
-      if (body == nullptr) return Vector3d::Zero();
-      return vector(dBodyGetLinearVel(body)) +
-             vector(dBodyGetAngularVel(body)).cross(at - vector(dBodyGetPosition(body)));
-    };
-    Vector3d slip = velocity(first) - velocity(second);
-    slip -= normal.dot(slip) * normal;
-    const double speed = slip.norm();
-    if (!(speed > kSlipSpeed)) return;
-    contact.surface.mode |= dContactFDir1;
-    for (int i = 0; i < 3; ++i) contact.fdir1[i] = slip[i] / speed;
-  }
-
-  // The solver moves a body by its new speed for all of the step, which keeps the energy of
-  // springs. One that nothing touches flies by the mean of both.
-  void fly_exactly(double dt) noexcept {
-    for (const Body& body : bodies_) {
-      if (!body.flies || !dBodyIsEnabled(body.id) || dBodyGetNumJoints(body.id) > 0) continue;
-      const Vector3d at = vector(dBodyGetPosition(body.id)) - 0.5 * dt * dt * gravity_;
-      dBodySetPosition(body.id, at.x(), at.y(), at.z());
-    }
-  }
-
-  // A body that would be behind what it hits is put where its middle meets it, and the next step
-  // finds both in touch.
-  void catch_fast() noexcept {
-    for (const Body& body : bodies_) {
-      const Vector3d from(body.at[0], body.at[1], body.at[2]);
-      const Vector3d way = vector(dBodyGetPosition(body.id)) - from;
-      const double length = way.norm();
-      if (!(length > 0.5 * body.inner)) continue;
-      const double free = length_free(body, from, way / length, length);
-      if (!(free < length)) continue;
-      const Vector3d at = from + std::max(0.0, free - 0.9 * body.inner) / length * way;
-      dBodySetPosition(body.id, at.x(), at.y(), at.z());
-    }
-  }
-
-  // How far the middle of a body gets before it meets anything else.
-  [[nodiscard]] double length_free(const Body& body, const Vector3d& from, const Vector3d& way,
-                                   double length) noexcept {
-    dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());
-    dGeomRaySetLength(ray_, length);
-    double free = length;
-    for (int i = 0; i < dSpaceGetNumGeoms(geoms_->space()); ++i) {
-      const dGeomID geom = dSpaceGetGeom(geoms_->space(), i);
-      if (dGeomGetBody(geom) == body.id) continue;
-      dContactGeom hit;
-      if (dCollide(ray_, geom, 1, &hit, sizeof hit) > 0) free = std::min(free, hit.depth);
-    }
-    return free;
-  }
-
-  // @param given work of all pushes in this step [J]
-  void take_out(double given) noexcept {
-    const double most = energy_ + given;
-    const double excess = energy() - most;
-    if (excess > 0) {
-      double moving = 0.0;
-      for (const Body& body : bodies_)
-        moving += 0.5 * body.mass * vector(dBodyGetLinearVel(body.id)).squaredNorm() +
-                  turning_energy(body);
-      const double left = moving > excess ? std::sqrt(1.0 - excess / moving) : 0.0;
-      for (const Body& body : bodies_) slow(body.id, left);
-      taken_out_ += std::min(excess, moving);
-    }
-    // What slow bodies were lifted by, out of one another, is due from the next motion.
-    energy_ = std::min(most, energy());
-  }
-
-  static void slow(dBodyID body, double factor) noexcept {
-    const Vector3d v = factor * vector(dBodyGetLinearVel(body));
-    const Vector3d w = factor * vector(dBodyGetAngularVel(body));
-    dBodySetLinearVel(body, v.x(), v.y(), v.z());
-    dBodySetAngularVel(body, w.x(), w.y(), w.z());
-  }
-
-  void rest(double dt) noexcept {
-    for (Body& body : bodies_) {
-      if (!dBodyIsEnabled(body.id)) continue;
-      const double speed = vector(dBodyGetLinearVel(body.id)).norm();
-      if (speed > kFastest) slow(body.id, kFastest / speed);
-      const bool is =
-          speed < kStillSpeed && vector(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
-      body.still = is ? body.still + dt : 0.0;
-      if (body.still < pdu::to_seconds(kSleep)) continue;
-      slow(body.id, 0.0);
-      dBodyDisable(body.id);
-    }
-  }
-
-  void read_states() noexcept {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      BodyState& state = states_[i];
-      const dBodyID id = bodies_[i].id;
-      state.awake = dBodyIsEnabled(id) != 0;
-      state.position = vector(dBodyGetPosition(id));
-      state.orientation = orientation(i);
-      state.velocity = vector(dBodyGetLinearVel(id));
-      state.turn_rate = vector(dBodyGetAngularVel(id));
-    }
-  }
-
-  dWorldID world_ = nullptr;
-  std::optional<BodyGeoms> geoms_;  // begins when ODE has
-  dJointGroupID joints_ = nullptr;
-  dGeomID ray_ = nullptr;  // in no space
-  Vector3d gravity_;
-  std::vector<Matter> matters_;  // of geoms
-  std::vector<Body> bodies_;
+  BodySolver solver_;
   std::vector<BodyState> states_;
-  std::vector<Push> pushes_;
-  std::vector<Vector3d> before_;  // of the pushes, [m/s]
+  std::vector<BodyPush> pushes_;   // of this period
+  std::vector<BodyPush> last_;     // of the one before
+  std::vector<BodyForce> forces_;  // of a step
   std::vector<double> works_;
+  std::size_t hands_ = 0;
+  std::uint64_t stepped_ = 0;  // hands, in this period
+  double period_ = kLongestStep;
   bool started_ = false;
   nanoseconds time_{0};
-  double energy_ = 0.0;
-  double taken_out_ = 0.0;
-  std::uint64_t lost_ = 0;
+  std::uint64_t coarse_ = 0;
 };
 
 BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity)
@@ -460,10 +248,23 @@ std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,
                             const Vector3d& force) noexcept {
   return engine_->push(body, point, force);
 }
+std::size_t BodyWorld::add_hand() noexcept { return engine_->add_hand(); }
+std::size_t BodyWorld::press(std::size_t hand, const BodySpring& spring) noexcept {
+  return engine_->press(hand, spring);
+}
+void BodyWorld::foresee(std::size_t hand, double period) noexcept {
+  engine_->foresee(hand, period);
+}
+Vector3d BodyWorld::change(std::size_t push) const noexcept { return engine_->change(push); }
+void BodyWorld::hold(std::size_t push, double spring, double changed,
+                     const Vector3d& rest) noexcept {
+  engine_->hold(push, spring, changed, rest);
+}
 double BodyWorld::work(std::size_t push) const noexcept { return engine_->work(push); }
 std::span<const BodyState> BodyWorld::states() const noexcept { return engine_->states(); }
-double BodyWorld::energy() const noexcept { return engine_->energy(); }
-double BodyWorld::taken_out() const noexcept { return engine_->taken_out(); }
-std::uint64_t BodyWorld::approximated() const noexcept { return engine_->approximated(); }
+double BodyWorld::energy() const noexcept { return engine_->solver().energy(); }
+double BodyWorld::taken_out() const noexcept { return engine_->solver().taken_out(); }
+std::uint64_t BodyWorld::approximated() const noexcept { return engine_->solver().approximated(); }
+std::uint64_t BodyWorld::coarse() const noexcept { return engine_->coarse(); }
 
 }  // namespace reckon::haptics

@@ -26,6 +26,8 @@ struct BodyState : ObjectMotion {
   bool awake = true;
 };
 
+struct BodySpring;
+
 /// Bodies of a scene, at most.
 inline constexpr std::size_t kMostBodies = 64;
 
@@ -80,6 +82,24 @@ class BodyWorld {
   std::size_t push(std::size_t body, const Eigen::Vector3d& point,
                    const Eigen::Vector3d& force) noexcept;
   static constexpr std::size_t kNoPush = static_cast<std::size_t>(-1);
+
+  /// A hand's number, for the following. Before the first advance.
+  [[nodiscard]] std::size_t add_hand() noexcept;
+  /// A hand is at a body from now until the next advance. Nothing is pushed before hold().
+  /// @return as push()
+  std::size_t press(std::size_t hand, const BodySpring& spring) noexcept;
+  /// Foresees how the springs of this hand give way in the period [s] that begins: in steps, with
+  /// all that the bodies lie against, while the hands go on at their speeds. To be called each
+  /// period, after all press(). In an island of more than kMostInIsland bodies only those that
+  /// hands push are foreseen, and all is stepped as a whole: a light body in a large pile gives way
+  /// too easily.
+  void foresee(std::size_t hand, double period) noexcept;
+  static constexpr std::size_t kMostInIsland = 8;
+  /// Mean force of a push over the period, less what it was at its begin [N].
+  [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
+  /// What the hand shows of a push: spring * its force at the begin + changed * (its force - that)
+  /// + rest, on the body [N].
+  void hold(std::size_t push, double spring, double changed, const Eigen::Vector3d& rest) noexcept;
   /// Work that a push of the period before did on its body [J].
   [[nodiscard]] double work(std::size_t push) const noexcept;
 
@@ -92,6 +112,8 @@ class BodyWorld {
   [[nodiscard]] double taken_out() const noexcept;
   /// Steps in which the exact solver was lost and an iterative one answered, since the start.
   [[nodiscard]] std::uint64_t approximated() const noexcept;
+  /// Periods of a hand whose island was too large to be foreseen as a whole, since the start.
+  [[nodiscard]] std::uint64_t coarse() const noexcept;
 
  private:
   void publish() noexcept;
@@ -105,11 +127,12 @@ class BodyWorld {
 [[nodiscard]] std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan,
                                                      const Eigen::Vector3d& gravity);
 
-/// Stiffest spring of a hand that a body of `mass` [kg] can be pushed with at a rate of `period`
-/// [s], so that the force that is held for a period stays right: period sqrt(K / m) <= 0.15, for
-/// the lighter resistance of a body that turns under it (0.4 m).
+/// Stiffest spring of each of two hands that a body of `mass` [kg] can be squeezed with at a rate
+/// of `period` [s]: dt sqrt(2 K / m) <= 0.15 for the lighter resistance of a body that turns under
+/// it (0.4 m), in 16 steps a period.
 [[nodiscard]] constexpr double stiffest_push(double mass, double period) noexcept {
-  return 0.0225 * 0.4 * mass / (period * period);
+  const double dt = period / 16.0;
+  return 0.0225 * 0.4 * mass / (2.0 * dt * dt);
 }
 
 }  // namespace reckon::haptics

@@ -401,12 +401,19 @@ void ContactSolver::stroke(std::uint32_t index, EffectContact& seen,
 }
 
 // Of what is at this point of a body.
+const ContactSolver::MovingObject* ContactSolver::moving_as(std::uint32_t index) const noexcept {
+  const auto found = std::ranges::find(moving_, index, &MovingObject::object);
+  return found != moving_.end() ? &*found : nullptr;
+}
+
 Vector3d ContactSolver::velocity_of(std::uint32_t index, const Vector3d& point) const noexcept {
-  for (const MovingObject& moving : moving_) {
-    if (moving.object != index) continue;
-    return moving.motion.velocity_at(point);
-  }
-  return Vector3d::Zero();
+  const MovingObject* moving = moving_as(index);
+  return moving != nullptr ? moving->motion.velocity_at(point) : Vector3d::Zero();
+}
+
+double ContactSolver::ahead_of(std::uint32_t index) const noexcept {
+  const MovingObject* moving = moving_as(index);
+  return moving != nullptr ? 0.5 * moving->motion.step : 0.0;
 }
 
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double gain) noexcept {

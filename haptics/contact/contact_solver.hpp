@@ -86,6 +86,12 @@ class ContactSolver {
   /// Of what is at `point` [m, S] of an object [m/s]; zero of one that stands still.
   [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
                                             const Eigen::Vector3d& point) const noexcept;
+  /// By how much its speed is ahead of its place [s]; see ObjectMotion::step.
+  [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept;
+  /// Of an object: greatest force along its surface over that across it; 0 if it is smooth.
+  [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
+    return cones_[index] != nullptr ? cones_[index]->at_rest() : 0.0;
+  }
 
   /// Moves the SCP to where it settles for this device position [m, S]. Any position is allowed.
   /// One that is not finite or beyond 1e9 m gives no force and the last scp, and changes nothing.
@@ -150,6 +156,7 @@ class ContactSolver {
   };
 
   void carry() noexcept;
+  [[nodiscard]] const MovingObject* moving_as(std::uint32_t index) const noexcept;
   [[nodiscard]] bool within_reach(std::uint32_t index,
                                   const Eigen::Vector3d& device) const noexcept;
   void find_near(const Eigen::Vector3d& device) noexcept;

@@ -38,6 +38,11 @@ class StaticContactOf {
   void place(std::uint32_t body, const ObjectMotion& motion) noexcept {
     for (std::size_t i = 0; i < size(); ++i) walls_[i]->place(body, motion);
   }
+  /// The springs of bodies at a probe give way by so much [N] in the sample that begins; for the
+  /// next load().
+  void foresee(std::size_t probe, const Eigen::Vector3d& change) noexcept {
+    walls_[probe]->foresee(change);
+  }
   /// Restarts where the tool is.
   void reset(const Tool& tool) noexcept;
   /// Follows the tool after a sample of `dt` [s], and books the stored or released energy.

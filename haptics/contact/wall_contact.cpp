@@ -52,7 +52,7 @@ void WallContact::lend_for_motion(EnergyLedger& ledger) noexcept {
   double lent = 0.0;
   for (const std::uint32_t i : result_.touched) {
     const ObjectContact& contact = result_.objects[i];
-    lent += 0.5 * period_ * gain_ * contact.force.dot(solver_.velocity_of(i, contact.scp));
+    lent += solver_.ahead_of(i) * gain_ * contact.force.dot(solver_.velocity_of(i, contact.scp));
   }
   ledger.book(lent - lent_);
   lent_ = lent;
@@ -112,20 +112,26 @@ void WallContact::raise_gain(double dt, EnergyLedger& ledger) noexcept {
 // the sum never pulls the hand to the surface.
 void WallContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
   extra_.setZero();
-  period_ = dt;
+  effects_.setZero();
+  not_pulling_ = 1.0;
   force_ = gain_ * result_.force;
   if (result_.objects.empty()) return;
   load.walls += force_;
   load.walls_slope += gain_ * stiffness_;
   load.walls_stored += stored();
-  const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt, gain_);
+  effects_ = gain_ * solver_.effect_force(velocity, dt, gain_);
+  const Eigen::Vector3d wanted = effects_ + change_;
   const double size = wanted.norm();
   const double spring = force_.norm();
-  if (!(size > 0) || !std::isfinite(size)) return;
-  if (result_.in_contact && !(spring > 0)) return;  // a pull cannot be recognised
-
+  const bool is_known = !result_.in_contact || spring > 0;  // else a pull cannot be recognised
+  if (!(size > 0) || !std::isfinite(size) || !is_known) {
+    effects_.setZero();
+    not_pulling_ = 0.0;
+    return;
+  }
   const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
-  extra_ = along < 0 ? Eigen::Vector3d(std::min(1.0, spring / -along) * wanted) : wanted;
+  if (along < 0) not_pulling_ = std::min(1.0, spring / -along);
+  extra_ = not_pulling_ < 1.0 ? Eigen::Vector3d(not_pulling_ * wanted) : wanted;
   load.extra += extra_;
 }
 

@@ -38,6 +38,10 @@ class WallContact {
   /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s], of that sample
   void settle(double dt, EnergyLedger& ledger) noexcept;
 
+  /// Bodies give way in the sample that begins: by so much the mean force of their springs differs
+  /// from the present one [N]. For the next load().
+  void foresee(const Eigen::Vector3d& change) noexcept { change_ = change; }
+
   /// Adds the forces to be held: springs, and the effects' forces, which never pull.
   /// @param velocity of the device [m/s]  @param dt [s], of the next sample
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
@@ -50,18 +54,29 @@ class WallContact {
   }
 
   /// Takes the held share of the effects' forces, [0, 1].
-  void shown(double extra) noexcept { force_ = gain_ * result_.force + extra * extra_; }
+  void shown(double extra) noexcept {
+    changed_ = extra * not_pulling_;
+    force_ = gain_ * result_.force + extra * extra_;
+  }
 
   /// Scales force and storage by `factor` in [0, 1].
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
-  /// Of an object that is touched: its part of force() [N, S], springs and, of the deepest one,
-  /// effects.
-  [[nodiscard]] Eigen::Vector3d force_of(std::uint32_t index) const noexcept {
-    const Eigen::Vector3d springs = gain_ * result_.objects[index].force;
-    if (index != result_.deepest) return springs;
-    return springs + (force_ - gain_ * result_.force);
+  /// [N/m], of an object's springs.
+  [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept {
+    return gain_ * solver_.stiffness_of(index);
+  }
+  [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
+    return solver_.friction_of(index);
+  }
+  /// Share of foresee() that is shown, after shown().
+  [[nodiscard]] double changed() const noexcept { return changed_; }
+  /// Of an object that is touched: force of its effects [N, S], after shown(). The deepest one has
+  /// them all.
+  [[nodiscard]] Eigen::Vector3d effects_of(std::uint32_t index) const noexcept {
+    return index == result_.deepest ? Eigen::Vector3d(changed_ * effects_)
+                                    : Eigen::Vector3d::Zero();
   }
   /// [N, S], after shown().
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
@@ -89,14 +104,17 @@ class WallContact {
   ContactSolver solver_;
   double cap_;
   ContactResult result_;
-  double period_ = 0.0;     // [s], of the samples
   double lent_ = 0.0;       // [J], see lend_for_motion()
   double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;
   double patch_share_ = 1.0;  // share of it for patches that are not paid for
   bool fades_in_ = false;     // until the gain is full or the contact ends
-  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], wanted by the effects
+  Eigen::Vector3d change_ = Eigen::Vector3d::Zero();   // [N], of the springs of bodies
+  Eigen::Vector3d effects_ = Eigen::Vector3d::Zero();  // [N], wanted
+  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], of both, what does not pull
+  double not_pulling_ = 1.0;                           // share of both
+  double changed_ = 1.0;                               // share of both that is shown
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 

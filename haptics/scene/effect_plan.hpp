@@ -27,6 +27,7 @@ struct ObjectMotion {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< object -> S
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< [m/s], of its origin
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
+  double step = 0.0;  ///< [s]; its speed is that of half of it before its place
 
   /// Of the place of the object that is at `point` [m] now [m/s].
   [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& point) const noexcept {

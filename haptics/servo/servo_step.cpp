@@ -53,9 +53,9 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       hands_(config_.max_contacts),
       port_rate_(tool_.size_at_port(max_rate_)),
       safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
-      turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)) {
+      turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)),
+      pressed_(bodies_, tool_.size()) {
   port_.limit_received_power(config_.max_received_power);
-  if (bodies_) pushes_.reserve(tool_.size() * bodies_->states().size());
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
 }
 
@@ -66,7 +66,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
     reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
   step_.now = now;
   note_time();
-  if (bodies_) settle_bodies();
+  pressed_.settle(step_.now, port_);
   if (sample(reading)) settle();
   const Admission admission = safety_.admit(reading, tool_.twist());
   const bool enabled = admission == Admission::shown;
@@ -76,6 +76,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (contacts_.update()) hands_.take(contacts_.read(), step_, count_);
   hands_.advance(step_, count_, port_);
 
+  pressed_.foresee(tool_, static_, period_);
   Load wanted = load();
   if (step_.transfer) {
     step_.engaged = exchange(wanted);
@@ -97,7 +98,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (scale < 1.0 && admission != Admission::paused) reduce(scale);
   written_ = scale > 0.0 ? Force(scale * force) : Force::Zero();
   write();
-  if (bodies_) push_bodies(held_.force);
+  push_bodies();
   publish(enabled);
   ++count_;
 }
@@ -254,7 +255,7 @@ void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
   port_.settle(dx, elapsed_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
-  if (bodies_) place_bodies();
+  pressed_.place(static_);
   static_.settle(tool_, step_.dt, port_);
   Vector3d change = Vector3d::Zero();
   const bool in_steps = port_.reads_in_steps();
@@ -266,42 +267,11 @@ void ServoStepOf<axes>::settle() noexcept {
   if (in_steps) port_.follow(tool_.at_port(0, crowd_share_ * held_.springs * change), dx);
 }
 
-// Walls that move: what a push did on its body is gone from the port, and what the body gave back
-// came into it, whether or not the handle can be read now.
+// The force that is written may be less than the one that the port chose, or lag behind.
 template <int axes>
-void ServoStepOf<axes>::settle_bodies() noexcept {
-  bodies_->advance_to(step_.now);
-  for (const std::size_t push : pushes_) {
-    const double work = bodies_->work(push);
-    port_.book(-work);
-    to_bodies_ += work;
-  }
-  pushes_.clear();
-}
-
-template <int axes>
-void ServoStepOf<axes>::place_bodies() noexcept {
-  const std::span<const BodyState> states = bodies_->states();
-  for (std::uint32_t i = 0; i < states.size(); ++i) static_.place(i, states[i]);
-}
-
-// @param held force that the port chose; the one that is written may be less, or lag behind
-template <int axes>
-void ServoStepOf<axes>::push_bodies(const Force& held) noexcept {
-  const double whole = held.squaredNorm();
-  const double share = whole > 0 ? std::max(0.0, written_.dot(held) / whole) : 0.0;
-  const std::span<const BodyState> states = bodies_->states();
-  for (std::size_t probe = 0; probe < tool_.size(); ++probe) {
-    const WallContact& walls = static_.walls(probe);
-    for (const std::uint32_t index : walls.result().touched) {
-      const auto body = std::ranges::find(states, index, &BodyState::object);
-      if (body == states.end()) continue;
-      const std::size_t push =
-          bodies_->push(static_cast<std::size_t>(body - states.begin()),
-                        walls.result().objects[index].scp, -share * walls.force_of(index));
-      if (push != BodyWorld::kNoPush) pushes_.push_back(push);
-    }
-  }
+void ServoStepOf<axes>::push_bodies() noexcept {
+  const double whole = held_.force.squaredNorm();
+  pressed_.hold(static_, whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : 0.0);
 }
 
 // All springs are one force to the hand: opposite forces cancel and cost nothing.
@@ -463,7 +433,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   if (refused) tally_.refused += step_.dt;
   out.tally = tally_;
   out.left_out = hands_.left_out();
-  out.port_energy = port_.absorbed() + hands_.transferred() - to_bodies_;
+  out.port_energy = port_.absorbed() + hands_.transferred() - pressed_.work();
   out.encoder_allowance = port_.encoder_allowance();
   out.softening = crowd_share_ * softening_.share();
   out.loan = port_.owed();

@@ -14,6 +14,7 @@
 #include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/haptics/passivity/softening.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
+#include "reckon/haptics/servo/pressed_bodies.hpp"
 #include "reckon/haptics/servo/safety.hpp"
 #include "reckon/haptics/servo/servo_core.hpp"
 
@@ -49,9 +50,7 @@ class ServoStepOf final : public ServoCore {
   bool sample(const DeviceSample& reading) noexcept;
   void note_velocity(const DeviceSample& reading) noexcept;
   void settle() noexcept;
-  void settle_bodies() noexcept;
-  void place_bodies() noexcept;
-  void push_bodies(const Force& held) noexcept;
+  void push_bodies() noexcept;
   [[nodiscard]] Load load() noexcept;
   void load_hands(Load& load) noexcept;
   void soften_crowd(Load& load) noexcept;
@@ -80,9 +79,8 @@ class ServoStepOf final : public ServoCore {
   Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  // [rad], sum of all turns
   std::uint64_t next_search_ = 0;                     // of surfaces, by count_
   bool near_surface_ = true;
-  std::vector<std::size_t> pushes_;  // of this servo, in the last step
-  double to_bodies_ = 0.0;           // [J], work on them since the start, less what they gave
-  double rested_ = 0.0;              // [s], time short of energy and at rest
+  PressedBodiesOf<axes> pressed_;
+  double rested_ = 0.0;  // [s], time short of energy and at rest
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};  // last good reading
   Force written_ = Force::Zero();           // held since the last step

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A body between the hands of one peer: forces against the same play without sampling, energy by
-// the devices' own books.
+// the devices' own books. RECKON_SOAK=1 tries 1,000 seeds of late steps.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -128,8 +129,11 @@ Play served(double mass, double stiffness, double end, unsigned late_seed = 0) {
       out.least_port = std::min(out.least_port, step.port_energy_min + step.late_cost);
       out.loan = std::max(out.loan, step.loan_most);
       taken += devices[s]->port_work() + devices[s]->damping_loss();
-      stored += 0.5 * step.mesh_force.norm() * (step.scp - step.device).norm();
-      lent += 0.5 * kT * step.mesh_force.norm() * speed;  // for the half step between both
+      const double depth = (step.scp - step.device).norm();
+      const double shown = std::min(stiffness * depth, step.mesh_force.norm());
+      stored += 0.5 * shown * depth;
+      // For the half step between its speed and its place.
+      lent += 0.5 * world->states()[0].step * shown * speed;
     }
     out.forces.push_back(force);
     out.made = std::max(out.made, world->energy() + stored - taken - lent);
@@ -153,15 +157,13 @@ double error_of(const Play& play, const Play& truth) {
 
 TEST(PushedBody, IsFeltBetweenTwoHandsAsWithoutSampling) {
   for (const double stiffness : {300.0, 500.0, 1000.0}) {
-    for (const double mass : {0.03, 0.1, 0.3, 1.0, 10.0}) {
-      if (stiffness > stiffest_push(mass, kT)) continue;
+    for (const double mass : {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0}) {
       const Play play = served(mass, stiffness, 10), same = truth(mass, stiffness, 10);
       const double error = error_of(play, same);
       std::printf(
-          "%5.2f kg, %4.0f N/m: force error %.2f %%, made %.3g J, least port %.3g J, lent %.3g J\n",
+          "%6.3f kg, %4.0f N/m: force error %.2f %%, made %.3g J, least port %.3g J, lent %.3g J\n",
           mass, stiffness, 100 * error, play.made, play.least_port, play.loan);
-      // Of 10 kg at 1.5 Hz most of the force is its own inertia, and late by half a sample.
-      EXPECT_LT(error, mass < 10 ? 0.01 : 0.011) << mass << " kg, " << stiffness << " N/m";
+      EXPECT_LT(error, 0.01) << mass << " kg, " << stiffness << " N/m";
       EXPECT_LE(play.made, 1e-9) << mass << " kg, " << stiffness << " N/m";
       EXPECT_GE(play.least_port, -1e-9);
     }
@@ -171,8 +173,8 @@ TEST(PushedBody, IsFeltBetweenTwoHandsAsWithoutSampling) {
 // Late steps, whose force acts on: on the hand until its device lets go, on the body to the end.
 TEST(PushedBody, MakesNoEnergyWhereStepsAreLate) {
   double made = -1e9, loan = 0.0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
-    const double mass = 0.06 * std::pow(1.1, seed % 40);
+  for (unsigned seed = 1; seed <= (std::getenv("RECKON_SOAK") != nullptr ? 1000U : 60U); ++seed) {
+    const double mass = 0.001 * std::pow(1.23, seed % 40);
     const Play play = served(mass, std::min(1000.0, stiffest_push(mass, kT)), 10, seed);
     EXPECT_LE(play.made, 1e-9) << "seed " << seed << ", " << mass << " kg";
     EXPECT_GE(play.least_port, -1e-9) << "seed " << seed;
@@ -226,6 +228,97 @@ TEST(PushedBody, KeepsTheBooksWhileAReadingFails) {
     EXPECT_LE(made, loan + 1e-9) << rate;
     EXPECT_GT(felt, 1.0);
   }
+}
+
+// What cuts the force also cuts what the body gets: little strength, readings that fail, a device
+// that lets go, steps that are late, and another peer's hand at the first one, which lies about its
+// place and gives nothing.
+TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
+  class Flaky : public SimulatedDevice {
+   public:
+    using SimulatedDevice::SimulatedDevice;
+    DeviceSample read(nanoseconds now) noexcept override {
+      DeviceSample sample = SimulatedDevice::read(now);
+      sample.ok = rate == 0 || random() % rate != 0;
+      return sample;
+    }
+    std::mt19937 random{1};
+    unsigned rate = 0;
+  };
+  double worst = -1e9, cut = 0.0;
+  int free = 0;
+  for (unsigned seed = 1; seed <= (std::getenv("RECKON_SOAK") != nullptr ? 1000U : 40U); ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    const double mass = 0.001 * std::pow(1000.0, any(random));
+    const double stiffness = std::min(1000.0, stiffest_push(mass, kT)) * (0.3 + 0.7 * any(random));
+    const Scene scene = cube_of(mass, stiffness);
+    const auto plan = std::make_shared<const EffectPlan>(scene);
+    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
+    std::array<std::optional<Flaky>, 2> devices;
+    std::array<std::optional<ServoLoop>, 2> servos;
+    for (int s = 0; s < 2; ++s) {
+      const auto k = static_cast<std::size_t>(s);
+      SimulatedDeviceConfig config = device_at(hand_at(s, 0).position);
+      config.damping = 0.5 + any(random);
+      config.max_force = random() % 2 == 0 ? 0.5 + 2 * any(random) : 30.0;
+      config.delay_samples = random() % 4 == 0 ? 1 : 0;
+      config.resolution = random() % 4 == 0 ? 1e-5 : 0.0;
+      if (random() % 3 == 0) config.hold = nanoseconds(1'500'000);
+      // They squeeze it, let it go and squeeze it again.
+      devices[k].emplace(config, [s](double t) {
+        HandTarget out = hand_at(s, std::min(t, 3.0));
+        const double open = t > 1.5 ? 0.5 - 0.5 * std::cos(4 * (t - 1.5)) : 0.0;
+        out.position.x() += (s == 1 ? 0.025 : -0.025) * open;
+        return out;
+      });
+      devices[k]->random.seed(seed);
+      devices[k]->rate = random() % 3 == 0 ? 200 : 0;
+      servos[k].emplace(*devices[k], plan, ServoConfig{}, world);
+    }
+    const bool is_late = random() % 2 == 0, lies = random() % 2 == 0;
+    nanoseconds now{1'000'000'000};
+    std::uint32_t version = 0;
+    for (int i = 0; i < 9'000; ++i) {
+      double taken = 0.0, allowed = 0.0;
+      bool touched = false;
+      for (std::size_t s = 0; s < 2; ++s) {
+        if (s == 0 && lies && i % 20 == 0) {
+          ContactSet set;
+          set.count = 1;
+          RemoteHand& other = set.hands[0];
+          other.id = {2, 1, 7};
+          other.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+          other.state.position = {-0.02 + 0.01 * any(random), 0, 0};
+          other.state.velocity = {any(random) - 0.5, 0, 0};
+          other.state_time = now;
+          other.model.kind = pdu::ForceModelKind::plane;
+          other.model.k1 = 400;
+          other.model.normal = {-1, 0, 0};
+          other.model.validity = 12;
+          other.valid_until = now + std::chrono::seconds(12);
+          other.version = ++version;
+          other.epoch = 1;
+          servos[s]->contacts().write(set);
+        }
+        servos[s]->step(now);
+        EXPECT_TRUE(servos[s]->snapshots().update());
+        const ServoSnapshot& step = servos[s]->snapshots().read();
+        taken += devices[s]->port_work() + devices[s]->damping_loss();
+        allowed += step.loan_most + step.late_cost + step.encoder_allowance;
+        touched |= step.in_mesh_contact;
+        cut = std::max(cut, 1.0 - step.limit_share);
+      }
+      free += touched ? 0 : 1;
+      if (!touched) worst = std::max(worst, world->energy() - taken - allowed);
+      ASSERT_LE(worst, 1e-9) << "seed " << seed << " at " << i << " ms, " << mass << " kg";
+      ASSERT_TRUE(world->states()[0].position.allFinite()) << "seed " << seed;
+      const bool late = is_late && random() % 20 == 0;
+      now += late ? nanoseconds(1'000'000 + random() % 3'000'000) : nanoseconds(1'000'000);
+    }
+  }
+  EXPECT_GT(cut, 0.5) << "nothing was cut";
+  EXPECT_GT(free, 50'000) << "they never let go";
 }
 
 /// A cube on a floor, and fingers from both sides that lift it, shake it and put it down.
@@ -337,8 +430,69 @@ TEST(PushedBody, IsSteppedWithoutAllocation) {
   EXPECT_GT(felt, 0.1);
 }
 
+// What lies against something that stands still does not give way, however light it is.
+TEST(PushedBody, IsAWallWhereItLiesOnTheFloor) {
+  for (const double mass : {0.001, 0.01, 0.1, 1.0}) {
+    Scene scene = cube_of(mass, 500);
+    scene.gravity = {0, 0, -9.81};
+    scene.objects[0].pose.position.z() = kHalf;
+    SceneObject& floor = scene.objects.emplace_back();
+    floor.name = "floor";
+    floor.shape = PlaneShape{Vector3d::UnitZ()};
+    floor.effects.of<SpringDamper>() = {400, 0.0};
+    const auto plan = std::make_shared<const EffectPlan>(scene);
+    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
+    const auto down = [](double t) {
+      HandTarget target;
+      target.position.z() = 2 * kHalf + 0.01 - 0.02 * ease(t);
+      return target;
+    };
+    SimulatedDevice device(device_at(down(0).position), down);
+    ServoLoop servo(device, plan, ServoConfig{}, world);
+    for (int i = 0; i < 3000; ++i) servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
+    ASSERT_TRUE(servo.snapshots().update());
+    const ServoSnapshot& step = servo.snapshots().read();
+    // The hand's spring of 300 N/m wants 10 mm into what has 500 N/m.
+    const double right = 500.0 * 300.0 / 800.0 * 0.01;
+    EXPECT_NEAR(step.force.z(), right, 0.005 * right) << mass << " kg";
+    EXPECT_NEAR(world->states()[0].position.z(), kHalf, 1e-4) << mass << " kg";
+  }
+}
+
+// A hand that pushes a cube over a floor with friction feels that friction, mu m g.
+TEST(PushedBody, IsPushedOverAFloorAgainstItsFriction) {
+  for (const double mass : {0.005, 0.05, 0.5}) {
+    Scene scene = cube_of(mass, 500);
+    scene.gravity = {0, 0, -9.81};
+    scene.objects[0].pose.position.z() = kHalf;
+    scene.objects[0].matter.friction = 0.5;
+    SceneObject& floor = scene.objects.emplace_back();
+    floor.name = "floor";
+    floor.shape = PlaneShape{Vector3d::UnitZ()};
+    floor.effects.of<SpringDamper>() = {400, 0.0};
+    floor.matter.friction = 0.5;
+    const auto plan = std::make_shared<const EffectPlan>(scene);
+    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
+    const auto along = [](double t) {
+      HandTarget target;
+      target.position = {-0.03 + 0.05 * t, 0, 0.3 * kHalf};  // below the middle: it does not tip
+      return target;
+    };
+    SimulatedDevice device(device_at(along(0).position), along);
+    ServoLoop servo(device, plan, ServoConfig{}, world);
+    double sum = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+      servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
+      ASSERT_TRUE(servo.snapshots().update());
+      if (i >= 2000) sum -= servo.snapshots().read().force.x() / 2000;
+    }
+    const double right = 0.5 * mass * 9.81;
+    EXPECT_NEAR(sum, right, 0.02 * right) << mass << " kg";
+  }
+}
+
 TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
-  const Scene scene = cube_of(0.005, 500);
+  const Scene scene = cube_of(0.0003, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
   const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
   SimulatedDevice device{SimulatedDeviceConfig{}};

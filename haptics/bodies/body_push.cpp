@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/bodies/body_push.hpp"
+
+#include <algorithm>
+
+namespace reckon::haptics {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kLossy = 0.25;  // of a period
+
+}  // namespace
+
+BodyPush::BodyPush(std::size_t hand, const BodySpring& spring, const Vector3d& at,
+                   const Quaterniond& turned) noexcept
+    : hand_(hand),
+      body_(spring.body),
+      place_(turned.conjugate() * (spring.point - at)),
+      velocity_(spring.velocity),
+      stiffness_(spring.stiffness),
+      friction_(spring.friction),
+      first_(spring.force),
+      now_(spring.force),
+      late_(spring.force) {
+  // A smooth surface pushes along the force that it has, also at an edge.
+  const double size = spring.force.norm();
+  const Vector3d along = size > 0 ? Vector3d(-spring.force / size) : spring.normal;
+  const bool is_rough = spring.friction > 0 && spring.force.dot(spring.normal) < 0;
+  const Vector3d normal = is_rough ? spring.normal : along;
+  normal_ = turned.conjugate() * normal;
+  if (!is_rough) return;
+  const double across = -spring.force.dot(normal);
+  friction_ = std::max(friction_, (spring.force + across * normal).norm() / across);
+}
+
+BodyPush::BodyPush(std::size_t body, const Vector3d& place, const Vector3d& force) noexcept
+    : body_(body), place_(place), first_(force), now_(force), late_(force) {
+  hold(1.0, 0.0, Vector3d::Zero());
+}
+
+void BodyPush::begin(double period, std::size_t steps) noexcept {
+  steps_ = std::clamp<std::size_t>(steps, 1, kMostSubsteps);
+  step_ = period / static_cast<double>(steps_);
+  noted_ = 0;
+}
+
+Vector3d BodyPush::next() noexcept {
+  if (noted_ < steps_) forces_[noted_++] = now_;
+  return now_;
+}
+
+void BodyPush::follow(const Vector3d& velocity, const Quaterniond& turned, double dt) noexcept {
+  if (!(stiffness_ > 0)) return;
+  const Vector3d normal = turned * normal_;
+  const Vector3d rate = stiffness_ * (velocity_ - velocity);
+  now_ = possible(now_ + dt * rate, normal);
+  late_ = possible(now_ + kLossy * static_cast<double>(steps_) * step_ * rate, normal);
+}
+
+// It never pulls, and slides where friction does not hold it.
+Vector3d BodyPush::possible(const Vector3d& force, const Vector3d& normal) const noexcept {
+  const double across = std::max(0.0, -force.dot(normal));
+  Vector3d along = force - force.dot(normal) * normal;
+  const double size = along.norm(), most = friction_ * across;
+  if (size > most) along *= most / size;
+  return along - across * normal;
+}
+
+Vector3d BodyPush::change() const noexcept {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < noted_; ++i) sum += forces_[i] - first_;
+  return noted_ > 0 ? Vector3d(sum / static_cast<double>(noted_)) : sum;
+}
+
+void BodyPush::hold(double spring, double changed, const Vector3d& rest) noexcept {
+  spring_ = spring;
+  changed_ = changed;
+  rest_ = rest;
+}
+
+Vector3d BodyPush::mean(double from, double to) const noexcept {
+  Vector3d sum = Vector3d::Zero();
+  double rest = to - from;
+  for (std::size_t i = 0; i < noted_; ++i) {
+    const double begin = static_cast<double>(i) * step_;
+    const double part = std::min(begin + step_, to) - std::max(begin, from);
+    if (!(part > 0)) continue;
+    sum += part * held(forces_[i]);
+    rest -= part;
+  }
+  return (sum + std::max(0.0, rest) * held(late_)) / (to - from);
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How a hand pushes a body for one period: by a spring that gives way within the period, foreseen
+// when it begins, and held as it was foreseen.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+
+namespace reckon::haptics {
+
+/// The spring between a hand and a body at the begin of a period. Frame S.
+struct BodySpring {
+  std::size_t body = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< [m], of the body, where it is touched
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N], on the body, now
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the body
+  double stiffness = 0.0;                            ///< [N/m]
+  double friction = 0.0;  ///< greatest force along the surface over that across it; 0: smooth
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], of the hand there
+};
+
+/// Steps in which a period is foreseen, at most.
+inline constexpr std::size_t kMostSubsteps = 16;
+
+/// One push. While it is foreseen, next() gives the spring's force in each step; then hold() says
+/// what of it the hand feels, and mean() gives that force over any part of the period.
+class BodyPush {
+ public:
+  BodyPush() = default;
+  /// @param at, turned of the body now
+  BodyPush(std::size_t hand, const BodySpring& spring, const Eigen::Vector3d& at,
+           const Eigen::Quaterniond& turned) noexcept;
+  /// A force that stays as it is.
+  BodyPush(std::size_t body, const Eigen::Vector3d& place, const Eigen::Vector3d& force) noexcept;
+
+  [[nodiscard]] std::size_t hand() const noexcept { return hand_; }
+  [[nodiscard]] std::size_t body() const noexcept { return body_; }
+  /// In the body's axes, from its middle [m].
+  [[nodiscard]] const Eigen::Vector3d& place() const noexcept { return place_; }
+  [[nodiscard]] double stiffness() const noexcept { return stiffness_; }
+  [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
+
+  /// Begins to foresee `period` [s] in `steps` steps, 1 to kMostSubsteps.
+  void begin(double period, std::size_t steps) noexcept;
+  /// Force of the spring now [N]; noted as that of the next step while it is foreseen.
+  Eigen::Vector3d next() noexcept;
+  /// The hand went on for dt [s], and the body: its point had this mean velocity [m/s].
+  void follow(const Eigen::Vector3d& velocity, const Eigen::Quaterniond& turned,
+              double dt) noexcept;
+  /// The spring is again as at the begin of the period.
+  void rewind() noexcept { now_ = first_; }
+  /// Another period begins with the spring as it is.
+  void renew() noexcept { first_ = now_; }
+
+  /// Mean force over the period, less the force at its begin [N].
+  [[nodiscard]] Eigen::Vector3d change() const noexcept;
+  /// The hand feels these shares of the spring at the begin and of its change, and `rest` [N] on
+  /// the body.
+  void hold(double spring, double changed, const Eigen::Vector3d& rest) noexcept;
+  /// Of the held force between two times since the begin [s]. After the period, until a late step,
+  /// the body goes on to give way, and the spring loses energy: what the hand does is not known.
+  [[nodiscard]] Eigen::Vector3d mean(double from, double to) const noexcept;
+
+ private:
+  [[nodiscard]] Eigen::Vector3d possible(const Eigen::Vector3d& force,
+                                         const Eigen::Vector3d& normal) const noexcept;
+  [[nodiscard]] Eigen::Vector3d held(const Eigen::Vector3d& force) const noexcept {
+    return spring_ * first_ + changed_ * (force - first_) + rest_;
+  }
+
+  std::size_t hand_ = static_cast<std::size_t>(-1);
+  std::size_t body_ = 0;
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();  // in the body's axes
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  double stiffness_ = 0.0;
+  double friction_ = 0.0;
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();  // at the begin
+  Eigen::Vector3d now_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d late_ = Eigen::Vector3d::Zero();       // now, with loss
+  std::array<Eigen::Vector3d, kMostSubsteps> forces_{};  // of the spring, in the steps
+  double spring_ = 0.0, changed_ = 0.0;                  // see hold()
+  Eigen::Vector3d rest_ = Eigen::Vector3d::Zero();
+  std::size_t steps_ = 0;
+  std::size_t noted_ = 0;
+  double step_ = 0.0;  // [s]
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,425 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/bodies/body_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdarg>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr int kContacts = 8;  // of a pair, at most
+// Depth at which contacts rest [m], so that they last from step to step.
+constexpr double kRestDepth = 1e-5;
+constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
+constexpr double kBounceSpeed = 0.01;  // [m/s]; slower hits do not bounce
+constexpr double kSlipSpeed = 1e-4;    // [m/s]; faster ones rub along their way
+constexpr double kStillSpeed = 1e-3;   // [m/s]
+constexpr double kStillTurn = 0.02;    // [rad/s]
+
+constexpr double kNear = 5e-4;  // [m], between the boxes of bodies that may touch
+
+Vector3d vector(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
+
+// The exact solver says so where it found no answer, as in a pile of many contacts at once.
+thread_local bool lost = false;
+void note_lost(int, const char*, va_list) { lost = true; }
+
+void start_ode() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    dInitODE2(0);
+    dSetMessageHandler(note_lost);
+  });
+}
+
+// What ODE keeps for each thread.
+void know_thread() {
+  thread_local const bool known = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+  static_cast<void>(known);
+}
+
+double turning_energy(dBodyID body) noexcept {
+  const dReal* q = dBodyGetQuaternion(body);
+  const Vector3d rate =
+      Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * vector(dBodyGetAngularVel(body));
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  return 0.5 * (mass.I[0] * rate.x() * rate.x() + mass.I[5] * rate.y() * rate.y() +
+                mass.I[10] * rate.z() * rate.z());
+}
+
+void slow(dBodyID body, double factor) noexcept {
+  const Vector3d v = factor * vector(dBodyGetLinearVel(body));
+  const Vector3d w = factor * vector(dBodyGetAngularVel(body));
+  dBodySetLinearVel(body, v.x(), v.y(), v.z());
+  dBodySetAngularVel(body, w.x(), w.y(), w.z());
+}
+
+// Friction is bounded along two axes: where a contact slips, one of them is its way.
+void rub_along(dContact& contact, dBodyID first, dBodyID second) noexcept {
+  const Vector3d at = vector(contact.geom.pos), normal = vector(contact.geom.normal);
+  const auto velocity = [&](dBodyID body) -> Vector3d {
+    if (body == nullptr) return Vector3d::Zero();
+    return vector(dBodyGetLinearVel(body)) +
+           vector(dBodyGetAngularVel(body)).cross(at - vector(dBodyGetPosition(body)));
+  };
+  Vector3d slip = velocity(first) - velocity(second);
+  slip -= normal.dot(slip) * normal;
+  const double speed = slip.norm();
+  if (!(speed > kSlipSpeed)) return;
+  contact.surface.mode |= dContactFDir1;
+  for (int i = 0; i < 3; ++i) contact.fdir1[i] = slip[i] / speed;
+}
+
+}  // namespace
+
+BodySolver::State BodySolver::Body::state() const noexcept {
+  State out;
+  std::copy_n(dBodyGetPosition(id), 3, out.at.begin());
+  std::copy_n(dBodyGetQuaternion(id), 4, out.turned.begin());
+  std::copy_n(dBodyGetLinearVel(id), 3, out.velocity.begin());
+  std::copy_n(dBodyGetAngularVel(id), 3, out.turn_rate.begin());
+  std::copy_n(dBodyGetForce(id), 3, out.force.begin());
+  std::copy_n(dBodyGetTorque(id), 3, out.torque.begin());
+  out.awake = dBodyIsEnabled(id) != 0;
+  out.still = still;
+  return out;
+}
+
+void BodySolver::Body::set(const State& state) noexcept {
+  const auto& q = state.turned;
+  const dQuaternion turned{q[0], q[1], q[2], q[3]};
+  dBodySetPosition(id, state.at[0], state.at[1], state.at[2]);
+  dBodySetQuaternion(id, turned);
+  dBodySetLinearVel(id, state.velocity[0], state.velocity[1], state.velocity[2]);
+  dBodySetAngularVel(id, state.turn_rate[0], state.turn_rate[1], state.turn_rate[2]);
+  dBodySetForce(id, state.force[0], state.force[1], state.force[2]);
+  dBodySetTorque(id, state.torque[0], state.torque[1], state.torque[2]);
+  if (state.awake) {
+    dBodyEnable(id);
+  } else {
+    dBodyDisable(id);
+  }
+  still = state.still;
+}
+
+BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity) : gravity_(gravity) {
+  start_ode();
+  know_thread();
+  world_ = dWorldCreate();
+  geoms_.emplace();
+  joints_ = dJointGroupCreate(0);
+  ray_ = dCreateRay(nullptr, 1.0);
+  keep_within_thread(world_);
+  dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
+  dWorldSetERP(world_, 0.2);
+  dWorldSetQuickStepNumIterations(world_, 60);
+  dWorldSetCFM(world_, 1e-7);
+  dWorldSetContactSurfaceLayer(world_, kRestDepth);
+  dWorldSetContactMaxCorrectingVel(world_, kParting);
+  // Geoms point to what they are made of, and a step allocates nothing.
+  matters_.reserve(plan.objects().size());
+  try {
+    for (std::uint32_t i = 0; i < plan.objects().size(); ++i) add(plan.objects()[i], i);
+  } catch (...) {
+    destroy();
+    throw;
+  }
+  ledger_.energy = energy();
+}
+
+BodySolver::~BodySolver() { destroy(); }
+
+void BodySolver::destroy() noexcept {
+  dGeomDestroy(ray_);
+  dJointGroupDestroy(joints_);
+  geoms_.reset();
+  dWorldDestroy(world_);
+}
+
+void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
+  const bool moves = object.moves();
+  if (moves && bodies_.size() >= kMostBodies) {
+    refuse_body(object, "a scene moves at most " + std::to_string(kMostBodies) +
+                            " bodies: take the mass of some out");
+  }
+  const dGeomID geom = geoms_->add(object);
+  if (geom == nullptr) return;
+  matters_.push_back(object.matter);
+  dGeomSetData(geom, &matters_.back());
+  if (!moves) return;
+  Body& body = bodies_.emplace_back();
+  body.id = dBodyCreate(world_);
+  body.geom = geom;
+  body.object = number;
+  body.mass = object.matter.mass;
+  body.start = object.position;
+  dMass mass;
+  if (std::holds_alternative<Ball>(object.shape)) {
+    body.inner = dGeomSphereGetRadius(geom);
+    dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(geom));
+  } else {
+    dVector3 size;
+    dGeomBoxGetLengths(geom, size);
+    body.inner = 0.5 * std::min({size[0], size[1], size[2]});
+    dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
+  }
+  dBodySetMass(body.id, &mass);
+  dGeomSetBody(geom, body.id);
+  const Quaterniond q(object.orientation);
+  const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
+  dBodySetPosition(body.id, object.position.x(), object.position.y(), object.position.z());
+  dBodySetQuaternion(body.id, turned);
+  dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
+}
+
+Quaterniond BodySolver::orientation(std::size_t body) const noexcept {
+  const dReal* q = dBodyGetQuaternion(bodies_[body].id);
+  return {q[0], q[1], q[2], q[3]};
+}
+
+ObjectMotion BodySolver::motion(std::size_t body) const noexcept {
+  const dBodyID id = bodies_[body].id;
+  return {vector(dBodyGetPosition(id)), orientation(body), vector(dBodyGetLinearVel(id)),
+          vector(dBodyGetAngularVel(id))};
+}
+
+bool BodySolver::awake(std::size_t body) const noexcept {
+  return acts(body) ? dBodyIsEnabled(bodies_[body].id) != 0 : (parked_awake_ >> body & 1) != 0;
+}
+
+Vector3d BodySolver::velocity(std::size_t body, const Vector3d& place) const noexcept {
+  const dBodyID id = bodies_[body].id;
+  return vector(dBodyGetLinearVel(id)) +
+         vector(dBodyGetAngularVel(id)).cross(orientation(body) * place);
+}
+
+double BodySolver::energy() const noexcept {
+  double sum = 0.0;
+  for (const Body& body : bodies_) {
+    const Vector3d v = vector(dBodyGetLinearVel(body.id));
+    sum += 0.5 * body.mass * v.squaredNorm() + turning_energy(body.id) -
+           body.mass * gravity_.dot(vector(dBodyGetPosition(body.id)) - body.start);
+  }
+  return sum;
+}
+
+BodySet BodySolver::island(BodySet some) const noexcept {
+  std::array<std::array<dReal, 6>, kMostBodies> boxes;
+  for (std::size_t i = 0; i < size(); ++i) dGeomGetAABB(bodies_[i].geom, boxes[i].data());
+  const auto near = [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = 0; k < 6; k += 2) {
+      if (boxes[a][k] > boxes[b][k + 1] + kNear || boxes[b][k] > boxes[a][k + 1] + kNear)
+        return false;
+    }
+    return true;
+  };
+  BodySet found = some, fresh = some;
+  while (fresh != 0) {
+    const auto from = static_cast<std::size_t>(std::countr_zero(fresh));
+    fresh &= fresh - 1;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const BodySet one = BodySet{1} << i;
+      if ((found & one) != 0 || !near(from, i)) continue;
+      found |= one;
+      fresh |= one;
+    }
+  }
+  return found;
+}
+
+void BodySolver::only(BodySet some) noexcept {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const BodySet one = BodySet{1} << i;
+    const bool wanted = (some & one) != 0;
+    if (wanted == acts(i)) continue;
+    const Body& body = bodies_[i];
+    if (wanted) {
+      dGeomEnable(body.geom);
+      if ((parked_awake_ & one) != 0) dBodyEnable(body.id);
+      parked_awake_ &= ~one;
+    } else {
+      if (dBodyIsEnabled(body.id)) parked_awake_ |= one;
+      dBodyDisable(body.id);
+      dGeomDisable(body.geom);
+    }
+  }
+  only_ = some;
+}
+
+void BodySolver::keep() noexcept {
+  for (std::size_t i = 0; i < size(); ++i)
+    if (acts(i)) bodies_[i].kept = bodies_[i].state();
+  kept_ = ledger_;
+}
+
+void BodySolver::restore() noexcept {
+  for (std::size_t i = 0; i < size(); ++i)
+    if (acts(i)) bodies_[i].set(bodies_[i].kept);
+  ledger_ = kept_;
+}
+
+bool BodySolver::rests() const noexcept {
+  return std::ranges::none_of(bodies_, [](const Body& body) { return dBodyIsEnabled(body.id); });
+}
+
+void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
+  if (forces.empty() && rests()) return;
+  know_thread();
+  apply(forces);
+  for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
+  for (BodyForce& force : forces)
+    force.work = 0.5 * dt * force.force.dot(velocity(force.body, force.place));
+  dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
+    static_cast<BodySolver*>(self)->collide(a, b);
+  });
+  solve(dt);
+  fly_exactly(dt);
+  catch_fast();
+  dJointGroupEmpty(joints_);
+  double given = 0.0;
+  for (BodyForce& force : forces) {
+    force.work += 0.5 * dt * force.force.dot(velocity(force.body, force.place));
+    given += force.work;
+  }
+  take_out(given);
+  rest(dt);
+  // What falls asleep or is too fast gives some up.
+  ledger_.energy = std::min(ledger_.energy, energy());
+}
+
+// Where the exact solver is lost, the step is taken again by one that always ends near the
+// answer.
+void BodySolver::solve(double dt) noexcept {
+  for (Body& body : bodies_) body.before = body.state();
+  lost = false;
+  dWorldStep(world_, dt);
+  if (!lost) return;
+  ++ledger_.lost;
+  for (Body& body : bodies_) body.set(body.before);
+  dRandSetSeed(1);  // so that it is the same twice
+  dWorldQuickStep(world_, dt);
+}
+
+void BodySolver::apply(std::span<BodyForce> forces) noexcept {
+  for (const BodyForce& force : forces) {
+    Body& body = bodies_[force.body];
+    if (force.force.squaredNorm() > 0 && !dBodyIsEnabled(body.id)) {
+      dBodyEnable(body.id);
+      body.still = 0.0;
+    }
+    const Vector3d at = vector(dBodyGetPosition(body.id)) + orientation(force.body) * force.place;
+    const Vector3d& f = force.force;
+    dBodyAddForceAtPos(body.id, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
+  }
+}
+
+void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
+  const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
+  const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
+  if (sleeps(first) && sleeps(second)) return;
+  std::array<dContact, kContacts> contacts{};
+  const int count = dCollide(a, b, kContacts, &contacts[0].geom, sizeof(dContact));
+  if (count == 0) return;
+  const auto* one = static_cast<const Matter*>(dGeomGetData(a));
+  const auto* other = static_cast<const Matter*>(dGeomGetData(b));
+  for (int i = 0; i < count; ++i) {
+    dContact& contact = contacts[static_cast<std::size_t>(i)];
+    contact.surface.mode = dContactApprox1 | dContactBounce;
+    contact.surface.mu = std::sqrt(one->friction * other->friction);
+    contact.surface.bounce = std::max(one->restitution, other->restitution);
+    contact.surface.bounce_vel = kBounceSpeed;
+    rub_along(contact, first, second);
+    dJointAttach(dJointCreateContact(world_, joints_, &contact), first, second);
+  }
+}
+
+// The solver moves a body by its new speed for all of the step, which keeps the energy of
+// springs. One that nothing touches flies by the mean of both.
+void BodySolver::fly_exactly(double dt) noexcept {
+  for (const Body& body : bodies_) {
+    if (!body.flies || !dBodyIsEnabled(body.id) || dBodyGetNumJoints(body.id) > 0) continue;
+    const Vector3d at = vector(dBodyGetPosition(body.id)) - 0.5 * dt * dt * gravity_;
+    dBodySetPosition(body.id, at.x(), at.y(), at.z());
+  }
+}
+
+// A body that would be behind what it hits is put where its middle meets it, and the next step
+// finds both in touch.
+void BodySolver::catch_fast() noexcept {
+  for (const Body& body : bodies_) {
+    const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
+    const Vector3d way = vector(dBodyGetPosition(body.id)) - from;
+    const double length = way.norm();
+    if (!(length > 0.5 * body.inner)) continue;
+    const double free = length_free(body, from, way / length, length);
+    if (!(free < length)) continue;
+    const Vector3d at = from + std::max(0.0, free - 0.9 * body.inner) / length * way;
+    dBodySetPosition(body.id, at.x(), at.y(), at.z());
+  }
+}
+
+// How far the middle of a body gets before it meets anything else.
+double BodySolver::length_free(const Body& body, const Vector3d& from, const Vector3d& way,
+                               double length) noexcept {
+  dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());
+  dGeomRaySetLength(ray_, length);
+  double free = length;
+  for (int i = 0; i < dSpaceGetNumGeoms(geoms_->space()); ++i) {
+    const dGeomID geom = dSpaceGetGeom(geoms_->space(), i);
+    if (dGeomGetBody(geom) == body.id) continue;
+    dContactGeom hit;
+    if (dCollide(ray_, geom, 1, &hit, sizeof hit) > 0) free = std::min(free, hit.depth);
+  }
+  return free;
+}
+
+// @param given work of all pushes in this step [J]
+void BodySolver::take_out(double given) noexcept {
+  const double most = ledger_.energy + given;
+  const double excess = energy() - most;
+  if (excess > 0) {
+    double moving = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (!acts(i)) continue;
+      const Body& body = bodies_[i];
+      moving += 0.5 * body.mass * vector(dBodyGetLinearVel(body.id)).squaredNorm() +
+                turning_energy(body.id);
+    }
+    const double left = moving > excess ? std::sqrt(1.0 - excess / moving) : 0.0;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (acts(i)) slow(bodies_[i].id, left);
+    ledger_.taken_out += std::min(excess, moving);
+  }
+  // What slow bodies were lifted by, out of one another, is due from the next motion.
+  ledger_.energy = std::min(most, energy());
+}
+
+void BodySolver::rest(double dt) noexcept {
+  for (Body& body : bodies_) {
+    if (!dBodyIsEnabled(body.id)) continue;
+    const double speed = vector(dBodyGetLinearVel(body.id)).norm();
+    if (speed > BodyWorld::kFastest) slow(body.id, BodyWorld::kFastest / speed);
+    const bool is = speed < kStillSpeed && vector(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
+    body.still = is ? body.still + dt : 0.0;
+    if (body.still < pdu::to_seconds(BodyWorld::kSleep)) continue;
+    slow(body.id, 0.0);
+    dBodyDisable(body.id);
+  }
+}
+
+}  // namespace reckon::haptics
