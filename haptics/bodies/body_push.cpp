@@ -24,22 +24,21 @@ BodyPush::BodyPush(std::size_t hand, const BodySpring& spring, const Vector3d& a
       stiffness_(spring.stiffness),
       friction_(spring.friction),
       first_(spring.force),
-      now_(spring.force),
       late_(spring.force) {
   // A smooth surface pushes along the force that it has, also at an edge.
   const double size = spring.force.norm();
-  const Vector3d along = size > 0 ? Vector3d(-spring.force / size) : spring.normal;
   const bool is_rough = spring.friction > 0 && spring.force.dot(spring.normal) < 0;
-  const Vector3d normal = is_rough ? spring.normal : along;
+  const Vector3d normal = is_rough || !(size > 0) ? spring.normal : Vector3d(-spring.force / size);
   normal_ = turned.conjugate() * normal;
-  if (!is_rough) return;
   const double across = -spring.force.dot(normal);
-  friction_ = std::max(friction_, (spring.force + across * normal).norm() / across);
+  begun_ = {across - spring.stiffness * spring.gap, spring.force + across * normal, normal};
+  tension_ = begun_;
+  if (is_rough) friction_ = std::max(friction_, begun_.along.norm() / across);
 }
 
 BodyPush::BodyPush(std::size_t body, const Vector3d& place, const Vector3d& force) noexcept
-    : body_(body), place_(place), first_(force), now_(force), late_(force) {
-  hold(1.0, 0.0, Vector3d::Zero());
+    : body_(body), place_(place), first_(force), late_(force) {
+  hold(1.0, Vector3d::Zero());
 }
 
 void BodyPush::begin(double period, std::size_t steps) noexcept {
@@ -48,25 +47,36 @@ void BodyPush::begin(double period, std::size_t steps) noexcept {
   noted_ = 0;
 }
 
+void BodyPush::rewind() noexcept { tension_ = begun_; }
+
+void BodyPush::renew() noexcept { begun_ = tension_; }
+
 Vector3d BodyPush::next() noexcept {
-  if (noted_ < steps_) forces_[noted_++] = now_;
-  return now_;
+  const Vector3d force = tension_.force();
+  if (noted_ < steps_) forces_[noted_++] = force;
+  return force;
 }
 
 void BodyPush::follow(const Vector3d& velocity, const Quaterniond& turned, double dt) noexcept {
   if (!(stiffness_ > 0)) return;
   const Vector3d normal = turned * normal_;
   const Vector3d rate = stiffness_ * (velocity_ - velocity);
-  now_ = possible(now_ + dt * rate, normal);
-  late_ = possible(now_ + kLossy * static_cast<double>(steps_) * step_ * rate, normal);
+  tension_ = after(dt * rate, normal);
+  late_ = after(kLossy * static_cast<double>(steps_) * step_ * rate, normal).force();
 }
 
-// It never pulls, and slides where friction does not hold it.
-Vector3d BodyPush::possible(const Vector3d& force, const Vector3d& normal) const noexcept {
-  const double across = std::max(0.0, -force.dot(normal));
-  Vector3d along = force - force.dot(normal) * normal;
-  const double size = along.norm(), most = friction_ * across;
-  if (size > most) along *= most / size;
+// It slides where friction does not hold it.
+BodyPush::Tension BodyPush::after(const Vector3d& change, const Vector3d& normal) const noexcept {
+  const double away = change.dot(normal);
+  Tension out{tension_.across - away, tension_.along + change - away * normal, normal};
+  const double size = out.along.norm(), most = friction_ * std::max(0.0, out.across);
+  if (size > most) out.along *= most / size;
+  return out;
+}
+
+// It never pulls.
+Vector3d BodyPush::Tension::force() const noexcept {
+  if (!(across > 0)) return Vector3d::Zero();
   return along - across * normal;
 }
 
@@ -76,9 +86,8 @@ Vector3d BodyPush::change() const noexcept {
   return noted_ > 0 ? Vector3d(sum / static_cast<double>(noted_)) : sum;
 }
 
-void BodyPush::hold(double spring, double changed, const Vector3d& rest) noexcept {
-  spring_ = spring;
-  changed_ = changed;
+void BodyPush::hold(double share, const Vector3d& rest) noexcept {
+  share_ = share;
   rest_ = rest;
 }
 

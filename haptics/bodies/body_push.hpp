@@ -19,6 +19,7 @@ struct BodySpring {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the body
   double stiffness = 0.0;                            ///< [N/m]
   double friction = 0.0;  ///< greatest force along the surface over that across it; 0: smooth
+  double gap = 0.0;       ///< [m], between both, if they do not touch yet
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], of the hand there
 };
 
@@ -51,24 +52,31 @@ class BodyPush {
   void follow(const Eigen::Vector3d& velocity, const Eigen::Quaterniond& turned,
               double dt) noexcept;
   /// The spring is again as at the begin of the period.
-  void rewind() noexcept { now_ = first_; }
+  void rewind() noexcept;
   /// Another period begins with the spring as it is.
-  void renew() noexcept { first_ = now_; }
+  void renew() noexcept;
 
   /// Mean force over the period, less the force at its begin [N].
   [[nodiscard]] Eigen::Vector3d change() const noexcept;
-  /// The hand feels these shares of the spring at the begin and of its change, and `rest` [N] on
-  /// the body.
-  void hold(double spring, double changed, const Eigen::Vector3d& rest) noexcept;
+  /// The body gets this share of the spring, [0, 1], and `rest` [N] besides.
+  void hold(double share, const Eigen::Vector3d& rest) noexcept;
   /// Of the held force between two times since the begin [s]. After the period, until a late step,
   /// the body goes on to give way, and the spring loses energy: what the hand does is not known.
   [[nodiscard]] Eigen::Vector3d mean(double from, double to) const noexcept;
 
  private:
-  [[nodiscard]] Eigen::Vector3d possible(const Eigen::Vector3d& force,
-                                         const Eigen::Vector3d& normal) const noexcept;
+  // What the spring would be, also where it would pull.
+  struct Tension {
+    double across = 0.0;                               // [N], into the body
+    Eigen::Vector3d along = Eigen::Vector3d::Zero();   // [N], the surface
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, out of the body
+
+    [[nodiscard]] Eigen::Vector3d force() const noexcept;
+  };
+  [[nodiscard]] Tension after(const Eigen::Vector3d& change,
+                              const Eigen::Vector3d& normal) const noexcept;
   [[nodiscard]] Eigen::Vector3d held(const Eigen::Vector3d& force) const noexcept {
-    return spring_ * first_ + changed_ * (force - first_) + rest_;
+    return share_ * force + rest_;
   }
 
   std::size_t hand_ = static_cast<std::size_t>(-1);
@@ -78,11 +86,11 @@ class BodyPush {
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   double stiffness_ = 0.0;
   double friction_ = 0.0;
-  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();  // at the begin
-  Eigen::Vector3d now_ = Eigen::Vector3d::Zero();
+  Tension begun_, tension_;                              // at the begin, now
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();      // [N], at the begin
   Eigen::Vector3d late_ = Eigen::Vector3d::Zero();       // now, with loss
   std::array<Eigen::Vector3d, kMostSubsteps> forces_{};  // of the spring, in the steps
-  double spring_ = 0.0, changed_ = 0.0;                  // see hold()
+  double share_ = 0.0;                                   // see hold()
   Eigen::Vector3d rest_ = Eigen::Vector3d::Zero();
   std::size_t steps_ = 0;
   std::size_t noted_ = 0;

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr int kContacts = 8;  // of a pair, at most
+constexpr int kContacts = 4;  // of a pair, at most
 // Depth at which contacts rest [m], so that they last from step to step.
 constexpr double kRestDepth = 1e-5;
 constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another

@@ -21,6 +21,7 @@ using std::chrono::nanoseconds;
 constexpr double kLongestStep = 1e-3;     // [s]
 constexpr double kLongestGap = 0.1;       // [s]
 constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
+constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
 constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
 constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
 
@@ -50,7 +51,7 @@ class BodyWorld::Engine {
     std::size_t steps = 1;
     for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
     const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
-    if (pushed != 0 && is_small(pushed)) {
+    if (pushed != 0 && is_small(pushed, steps)) {
       // What is pushed goes on in small steps, all else as if nothing were.
       solver_.only(pushed);
       const double dt = std::min(kLongestStep, period_ / static_cast<double>(steps));
@@ -92,12 +93,12 @@ class BodyWorld::Engine {
     const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
     if (std::ranges::none_of(pushes_, own)) return;
     const BodySet pushed = pushed_by(pushes_) | still_pushed();
+    const std::size_t steps = steps_for(period);
     BodySet island = solver_.island(pushed);
-    if (!is_small(island)) {
+    if (!is_small(island, steps)) {
       island = pushed;
       ++coarse_;
     }
-    const std::size_t steps = steps_for(period);
     for (BodyPush& push : pushes_)
       if (own(push)) push.begin(period, steps);
     solver_.only(island);
@@ -114,8 +115,8 @@ class BodyWorld::Engine {
   [[nodiscard]] Vector3d change(std::size_t push) const noexcept {
     return push < pushes_.size() ? pushes_[push].change() : Vector3d::Zero();
   }
-  void hold(std::size_t push, double spring, double changed, const Vector3d& rest) noexcept {
-    if (push < pushes_.size()) pushes_[push].hold(spring, changed, rest);
+  void hold(std::size_t push, double share, const Vector3d& rest) noexcept {
+    if (push < pushes_.size()) pushes_[push].hold(share, rest);
   }
   [[nodiscard]] double work(std::size_t push) const noexcept {
     return push < works_.size() ? works_[push] : 0.0;
@@ -125,8 +126,12 @@ class BodyWorld::Engine {
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
 
  private:
-  [[nodiscard]] static bool is_small(BodySet island) noexcept {
-    return std::popcount(island) <= static_cast<int>(kMostInIsland);
+  // Whether it is stepped fast enough, by each hand and once more: a body takes 3.5 us, and bodies
+  // that all touch take as the square of their number.
+  [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept {
+    const double bodies = std::popcount(island);
+    const double times = static_cast<double>(steps * (hands_ + 1));
+    return 3.5e-6 * bodies * bodies * times <= kMostTime;
   }
   [[nodiscard]] static BodySet pushed_by(std::span<const BodyPush> pushes) noexcept {
     BodySet out = 0;
@@ -256,9 +261,8 @@ void BodyWorld::foresee(std::size_t hand, double period) noexcept {
   engine_->foresee(hand, period);
 }
 Vector3d BodyWorld::change(std::size_t push) const noexcept { return engine_->change(push); }
-void BodyWorld::hold(std::size_t push, double spring, double changed,
-                     const Vector3d& rest) noexcept {
-  engine_->hold(push, spring, changed, rest);
+void BodyWorld::hold(std::size_t push, double share, const Vector3d& rest) noexcept {
+  engine_->hold(push, share, rest);
 }
 double BodyWorld::work(std::size_t push) const noexcept { return engine_->work(push); }
 std::span<const BodyState> BodyWorld::states() const noexcept { return engine_->states(); }

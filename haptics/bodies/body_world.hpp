@@ -90,16 +90,14 @@ class BodyWorld {
   std::size_t press(std::size_t hand, const BodySpring& spring) noexcept;
   /// Foresees how the springs of this hand give way in the period [s] that begins: in steps, with
   /// all that the bodies lie against, while the hands go on at their speeds. To be called each
-  /// period, after all press(). In an island of more than kMostInIsland bodies only those that
-  /// hands push are foreseen, and all is stepped as a whole: a light body in a large pile gives way
-  /// too easily.
+  /// period, after all press(). An island that would take more than 0.3 ms of a period is stepped
+  /// once, and only those of its bodies that hands push are foreseen: a light body in a large pile
+  /// gives way too easily.
   void foresee(std::size_t hand, double period) noexcept;
-  static constexpr std::size_t kMostInIsland = 8;
   /// Mean force of a push over the period, less what it was at its begin [N].
   [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
-  /// What the hand shows of a push: spring * its force at the begin + changed * (its force - that)
-  /// + rest, on the body [N].
-  void hold(std::size_t push, double spring, double changed, const Eigen::Vector3d& rest) noexcept;
+  /// The body gets this share of a push, [0, 1], and `rest` [N] besides.
+  void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
   /// Work that a push of the period before did on its body [J].
   [[nodiscard]] double work(std::size_t push) const noexcept;
 

@@ -416,6 +416,27 @@ double ContactSolver::ahead_of(std::uint32_t index) const noexcept {
   return moving != nullptr ? 0.5 * moving->motion.step : 0.0;
 }
 
+std::optional<NearBody> ContactSolver::near_body(std::size_t& body, const Vector3d& velocity,
+                                                 double time) const noexcept {
+  while (body < moving_.size()) {
+    const MovingObject& moving = moving_[body++];
+    if (contacts_[moving.object].in_contact) continue;
+    const PlannedObject& object = moving.now;
+    const Vector3d at = object.to_object(last_device_);
+    const double speed = (velocity - moving.motion.velocity).norm() +
+                         moving.motion.turn_rate.norm() * (last_device_ - object.position).norm();
+    const double reach = speed * time + radius_;
+    if (distance_below(object.shape, at) > reach) continue;
+    const std::optional<Vector3d> nearest = nearest_inside(object.shape, at);
+    if (!nearest) continue;
+    const double distance = (at - *nearest).norm();
+    if (!(distance > radius_) || distance > reach) continue;
+    return NearBody{moving.object, object.to_scene(*nearest),
+                    object.orientation * ((at - *nearest) / distance), distance - radius_};
+  }
+  return std::nullopt;
+}
+
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double gain) noexcept {
   Vector3d total = Vector3d::Zero();
   for (const std::uint32_t i : near_) {

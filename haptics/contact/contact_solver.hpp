@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,14 @@ struct ObjectContact {
   std::uint32_t triangle = ContactedObject::kNoTriangle;  ///< of a mesh, below the SCP
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
+};
+
+/// A body that is near the probe and does not touch it, frame S.
+struct NearBody {
+  std::uint32_t index = 0;                           ///< of the object
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< of the body, the nearest one [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the body
+  double gap = 0.0;                                  ///< between both [m], > 0
 };
 
 /// Result of a step, frame S. The spans stay valid until the solver's next call.
@@ -88,6 +97,11 @@ class ContactSolver {
                                             const Eigen::Vector3d& point) const noexcept;
   /// By how much its speed is ahead of its place [s]; see ObjectMotion::step.
   [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept;
+  /// Of those that move, the next one from number `body` on that the probe may touch within `time`
+  /// [s] at this velocity [m/s], and does not touch yet. @return none if there is none
+  [[nodiscard]] std::optional<NearBody> near_body(std::size_t& body,
+                                                  const Eigen::Vector3d& velocity,
+                                                  double time) const noexcept;
   /// Of an object: greatest force along its surface over that across it; 0 if it is smooth.
   [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
     return cones_[index] != nullptr ? cones_[index]->at_rest() : 0.0;

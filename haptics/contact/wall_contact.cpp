@@ -52,9 +52,9 @@ void WallContact::lend_for_motion(EnergyLedger& ledger) noexcept {
   double lent = 0.0;
   for (const std::uint32_t i : result_.touched) {
     const ObjectContact& contact = result_.objects[i];
-    lent += solver_.ahead_of(i) * gain_ * contact.force.dot(solver_.velocity_of(i, contact.scp));
+    lent += solver_.ahead_of(i) * contact.force.dot(solver_.velocity_of(i, contact.scp));
   }
-  ledger.book(lent - lent_);
+  ledger.book(gain_ * (lent - lent_));
   lent_ = lent;
 }
 
@@ -63,7 +63,7 @@ void WallContact::settle(double dt, EnergyLedger& ledger) noexcept {
   const double debt = ledger.debt();
   if (debt > 0) {
     if (debt > kHiccup * stored()) drop();
-    scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, ledger);
+    scale_gain(debt < booked() ? 1.0 - debt / booked() : 0.0, ledger);
   }
   const double most = most_gain();
   if (gain_ > most) scale_gain(most / gain_, ledger);
@@ -88,7 +88,7 @@ double WallContact::most_gain() const noexcept {
 }
 
 void WallContact::scale_gain(double factor, EnergyLedger& ledger) noexcept {
-  ledger.book(stored() * (1.0 - factor));
+  ledger.book(booked() * (1.0 - factor));
   gain_ *= factor;
 }
 
@@ -102,7 +102,7 @@ void WallContact::raise_gain(double dt, EnergyLedger& ledger) noexcept {
   }
   const double wanted = std::min(most - gain_, dt / (fades_in_ ? kFadeSeconds : kRampSeconds));
   const double rise = std::clamp(ledger.level() / full, 0.0, std::max(0.0, wanted));
-  ledger.book(-rise * full);
+  ledger.book(-rise * (full - lent_));
   gain_ += rise;
   if (rise < wanted) share_ *= gain_ / most;
   if (!(gain_ < most)) fades_in_ = false;

@@ -5,6 +5,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "reckon/haptics/contact/contact_solver.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
@@ -55,7 +59,7 @@ class WallContact {
 
   /// Takes the held share of the effects' forces, [0, 1].
   void shown(double extra) noexcept {
-    changed_ = extra * not_pulling_;
+    shown_ = extra * not_pulling_;
     force_ = gain_ * result_.force + extra * extra_;
   }
 
@@ -63,20 +67,23 @@ class WallContact {
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
-  /// [N/m], of an object's springs.
+  /// [N/m], of an object's springs, whether or not they are touched.
   [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept {
-    return gain_ * solver_.stiffness_of(index);
+    return std::min(gain_ * solver_.stiffness_of(index), cap_);
+  }
+  /// See ContactSolver.
+  [[nodiscard]] std::optional<NearBody> near_body(std::size_t& body,
+                                                  const Eigen::Vector3d& velocity,
+                                                  double time) const noexcept {
+    return solver_.near_body(body, velocity, time);
   }
   [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
     return solver_.friction_of(index);
   }
-  /// Share of foresee() that is shown, after shown().
-  [[nodiscard]] double changed() const noexcept { return changed_; }
   /// Of an object that is touched: force of its effects [N, S], after shown(). The deepest one has
   /// them all.
   [[nodiscard]] Eigen::Vector3d effects_of(std::uint32_t index) const noexcept {
-    return index == result_.deepest ? Eigen::Vector3d(changed_ * effects_)
-                                    : Eigen::Vector3d::Zero();
+    return index == result_.deepest ? Eigen::Vector3d(shown_ * effects_) : Eigen::Vector3d::Zero();
   }
   /// [N, S], after shown().
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
@@ -95,6 +102,8 @@ class WallContact {
 
  private:
   [[nodiscard]] double most_gain() const noexcept;
+  // What is out of the ledger for the springs [J].
+  [[nodiscard]] double booked() const noexcept { return gain_ * (result_.stored_energy - lent_); }
   void scale_gain(double factor, EnergyLedger& ledger) noexcept;
   void lend_for_motion(EnergyLedger& ledger) noexcept;
   void follow_patches(double dt, EnergyLedger& ledger) noexcept;
@@ -104,7 +113,7 @@ class WallContact {
   ContactSolver solver_;
   double cap_;
   ContactResult result_;
-  double lent_ = 0.0;       // [J], see lend_for_motion()
+  double lent_ = 0.0;       // [J], at a gain of 1, see lend_for_motion()
   double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;
@@ -114,7 +123,7 @@ class WallContact {
   Eigen::Vector3d effects_ = Eigen::Vector3d::Zero();  // [N], wanted
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], of both, what does not pull
   double not_pulling_ = 1.0;                           // share of both
-  double changed_ = 1.0;                               // share of both that is shown
+  double shown_ = 1.0;                                 // share of both that is shown
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 

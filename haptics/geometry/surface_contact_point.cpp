@@ -117,6 +117,13 @@ double distance_below(const ContactShape& shape, const Vector3d& p) noexcept {
   return visit_solid(shape, [&](const auto& solid) { return solid.distance_below(p); });
 }
 
+std::optional<Vector3d> nearest_inside(const ContactShape& shape, const Vector3d& p) noexcept {
+  return visit_solid(shape, [&](const auto& solid) -> std::optional<Vector3d> {
+    if constexpr (requires { solid.nearest_inside(p); }) return solid.nearest_inside(p);
+    return std::nullopt;
+  });
+}
+
 void SurfaceContactPoint::set_free(const Vector3d& device) noexcept {
   point_ = {device, Vector3d::Zero(), false};
   face_count_ = 0;

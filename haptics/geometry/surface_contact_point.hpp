@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "reckon/haptics/geometry/friction_cone.hpp"
 #include "reckon/haptics/geometry/implicit_solid.hpp"
@@ -28,6 +29,9 @@ namespace reckon::haptics {
 [[nodiscard]] double clearance_of(const ContactShape& shape) noexcept;
 /// Lower bound of the distance of p from the shape [m]; 0 or below inside it.
 [[nodiscard]] double distance_below(const ContactShape& shape, const Eigen::Vector3d& p) noexcept;
+/// The nearest point of a half space, ball or block [m]; p itself inside. None for other shapes.
+[[nodiscard]] std::optional<Eigen::Vector3d> nearest_inside(const ContactShape& shape,
+                                                            const Eigen::Vector3d& p) noexcept;
 
 /// State of one probe, a ball around the device point, against one shape, object axes. The SCP is
 /// its centre. A change of the shape needs a reset.

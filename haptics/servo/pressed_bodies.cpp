@@ -6,11 +6,15 @@
 #include <array>
 #include <span>
 
-#include "reckon/haptics/bodies/body_push.hpp"
-
 namespace reckon::haptics {
 
 using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kSoon = 3.0;  // periods, in which what comes nearer may be met
+
+}  // namespace
 
 template <int axes>
 PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes)
@@ -43,22 +47,26 @@ template <int axes>
 void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
                                     double period) noexcept {
   if (!world_) return;
-  const std::span<const BodyState> states = world_->states();
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     const WallContact& walls = contacts.walls(probe);
+    const Vector3d velocity = tool.velocity(probe);
     for (const std::uint32_t index : walls.result().touched) {
-      const auto body = std::ranges::find(states, index, &BodyState::object);
-      if (body == states.end()) continue;
       const ObjectContact& contact = walls.result().objects[index];
-      const BodySpring spring{static_cast<std::size_t>(body - states.begin()),
-                              contact.scp,
-                              -walls.gain() * contact.force,
-                              contact.normal,
-                              walls.stiffness_of(index),
-                              walls.friction_of(index),
-                              tool.velocity(probe)};
-      const std::size_t number = world_->press(hand_, spring);
-      if (number != BodyWorld::kNoPush) pushes_.push_back({number, probe, index, walls.gain()});
+      BodySpring spring;
+      spring.point = contact.scp;
+      spring.force = -walls.gain() * contact.force;
+      spring.normal = contact.normal;
+      spring.velocity = velocity;
+      press(walls, probe, index, spring);
+    }
+    std::size_t next = 0;
+    while (const auto near = walls.near_body(next, velocity, kSoon * period)) {
+      BodySpring spring;
+      spring.point = near->point;
+      spring.normal = near->normal;
+      spring.gap = near->gap;
+      spring.velocity = velocity;
+      press(walls, probe, near->index, spring);
     }
   }
   world_->foresee(hand_, period);
@@ -69,12 +77,24 @@ void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<ax
 }
 
 template <int axes>
+void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, std::uint32_t object,
+                                  BodySpring spring) noexcept {
+  const std::span<const BodyState> states = world_->states();
+  const auto body = std::ranges::find(states, object, &BodyState::object);
+  if (body == states.end()) return;
+  spring.body = static_cast<std::size_t>(body - states.begin());
+  spring.stiffness = walls.stiffness_of(object);
+  spring.friction = walls.friction_of(object);
+  const std::size_t number = world_->press(hand_, spring);
+  if (number != BodyWorld::kNoPush) pushes_.push_back({number, probe, object, walls.gain()});
+}
+
+template <int axes>
 void PressedBodiesOf<axes>::hold(const StaticContactOf<axes>& contacts, double share) noexcept {
   for (const Push& push : pushes_) {
     const WallContact& walls = contacts.walls(push.probe);
     const double kept = push.gain > 0 ? walls.gain() / push.gain : 0.0;
-    world_->hold(push.number, share * kept, share * walls.changed(),
-                 -share * walls.effects_of(push.object));
+    world_->hold(push.number, share * kept, -share * walls.effects_of(push.object));
   }
 }
 

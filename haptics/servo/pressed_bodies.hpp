@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_push.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/contact/tool.hpp"
@@ -31,7 +32,9 @@ class PressedBodiesOf {
   void place(StaticContactOf<axes>& contacts) const noexcept;
   /// Foresees the period [s] that begins, after the contacts have settled.
   void foresee(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
-  /// Of what the contacts show the hand gets `share`, and so do the bodies.
+  /// Of what the contacts show the hand gets `share`, and so do the bodies. Where energy is short
+  /// for a change within the period the hand does without it, the bodies do not: their springs are
+  /// conservative.
   void hold(const StaticContactOf<axes>& contacts, double share) noexcept;
   /// [J], since the start, less what they gave back.
   [[nodiscard]] double work() const noexcept { return work_; }
@@ -43,6 +46,9 @@ class PressedBodiesOf {
     std::uint32_t object = 0;
     double gain = 0.0;  // of the walls when it was pressed
   };
+
+  void press(const WallContact& walls, std::size_t probe, std::uint32_t object,
+             BodySpring spring) noexcept;
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;

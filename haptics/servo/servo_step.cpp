@@ -98,7 +98,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (scale < 1.0 && admission != Admission::paused) reduce(scale);
   written_ = scale > 0.0 ? Force(scale * force) : Force::Zero();
   write();
-  push_bodies();
+  push_bodies(scale);
   publish(enabled);
   ++count_;
 }
@@ -269,9 +269,10 @@ void ServoStepOf<axes>::settle() noexcept {
 
 // The force that is written may be less than the one that the port chose, or lag behind.
 template <int axes>
-void ServoStepOf<axes>::push_bodies() noexcept {
+void ServoStepOf<axes>::push_bodies(double scale) noexcept {
   const double whole = held_.force.squaredNorm();
-  pressed_.hold(static_, whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : 0.0);
+  const double all = scale > 0.0 ? 1.0 : 0.0;
+  pressed_.hold(static_, whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : all);
 }
 
 // All springs are one force to the hand: opposite forces cancel and cost nothing.

@@ -50,7 +50,7 @@ class ServoStepOf final : public ServoCore {
   bool sample(const DeviceSample& reading) noexcept;
   void note_velocity(const DeviceSample& reading) noexcept;
   void settle() noexcept;
-  void push_bodies() noexcept;
+  void push_bodies(double scale) noexcept;
   [[nodiscard]] Load load() noexcept;
   void load_hands(Load& load) noexcept;
   void soften_crowd(Load& load) noexcept;
