@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr const char* kYet = "only boxes and spheres move yet: give one of them";
+constexpr const char* kYet = "has a mass, but only boxes and spheres move by it: give one of them";
 
 dGeomID placed(const PlannedObject& object, dGeomID geom) {
   if (object.moves()) return geom;
@@ -29,7 +29,7 @@ dGeomID placed(const PlannedObject& object, dGeomID geom) {
 }  // namespace
 
 void refuse_body(const PlannedObject& object, const std::string& why) {
-  throw std::invalid_argument("object '" + object.name + "' has a mass, and " + why);
+  throw std::invalid_argument("object '" + object.name + "' " + why);
 }
 
 BodyGeoms::BodyGeoms() : space_(dSimpleSpaceCreate(nullptr)) {}
@@ -44,7 +44,7 @@ dGeomID BodyGeoms::add(const PlannedObject& object) {
       [&](const auto& shape) -> dGeomID {
         using S = std::decay_t<decltype(shape)>;
         if constexpr (std::is_same_v<S, HalfSpace>) {
-          if (object.moves()) refuse_body(object, "a plane cannot move: give a box");
+          if (object.moves()) refuse_body(object, "is a plane, which cannot move: give a box");
           const Vector3d normal = object.orientation * shape.normal();
           return dCreatePlane(space_, normal.x(), normal.y(), normal.z(),
                               normal.dot(object.position));
@@ -54,10 +54,10 @@ dGeomID BodyGeoms::add(const PlannedObject& object) {
           const Vector3d size = shape.bounds().sizes();
           return placed(object, dCreateBox(space_, size.x(), size.y(), size.z()));
         } else if constexpr (std::is_same_v<S, std::shared_ptr<const SurfaceMesh>>) {
-          if (object.moves()) refuse_body(object, kYet);
+          if (object.is_body()) refuse_body(object, kYet);
           return placed(object, make_mesh(*shape));
         } else {
-          if (object.moves()) refuse_body(object, kYet);
+          if (object.is_body()) refuse_body(object, kYet);
           return nullptr;
         }
       },

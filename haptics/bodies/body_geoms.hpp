@@ -12,7 +12,7 @@
 
 namespace reckon::haptics {
 
-/// @throws std::invalid_argument "object '..' has a mass, and {why}"
+/// @throws std::invalid_argument "object '..' {why}"
 [[noreturn]] void refuse_body(const PlannedObject& object, const std::string& why);
 
 /// A space of shapes: boxes, spheres, planes, meshes. One thread at a time.

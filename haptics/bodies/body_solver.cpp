@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdarg>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -154,37 +155,64 @@ void BodySolver::destroy() noexcept {
 void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
   const bool moves = object.moves();
   if (moves && bodies_.size() >= kMostBodies) {
-    refuse_body(object, "a scene moves at most " + std::to_string(kMostBodies) +
-                            " bodies: take the mass of some out");
+    refuse_body(object, "moves, and a scene moves at most " + std::to_string(kMostBodies) +
+                            " objects: take the mass of some out");
   }
   const dGeomID geom = geoms_->add(object);
-  if (geom == nullptr) return;
-  matters_.push_back(object.matter);
-  dGeomSetData(geom, &matters_.back());
+  if (geom != nullptr) {
+    matters_.push_back(object.matter);
+    dGeomSetData(geom, &matters_.back());
+  }
   if (!moves) return;
   Body& body = bodies_.emplace_back();
   body.id = dBodyCreate(world_);
   body.geom = geom;
   body.object = number;
-  body.mass = object.matter.mass;
   body.start = object.position;
-  dMass mass;
-  if (std::holds_alternative<Ball>(object.shape)) {
-    body.inner = dGeomSphereGetRadius(geom);
-    dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(geom));
+  if (object.carried) {
+    carried_ |= BodySet{1} << (bodies_.size() - 1);
+    dBodySetKinematic(body.id);
+    dBodyDisable(body.id);
   } else {
-    dVector3 size;
-    dGeomBoxGetLengths(geom, size);
-    body.inner = 0.5 * std::min({size[0], size[1], size[2]});
-    dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
+    give_mass(body, object);
   }
-  dBodySetMass(body.id, &mass);
-  dGeomSetBody(geom, body.id);
+  if (geom != nullptr) dGeomSetBody(geom, body.id);
   const Quaterniond q(object.orientation);
   const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
   dBodySetPosition(body.id, object.position.x(), object.position.y(), object.position.z());
   dBodySetQuaternion(body.id, turned);
   dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
+}
+
+void BodySolver::give_mass(Body& body, const PlannedObject& object) {
+  body.mass = object.matter.mass;
+  dMass mass;
+  if (std::holds_alternative<Ball>(object.shape)) {
+    body.inner = dGeomSphereGetRadius(body.geom);
+    dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(body.geom));
+  } else {
+    dVector3 size;
+    dGeomBoxGetLengths(body.geom, size);
+    body.inner = 0.5 * std::min({size[0], size[1], size[2]});
+    dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
+  }
+  dBodySetMass(body.id, &mass);
+}
+
+void BodySolver::carry(std::size_t body, const ObjectMotion& motion) noexcept {
+  const dBodyID id = bodies_[body].id;
+  const Quaterniond& q = motion.orientation;
+  const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
+  dBodySetPosition(id, motion.position.x(), motion.position.y(), motion.position.z());
+  dBodySetQuaternion(id, turned);
+  const Vector3d &v = motion.velocity, &w = motion.turn_rate;
+  dBodySetLinearVel(id, v.x(), v.y(), v.z());
+  dBodySetAngularVel(id, w.x(), w.y(), w.z());
+  if (v.isZero(0.0) && w.isZero(0.0)) {
+    dBodyDisable(id);
+  } else {
+    dBodyEnable(id);
+  }
 }
 
 Quaterniond BodySolver::orientation(std::size_t body) const noexcept {
@@ -211,6 +239,7 @@ Vector3d BodySolver::velocity(std::size_t body, const Vector3d& place) const noe
 double BodySolver::energy() const noexcept {
   double sum = 0.0;
   for (const Body& body : bodies_) {
+    if (!(body.mass > 0)) continue;
     const Vector3d v = vector(dBodyGetLinearVel(body.id));
     sum += 0.5 * body.mass * v.squaredNorm() + turning_energy(body.id) -
            body.mass * gravity_.dot(vector(dBodyGetPosition(body.id)) - body.start);
@@ -219,8 +248,11 @@ double BodySolver::energy() const noexcept {
 }
 
 BodySet BodySolver::island(BodySet some) const noexcept {
+  // What is carried joins nothing: it goes its way whatever lies on it.
+  some &= ~carried_;
   std::array<std::array<dReal, 6>, kMostBodies> boxes;
-  for (std::size_t i = 0; i < size(); ++i) dGeomGetAABB(bodies_[i].geom, boxes[i].data());
+  for (std::size_t i = 0; i < size(); ++i)
+    if (!is_carried(i)) dGeomGetAABB(bodies_[i].geom, boxes[i].data());
   const auto near = [&](std::size_t a, std::size_t b) {
     for (std::size_t k = 0; k < 6; k += 2) {
       if (boxes[a][k] > boxes[b][k + 1] + kNear || boxes[b][k] > boxes[a][k + 1] + kNear)
@@ -234,7 +266,7 @@ BodySet BodySolver::island(BodySet some) const noexcept {
     fresh &= fresh - 1;
     for (std::size_t i = 0; i < size(); ++i) {
       const BodySet one = BodySet{1} << i;
-      if ((found & one) != 0 || !near(from, i)) continue;
+      if ((found & one) != 0 || is_carried(i) || !near(from, i)) continue;
       found |= one;
       fresh |= one;
     }
@@ -243,6 +275,7 @@ BodySet BodySolver::island(BodySet some) const noexcept {
 }
 
 void BodySolver::only(BodySet some) noexcept {
+  some |= carried_;
   for (std::size_t i = 0; i < size(); ++i) {
     const BodySet one = BodySet{1} << i;
     const bool wanted = (some & one) != 0;
@@ -273,14 +306,18 @@ void BodySolver::restore() noexcept {
   ledger_ = kept_;
 }
 
+// Without bodies nobody sees what is carried.
 bool BodySolver::rests() const noexcept {
-  return std::ranges::none_of(bodies_, [](const Body& body) { return dBodyIsEnabled(body.id); });
+  const bool has_bodies = std::popcount(carried_) < static_cast<int>(size());
+  return !has_bodies ||
+         std::ranges::none_of(bodies_, [](const Body& body) { return dBodyIsEnabled(body.id); });
 }
 
 void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   if (forces.empty() && rests()) return;
   know_thread();
   apply(forces);
+  is_driven_ = false;
   for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
   for (BodyForce& force : forces)
     force.work = 0.5 * dt * force.force.dot(velocity(force.body, force.place));
@@ -296,6 +333,8 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
     force.work += 0.5 * dt * force.force.dot(velocity(force.body, force.place));
     given += force.work;
   }
+  // What carried objects did to them is not known.
+  if (is_driven_) ledger_.energy = std::numeric_limits<double>::infinity();
   take_out(given);
   rest(dt);
   // What falls asleep or is too fast gives some up.
@@ -333,8 +372,12 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
   const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
   if (sleeps(first) && sleeps(second)) return;
   std::array<dContact, kContacts> contacts{};
+  const auto is_kinematic = [](dBodyID body) { return body == nullptr || dBodyIsKinematic(body); };
+  if (is_kinematic(first) && is_kinematic(second)) return;
   const int count = dCollide(a, b, kContacts, &contacts[0].geom, sizeof(dContact));
   if (count == 0) return;
+  is_driven_ |= is_kinematic(first) && first != nullptr && dBodyIsEnabled(first);
+  is_driven_ |= is_kinematic(second) && second != nullptr && dBodyIsEnabled(second);
   const auto* one = static_cast<const Matter*>(dGeomGetData(a));
   const auto* other = static_cast<const Matter*>(dGeomGetData(b));
   for (int i = 0; i < count; ++i) {
@@ -352,7 +395,8 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
 // springs. One that nothing touches flies by the mean of both.
 void BodySolver::fly_exactly(double dt) noexcept {
   for (const Body& body : bodies_) {
-    if (!body.flies || !dBodyIsEnabled(body.id) || dBodyGetNumJoints(body.id) > 0) continue;
+    const bool flies = body.flies && body.mass > 0 && dBodyIsEnabled(body.id);
+    if (!flies || dBodyGetNumJoints(body.id) > 0) continue;
     const Vector3d at = vector(dBodyGetPosition(body.id)) - 0.5 * dt * dt * gravity_;
     dBodySetPosition(body.id, at.x(), at.y(), at.z());
   }
@@ -362,6 +406,7 @@ void BodySolver::fly_exactly(double dt) noexcept {
 // finds both in touch.
 void BodySolver::catch_fast() noexcept {
   for (const Body& body : bodies_) {
+    if (!(body.mass > 0)) continue;
     const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
     const Vector3d way = vector(dBodyGetPosition(body.id)) - from;
     const double length = way.norm();
@@ -395,14 +440,14 @@ void BodySolver::take_out(double given) noexcept {
   if (excess > 0) {
     double moving = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {
-      if (!acts(i)) continue;
+      if (!acts(i) || is_carried(i)) continue;
       const Body& body = bodies_[i];
       moving += 0.5 * body.mass * vector(dBodyGetLinearVel(body.id)).squaredNorm() +
                 turning_energy(body.id);
     }
     const double left = moving > excess ? std::sqrt(1.0 - excess / moving) : 0.0;
     for (std::size_t i = 0; i < size(); ++i)
-      if (acts(i)) slow(bodies_[i].id, left);
+      if (acts(i) && !is_carried(i)) slow(bodies_[i].id, left);
     ledger_.taken_out += std::min(excess, moving);
   }
   // What slow bodies were lifted by, out of one another, is due from the next motion.
@@ -411,7 +456,7 @@ void BodySolver::take_out(double given) noexcept {
 
 void BodySolver::rest(double dt) noexcept {
   for (Body& body : bodies_) {
-    if (!dBodyIsEnabled(body.id)) continue;
+    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
     const double speed = vector(dBodyGetLinearVel(body.id)).norm();
     if (speed > BodyWorld::kFastest) slow(body.id, BodyWorld::kFastest / speed);
     const bool is = speed < kStillSpeed && vector(dBodyGetAngularVel(body.id)).norm() < kStillTurn;

@@ -44,6 +44,12 @@ class BodySolver {
     return bodies_[body].object;
   }
   [[nodiscard]] double mass(std::size_t body) const noexcept { return bodies_[body].mass; }
+  /// Moved by carry() alone.
+  [[nodiscard]] bool is_carried(std::size_t body) const noexcept {
+    return (carried_ >> body & 1) != 0;
+  }
+  /// Puts a carried one there; in the next steps it goes on at this velocity.
+  void carry(std::size_t body, const ObjectMotion& motion) noexcept;
   [[nodiscard]] ObjectMotion motion(std::size_t body) const noexcept;
   [[nodiscard]] bool awake(std::size_t body) const noexcept;
   /// Of a place in the body's axes [m/s].
@@ -99,6 +105,7 @@ class BodySolver {
 
   void destroy() noexcept;
   void add(const PlannedObject& object, std::uint32_t number);
+  static void give_mass(Body& body, const PlannedObject& object);
   [[nodiscard]] bool acts(std::size_t body) const noexcept { return (only_ >> body & 1) != 0; }
   [[nodiscard]] Eigen::Quaterniond orientation(std::size_t body) const noexcept;
   [[nodiscard]] bool rests() const noexcept;
@@ -119,6 +126,8 @@ class BodySolver {
   Eigen::Vector3d gravity_;
   std::vector<Matter> matters_;  // of geoms
   std::vector<Body> bodies_;
+  BodySet carried_ = 0;
+  bool is_driven_ = false;  // something that is carried touches a body in this step
   BodySet only_ = all();
   BodySet parked_awake_ = 0;  // of those that only() leaves out
   Ledger ledger_, kept_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "reckon/haptics/bodies/body_push.hpp"
@@ -30,26 +31,41 @@ constexpr double kLeverage = 0.4;         // lightest resistance of a body that 
 /// Time, and what hands do to the bodies within a period.
 class BodyWorld::Engine {
  public:
-  Engine(const EffectPlan& plan, const Vector3d& gravity) : solver_(plan, gravity) {
+  Engine(const EffectPlan& plan, const Vector3d& gravity, std::shared_ptr<ObjectMover> mover)
+      : solver_(plan, gravity), mover_(std::move(mover)) {
+    for (std::size_t i = 0; i < solver_.size(); ++i) {
+      if (solver_.is_carried(i)) carried_.push_back({i, plan.objects()[solver_.object(i)].origin});
+    }
+    if (!carried_.empty() && mover_ == nullptr)
+      throw std::invalid_argument("the scene has objects that are carried, which need a mover");
     for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(kMostPushes);
     works_.reserve(kMostPushes);
     forces_.reserve(2 * kMostPushes);
     states_.resize(solver_.size());
     for (std::size_t i = 0; i < states_.size(); ++i) states_[i].object = solver_.object(i);
+    for (const Carried& one : carried_) states_[one.body].carried = true;
     read_states(0.0);
   }
 
   std::size_t add_hand() noexcept { return hands_++; }
 
   bool advance_to(nanoseconds now) noexcept {
-    if (!std::exchange(started_, true)) time_ = now;
+    const bool is_first = !std::exchange(started_, true);
+    if (is_first) time_ = now;
     const double gap = pdu::to_seconds(now - time_);
-    if (!(gap > 0)) return false;
+    if (!is_first && !(gap > 0)) return false;
     time_ = now;
+    see_carried(now);
+    if (is_first) {
+      put_carried();
+      read_states(0.0);
+      return true;
+    }
     works_.assign(pushes_.size(), 0.0);
     const double whole = std::min(gap, kLongestGap);
     std::size_t steps = 1;
     for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
+    drive_carried(gap);
     const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
     if (pushed != 0 && is_small(pushed, steps)) {
       // What is pushed goes on in small steps, all else as if nothing were.
@@ -57,11 +73,15 @@ class BodyWorld::Engine {
       const double dt = std::min(kLongestStep, period_ / static_cast<double>(steps));
       const double length = push_for(whole, dt);
       solver_.only(~pushed);
+      drive_carried(gap);
       go_on(whole);
       solver_.only(BodySolver::all());
+      put_carried();
       read_states(length, pushed);
     } else {
-      read_states(push_for(whole, kLongestStep));
+      const double length = push_for(whole, kLongestStep);
+      put_carried();
+      read_states(length);
     }
     for (BodyPush& push : pushes_) push.renew();
     std::swap(pushes_, last_);
@@ -149,6 +169,29 @@ class BodyWorld::Engine {
     return out;
   }
 
+  void see_carried(nanoseconds now) noexcept {
+    for (Carried& one : carried_) {
+      one.before = one.now;
+      one.now = mover_->motion_of(solver_.object(one.body), now);
+      const Vector3d arm = one.now.orientation * one.origin;
+      one.now.position += arm;
+      one.now.velocity += one.now.turn_rate.cross(arm);
+    }
+  }
+  // From where they were they get to where they are, at one speed.
+  void drive_carried(double gap) noexcept {
+    for (const Carried& one : carried_) {
+      ObjectMotion way = one.before;
+      way.velocity = (one.now.position - one.before.position) / gap;
+      const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
+      way.turn_rate = turn.angle() / gap * turn.axis();
+      solver_.carry(one.body, way);
+    }
+  }
+  void put_carried() noexcept {
+    for (const Carried& one : carried_) solver_.carry(one.body, one.now);
+  }
+
   // So many that the lightest body that is pushed is stepped right.
   [[nodiscard]] std::size_t steps_for(double period) const noexcept {
     std::array<double, kMostBodies> stiffness{};
@@ -157,7 +200,8 @@ class BodyWorld::Engine {
       if (is_due(push)) stiffness[push.body()] += push.stiffness();
     double most = 0.0;
     for (std::size_t i = 0; i < states_.size(); ++i)
-      most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
+      if (!solver_.is_carried(i))
+        most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
     const double wanted = std::ceil(period * std::sqrt(most) / kRight);
     return static_cast<std::size_t>(std::clamp(wanted, 2.0, double{kMostSubsteps}));
   }
@@ -209,11 +253,20 @@ class BodyWorld::Engine {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       static_cast<ObjectMotion&>(states_[i]) = solver_.motion(i);
       states_[i].awake = solver_.awake(i);
-      states_[i].step = (fine >> i & 1) != 0 ? step : kLongestStep;
+      const double own = (fine >> i & 1) != 0 ? step : kLongestStep;
+      states_[i].step = solver_.is_carried(i) ? 0.0 : own;
     }
   }
 
+  struct Carried {
+    std::size_t body = 0;
+    Vector3d origin = Vector3d::Zero();  // of its shape's axes in its own [m]
+    ObjectMotion before{}, now{};
+  };
+
   BodySolver solver_;
+  std::shared_ptr<ObjectMover> mover_;
+  std::vector<Carried> carried_;
   std::vector<BodyState> states_;
   std::vector<BodyPush> pushes_;   // of this period
   std::vector<BodyPush> last_;     // of the one before
@@ -227,8 +280,9 @@ class BodyWorld::Engine {
   std::uint64_t coarse_ = 0;
 };
 
-BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity)
-    : engine_(std::make_unique<Engine>(plan, gravity)) {
+BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
+                     std::shared_ptr<ObjectMover> mover)
+    : engine_(std::make_unique<Engine>(plan, gravity, std::move(mover))) {
   publish();
 }
 BodyWorld::~BodyWorld() = default;
@@ -245,8 +299,10 @@ void BodyWorld::publish() noexcept {
   published_.publish();
 }
 
-std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Vector3d& gravity) {
-  return plan.has_bodies() ? std::make_shared<BodyWorld>(plan, gravity) : nullptr;
+std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Vector3d& gravity,
+                                       std::shared_ptr<ObjectMover> mover) {
+  if (!plan.has_moving()) return nullptr;
+  return std::make_shared<BodyWorld>(plan, gravity, std::move(mover));
 }
 
 std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,

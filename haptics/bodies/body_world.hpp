@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
@@ -24,6 +25,7 @@ namespace reckon::haptics {
 struct BodyState : ObjectMotion {
   std::uint32_t object = 0;  ///< its number in the plan
   bool awake = true;
+  bool carried = false;  ///< pushes do not move it
 };
 
 struct BodySpring;
@@ -65,10 +67,13 @@ class BodyWorld {
   static constexpr double kFastest = 200.0;
   static constexpr double kFastestTurn = 200.0;
 
-  /// Bodies are the objects of the plan that have a Matter with a mass; all others stand still.
+  /// Bodies are the objects of the plan that have a Matter with a mass; what is carried goes its
+  /// way and takes along what lies on it; all others stand still.
   /// @param plan only read here  @param gravity [m/s^2], S
+  /// @param mover of carried objects; null if there are none. Servo thread
   /// @throws std::invalid_argument for a body that cannot be one; names it and the remedy
-  BodyWorld(const EffectPlan& plan, const Eigen::Vector3d& gravity);
+  BodyWorld(const EffectPlan& plan, const Eigen::Vector3d& gravity,
+            std::shared_ptr<ObjectMover> mover = nullptr);
   ~BodyWorld();
   BodyWorld(const BodyWorld&) = delete;
   BodyWorld& operator=(const BodyWorld&) = delete;
@@ -121,9 +126,10 @@ class BodyWorld {
   TripleBuffer<BodyStates> published_;
 };
 
-/// The world of a plan's bodies; null if it has none. @throws as the constructor
+/// The world of a plan's objects that move; null if it has none. @throws as the constructor
 [[nodiscard]] std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan,
-                                                     const Eigen::Vector3d& gravity);
+                                                     const Eigen::Vector3d& gravity,
+                                                     std::shared_ptr<ObjectMover> mover = nullptr);
 
 /// Stiffest spring of each of two hands that a body of `mass` [kg] can be squeezed with at a rate
 /// of `period` [s]: dt sqrt(2 K / m) <= 0.15 for the lighter resistance of a body that turns under

@@ -112,6 +112,7 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
 
 void ContactSolver::place(std::uint32_t body, const ObjectMotion& motion) noexcept {
   MovingObject& moving = moving_[body];
+  moving.pushed = contacts_[moving.object].force;
   moving.before = moving.motion;
   moving.motion = motion;
   moving.now.place(motion.position, motion.orientation.toRotationMatrix());
@@ -409,6 +410,28 @@ const ContactSolver::MovingObject* ContactSolver::moving_as(std::uint32_t index)
 Vector3d ContactSolver::velocity_of(std::uint32_t index, const Vector3d& point) const noexcept {
   const MovingObject* moving = moving_as(index);
   return moving != nullptr ? moving->motion.velocity_at(point) : Vector3d::Zero();
+}
+
+// Exact for springs that are held before and after. A surface that comes into touch stores no more
+// than what is there then, and gives nothing when it is left.
+double ContactSolver::carried_work() const noexcept {
+  double sum = 0.0;
+  for (const MovingObject& moving : moving_) {
+    if (!moving.now.carried) continue;
+    const ObjectContact& contact = contacts_[moving.object];
+    const bool was = !moving.pushed.isZero(0.0);
+    if (!was && !contact.in_contact) continue;
+    const Vector3d way = contact.scp - moving.before.position -
+                         moving.before.orientation * (moving.motion.orientation.conjugate() *
+                                                      (contact.scp - moving.motion.position));
+    const double work = 0.5 * (moving.pushed + contact.force).dot(way);
+    if (was && contact.in_contact) {
+      sum += work;
+    } else {
+      sum += std::min(work, contact.in_contact ? contact.stored_energy : 0.0);
+    }
+  }
+  return sum;
 }
 
 double ContactSolver::ahead_of(std::uint32_t index) const noexcept {

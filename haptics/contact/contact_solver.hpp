@@ -95,6 +95,9 @@ class ContactSolver {
   /// Of what is at `point` [m, S] of an object [m/s]; zero of one that stands still.
   [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
                                             const Eigen::Vector3d& point) const noexcept;
+  /// Work of the carried objects on the springs in the last move, place() to step() [J]: what the
+  /// storage grew by because the surfaces moved.
+  [[nodiscard]] double carried_work() const noexcept;
   /// By how much its speed is ahead of its place [s]; see ObjectMotion::step.
   [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept;
   /// Of those that move, the next one from number `body` on that the probe may touch within `time`
@@ -157,6 +160,7 @@ class ContactSolver {
     std::uint32_t object = 0;  // its number in the plan
     PlannedObject now;
     ObjectMotion motion{}, before{};
+    Eigen::Vector3d pushed = Eigen::Vector3d::Zero();  // force on the device before the move [N]
 
     // Of a point that stayed where it was, a step ago. Its axes are those of the object: a body's
     // shape has no origin of its own.

@@ -71,6 +71,12 @@ class StaticContactOf {
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
   /// Sum of walls and regions at all probes [N, S], after shown().
   [[nodiscard]] Eigen::Vector3d force() const noexcept;
+  /// See WallContact, all probes.
+  [[nodiscard]] double carried() const noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->carried();
+    return sum;
+  }
   /// Least share of the springs that the available energy allows, [0, 1].
   [[nodiscard]] double share() const noexcept;
   /// Force of the springs at the greatest stiffness that the device can show, all probes [N].

@@ -41,8 +41,23 @@ Eigen::Vector3d WallContact::move(const Eigen::Vector3d& device, double dt,
   result_ = solver_.step(device, dt);
   measure_stiffness();
   ledger.book(before - stored());
-  if (solver_.moving() > 0) lend_for_motion(ledger);
+  if (solver_.moving() > 0) {
+    take_from_carried(ledger);
+    lend_for_motion(ledger);
+  }
   return gain_ * (result_.force - force);
+}
+
+// A surface that moves by itself is a sender of energy like any other: what it gives is bounded,
+// and beyond that the wall becomes soft. What it takes is gone.
+void WallContact::take_from_carried(EnergyLedger& ledger) noexcept {
+  const double work = gain_ * solver_.carried_work();
+  if (work > 0) {
+    carried_ += ledger.credit(work, work);
+  } else {
+    ledger.give_back(-work);
+    carried_ += work;
+  }
 }
 
 // A body that is pushed by a held force has its speed of half a step before its place. While it

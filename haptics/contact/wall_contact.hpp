@@ -99,6 +99,9 @@ class WallContact {
     return (most_gain() - gain_) * result_.force;
   }
   [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
+  /// Energy that came from carried objects, as far as the port may receive it, less what they took
+  /// [J], since the start.
+  [[nodiscard]] double carried() const noexcept { return carried_; }
 
  private:
   [[nodiscard]] double most_gain() const noexcept;
@@ -106,6 +109,7 @@ class WallContact {
   [[nodiscard]] double booked() const noexcept { return gain_ * (result_.stored_energy - lent_); }
   void scale_gain(double factor, EnergyLedger& ledger) noexcept;
   void lend_for_motion(EnergyLedger& ledger) noexcept;
+  void take_from_carried(EnergyLedger& ledger) noexcept;
   void follow_patches(double dt, EnergyLedger& ledger) noexcept;
   void raise_gain(double dt, EnergyLedger& ledger) noexcept;
   void measure_stiffness() noexcept;
@@ -118,7 +122,8 @@ class WallContact {
   double gain_ = 1.0;
   double share_ = 1.0;
   double patch_share_ = 1.0;  // share of it for patches that are not paid for
-  bool fades_in_ = false;     // until the gain is full or the contact ends
+  double carried_ = 0.0;
+  bool fades_in_ = false;                              // until the gain is full or the contact ends
   Eigen::Vector3d change_ = Eigen::Vector3d::Zero();   // [N], of the springs of bodies
   Eigen::Vector3d effects_ = Eigen::Vector3d::Zero();  // [N], wanted
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], of both, what does not pull

@@ -24,6 +24,11 @@ double EnergyLedger::credit(double energy, double seen) noexcept {
   return fits;
 }
 
+void EnergyLedger::give_back(double energy) noexcept {
+  level_ -= energy;
+  receivable_ = std::min(kReceivedAtOnce, receivable_ + energy);
+}
+
 double EnergyLedger::receivable() const noexcept {
   const double room = std::max(0.0, kReceivedAtOnce + booked_ - std::max(0.0, level_));
   return std::min(receivable_, room);

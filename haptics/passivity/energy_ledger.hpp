@@ -41,6 +41,8 @@ class EnergyLedger {
   /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
   /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
   double credit(double energy, double seen) noexcept;
+  /// Books energy that went to others whatever the level is [J] >= 0; so much may be credited again.
+  void give_back(double energy) noexcept;
   /// Energy that may be credited now [J], from all peers together. It grows with time, as far as
   /// there is room.
   [[nodiscard]] double receivable() const noexcept;

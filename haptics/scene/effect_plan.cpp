@@ -179,7 +179,8 @@ PlannedObject plan_object(const SceneObject& object) {
                         {},
                         plan_effects(object),
                         nullptr,
-                        object.matter};
+                        object.matter,
+                        object.carried};
   // A mesh whose vertices are far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
     planned.origin = (*mesh)->origin();
@@ -276,7 +277,7 @@ void EffectPlan::plant_tree() {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const PlannedObject& object = objects_[i];
-    has_bodies_ |= object.moves();
+    has_moving_ |= object.moves();
     if (acts_from_afar(object.effects) || !is_bounded(object.bounds) || object.moves()) {
       always_.push_back(i);
     } else {

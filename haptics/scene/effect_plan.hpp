@@ -50,9 +50,12 @@ struct PlannedObject {
   /// Patches of a mesh, or null. With patches, `effects` are those of triangles in no patch.
   std::shared_ptr<const SurfacePatches> patches;
   Matter matter;
+  bool carried = false;  ///< by an ObjectMover
 
-  /// A body: its pose here is the one that it has at the start.
-  [[nodiscard]] bool moves() const noexcept { return matter.mass > 0; }
+  /// Its pose here is the one that it has at the start.
+  [[nodiscard]] bool moves() const noexcept { return is_body() || carried; }
+  /// Moved by pushes and its weight.
+  [[nodiscard]] bool is_body() const noexcept { return matter.mass > 0 && !carried; }
   /// Takes another pose. @param at [m], S
   void place(const Eigen::Vector3d& at, const Eigen::Matrix3d& turned) noexcept;
   /// Stiffness of all its springs together [N/m]; that of the stiffest patch if there are any.
@@ -113,7 +116,7 @@ class EffectPlan {
 
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
   [[nodiscard]] const std::vector<PlannedRegion>& regions() const noexcept { return regions_; }
-  [[nodiscard]] bool has_bodies() const noexcept { return has_bodies_; }
+  [[nodiscard]] bool has_moving() const noexcept { return has_moving_; }
   /// Calls visit(index) once for each object whose bounds meet `box` [m, S]. It also visits objects
   /// that have no bounds, or an effect that acts at a distance. Any order, no allocation;
   /// logarithmic in the objects with bounds.
@@ -144,7 +147,7 @@ class EffectPlan {
   std::vector<std::uint32_t> always_;   // indices of objects, ascending
   std::vector<std::uint32_t> in_tree_;  // indices of the others, by their number in the tree
   BoundingVolumeTree tree_;
-  bool has_bodies_ = false;
+  bool has_moving_ = false;
 };
 
 }  // namespace reckon::haptics

@@ -48,6 +48,8 @@ struct SceneObject {
   /// Those of the program, in the order of their keys.
   std::vector<DeclaredCustomEffect> custom_effects{};
   Matter matter{};
+  /// An ObjectMover moves it, and no push does, whatever its mass.
+  bool carried = false;
 };
 
 /// A part of space in which effects act; nothing solid.

@@ -81,7 +81,7 @@ void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, s
                                   BodySpring spring) noexcept {
   const std::span<const BodyState> states = world_->states();
   const auto body = std::ranges::find(states, object, &BodyState::object);
-  if (body == states.end()) return;
+  if (body == states.end() || body->carried) return;
   spring.body = static_cast<std::size_t>(body - states.begin());
   spring.stiffness = walls.stiffness_of(object);
   spring.friction = walls.friction_of(object);

@@ -77,10 +77,10 @@ std::shared_ptr<const EffectPlan> checked_plan(std::shared_ptr<const EffectPlan>
 
 std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies, const EffectPlan& plan,
                                           const ServoConfig& config) {
-  if (!plan.has_bodies()) return nullptr;
-  require(bodies != nullptr, "the scene has bodies, which need a BodyWorld to move in");
+  if (!plan.has_moving()) return nullptr;
+  require(bodies != nullptr, "the scene has objects that move, which need a BodyWorld");
   for (const PlannedObject& object : plan.objects()) {
-    if (!object.moves()) continue;
+    if (!object.is_body()) continue;
     const double most = stiffest_push(object.matter.mass, pdu::to_seconds(config.period));
     require(object.stiffness() <= most,
             "body '" + object.name + "' of " + std::to_string(object.matter.mass) +

@@ -434,7 +434,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   if (refused) tally_.refused += step_.dt;
   out.tally = tally_;
   out.left_out = hands_.left_out();
-  out.port_energy = port_.absorbed() + hands_.transferred() - pressed_.work();
+  out.port_energy = port_.absorbed() + hands_.transferred() + static_.carried() - pressed_.work();
   out.encoder_allowance = port_.encoder_allowance();
   out.softening = crowd_share_ * softening_.share();
   out.loan = port_.owed();

@@ -76,7 +76,7 @@ HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
       hand_(to_force_model(scene.hand)),
       seed_(scene.impairment.seed) {
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);
-  if (plan->has_bodies()) return;  // there is one of each, which the real hands push
+  if (plan->has_moving()) return;  // there is one of each, which the real hands push
   for (std::size_t peer = 0; peer < exercise.size(); ++peer) {
     SimulatedHands hands = make_simulated_hands(scene, static_cast<std::uint32_t>(peer + 1));
     for (const PointerHand& pointer : hands.pointers) {

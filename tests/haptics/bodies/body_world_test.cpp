@@ -321,8 +321,7 @@ TEST(BodyWorld, RefusesWhatCannotMoveByName) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what())
-                  .find("object 'box 65' has a mass, and a scene moves at most "
-                        "64 bodies"),
+                  .find("object 'box 65' moves, and a scene moves at most 64 objects"),
               std::string::npos)
         << error.what();
   }

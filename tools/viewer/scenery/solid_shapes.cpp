@@ -181,7 +181,7 @@ std::vector<DrawnSolid> drawn_solids(const haptics::Scene& scene, std::size_t mo
       solid.name = object.name;
       solid.pose = pose;
       solid.pose.orientation.normalize();
-      if (object.matter.mass > 0) solid.body = bodies++;
+      if (object.matter.mass > 0 || object.carried) solid.body = bodies++;
       solid.stiffness = object.effects.of<haptics::SpringDamper>().stiffness;
       if (const auto* friction = object.effects.find<haptics::StickSlipFriction>())
         solid.friction = friction->static_coefficient;
