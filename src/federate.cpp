@@ -44,7 +44,12 @@ void check_marking(const std::string& marking) {
 
 // Numbers of hands and of the scene's entities.
 std::size_t given_already(const FederateOptions& options) {
-  return options.devices.size() + entities_of(*options.scene, options.scene_peer).size();
+  const auto moves = [](const haptics::SceneObject& object) {
+    return object.matter.mass > 0 || object.carried;
+  };
+  const auto bodies = std::ranges::count_if(options.scene->scene.objects, moves);
+  return options.devices.size() + entities_of(*options.scene, options.scene_peer).size() +
+         static_cast<std::size_t>(bodies);
 }
 
 }  // namespace

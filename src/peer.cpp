@@ -35,20 +35,39 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   return config;
 }
 
+// The first peer of a scene moves its bodies; to all others it carries them.
+haptics::Scene felt_by(const SceneFile& scene, const PeerOptions& options) {
+  haptics::Scene felt = scene.scene;
+  if (options.scene_peer <= 1) return felt;
+  for (haptics::SceneObject& object : felt.objects) object.carried |= object.matter.mass > 0;
+  return felt;
+}
+
+bool has_carried(const haptics::Scene& scene) {
+  return std::ranges::any_of(scene.objects, &haptics::SceneObject::carried);
+}
+
+std::shared_ptr<BodyMover> mover_of(const haptics::Scene& scene,
+                                    std::span<const PeerDevice> devices) {
+  if (devices.empty() || !has_carried(scene)) return nullptr;
+  return std::make_shared<BodyMover>(haptics::EffectPlan(scene));
+}
+
 // Bodies need a hand of their peer to move.
-std::shared_ptr<haptics::BodyWorld> bodies_of(const SceneFile& scene,
-                                              std::span<const PeerDevice> devices) {
+std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
+                                              std::span<const PeerDevice> devices,
+                                              std::shared_ptr<BodyMover> mover) {
   if (devices.empty()) return nullptr;
-  return haptics::make_bodies(haptics::EffectPlan(scene.scene), scene.scene.gravity);
+  return haptics::make_bodies(haptics::EffectPlan(scene), scene.gravity, std::move(mover));
 }
 
 std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(
-    const SceneFile& scene, const PeerOptions& options, std::span<const PeerDevice> devices,
-    const std::shared_ptr<haptics::BodyWorld>& bodies) {
+    const SceneFile& scene, const haptics::Scene& felt, const PeerOptions& options,
+    std::span<const PeerDevice> devices, const std::shared_ptr<haptics::BodyWorld>& bodies) {
   refuse_baseline(scene);
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
   if (devices.empty()) return servos;
-  const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);
+  const auto plan = std::make_shared<const haptics::EffectPlan>(felt);
   for (const PeerDevice& device : devices) {
     servos.push_back(std::make_unique<haptics::ServoLoop>(
         *device.device, plan, servo_config(scene, options, device), bodies));
@@ -87,8 +106,10 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
                                     : nullptr),
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
-      bodies_(bodies_of(scene, devices)),
-      servos_(make_servos(scene, options, devices, bodies_)),
+      felt_(felt_by(scene, options)),
+      mover_(mover_of(felt_, devices)),
+      bodies_(bodies_of(felt_, devices, mover_)),
+      servos_(make_servos(scene, felt_, options, devices, bodies_)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap,
             urgent_ring(scene, urgent_.get())),
@@ -96,7 +117,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_, link_,
               options.record_shown ? &shown_ : nullptr, counters_, options.capacity,
               options.record_changes, &read_.muted(), options.tap, urgent_.get(), &read_.known(),
-              &read_.felt(), custom_effects_of(servos_)},
+              &read_.felt(), sends_bodies(options) ? &bodies_->outgoing() : nullptr,
+              mover_ ? &mover_->shown() : nullptr, custom_effects_of(servos_)},
              {{options.site, options.application},
               options.name,
               options.epoch,
@@ -117,6 +139,12 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
     model_.add(number, description_of(options.entities[i]));
     model_.follow(number, tracks[i]);
   }
+  if (sends_bodies(options))
+    model_.add_bodies(static_cast<EntityNumber>(devices.size() + tracks.size() + 1));
+}
+
+bool Peer::sends_bodies(const PeerOptions& options) const noexcept {
+  return bodies_ != nullptr && options.scene_peer <= 1;
 }
 
 Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,

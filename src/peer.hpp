@@ -139,7 +139,7 @@ class Peer {
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
-  /// The scene's bodies, or null; their published() has one reader thread.
+  /// The scene's bodies, or null without a device; their published() has one reader thread.
   [[nodiscard]] haptics::BodyWorld* bodies() noexcept { return bodies_.get(); }
   /// Records every step of the servo of one device, numbered from 0, into `ring`; call while no
   /// loop runs.
@@ -164,6 +164,8 @@ class Peer {
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return model_.notices(); }
 
  private:
+  [[nodiscard]] bool sends_bodies(const PeerOptions& options) const noexcept;
+
   const SceneFile& scene_;
   Link& link_;
   deadreckon::LocalFrame frame_;
@@ -174,6 +176,8 @@ class Peer {
   std::unique_ptr<DatagramRing> urgent_;  // of the urgent tier, if the scene has one
   DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
+  haptics::Scene felt_;                         // as this peer moves it
+  std::shared_ptr<BodyMover> mover_;            // of the bodies of another peer
   std::shared_ptr<haptics::BodyWorld> bodies_;  // of the servos, which share it
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
   std::chrono::nanoseconds servo_period_;

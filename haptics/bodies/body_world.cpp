@@ -142,6 +142,7 @@ class BodyWorld::Engine {
     return push < works_.size() ? works_[push] : 0.0;
   }
   [[nodiscard]] std::span<const BodyState> states() const noexcept { return states_; }
+  [[nodiscard]] nanoseconds time() const noexcept { return time_; }
   [[nodiscard]] const BodySolver& solver() const noexcept { return solver_; }
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
 
@@ -292,11 +293,14 @@ void BodyWorld::advance_to(nanoseconds now) noexcept {
 }
 
 void BodyWorld::publish() noexcept {
-  BodyStates& out = published_.write_slot();
   const std::span<const BodyState> states = engine_->states();
-  out.count = states.size();
-  std::ranges::copy(states, out.bodies.begin());
-  published_.publish();
+  for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
+    BodyStates& out = to->write_slot();
+    out.count = states.size();
+    out.time = engine_->time();
+    std::ranges::copy(states, out.bodies.begin());
+    to->publish();
+  }
 }
 
 std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Vector3d& gravity,

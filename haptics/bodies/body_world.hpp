@@ -36,12 +36,14 @@ inline constexpr std::size_t kMostBodies = 64;
 /// All bodies at one time. A copy takes only those that there are.
 struct BodyStates {
   std::size_t count = 0;
+  std::chrono::nanoseconds time{0};
   std::array<BodyState, kMostBodies> bodies{};
 
   BodyStates() = default;
   BodyStates(const BodyStates& other) noexcept { *this = other; }
   BodyStates& operator=(const BodyStates& other) noexcept {
     count = other.count;
+    time = other.time;
     if (this != &other) std::copy_n(other.bodies.begin(), count, bodies.begin());
     return *this;
   }
@@ -109,6 +111,8 @@ class BodyWorld {
   [[nodiscard]] std::span<const BodyState> states() const noexcept;
   /// The same after each advance; one reader thread.
   [[nodiscard]] TripleBuffer<BodyStates>& published() noexcept { return published_; }
+  /// The same for another reader, which sends them.
+  [[nodiscard]] TripleBuffer<BodyStates>& outgoing() noexcept { return outgoing_; }
   /// Kinetic energy and that of the weight, above the places at the start [J].
   [[nodiscard]] double energy() const noexcept;
   /// Energy that was taken out because the solver had made it [J], since the start.
@@ -124,6 +128,7 @@ class BodyWorld {
   class Engine;
   std::unique_ptr<Engine> engine_;
   TripleBuffer<BodyStates> published_;
+  TripleBuffer<BodyStates> outgoing_;
 };
 
 /// The world of a plan's objects that move; null if it has none. @throws as the constructor

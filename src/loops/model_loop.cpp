@@ -47,10 +47,13 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       intake_(wiring, aoim_, time_, remote_, counted_),
       outlet_(wiring, counted_),
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
+      own_bodies_(wiring.own_bodies),
       subscriber_(wiring, participant_, owned_, remote_),
       watches_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
-      view_(wiring) {}
+      view_(wiring) {
+  if (wiring.shown_bodies != nullptr) remote_bodies_.emplace(*wiring.shown_bodies);
+}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
@@ -90,6 +93,8 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   send_what_is_felt();
   remote_.expire(now);
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
+  if (own_bodies_ != nullptr) move_bodies();
+  if (remote_bodies_) remote_bodies_->publish(remote_);
   if (guest_ != nullptr) guest_->begin_pass(*this);
   if (touch_.read_hands()) subscriber_.note_moved();
   touch_.answer_bodies(pass_);
@@ -163,6 +168,36 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
   if (!description.beacon.empty()) subscriber_.add_beacon(number, description.beacon);
   if (description.model) touch_.add_body(number, description.power);
   return true;
+}
+
+void ModelLoop::add_bodies(EntityNumber first) {
+  first_body_ = first;
+  std::size_t body = 0;
+  for (const haptics::SceneObject& object : scene_.scene.objects) {
+    const bool is_body = object.matter.mass > 0 && !object.carried;
+    if (!is_body && !object.carried) continue;
+    const std::size_t number = body++;
+    if (!is_body) continue;
+    EntityDescription description;
+    description.marking = object.name;
+    description.type = body_type(number);
+    description.dead_reckoning = scene_.dead_reckoning;
+    add(static_cast<EntityNumber>(first + number), description);
+  }
+}
+
+// One that sleeps keeps its last state, which its heartbeat repeats.
+void ModelLoop::move_bodies() noexcept {
+  if (!own_bodies_->update()) return;
+  const haptics::BodyStates& states = own_bodies_->read();
+  for (std::size_t i = 0; i < states.count; ++i) {
+    const auto number = static_cast<EntityNumber>(first_body_ + i);
+    const OwnedEntity* entity = owned_.find(number);
+    if (entity == nullptr) continue;
+    const haptics::BodyState& body = states.bodies[i];
+    if (body.awake || !entity->is_resting() || entity->truth().position != body.position)
+      move(number, truth_of(body, states.time));
+  }
 }
 
 void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
@@ -281,7 +316,9 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
     return;
   }
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
-  if (remote_.take(update, arrival, touch_.servo())) touch_.note_accounts(update, pass_);
+  if (!remote_.take(update, arrival, touch_.servo())) return;
+  touch_.note_accounts(update, pass_);
+  if (remote_bodies_) remote_bodies_->note(update);
 }
 
 // In another's name it is neither obeyed nor delivered.

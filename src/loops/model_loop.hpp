@@ -68,6 +68,9 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   /// it from its first truth on.
   bool add(EntityNumber number, const EntityDescription& description,
            const EntityTruth& truth = {});
+  /// Adds the bodies of the scene, under numbers from `first` on, of which the wiring tells the
+  /// motion. Only before start().
+  void add_bodies(EntityNumber first);
   /// The peer itself moves it along its track from now on. Only before start().
   void follow(EntityNumber number, const EntityTrack& track);
   /// Sets its present truth. False if there is no such entity, or the truth is not finite or older
@@ -133,6 +136,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
                const aoim::SourceAddress& from) noexcept override;
   void report(const aoim::PresenceEvent& event) noexcept override;
   void doubt_the_silent() noexcept;
+  void move_bodies() noexcept;
   void send_what_is_felt() noexcept;
   void consider_others() noexcept;
   [[nodiscard]] bool consider_other(OwnedEntity& entity, EntityNumber number) noexcept;
@@ -156,6 +160,9 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   DatagramIntake intake_;
   DatagramOutlet outlet_;
   TouchStage touch_;
+  haptics::TripleBuffer<haptics::BodyStates>* own_bodies_;  // null: there are none of ours
+  EntityNumber first_body_ = 0;
+  std::optional<RemoteBodies> remote_bodies_;
   Subscriber subscriber_;
   PeerWatches watches_;
   OrderStage orders_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/effects/effect_guard.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
@@ -17,6 +18,7 @@
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_view.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
 
 namespace reckon::peer {
 
@@ -38,6 +40,8 @@ struct ModelWiring {
   DatagramRing* urgent = nullptr;  ///< datagrams of the urgent tier, taken first; may be null
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
   haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< likewise
+  haptics::TripleBuffer<haptics::BodyStates>* own_bodies = nullptr;  ///< that we send, or null
+  haptics::TripleBuffer<ShownBodies>* shown_bodies = nullptr;        ///< of another peer, or null
   /// What servos see of the program's own effects.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
 };

@@ -109,21 +109,20 @@ Eigen::Quaterniond read_orientation(TomlReader& table) {
 
 namespace {
 
-// Bodies move under the hands of one peer.
+// Bodies move under the hands of the first peer.
 void check_bodies(TomlReader& file, const SceneFile& scene) {
   const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
   if (std::ranges::none_of(scene.scene.objects, moves)) return;
-  const auto first = [](const auto& owned) { return owned.peer == 1; };
-  const bool alone =
-      std::ranges::all_of(scene.devices, first) && std::ranges::all_of(scene.entities, first);
-  if (scene.devices.empty() || !alone) {
+  const auto first = [](const DeviceConfig& device) { return device.peer == 1; };
+  const auto one = std::ranges::find_if(scene.devices, first);
+  if (one == scene.devices.end()) {
     file.problem("object",
-                 "a scene with bodies (mass) is of one peer yet: give it [[device]] tables of peer "
-                 "1, and nothing to another peer");
+                 "the bodies (mass) of a scene move under the hands of its first peer: give it a "
+                 "[[device]] of peer 1");
     return;
   }
   const auto same = [&](const DeviceConfig& device) {
-    return device.period == scene.devices.front().period;
+    return !first(device) || device.period == one->period;
   };
   if (!std::ranges::all_of(scene.devices, same)) {
     file.problem("device",

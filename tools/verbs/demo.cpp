@@ -305,12 +305,15 @@ void say_where(const DemoOptions& options, const peer::SceneFile& scene, const C
              scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
 }
 
-/// Bodies are of one peer; the others would not see them move.
+/// Of a scene with bodies, those that have a device.
 std::uint64_t peers_of(const DemoOptions& options, const peer::SceneFile& scene) {
   const auto moves = [](const haptics::SceneObject& object) { return object.matter.mass > 0; };
-  if (std::ranges::none_of(scene.scene.objects, moves)) return options.asked_peers.value_or(2);
-  if (options.asked_peers.value_or(1) == 1) return 1;
-  throw UsageError("the bodies (mass) of this scene are of one peer yet: take --peers out");
+  if (options.asked_peers || std::ranges::none_of(scene.scene.objects, moves))
+    return options.asked_peers.value_or(2);
+  std::uint64_t most = 1;
+  for (const peer::DeviceConfig& device : scene.devices)
+    most = std::max<std::uint64_t>(most, device.peer);
+  return most;
 }
 
 int run(const DemoOptions& asked, const Console& console) {

@@ -40,19 +40,20 @@ TEST(BodyKeys, GiveMassFrictionAndRestitution) {
 TEST(BodyKeys, RefuseWhatCannotMove) {
   EXPECT_THAT(refusal("[[object]]\nname = \"a\"\nplane = [0, 0, 1]\nmass = \"1 kg\"\n" +
                       std::string(kHand)),
-              HasSubstr("only boxes and spheres move yet"));
+              HasSubstr("only boxes and spheres move by it"));
   EXPECT_THAT(
       refusal("[[object]]\nname = \"a\"\ncylinder = {radius = \"1 cm\", height = \"4 cm\"}\n"
               "mass = \"1 kg\"\n" +
               std::string(kHand)),
-      HasSubstr("only boxes and spheres move yet"));
+      HasSubstr("only boxes and spheres move by it"));
 }
 
-TEST(BodyKeys, AreOfOnePeerAndOneRate) {
+TEST(BodyKeys, AreMovedByDevicesOfTheFirstPeerAtOneRate) {
   const std::string body = cube("mass = \"50 g\"\n");
-  EXPECT_THAT(refusal(body), HasSubstr("of one peer yet"));
-  EXPECT_THAT(refusal(body + kHand + "[[device]]\npeer = 2\noperator = 1\n"),
-              HasSubstr("of one peer yet"));
+  EXPECT_THAT(refusal(body), HasSubstr("give it a [[device]] of peer 1"));
+  EXPECT_THAT(refusal(body + "[[operator]]\npassive = true\n[[device]]\npeer = 2\noperator = 1\n"),
+              HasSubstr("give it a [[device]] of peer 1"));
+  EXPECT_EQ(refusal(body + kHand + "[[device]]\npeer = 2\noperator = 1\nrate = \"2 kHz\"\n"), "");
   EXPECT_THAT(refusal(body + kHand + "[[device]]\npeer = 1\noperator = 1\nrate = \"2 kHz\"\n"),
               HasSubstr("give them one rate"));
   EXPECT_EQ(refusal(body + kHand), "");

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/shared_bodies.hpp"
+
+#include <algorithm>
+
+namespace reckon::peer {
+namespace {
+
+using Eigen::Quaterniond;
+using std::chrono::nanoseconds;
+
+constexpr std::uint8_t kCategory = 0x42;
+
+// Forward, right and down from x, y and z.
+const Quaterniond kLevel(0.0, 1.0, 0.0, 0.0);
+
+}  // namespace
+
+pdu::EntityType body_type(std::size_t body) noexcept {
+  pdu::EntityType type{};
+  type.category = kCategory;
+  type.extra = static_cast<std::uint8_t>(body);
+  return type;
+}
+
+std::optional<std::size_t> body_of(const pdu::EntityType& type) noexcept {
+  const std::size_t body = type.extra;
+  if (body >= haptics::kMostBodies || type != body_type(body)) return std::nullopt;
+  return body;
+}
+
+EntityTruth truth_of(const haptics::BodyState& body, nanoseconds time) noexcept {
+  EntityTruth truth;
+  truth.time = time;
+  truth.position = body.position;
+  truth.orientation = body.orientation * kLevel;
+  truth.velocity = body.velocity;
+  truth.angular_velocity = truth.orientation.conjugate() * body.turn_rate;
+  return truth;
+}
+
+BodyMover::BodyMover(const haptics::EffectPlan& plan) {
+  for (std::uint32_t i = 0; i < plan.objects().size(); ++i) {
+    const haptics::PlannedObject& object = plan.objects()[i];
+    if (!object.moves()) continue;
+    Body& body = bodies_.emplace_back();
+    body.object = i;
+    body.last.orientation = object.orientation;
+    body.last.position = object.position - object.orientation * object.origin;
+  }
+}
+
+haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now) noexcept {
+  (void)shown_.update();
+  const auto found = std::ranges::find(bodies_, object, &Body::object);
+  if (found == bodies_.end()) return {};
+  const auto place = static_cast<std::size_t>(found - bodies_.begin());
+  const ShownBodies& shown = shown_.read();
+  haptics::ObjectMotion& last = found->last;
+  if (place >= shown.rows.size() || shown.known[place] != ShownBodies::Known::here) {
+    last.velocity.setZero();
+    last.turn_rate.setZero();
+    return last;
+  }
+  const deadreckon::Pose pose = shown.rows[place].shown(now);
+  last.position = pose.position;
+  last.orientation = pose.orientation * kLevel.conjugate();
+  last.velocity = pose.velocity;
+  last.turn_rate = pose.orientation * pose.angular_velocity;
+  return last;
+}
+
+void RemoteBodies::note(const Inbound& update) noexcept {
+  if (!update.has_state) return;
+  const auto body = body_of(update.state.entity_type);
+  if (body && !places_[*body].id) places_[*body].id = update.entity;
+}
+
+void RemoteBodies::publish(const RemoteEntities& rows) noexcept {
+  bool changed = false;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Place& place = places_[i];
+    if (!place.id) continue;
+    const RemoteEntity* row = rows.find(*place.id);
+    if (row == nullptr) {
+      newest_.known[i] = ShownBodies::Known::gone;
+      place = {};
+      changed = true;
+    } else if (newest_.known[i] != ShownBodies::Known::here || place.version != row->version ||
+               place.doubted_at != row->doubted_at) {
+      newest_.rows[i] = RemoteCopy(*row);
+      newest_.known[i] = ShownBodies::Known::here;
+      place.version = row->version;
+      place.doubted_at = row->doubted_at;
+      changed = true;
+    }
+  }
+  if (!changed) return;
+  shown_.write_slot() = newest_;
+  shown_.publish();
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The bodies of a scene as entities: its first peer sends them, and the others see and feel them
+// where they are.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/bodies/object_mover.hpp"
+#include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// Kind other, category 66 (0x42); `extra` is the number of the body among the scene's objects that
+/// move.
+[[nodiscard]] pdu::EntityType body_type(std::size_t body) noexcept;
+/// None for any other entity.
+[[nodiscard]] std::optional<std::size_t> body_of(const pdu::EntityType& type) noexcept;
+/// The object's x, y, z axes are forward, left and up.
+[[nodiscard]] EntityTruth truth_of(const haptics::BodyState& body,
+                                   std::chrono::nanoseconds time) noexcept;
+
+/// The bodies of another peer, from the model loop to the servos.
+struct ShownBodies {
+  enum class Known : std::uint8_t {
+    not_yet,  ///< it is where the scene has it
+    here,
+    gone,  ///< it stays where it was shown last
+  };
+  std::array<RemoteCopy, haptics::kMostBodies> rows{};
+  std::array<Known, haptics::kMostBodies> known{};
+};
+
+/// The servos' side: a body is where the table of remote entities shows it.
+class BodyMover final : public haptics::ObjectMover {
+ public:
+  /// @param plan whose objects with a mass are carried; only read here
+  explicit BodyMover(const haptics::EffectPlan& plan);
+
+  [[nodiscard]] haptics::ObjectMotion motion_of(std::uint32_t object,
+                                                std::chrono::nanoseconds now) noexcept override;
+  /// Written by the model loop.
+  [[nodiscard]] haptics::TripleBuffer<ShownBodies>& shown() noexcept { return shown_; }
+
+ private:
+  struct Body {
+    std::uint32_t object = 0;
+    haptics::ObjectMotion last;
+  };
+  haptics::TripleBuffer<ShownBodies> shown_;
+  std::vector<Body> bodies_;
+};
+
+/// The model loop's side. Allocates nothing.
+class RemoteBodies {
+ public:
+  /// @param shown outlives this
+  explicit RemoteBodies(haptics::TripleBuffer<ShownBodies>& shown) : shown_(shown) {}
+
+  /// An update that the table has taken. The first entity that is a body keeps its place until it
+  /// is gone.
+  void note(const Inbound& update) noexcept;
+  /// Publishes the rows that have changed.
+  void publish(const RemoteEntities& rows) noexcept;
+
+ private:
+  struct Place {
+    std::optional<pdu::EntityId> id;
+    std::uint32_t version = 0;
+    std::chrono::nanoseconds doubted_at{0};
+  };
+  haptics::TripleBuffer<ShownBodies>& shown_;
+  ShownBodies newest_;
+  std::array<Place, haptics::kMostBodies> places_{};
+};
+
+}  // namespace reckon::peer

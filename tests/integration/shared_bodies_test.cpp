@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A cube that the first peer's hand pushes, seen and felt by another peer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/peer.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/in_process.hpp"
+
+namespace reckon::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kCubes = R"(
+[[object]]
+name = "floor"
+plane = [0, 0, 1]
+surface = {stiffness = "400 N/m"}
+
+[[object]]
+name = "cube"
+box = "40 40 40 mm"
+position = "0 0 20 mm"
+mass = "50 g"
+body_friction = 0.4
+surface = {stiffness = "400 N/m"}
+
+[[operator]]
+passive = true
+
+[[device]]
+peer = 1
+operator = 1
+
+[[device]]
+peer = 2
+operator = 1
+)";
+
+haptics::HandTarget at(double x, double height) {
+  haptics::HandTarget target;
+  target.position = {x, 0, height};
+  return target;
+}
+
+/// The first hand pushes the cube to and fro until 4 s, and lets it lie. The second one waits where
+/// it is told.
+class Table {
+ public:
+  Table(const peer::ImpairmentLaw& law, const Vector3d& second)
+      : clock_(seconds(1), std::chrono::hours(1)), network_({}, clock_), scene_(scene_of(kCubes)) {
+    network_.impair(law);
+    const auto push = [](double t) {
+      const double slow = std::min(t, 4.0);
+      return at(
+          -0.06 + 0.05 * (1 - std::cos(1.5 * slow)) - (t > 4 ? 0.1 : 0.0) * std::min(1.0, t - 4),
+          0.015);
+    };
+    const auto wait = [second](double) { return at(second.x(), second.z()); };
+    haptics::SimulatedDeviceConfig config;
+    config.hand_stiffness = 300;
+    config.start = push(0).position;
+    hands_[0] = std::make_unique<haptics::SimulatedDevice>(config, push);
+    config.start = second;
+    hands_[1] = std::make_unique<haptics::SimulatedDevice>(config, wait);
+    for (std::size_t i = 0; i < 2; ++i) {
+      peer::PeerOptions own;
+      own.application = static_cast<std::uint16_t>(i + 1);
+      own.epoch = static_cast<std::uint32_t>(i + 1);
+      own.scene_peer = static_cast<std::uint8_t>(i + 1);
+      peers_[i] = std::make_unique<peer::Peer>(scene_, own, network_.link(i), *hands_[i]);
+      peers_[i]->start(clock_.now());
+    }
+  }
+  void step() {
+    clock_.advance(milliseconds(1));
+    const nanoseconds now = clock_.now();
+    for (auto& peer : peers_) {
+      if (!peer) continue;
+      peer->servo_step(now);
+      peer->read_step(now);
+      peer->model_step(now, clock_.utc_now());
+      peer->write_step();
+    }
+  }
+  void first_leaves() {
+    peers_[0]->stop(clock_.now(), clock_.utc_now());
+    peers_[0].reset();
+  }
+  [[nodiscard]] const haptics::BodyState& cube(std::size_t peer) const {
+    return peers_[peer]->bodies()->states()[0];
+  }
+  [[nodiscard]] double apart() const { return (cube(0).position - cube(1).position).norm(); }
+  [[nodiscard]] const haptics::SimulatedDevice& hand(std::size_t peer) const {
+    return *hands_[peer];
+  }
+  [[nodiscard]] const haptics::ServoSnapshot& feels(std::size_t peer) {
+    peers_[peer]->views().update();
+    return peers_[peer]->views().read().servo();
+  }
+
+ private:
+  peer::ManualClock clock_;
+  peer::SimulatedNetwork network_;
+  peer::SceneFile scene_;
+  std::array<std::unique_ptr<haptics::SimulatedDevice>, 2> hands_;
+  std::array<std::unique_ptr<peer::Peer>, 2> peers_;
+};
+
+peer::ImpairmentLaw line(nanoseconds delay, nanoseconds jitter, double loss) {
+  peer::ImpairmentLaw law;
+  law.delay = delay;
+  law.jitter = jitter;
+  law.loss = loss;
+  return law;
+}
+
+TEST(SharedBody, IsWhereItsOwnerHasIt) {
+  for (const auto& law : {line(nanoseconds(100'000), {}, 0.0), line(milliseconds(20), {}, 0.0),
+                          line(milliseconds(50), milliseconds(20), 0.3)}) {
+    Table table(law, {0.3, 0, 0.2});
+    double moved = 0.0, apart = 0.0;
+    for (int i = 0; i < 7000; ++i) {
+      table.step();
+      moved = std::max(moved, table.cube(0).position.x());
+      if (i > 500) apart = std::max(apart, table.apart());
+    }
+    EXPECT_GT(moved, 0.03);
+    // At some 0.08 m/s and friction of 4 m/s^2: the threshold, and what happens on the way.
+    const double delay = pdu::to_seconds(law.delay + law.jitter);
+    EXPECT_LT(apart, 0.002 + 0.15 * delay + 0.5 * 4 * delay * delay + (law.loss > 0 ? 0.01 : 0.0));
+    EXPECT_LT(table.apart(), 1e-4) << "at rest";
+  }
+}
+
+// The cube is pushed against a hand of the other peer: it does not give, and gives no more energy
+// than the port may receive.
+TEST(SharedBody, IsFeltByAHandInItsWay) {
+  Table table(line(milliseconds(5), {}, 0.0), {0.05, 0, 0.02});
+  double felt = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    table.step();
+    const haptics::ServoSnapshot& step = table.feels(1);
+    felt = std::max(felt, step.force.x());
+    ASSERT_GE(step.port_energy_min, -1e-9);
+    ASSERT_LE(-table.hand(1).port_work() - table.hand(1).damping_loss(),
+              0.008 + 0.2 * 1e-3 * i + 1e-9);
+  }
+  EXPECT_GT(felt, 0.5);
+}
+
+TEST(SharedBody, StaysWhereItWasWhenItsOwnerLeaves) {
+  Table table(line(milliseconds(5), {}, 0.0), {0.3, 0, 0.2});
+  for (int i = 0; i < 1500; ++i) table.step();
+  ASSERT_GT(table.cube(1).position.x(), 0.01);
+  table.first_leaves();
+  for (int i = 0; i < 500; ++i) table.step();
+  const Vector3d left = table.cube(1).position;
+  for (int i = 0; i < 2000; ++i) table.step();
+  EXPECT_LT((table.cube(1).position - left).norm(), 1e-12);
+  EXPECT_GT(left.x(), 0.01) << "it went back to where the scene has it";
+  EXPECT_TRUE(table.cube(1).velocity.isZero());
+}
+
+TEST(SharedBody, CostsNoAllocation) {
+  Table table(line(milliseconds(5), {}, 0.1), {0.05, 0, 0.02});
+  for (int i = 0; i < 1000; ++i) table.step();
+  const AllocationGuard guard;
+  for (int i = 0; i < 3000; ++i) table.step();
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace reckon::test
