@@ -58,7 +58,7 @@ std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
                                               std::span<const PeerDevice> devices,
                                               std::shared_ptr<BodyMover> mover) {
   if (devices.empty()) return nullptr;
-  return haptics::make_bodies(haptics::EffectPlan(scene), scene.gravity, std::move(mover));
+  return haptics::make_bodies(haptics::EffectPlan(scene), scene, std::move(mover));
 }
 
 std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(

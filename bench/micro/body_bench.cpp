@@ -50,7 +50,7 @@ void servo_step_at_bodies(benchmark::State& state) {
   const Scene scene =
       row_of(static_cast<std::size_t>(state.range(0)), 1e-3 * static_cast<double>(state.range(1)));
   const auto plan = std::make_shared<const EffectPlan>(scene);
-  const auto world = make_bodies(*plan, scene.gravity);
+  const auto world = make_bodies(*plan, scene);
   SimulatedDeviceConfig config;
   config.damping = 1.0;
   config.hand_stiffness = kGrip;

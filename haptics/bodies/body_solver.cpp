@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/bodies/flight.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -118,7 +119,8 @@ void BodySolver::Body::set(const State& state) noexcept {
   still = state.still;
 }
 
-BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity) : gravity_(gravity) {
+BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const WorkSpace& work_space)
+    : gravity_(gravity), work_space_(work_space) {
   start_ode();
   know_thread();
   world_ = dWorldCreate();
@@ -186,6 +188,7 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
 
 void BodySolver::give_mass(Body& body, const PlannedObject& object) {
   body.mass = object.matter.mass;
+  body.drag = object.matter.drag;
   dMass mass;
   if (std::holds_alternative<Ball>(object.shape)) {
     body.inner = dGeomSphereGetRadius(body.geom);
@@ -391,14 +394,42 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
   }
 }
 
-// The solver moves a body by its new speed for all of the step, which keeps the energy of
-// springs. One that nothing touches flies by the mean of both.
+// Of its middle, along an axis of S.
+Walls BodySolver::walls_of(const Body& body, int axis) const noexcept {
+  dReal box[6];
+  dGeomGetAABB(body.geom, box);
+  const double half = 0.5 * (box[2 * axis + 1] - box[2 * axis]);
+  const double room = 0.5 * work_space_.size[axis] - half;
+  return {work_space_.position[axis] - room, work_space_.position[axis] + room,
+          work_space_.restitution};
+}
+
+// The solver moves a body by its new speed for all of the step, which keeps the energy of springs.
+// One that nothing touches flies in closed form.
 void BodySolver::fly_exactly(double dt) noexcept {
-  for (const Body& body : bodies_) {
-    const bool flies = body.flies && body.mass > 0 && dBodyIsEnabled(body.id);
-    if (!flies || dBodyGetNumJoints(body.id) > 0) continue;
-    const Vector3d at = vector(dBodyGetPosition(body.id)) - 0.5 * dt * dt * gravity_;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Body& body = bodies_[i];
+    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
+    const bool flies = body.flies && dBodyGetNumJoints(body.id) == 0;
+    const double drag = body.drag / body.mass;
+    if (!flies && !work_space_.is_set() && !(drag > 0)) continue;
+    const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
+    const Vector3d speed(body.before.velocity[0], body.before.velocity[1], body.before.velocity[2]);
+    Vector3d at = vector(dBodyGetPosition(body.id)), v = vector(dBodyGetLinearVel(body.id));
+    if (!flies) v *= std::exp(-drag * dt);
+    for (int k = 0; k < 3; ++k) {
+      Flight end{at[k], v[k]};
+      if (flies) end = fly({from[k], speed[k]}, gravity_[k], drag, dt);
+      if (work_space_.is_set()) {
+        const Walls walls = walls_of(body, k);
+        const double mean = drag > 0 ? (end.speed - speed[k]) / dt : gravity_[k];
+        end = flies ? bounce({from[k], speed[k]}, mean, walls, dt) : stop(end, walls);
+      }
+      at[k] = end.place;
+      v[k] = end.speed;
+    }
     dBodySetPosition(body.id, at.x(), at.y(), at.z());
+    dBodySetLinearVel(body.id, v.x(), v.y(), v.z());
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/bodies/body_geoms.hpp"
+#include "reckon/haptics/bodies/flight.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
@@ -34,7 +35,7 @@ using BodySet = std::uint64_t;
 class BodySolver {
  public:
   /// @param gravity [m/s^2], S  @throws std::invalid_argument for a body that cannot be one
-  BodySolver(const EffectPlan& plan, const Eigen::Vector3d& gravity);
+  BodySolver(const EffectPlan& plan, const Eigen::Vector3d& gravity, const WorkSpace& work_space);
   ~BodySolver();
   BodySolver(const BodySolver&) = delete;
   BodySolver& operator=(const BodySolver&) = delete;
@@ -88,6 +89,7 @@ class BodySolver {
     dGeomID geom = nullptr;
     std::uint32_t object = 0;
     double mass = 0.0;
+    double drag = 0.0;   // [N s/m]
     double inner = 0.0;  // [m], radius of the ball within it
     Eigen::Vector3d start = Eigen::Vector3d::Zero();
     double still = 0.0;  // [s]
@@ -112,6 +114,7 @@ class BodySolver {
   void apply(std::span<BodyForce> forces) noexcept;
   void solve(double dt) noexcept;
   void collide(dGeomID a, dGeomID b) noexcept;
+  [[nodiscard]] Walls walls_of(const Body& body, int axis) const noexcept;
   void fly_exactly(double dt) noexcept;
   void catch_fast() noexcept;
   [[nodiscard]] double length_free(const Body& body, const Eigen::Vector3d& from,
@@ -124,6 +127,7 @@ class BodySolver {
   dJointGroupID joints_ = nullptr;
   dGeomID ray_ = nullptr;  // in no space
   Eigen::Vector3d gravity_;
+  WorkSpace work_space_;
   std::vector<Matter> matters_;  // of geoms
   std::vector<Body> bodies_;
   BodySet carried_ = 0;

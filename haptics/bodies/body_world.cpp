@@ -31,8 +31,9 @@ constexpr double kLeverage = 0.4;         // lightest resistance of a body that 
 /// Time, and what hands do to the bodies within a period.
 class BodyWorld::Engine {
  public:
-  Engine(const EffectPlan& plan, const Vector3d& gravity, std::shared_ptr<ObjectMover> mover)
-      : solver_(plan, gravity), mover_(std::move(mover)) {
+  Engine(const EffectPlan& plan, const Vector3d& gravity, std::shared_ptr<ObjectMover> mover,
+         const WorkSpace& work_space)
+      : solver_(plan, gravity, work_space), mover_(std::move(mover)) {
     for (std::size_t i = 0; i < solver_.size(); ++i) {
       if (solver_.is_carried(i)) carried_.push_back({i, plan.objects()[solver_.object(i)].origin});
     }
@@ -49,14 +50,18 @@ class BodyWorld::Engine {
 
   std::size_t add_hand() noexcept { return hands_++; }
 
-  bool advance_to(nanoseconds now) noexcept {
+  bool advance_to(nanoseconds now, bool frozen) noexcept {
     const bool is_first = !std::exchange(started_, true);
     if (is_first) time_ = now;
     const double gap = pdu::to_seconds(now - time_);
     if (!is_first && !(gap > 0)) return false;
     time_ = now;
     see_carried(now);
-    if (is_first) {
+    if (is_first || frozen) {
+      works_.assign(pushes_.size(), 0.0);
+      last_.clear();
+      pushes_.clear();
+      stepped_ = 0;
       put_carried();
       read_states(0.0);
       return true;
@@ -282,14 +287,14 @@ class BodyWorld::Engine {
 };
 
 BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
-                     std::shared_ptr<ObjectMover> mover)
-    : engine_(std::make_unique<Engine>(plan, gravity, std::move(mover))) {
+                     std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
+    : engine_(std::make_unique<Engine>(plan, gravity, std::move(mover), work_space)) {
   publish();
 }
 BodyWorld::~BodyWorld() = default;
 
-void BodyWorld::advance_to(nanoseconds now) noexcept {
-  if (engine_->advance_to(now)) publish();
+void BodyWorld::advance_to(nanoseconds now, bool frozen) noexcept {
+  if (engine_->advance_to(now, frozen)) publish();
 }
 
 void BodyWorld::publish() noexcept {
@@ -303,10 +308,10 @@ void BodyWorld::publish() noexcept {
   }
 }
 
-std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Vector3d& gravity,
+std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Scene& scene,
                                        std::shared_ptr<ObjectMover> mover) {
   if (!plan.has_moving()) return nullptr;
-  return std::make_shared<BodyWorld>(plan, gravity, std::move(mover));
+  return std::make_shared<BodyWorld>(plan, scene.gravity, std::move(mover), scene.work_space);
 }
 
 std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,

@@ -73,16 +73,18 @@ class BodyWorld {
   /// way and takes along what lies on it; all others stand still.
   /// @param plan only read here  @param gravity [m/s^2], S
   /// @param mover of carried objects; null if there are none. Servo thread
+  /// @param work_space of bodies, or none
   /// @throws std::invalid_argument for a body that cannot be one; names it and the remedy
   BodyWorld(const EffectPlan& plan, const Eigen::Vector3d& gravity,
-            std::shared_ptr<ObjectMover> mover = nullptr);
+            std::shared_ptr<ObjectMover> mover = nullptr, const WorkSpace& work_space = {});
   ~BodyWorld();
   BodyWorld(const BodyWorld&) = delete;
   BodyWorld& operator=(const BodyWorld&) = delete;
 
   /// Steps to `now`; does nothing if it is there already. The first call only notes the time. After
   /// more than 0.1 s without a call the rest of that time is left out.
-  void advance_to(std::chrono::nanoseconds now) noexcept;
+  /// @param frozen that time is left out: the simulation is frozen
+  void advance_to(std::chrono::nanoseconds now, bool frozen = false) noexcept;
 
   /// Holds `force` [N] at `point` [m] of a body from now until the next advance.
   /// @return the number of this push, for work(); kNoPush if there is no room for it
@@ -131,9 +133,9 @@ class BodyWorld {
   TripleBuffer<BodyStates> outgoing_;
 };
 
-/// The world of a plan's objects that move; null if it has none. @throws as the constructor
-[[nodiscard]] std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan,
-                                                     const Eigen::Vector3d& gravity,
+/// The world of the objects that move in the plan of a scene; null if there are none. @throws as
+/// the constructor
+[[nodiscard]] std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Scene& scene,
                                                      std::shared_ptr<ObjectMover> mover = nullptr);
 
 /// Stiffest spring of each of two hands that a body of `mass` [kg] can be squeezed with at a rate

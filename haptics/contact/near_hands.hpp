@@ -37,6 +37,8 @@ class NearHands {
   [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
   /// Energy received from all hands since the start, less the energy given to them [J].
   [[nodiscard]] double transferred() const noexcept;
+  /// Whether the simulation is frozen, as of the last take().
+  [[nodiscard]] bool frozen() const noexcept { return frozen_; }
 
  private:
   [[nodiscard]] bool place(const RemoteHand& hand, std::size_t at, const StepContext& step,

@@ -36,6 +36,16 @@ struct Matter {
   double mass = 0.0;         ///< [kg]; above 0: it is a body itself, and moves when it is pushed
   double friction = 0.5;     ///< >= 0; of a pair, the geometric mean
   double restitution = 0.0;  ///< 0 to 1; of a pair, the greater one
+  double drag = 0.0;         ///< [N s/m] >= 0, of a body's speed
+};
+
+/// A box that no body leaves (thesis fig. 5.6); hands do not feel it.
+struct WorkSpace {
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();      ///< [m]; there is none unless all are > 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], of its middle, S
+  double restitution = 0.5;                            ///< 0 to 1, of a rebound
+
+  [[nodiscard]] bool is_set() const noexcept { return (size.array() > 0.0).all(); }
 };
 
 /// One touchable object. An effect that is not declared is never constructed.
@@ -67,6 +77,7 @@ struct Scene {
   std::vector<SceneObject> objects;
   std::vector<SceneRegion> regions{};
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2], S; of bodies
+  WorkSpace work_space;                         ///< of bodies
 };
 
 }  // namespace reckon::haptics

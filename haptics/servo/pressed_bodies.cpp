@@ -25,9 +25,10 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::si
 }
 
 template <int axes>
-void PressedBodiesOf<axes>::settle(std::chrono::nanoseconds now, EnergyLedger& ledger) noexcept {
+void PressedBodiesOf<axes>::settle(std::chrono::nanoseconds now, bool frozen,
+                                   EnergyLedger& ledger) noexcept {
   if (!world_) return;
-  world_->advance_to(now);
+  world_->advance_to(now, frozen);
   for (const Push& push : pushes_) {
     const double work = world_->work(push.number);
     ledger.book(-work);

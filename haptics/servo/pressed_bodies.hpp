@@ -27,7 +27,8 @@ class PressedBodiesOf {
 
   /// Brings the bodies to `now` and books the work that the pushes did, whether or not the handle
   /// can be read.
-  void settle(std::chrono::nanoseconds now, EnergyLedger& ledger) noexcept;
+  /// @param frozen they stand still
+  void settle(std::chrono::nanoseconds now, bool frozen, EnergyLedger& ledger) noexcept;
   /// Tells the contacts where the bodies are.
   void place(StaticContactOf<axes>& contacts) const noexcept;
   /// Foresees the period [s] that begins, after the contacts have settled.

@@ -66,7 +66,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
     reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
   step_.now = now;
   note_time();
-  pressed_.settle(step_.now, port_);
+  pressed_.settle(step_.now, hands_.frozen(), port_);
   if (sample(reading)) settle();
   const Admission admission = safety_.admit(reading, tool_.twist());
   const bool enabled = admission == Admission::shown;

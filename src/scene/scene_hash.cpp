@@ -203,10 +203,14 @@ void add_bodies(Hash& hash, const haptics::Scene& scene) {
   for (const haptics::SceneObject& object : scene.objects) any = any || object.matter.mass > 0;
   if (!any) return;
   hash.fact("gravity", scene.gravity);
+  hash.fact("work space", scene.work_space.size);
+  hash.fact("work space position", scene.work_space.position);
+  hash.fact("work space restitution", scene.work_space.restitution);
   for (const haptics::SceneObject& object : scene.objects) {
     hash.fact("mass", object.matter.mass);
     hash.fact("body friction", object.matter.friction);
     hash.fact("restitution", object.matter.restitution);
+    hash.fact("drag", object.matter.drag);
   }
 }
 

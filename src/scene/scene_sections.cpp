@@ -36,6 +36,15 @@ Section<OriginConfig> origin_section() {
 
 namespace {
 
+Section<haptics::WorkSpace> work_space_section() {
+  using haptics::WorkSpace;
+  return {{
+      {"size", &WorkSpace::size, within("m", 0, kWorld), "all edges above 0, or there is none"},
+      {"position", &WorkSpace::position, within("m", -kWorld, kWorld), "of its middle, in S"},
+      {"restitution", &WorkSpace::restitution, within("", 0, 1), "of a rebound from it"},
+  }};
+}
+
 Section<SceneFile> scene_section() {
   return {{
       {"name", &SceneFile::name, "for display; when absent, the file name without its ending"},
@@ -43,6 +52,8 @@ Section<SceneFile> scene_section() {
        "where the scene's frame S (east, north, up) stands"},
       {"gravity", in(&SceneFile::scene, &haptics::Scene::gravity), within("m/s2", -100, 100),
        "what bodies fall by, in S"},
+      {"work_space", in(&SceneFile::scene, &haptics::Scene::work_space), work_space_section(),
+       "a box that no body leaves; hands do not feel it"},
   }};
 }
 

@@ -126,7 +126,7 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan
   const auto simulated = make_simulated_device(scene, device);
   const auto shared = std::make_shared<const haptics::EffectPlan>(plan);
   const haptics::ServoLoop servo(*simulated, shared, servo_of(scene, device),
-                                 haptics::make_bodies(plan, scene.scene.gravity));
+                                 haptics::make_bodies(plan, scene.scene));
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));

@@ -85,7 +85,7 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
       config.probe_radius = scene.hand.radius;
       config.probes = probes_of(device);
       const haptics::ServoLoop servo(*simulated, shared, config,
-                                     haptics::make_bodies(plan, scene.scene.gravity));
+                                     haptics::make_bodies(plan, scene.scene));
       std::string name = fmt::format("device {}", ++count);
       if (!device.marking.empty()) name += " " + device.marking;
       devices.push_back({number, std::move(name), peer::stiffness_of(servo, scene.hand)});

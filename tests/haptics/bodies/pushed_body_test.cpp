@@ -491,6 +491,34 @@ TEST(PushedBody, IsPushedOverAFloorAgainstItsFriction) {
   }
 }
 
+TEST(PushedBody, StandsStillWhileTheSimulationIsFrozen) {
+  Scene scene = cube_of(0.05, 400);
+  scene.gravity = {0, 0, -9.81};
+  const auto plan = std::make_shared<const EffectPlan>(scene);
+  const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
+  SimulatedDevice device(device_at(Vector3d(0, 0, 0.2)));
+  ServoLoop servo(device, plan, ServoConfig{}, world);
+  nanoseconds now{1'000'000'000};
+  const auto run = [&](int steps, bool frozen) {
+    ContactSet set;
+    set.frozen = frozen;
+    servo.contacts().write(set);
+    for (int i = 0; i < steps; ++i) servo.step(now += nanoseconds(1'000'000));
+  };
+  run(100, false);
+  const double fell = world->states()[0].position.z();
+  EXPECT_NEAR(fell, -0.5 * 9.81 * 0.01, 1e-3);
+  run(1, true);
+  const double stands = world->states()[0].position.z();
+  run(500, true);
+  EXPECT_EQ(world->states()[0].position.z(), stands);
+  run(1, false);
+  const double on = world->states()[0].position.z();
+  run(50, false);
+  EXPECT_NEAR(world->states()[0].position.z(), on - 9.81 * (0.1 * 0.05 + 0.5 * 0.0025), 1e-3)
+      << "it falls on as fast as it was";
+}
+
 TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
   const Scene scene = cube_of(0.0003, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
