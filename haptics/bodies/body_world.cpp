@@ -306,6 +306,15 @@ void BodyWorld::publish() noexcept {
     std::ranges::copy(states, out.bodies.begin());
     to->publish();
   }
+  if (trace_ == nullptr) return;
+  std::uint64_t awake = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::uint64_t one = std::uint64_t{1} << i;
+    if (states[i].awake) awake |= one;
+    if (((awake | were_awake_) & one) != 0)
+      static_cast<void>(trace_->push({engine_->time(), states[i]}));
+  }
+  were_awake_ = awake;
 }
 
 std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Scene& scene,

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "reckon/haptics/bodies/object_mover.hpp"
+#include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
@@ -49,6 +50,13 @@ struct BodyStates {
   }
   [[nodiscard]] std::span<const BodyState> all() const noexcept { return {bodies.data(), count}; }
 };
+
+/// One body after a step.
+struct BodyStep {
+  std::chrono::nanoseconds time{0};
+  BodyState state;
+};
+using BodyRing = SpscRing<BodyStep>;
 
 /// All bodies of one peer. Hands push them from within their servo steps, all on one thread and at
 /// one rate; the first servo of a period steps the world to it. A force is held until then, as at
@@ -115,6 +123,9 @@ class BodyWorld {
   [[nodiscard]] TripleBuffer<BodyStates>& published() noexcept { return published_; }
   /// The same for another reader, which sends them.
   [[nodiscard]] TripleBuffer<BodyStates>& outgoing() noexcept { return outgoing_; }
+  /// Records each step of those that are awake, and their last one, from now on; null stops. Call
+  /// while no step runs. A full ring loses the newest.
+  void trace(BodyRing* ring) noexcept { trace_ = ring; }
   /// Kinetic energy and that of the weight, above the places at the start [J].
   [[nodiscard]] double energy() const noexcept;
   /// Energy that was taken out because the solver had made it [J], since the start.
@@ -131,6 +142,8 @@ class BodyWorld {
   std::unique_ptr<Engine> engine_;
   TripleBuffer<BodyStates> published_;
   TripleBuffer<BodyStates> outgoing_;
+  BodyRing* trace_ = nullptr;
+  std::uint64_t were_awake_ = 0;  // in the last step
 };
 
 /// The world of the objects that move in the plan of a scene; null if there are none. @throws as

@@ -22,6 +22,7 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for collect()
 // Updates of remote hands that may wait: at 125 a second of each of two, half a second.
 constexpr std::size_t kContactSets = 128;
+constexpr std::size_t kBodySteps = 65'536;  // of all bodies
 constexpr nanoseconds kCollect = milliseconds(20);
 constexpr nanoseconds kTick = milliseconds(1);  // simulated: all peers look at the network
 constexpr std::uint16_t kSite = 1;
@@ -125,6 +126,10 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
 void Exercise::add_hands(std::size_t index) {
   Member& member = *members_[index];
   peer::Peer& peer = member.joined->peer();
+  if (options_.trace_bodies && index == 0 && peer.bodies() != nullptr) {
+    bodies_ = std::make_unique<haptics::BodyRing>(kBodySteps);
+    peer.bodies()->trace(bodies_.get());
+  }
   member.first_hand = hands_.size();
   for (std::size_t device = 0; device < member.hands.wired.size(); ++device) {
     Hand& hand =
@@ -177,6 +182,8 @@ nanoseconds Exercise::now() const noexcept {
 nanoseconds Exercise::elapsed() const noexcept { return now() - begun_; }
 
 void Exercise::on_step(StepSink sink) { sink_ = std::move(sink); }
+
+void Exercise::on_body(BodySink sink) { body_sink_ = std::move(sink); }
 
 void Exercise::run(nanoseconds span) {
   if (options_.simulated_time) {
@@ -260,6 +267,7 @@ void Exercise::collect(bool all) {
     }
   }
   measurement_->set_ids(ids);
+  collect_bodies();
   if (!options_.measure) return;
   std::size_t most_shown = 0;  // each step of a hand shows all others
   for (std::size_t i = 0; i < hands_.size(); ++i) {
@@ -272,6 +280,12 @@ void Exercise::collect(bool all) {
     collect_shown(*member, all ? kTraceSteps * (remote + 1) : most_shown * (remote + 1));
   }
   measurement_->evaluate();
+}
+
+void Exercise::collect_bodies() {
+  haptics::BodyStep step;
+  while (bodies_ && bodies_->pop(step))
+    if (body_sink_) body_sink_(step);
 }
 
 void Exercise::collect_steps(std::size_t index, std::size_t most) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
@@ -42,10 +43,11 @@ struct ExerciseOptions {
   std::uint32_t epoch = 0;          ///< 0 = drawn at random
   bool impairment_changes = false;  ///< real time: change_impairment() may be called
   bool trace_contacts = false;      ///< fill contacts()
+  bool trace_bodies = false;        ///< for on_body()
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool even_if_slow = false;  ///< real time: see FederateOptions
-  bool time_servo = false;  ///< simulated time: measure what servo steps take
+  bool time_servo = false;    ///< simulated time: measure what servo steps take
 };
 
 /// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory
@@ -113,6 +115,9 @@ class Exercise {
   using StepSink = std::function<void(std::size_t, std::size_t, const haptics::ServoSnapshot&)>;
   /// Called for each recorded servo step of every device; see `demo --trace`.
   void on_step(StepSink sink);
+  using BodySink = std::function<void(const haptics::BodyStep&)>;
+  /// With trace_bodies: called for each recorded step of a body of the first peer.
+  void on_body(BodySink sink);
 
  private:
   struct Member;
@@ -126,6 +131,7 @@ class Exercise {
   void pass_instant(std::chrono::nanoseconds now);
   void step_servos(std::chrono::nanoseconds now);
   void collect(bool all);
+  void collect_bodies();
   void collect_steps(std::size_t index, std::size_t most);
   void collect_shown(Member& member, std::size_t most);
   void take_shown(const peer::ShownSample& sample);
@@ -140,7 +146,9 @@ class Exercise {
   std::vector<std::unique_ptr<Member>> members_;
   std::unique_ptr<DemoMeasurement> measurement_;
   StepSink sink_;
-  peer::DurationHistogram servo_steps_;  // of all members together
+  BodySink body_sink_;
+  std::unique_ptr<haptics::BodyRing> bodies_;  // of the first peer, with trace_bodies
+  peer::DurationHistogram servo_steps_;        // of all members together
   std::chrono::nanoseconds begun_{0};
   std::chrono::nanoseconds next_tick_{0};  // simulated time
   bool stopped_ = false;

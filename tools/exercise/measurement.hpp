@@ -104,7 +104,7 @@ class DemoMeasurement {
   std::vector<std::size_t> peers_;
   std::vector<pdu::EntityId> ids_;
   std::vector<peer::DeviceStiffness> devices_;
-  std::vector<Place> last_;  // step that was compared
+  std::vector<Place> last_;         // step that was compared
   std::vector<double> late_costs_;  // [J]
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;

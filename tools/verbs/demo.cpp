@@ -19,6 +19,8 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/exercise/body_report.hpp"
+#include "reckon/tools/exercise/body_trace.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
@@ -45,7 +47,7 @@ constexpr double kRawOctets = 144 + 32 + 8 + 72;
 struct DemoOptions {
   SceneOptions scene;
   DeviceChoice device;
-  std::string trace;
+  std::string trace, trace_bodies;
   std::optional<std::uint64_t> asked_peers;
   std::uint64_t peers = 2;  // what is run
   std::optional<nanoseconds> duration;
@@ -72,6 +74,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
   line.option("--trace", options.trace, "write every servo step of every device to this CSV file");
+  line.option("--trace-bodies", options.trace_bodies,
+              "write every step of every body that is awake to this CSV file");
   line.flag("--simulated-time", options.simulated_time,
             "no sockets and no waiting: simulated network, as fast as the machine goes");
   line.flag("--no-transfer", options.no_transfer,
@@ -175,7 +179,7 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
       R"("entity_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
-      R"("updates_out":{},"own_octets":{},"hands":{}{}}})"
+      R"("updates_out":{},"own_octets":{},"hands":{}{}{}}})"
       "\n",
       cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
       cost.octets, cost.raw_packets, cost.raw_octets,
@@ -186,7 +190,7 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       measured.touching_entities(), measured.peak_force(), measured.trips(),
       exercise.total("datagrams_lost"), exercise.total("send_checks"),
       exercise.total("updates_out"), exercise.total("own_octets"), hands_json(hands_of(exercise)),
-      walls_json(counters_of(exercise)));
+      bodies_json(exercise.peer(0).bodies()), walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
@@ -231,6 +235,7 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
     fmt::print(out,
                "                             {:.1f} mJ lent to hands that met inside one another\n",
                1e3 * measured.loan_most());
+  print_bodies(out, exercise.peer(0).bodies());
   print_hands(out, hands_of(exercise));
   print_walls(out, counters_of(exercise));
 }
@@ -287,6 +292,7 @@ ExerciseOptions exercise_options(const DemoOptions& options) {
   made.simulated_time = options.simulated_time;
   made.transfer = !options.no_transfer;
   made.even_if_slow = options.scene.even_if_slow;
+  made.trace_bodies = !options.trace_bodies.empty();
   made.impairment_changes = made.trace_contacts = flags_of_switch(options.view).has_value();
   return made;
 }
@@ -346,6 +352,11 @@ int run(const DemoOptions& asked, const Console& console) {
           return device.axes == 6;
         }));
   }
+  std::optional<BodyTrace> bodies;
+  if (!options.trace_bodies.empty()) {
+    bodies.emplace(options.trace_bodies, scene.scene);
+    exercise->on_body([&](const haptics::BodyStep& step) { bodies->write(step); });
+  }
   std::optional<HandTwins> twins;
   if (flags) twins.emplace(scene, *exercise);
   std::optional<DemoPage> page;
@@ -376,6 +387,7 @@ int run(const DemoOptions& asked, const Console& console) {
   const Cost cost = cost_of(*exercise);
   exercise->stop();
   if (trace) trace->close();
+  if (bodies) bodies->close();
   if (options.json) {
     print_json(console.out, cost, *exercise);
   } else {

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/body_trace.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/command_line/console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+// In quotes, doubled where the name has some.
+std::string csv(const std::string& name) {
+  std::string out = "\"";
+  for (const char c : name) out.append(c == '"' ? 2 : 1, c);
+  return out + '"';
+}
+
+}  // namespace
+
+BodyTrace::BodyTrace(const std::filesystem::path& file, const haptics::Scene& scene)
+    : name_(file.string()), file_(nullptr) {
+  const auto moves = [](const haptics::SceneObject& object) {
+    return object.matter.mass > 0 || object.carried;
+  };
+  if (std::ranges::none_of(scene.objects, moves))
+    throw UsageError("--trace-bodies: nothing in this scene moves; give an object a mass");
+  for (const haptics::SceneObject& object : scene.objects) objects_.push_back(csv(object.name));
+  file_ = std::fopen(name_.c_str(), "w");
+  if (file_ == nullptr) {
+    throw UsageError(
+        fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
+  }
+  std::fputs(
+      "t_s,object,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps,awake\n",
+      file_);
+}
+
+BodyTrace::~BodyTrace() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void BodyTrace::write(const haptics::BodyStep& step) {
+  line_.clear();
+  const auto to = std::back_inserter(line_);
+  const auto vector = [&](const Eigen::Vector3d& v) {
+    fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g}"), v.x(), v.y(), v.z());
+  };
+  const haptics::BodyState& body = step.state;
+  const Eigen::Quaterniond& q = body.orientation;
+  fmt::format_to(to, FMT_COMPILE("{:.6f},{}"), pdu::to_seconds(step.time), objects_[body.object]);
+  vector(body.position);
+  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{:.9g}"), q.w(), q.x(), q.y(), q.z());
+  vector(body.velocity);
+  vector(body.turn_rate);
+  fmt::format_to(to, FMT_COMPILE(",{:d}\n"), body.awake);
+  std::fwrite(line_.data(), 1, line_.size(), file_);
+}
+
+void BodyTrace::close() {
+  if (file_ == nullptr) return;
+  const bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
+  std::fclose(file_);
+  file_ = nullptr;
+  if (!good) throw EnvironmentError(fmt::format("{}: {}", name_, std::strerror(errno)));
+}
+
+}  // namespace reckon::tools
