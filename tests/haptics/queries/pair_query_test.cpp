@@ -12,7 +12,6 @@
 
 #include "reckon/tests/haptics/support/pair_oracles.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
-#include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -23,19 +22,12 @@ using test::all_triangles;
 using test::corners_of;
 using test::drawn_placement;
 using test::drawn_point;
+using test::query_mesh;
+using test::query_solid;
 using test::uniform;
-
-QueryShape of_mesh(const test::MeshData& data, double size) {
-  return QueryShape(ContactShape(std::make_shared<const SurfaceMesh>(test::make_mesh(data, size))));
-}
 
 const SurfaceMesh& mesh_of(const QueryShape& shape) {
   return *std::get<std::shared_ptr<const SurfaceMesh>>(shape.form());
-}
-
-template <class Shape>
-QueryShape of_solid(const Shape& shape) {
-  return QueryShape(ContactShape(std::make_shared<const ImplicitSolid>(shape)));
 }
 
 CsgShape bored_plate() {
@@ -52,11 +44,11 @@ std::vector<QueryShape> all_kinds() {
           QueryShape::sphere(0.08),
           QueryShape::capsule(0.03, 0.2),
           QueryShape::box({0.2, 0.0, 0.1}),
-          of_mesh(test::torus(16, 8), 0.25),
-          of_mesh(test::cube(), 0.2),
-          of_solid(CylinderShape{0.06, 0.12}),
-          of_solid(TorusShape{0.08, 0.03}),
-          of_solid(bored_plate())};
+          query_mesh(test::torus(16, 8), 0.25),
+          query_mesh(test::cube(), 0.2),
+          query_solid(CylinderShape{0.06, 0.12}),
+          query_solid(TorusShape{0.08, 0.03}),
+          query_solid(bored_plate())};
 }
 
 TEST(PairQuery, SpheresAreApartByTheirMiddlesLessTheirRadii) {
@@ -128,7 +120,7 @@ TEST(PairQuery, BoxesAndSpheresHaveTheirClosedForm) {
 TEST(PairQuery, APlaneIsAsFarAsTheLowestPoint) {
   std::mt19937_64 random(4);
   const QueryShape plane = QueryShape::below_plane({0, 0, 3});
-  const QueryShape mesh = of_mesh(test::torus(24, 12), 0.3);
+  const QueryShape mesh = query_mesh(test::torus(24, 12), 0.3);
   for (int i = 0; i < 1'000; ++i) {
     const Placement at = drawn_placement(random, 0.3), ground = drawn_placement(random, 0.3);
     const auto height = [&](const Vector3d& p) {
@@ -151,8 +143,8 @@ TEST(PairQuery, APlaneIsAsFarAsTheLowestPoint) {
 
 TEST(PairQuery, MeshesAreAsFarApartAsTheirNearestTriangles) {
   std::mt19937_64 random(5);
-  const QueryShape a = of_mesh(test::torus(16, 8), 0.3);
-  const QueryShape b = of_mesh(test::groove(), 0.2);
+  const QueryShape a = query_mesh(test::torus(16, 8), 0.3);
+  const QueryShape b = query_mesh(test::groove(), 0.2);
   int apart = 0;
   PairMemory memory;
   for (int i = 0; i < 200; ++i) {
@@ -176,8 +168,8 @@ TEST(PairQuery, MeshesAreAsFarApartAsTheirNearestTriangles) {
 
 TEST(PairQuery, MeshesAreAsFarFromBoxesAndCapsulesAsTheirNearestTriangle) {
   std::mt19937_64 random(6);
-  const QueryShape mesh = of_mesh(test::torus(16, 8), 0.3);
-  const QueryShape cube_mesh = of_mesh(test::cube(), std::sqrt(3.0));  // edges of 1 m
+  const QueryShape mesh = query_mesh(test::torus(16, 8), 0.3);
+  const QueryShape cube_mesh = query_mesh(test::cube(), std::sqrt(3.0));  // edges of 1 m
   const double radius = 0.01;
   for (int i = 0; i < 1'000; ++i) {
     const Placement at = drawn_placement(random, 0.25), other = drawn_placement(random, 0.25);
@@ -220,10 +212,10 @@ TEST(PairQuery, MeshesAreAsFarFromBoxesAndCapsulesAsTheirNearestTriangle) {
 }
 
 TEST(PairQuery, WhatIsWithinAClosedMeshOverlapsIt) {
-  const QueryShape mesh = of_mesh(test::cube(), std::sqrt(3.0));
+  const QueryShape mesh = query_mesh(test::cube(), std::sqrt(3.0));
   for (const QueryShape& small :
-       {QueryShape::box({0.1, 0.1, 0.1}), QueryShape::sphere(0.05), of_mesh(test::torus(8, 6), 0.1),
-        of_solid(CylinderShape{0.05, 0.1})}) {
+       {QueryShape::box({0.1, 0.1, 0.1}), QueryShape::sphere(0.05),
+        query_mesh(test::torus(8, 6), 0.1), query_solid(CylinderShape{0.05, 0.1})}) {
     const Placement at{{0.3, 0.1, 0.0}, Matrix3d::Identity()};
     const PairMeasure m = measure_pair(mesh, {}, small, at);
     EXPECT_EQ(m.overlap, Overlap::yes);
@@ -242,15 +234,15 @@ TEST(PairQuery, WhatIsWithinAClosedMeshOverlapsIt) {
 TEST(PairQuery, BoundsOfASolidHoldTheTruth) {
   std::mt19937_64 random(7);
   // The same box as a solid and as a box; a ball likewise.
-  const QueryShape solid_box = of_solid([] {
+  const QueryShape solid_box = query_solid([] {
     CsgShape box;
     box.parts.push_back({CsgOperation::add, BoxShape{{0.2, 0.3, 0.1}}});
     return box;
   }());
   const QueryShape box = QueryShape::box({0.2, 0.3, 0.1});
-  const QueryShape solid_ball = of_solid(EllipsoidShape{{0.1, 0.1, 0.1}});
+  const QueryShape solid_ball = query_solid(EllipsoidShape{{0.1, 0.1, 0.1}});
   const QueryShape ball = QueryShape::sphere(0.1);
-  const QueryShape mesh = of_mesh(test::cube(), 0.2);
+  const QueryShape mesh = query_mesh(test::cube(), 0.2);
   const std::vector<QueryShape> others{
       ball,      QueryShape::capsule(0.02, 0.3),     QueryShape::box({0.1, 0.4, 0.02}),
       mesh,      QueryShape::below_plane({0, 0, 1}), solid_box,

@@ -22,22 +22,22 @@ using Eigen::Vector3d;
 using test::drawn_point;
 using test::uniform;
 
-constexpr double kTick = 0.01;  // [s]
+constexpr double kQueueTick = 0.01;  // [s]
 
-struct Ball {
+struct Roamer {
   Vector3d position, velocity;
   double radius;
 };
 
-std::vector<Ball> drawn_balls(std::mt19937_64& random, std::size_t count, double reach) {
-  std::vector<Ball> balls;
+std::vector<Roamer> drawn_roamers(std::mt19937_64& random, std::size_t count, double reach) {
+  std::vector<Roamer> balls;
   for (std::size_t i = 0; i < count; ++i)
     balls.push_back(
         {drawn_point(random, reach), drawn_point(random, 1.0), uniform(random, 0.1, 0.5)});
   return balls;
 }
 
-BodyMotion motion_of(const Ball& ball, double now) {
+BodyMotion motion_of(const Roamer& ball, double now) {
   BodyMotion motion;
   motion.time = now;
   motion.position = ball.position;
@@ -47,7 +47,7 @@ BodyMotion motion_of(const Ball& ball, double now) {
 }
 
 /// Each pair that overlaps at this time, by comparing all.
-std::set<std::pair<std::uint32_t, std::uint32_t>> overlapping(const std::vector<Ball>& balls) {
+std::set<std::pair<std::uint32_t, std::uint32_t>> overlapping(const std::vector<Roamer>& balls) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (std::uint32_t j = 1; j < balls.size(); ++j)
     for (std::uint32_t i = 0; i < j; ++i)
@@ -56,7 +56,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> overlapping(const std::vector<
   return pairs;
 }
 
-int missed(std::span<const BoxPair> due, const std::vector<Ball>& balls) {
+int missed(std::span<const BoxPair> due, const std::vector<Roamer>& balls) {
   int count = 0;
   for (const auto& [i, j] : overlapping(balls))
     count += std::find(due.begin(), due.end(), BoxPair{i, j}) == due.end() ? 1 : 0;
@@ -67,15 +67,15 @@ int missed(std::span<const BoxPair> due, const std::vector<Ball>& balls) {
 // reports.
 TEST(PairQueue, MissesNothingOfASparseSceneWithATenthOfTheTests) {
   std::mt19937_64 random(1);
-  std::vector<Ball> balls = drawn_balls(random, 150, 30.0);
+  std::vector<Roamer> balls = drawn_roamers(random, 150, 30.0);
   PairQueue queue(balls.size());
   for (std::uint32_t i = 0; i < balls.size(); ++i) queue.report(i, motion_of(balls[i], 0.0), 0.0);
-  constexpr int kTicks = 2'000;
+  constexpr int kQueueTicks = 2'000;
   std::size_t overlaps = 0;
   int misses = 0;
-  for (int tick = 1; tick <= kTicks; ++tick) {
-    const double now = tick * kTick;
-    for (Ball& ball : balls) ball.position += kTick * ball.velocity;
+  for (int tick = 1; tick <= kQueueTicks; ++tick) {
+    const double now = tick * kQueueTick;
+    for (Roamer& ball : balls) ball.position += kQueueTick * ball.velocity;
     for (std::uint32_t i = 0; i < balls.size(); ++i) {
       if (random() % 200 != 0) continue;
       balls[i].velocity = drawn_point(random, 1.0);
@@ -84,7 +84,7 @@ TEST(PairQueue, MissesNothingOfASparseSceneWithATenthOfTheTests) {
     misses += missed(queue.due(now), balls);
     overlaps += overlapping(balls).size();
   }
-  const double sweep = kTicks * 150.0 * 149.0 / 2.0;
+  const double sweep = kQueueTicks * 150.0 * 149.0 / 2.0;
   EXPECT_EQ(misses, 0);
   EXPECT_GT(overlaps, 100u);
   EXPECT_LT(static_cast<double>(queue.tests()), sweep / 10.0)
@@ -96,7 +96,7 @@ TEST(PairQueue, MissesNothingOfASparseSceneWithATenthOfTheTests) {
 TEST(PairQueue, MissesNothingOfBodiesThatKeepToTheirBounds) {
   std::mt19937_64 random(2);
   for (const double most_speed : {2.0, 1e9}) {
-    std::vector<Ball> balls = drawn_balls(random, 60, 8.0);
+    std::vector<Roamer> balls = drawn_roamers(random, 60, 8.0);
     PairQueue queue(balls.size());
     for (std::uint32_t i = 0; i < balls.size(); ++i) {
       BodyMotion motion = motion_of(balls[i], 0.0);
@@ -107,14 +107,14 @@ TEST(PairQueue, MissesNothingOfBodiesThatKeepToTheirBounds) {
     int misses = 0;
     std::size_t overlaps = 0;
     for (int tick = 1; tick <= 1'000; ++tick) {
-      for (Ball& ball : balls) {
+      for (Roamer& ball : balls) {
         // Towards the middle, so that there is something to meet.
         const Vector3d push = 0.5 * -ball.position.normalized();
-        ball.position += kTick * ball.velocity + 0.5 * kTick * kTick * push;
-        ball.velocity += kTick * push;
+        ball.position += kQueueTick * ball.velocity + 0.5 * kQueueTick * kQueueTick * push;
+        ball.velocity += kQueueTick * push;
         if (ball.velocity.norm() > 2.0) ball.velocity *= 2.0 / ball.velocity.norm();
       }
-      misses += missed(queue.due(tick * kTick), balls);
+      misses += missed(queue.due(tick * kQueueTick), balls);
       overlaps += overlapping(balls).size();
     }
     EXPECT_EQ(misses, 0);
@@ -187,12 +187,12 @@ TEST(PairQueue, ReturnsAPairAsLongAsItIsDueAndNoBodyThatIsNotThere) {
 
 TEST(PairQueue, AllocatesNothing) {
   std::mt19937_64 random(4);
-  std::vector<Ball> balls = drawn_balls(random, 40, 1.0);
+  std::vector<Roamer> balls = drawn_roamers(random, 40, 1.0);
   PairQueue queue(balls.size());
   const test::AllocationGuard guard;
   for (std::uint32_t i = 0; i < balls.size(); ++i) queue.report(i, motion_of(balls[i], 0.0), 0.0);
   std::size_t due = 0;
-  for (int tick = 0; tick < 10; ++tick) due += queue.due(tick * kTick).size();
+  for (int tick = 0; tick < 10; ++tick) due += queue.due(tick * kQueueTick).size();
   EXPECT_EQ(guard.count(), 0u);
   EXPECT_GT(due, 0u);
 }

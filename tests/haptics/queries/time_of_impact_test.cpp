@@ -13,7 +13,6 @@
 
 #include "reckon/tests/haptics/support/pair_oracles.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
-#include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -24,7 +23,7 @@ using test::drawn_placement;
 using test::drawn_point;
 using test::uniform;
 
-constexpr double kTolerance = 1e-6;
+constexpr double kImpactTolerance = 1e-6;
 
 Motion moving(const Placement& start, const Vector3d& velocity,
               const Vector3d& turn_rate = Vector3d::Zero()) {
@@ -36,10 +35,10 @@ TEST(TimeOfImpact, OfABallThatFallsOnAPlaneIsTheClosedForm) {
     const Placement above{{3.0, 2.0, 1.25}, Matrix3d::Identity()};
     const ImpactTime found = time_of_impact(
         QueryShape::sphere(0.25), moving(above, {5.0, 0.0, -speed}, {0.0, 70.0, 0.0}),
-        QueryShape::below_plane(Vector3d::UnitZ()), {}, 1e4, kTolerance);
+        QueryShape::below_plane(Vector3d::UnitZ()), {}, 1e4, kImpactTolerance);
     ASSERT_EQ(found.outcome, Impact::hit);
     EXPECT_LE(found.time, 1.0 / speed);
-    EXPECT_NEAR(found.time, 1.0 / speed, kTolerance / speed * (1 + 1e-9));
+    EXPECT_NEAR(found.time, 1.0 / speed, kImpactTolerance / speed * (1 + 1e-9));
   }
 }
 
@@ -61,12 +60,12 @@ TEST(TimeOfImpact, OfAlignedBoxesIsTheClosedForm) {
     }
     const ImpactTime found =
         time_of_impact(QueryShape::box(2 * half_a), {}, QueryShape::box(2 * half_b),
-                       moving({from, Matrix3d::Identity()}, velocity), 1.0, kTolerance);
+                       moving({from, Matrix3d::Identity()}, velocity), 1.0, kImpactTolerance);
     if (enter < leave) {
       ++hits;
       ASSERT_NE(found.outcome, Impact::none) << i;
       ASSERT_LE(found.time, enter) << i;
-      ASSERT_LE(found.measure.distance.most, kTolerance) << i;
+      ASSERT_LE(found.measure.distance.most, kImpactTolerance) << i;
     }
     unknown += found.outcome == Impact::unknown ? 1 : 0;
   }
@@ -87,8 +86,8 @@ TEST(TimeOfImpact, OfTurningBoxesIsNeverLaterThanTheContactAndNear) {
         moving(drawn_placement(random, 0.5), drawn_point(random, 1.0), drawn_point(random, 6.0));
     b.start.position.x() += 0.8;
     b.velocity.x() -= 1.5;
-    const ImpactTime found = time_of_impact(QueryShape::box(2 * half), a,
-                                            QueryShape::box(2 * other_half), b, 1.0, kTolerance);
+    const ImpactTime found = time_of_impact(
+        QueryShape::box(2 * half), a, QueryShape::box(2 * other_half), b, 1.0, kImpactTolerance);
     const auto gap = [&](double t) {
       return test::projected_gap({a.at(t), half}, {b.at(t), other_half});
     };
@@ -113,7 +112,7 @@ TEST(TimeOfImpact, OfTurningBoxesIsNeverLaterThanTheContactAndNear) {
       ++hits;
       const double distance =
           test::box_box_distance({a.at(found.time), half}, {b.at(found.time), other_half});
-      ASSERT_LE(distance, kTolerance * 1.001) << i;
+      ASSERT_LE(distance, kImpactTolerance * 1.001) << i;
       ASSERT_GT(distance, 0.0) << i;
     } else if (found.outcome == Impact::unknown) {
       ++unknown;
@@ -126,16 +125,10 @@ TEST(TimeOfImpact, OfTurningBoxesIsNeverLaterThanTheContactAndNear) {
 
 TEST(TimeOfImpact, OfAnyPairIsNeverLaterThanTheContact) {
   std::mt19937_64 random(3);
-  const auto solid = [](const auto& shape) {
-    return QueryShape(ContactShape(std::make_shared<const ImplicitSolid>(shape)));
-  };
-  const auto mesh = [](const test::MeshData& data, double size) {
-    return QueryShape(
-        ContactShape(std::make_shared<const SurfaceMesh>(test::make_mesh(data, size))));
-  };
   const std::vector<QueryShape> shapes{
-      QueryShape::box({0.2, 0.1, 0.15}), QueryShape::sphere(0.1), QueryShape::capsule(0.03, 0.3),
-      mesh(test::torus(16, 8), 0.3),     mesh(test::cube(), 0.3), solid(CylinderShape{0.1, 0.1})};
+      QueryShape::box({0.2, 0.1, 0.15}),   QueryShape::sphere(0.1),
+      QueryShape::capsule(0.03, 0.3),      test::query_mesh(test::torus(16, 8), 0.3),
+      test::query_mesh(test::cube(), 0.3), test::query_solid(CylinderShape{0.1, 0.1})};
   int hits = 0, all = 0;
   for (const QueryShape& a : shapes) {
     for (const QueryShape& b : shapes) {

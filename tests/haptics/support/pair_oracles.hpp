@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Distances by closed forms and by comparison of all features, sharing no code with the library.
+// Distances by closed forms and by comparison of all features, sharing no code with the library;
+// and drawn shapes and places.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +10,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/queries/query_shape.hpp"
+#include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::test {
 
@@ -36,6 +40,18 @@ inline Matrix3d drawn_rotation(std::mt19937_64& random) {
 
 inline haptics::Placement drawn_placement(std::mt19937_64& random, double reach) {
   return {drawn_point(random, reach), drawn_rotation(random)};
+}
+
+/// A mesh of that bounding-box diagonal [m].
+inline haptics::QueryShape query_mesh(const MeshData& data, double size) {
+  return haptics::QueryShape(
+      haptics::ContactShape(std::make_shared<const haptics::SurfaceMesh>(make_mesh(data, size))));
+}
+
+template <class Shape>
+haptics::QueryShape query_solid(const Shape& shape) {
+  return haptics::QueryShape(
+      haptics::ContactShape(std::make_shared<const haptics::ImplicitSolid>(shape)));
 }
 
 /// A box as its eight corners and three axes.
