@@ -61,14 +61,29 @@ class BoundingVolumeTree {
   template <class Visit>
   void overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const;
 
+  /// A box of the tree, for searches of one's own, such as of two trees at once.
+  struct Branch {
+    Eigen::AlignedBox3d box;  ///< [m], around all that is in it
+    std::uint32_t first = 0;  ///< place in order(); without items the number of a node
+    std::uint32_t count = 0;  ///< items; 0: visit_children(first, ..)
+  };
+
+  /// Around all items. Not for a tree without any.
+  [[nodiscard]] Branch root() const noexcept { return {bounds_, 0, 0}; }
+
+  /// Calls visit(const Branch&) for each of the one to four branches of a node.
+  template <class Visit>
+  void visit_children(std::uint32_t node, Visit&& visit) const;
+
   /// Levels below the root.
   [[nodiscard]] int depth() const noexcept { return depth_; }
+  /// Levels below any root, at most.
+  static constexpr int kMaxDepth = 60;
 
  private:
   using Float4 = float __attribute__((vector_size(16)));
   static constexpr std::size_t kWidth = 4;
   static constexpr std::uint32_t kLeafItems = 4;
-  static constexpr int kMaxDepth = 60;
   static constexpr std::size_t kStack = (kWidth - 1) * kMaxDepth + kWidth;
 
   /// Four children. With count 0 the child is a node, else a leaf of count items from place child
@@ -271,6 +286,23 @@ void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, Visit&& vis
         stack[top++] = node.child[lane];
       }
     }
+  }
+}
+
+template <class Visit>
+void BoundingVolumeTree::visit_children(std::uint32_t node, Visit&& visit) const {
+  const Node& parent = nodes_[node];
+  for (std::size_t lane = 0; lane < kWidth; ++lane) {
+    if (!(parent.lower[0][lane] <= parent.upper[0][lane])) continue;  // unused
+    Branch branch;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      branch.box.min()[i] = static_cast<double>(parent.lower[axis][lane]) / scale_ + centre_[i];
+      branch.box.max()[i] = static_cast<double>(parent.upper[axis][lane]) / scale_ + centre_[i];
+    }
+    branch.first = parent.child[lane];
+    branch.count = parent.count[lane];
+    visit(branch);
   }
 }
 

@@ -71,6 +71,9 @@ class SurfaceMesh {
   /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
 
+  /// The tree that searches them.
+  [[nodiscard]] const BoundingVolumeTree& tree() const noexcept { return tree_; }
+
   /// Names of the file's materials and groups, in the order of their first appearance.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
   /// Names of each triangle, in the tree's order; empty if the file has none.

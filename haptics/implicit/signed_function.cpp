@@ -106,6 +106,7 @@ SignedFunction::SignedFunction(const Primitive& primitive, const Eigen::Isometry
   leaf.orientation = place.linear();
   leaf.position = place.translation();
   nodes_.push_back(leaf);
+  note_levels();
   bounds_ = std::visit([&](const auto& solid) { return placed(solid.bounds(), place); }, primitive);
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "reckon/haptics/geometry/implicit_solid.hpp"
+#include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
 namespace reckon::haptics {

@@ -11,6 +11,7 @@
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
+#include "reckon/tools/verbs/scene_bodies.hpp"
 #include "reckon/tools/verbs/scene_explain.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_stiffness.hpp"
@@ -91,7 +92,10 @@ int check(const std::vector<std::string>& files, bool json, const Console& conso
   ExitCode worst = ExitCode::good;
   for (const std::string& path : files) {
     try {
-      print_good(path, load_whole_scene(path), json, console.out);
+      const LoadedScene scene = load_whole_scene(path);
+      if (std::vector<peer::SceneProblem> crowded = crowded_bodies(scene.plan); !crowded.empty())
+        throw peer::SceneFileError(path, std::move(crowded));
+      print_good(path, scene, json, console.out);
     } catch (const peer::SceneFileError& error) {
       print_problems(path, error, json, console.out);
       worst = ExitCode::findings;

@@ -213,6 +213,66 @@ TEST(SceneCheck, IsContentWithTheScenesOfTheProject) {
   EXPECT_GE(scenes, 5U);
 }
 
+// The table's top is at 10 mm; a cube of 40 mm rests on it at 30 mm.
+std::string bodies_on_a_table(const std::string& cube2_at, const std::string& more = "") {
+  const auto cube = [](const std::string& name, const std::string& at) {
+    return fmt::format(
+        "[[object]]\nname = \"{}\"\nbox = \"40 40 40 mm\"\nposition = \"{}\"\nmass = \"50 g\"\n"
+        "surface = {{stiffness = \"400 N/m\"}}\n",
+        name, at);
+  };
+  return "[[object]]\nname = \"table\"\nbox = \"1 1 0.02 m\"\n" + cube("cube1", "0 0 30 mm") +
+         cube("cube2", cube2_at) + more +
+         "[[operator]]\npassive = true\nposition = \"0 0 300 mm\"\n[[device]]\npeer = 1\n";
+}
+
+TEST(SceneCheck, TellsWhichBodiesBeginInsideAnotherAndHowToPartThem) {
+  const TemporaryScene scene(bodies_on_a_table("3 0 66.9 mm"));
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, scene.path() +
+                            ": object 'cube2' begins 3.1 mm deep in 'cube1', and they will spring "
+                            "apart: move 'cube2' by 3.1 mm along +z\n");
+  const auto json = run_reckon({"scene", "check", "--json", scene.path()});
+  EXPECT_EQ(json.status, 1);
+  EXPECT_THAT(nlohmann::json::parse(json.out)["problem"].get<std::string>(),
+              StartsWith("object 'cube2' begins 3.1 mm deep"));
+}
+
+TEST(SceneCheck, IsContentWithBodiesThatRestOnOneAnother) {
+  for (const char* place : {"0 0 70 mm", "0 0 69.991 mm", "40 0 30 mm", "0 0 90 mm"}) {
+    const TemporaryScene scene(bodies_on_a_table(place));
+    const auto result = run_reckon({"scene", "check", scene.path()});
+    EXPECT_EQ(result.status, 0) << place << ": " << result.out;
+  }
+  const TemporaryScene deeper(bodies_on_a_table("0 0 69.989 mm"));
+  EXPECT_EQ(run_reckon({"scene", "check", deeper.path()}).status, 1);
+}
+
+TEST(SceneCheck, TellsOfBodiesInPlanesAndMeshesAndNotOfWhatStandsStill) {
+  const TemporaryScene floor(bodies_on_a_table(
+      "200 0 30 mm",
+      "[[object]]\nname = \"ground\"\nplane = \"0 0 1\"\nposition = \"0 0 15 mm\"\n"));
+  const auto below = run_reckon({"scene", "check", floor.path()});
+  EXPECT_EQ(below.status, 1);
+  EXPECT_THAT(below.out, HasSubstr("'cube1' begins 5 mm deep in 'ground'"));
+  EXPECT_THAT(below.out, HasSubstr("move 'cube2' by 5 mm along +z"));
+  EXPECT_THAT(below.out, Not(HasSubstr("table")));
+
+  // A stone of 1 m from (0, 0, 10 m) on, a ball 0.2 m below its top.
+  const test::TemporaryMesh stone(".obj", test::obj_text(test::cube()));
+  const TemporaryScene within(bodies_on_a_table(
+      "200 0 30 mm",
+      fmt::format("[[object]]\nname = \"stone\"\nmesh = \"{}\"\nposition = \"0 0 10 m\"\n"
+                  "[[object]]\nname = \"lost\"\nsphere = \"100 mm\"\n"
+                  "position = \"0.5 0.4 10.8 m\"\nmass = \"1 kg\"\n",
+                  stone.path().string())));
+  const auto lost = run_reckon({"scene", "check", within.path()});
+  EXPECT_EQ(lost.status, 1) << lost.out;
+  EXPECT_THAT(lost.out, HasSubstr("'lost' begins 300 mm deep in 'stone'"));
+  EXPECT_THAT(lost.out, HasSubstr("move 'lost' by 300 mm along +z"));
+}
+
 TEST(SceneCheck, GivesOneJsonObjectALine) {
   const TemporaryScene good(kPlain);
   const TemporaryScene bad("[scene]\nnane = 3\n");

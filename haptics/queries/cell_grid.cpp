@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/queries/cell_grid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+// Farther from the origin than so many cells a place has no number.
+constexpr double kMostCells = 4e18;
+
+std::uint64_t mixed(std::uint64_t x) {
+  x ^= x >> 32;
+  x *= 0x9E3779B97F4A7C15u;
+  return x ^ (x >> 29);
+}
+
+bool meet(const AlignedBox3d& a, const AlignedBox3d& b) {
+  return (a.min().array() <= b.max().array()).all() && (b.min().array() <= a.max().array()).all();
+}
+
+bool is_box(const AlignedBox3d& box) { return (box.min().array() <= box.max().array()).all(); }
+
+}  // namespace
+
+CellGrid::CellGrid(std::size_t numbers) {
+  grow_to(std::max<std::size_t>(numbers, 1));
+  pairs_.reserve(numbers);
+}
+
+// Of its lower corner, at the level whose cells are at least as large.
+CellGrid::Cell CellGrid::cell_of(const AlignedBox3d& box) noexcept {
+  if (!is_box(box)) return {};
+  const Cell everywhere{0, 0, 0, kEverywhere};
+  const double edge = box.sizes().maxCoeff();
+  int power = kLeastPower;
+  if (edge > 0.0 && std::isfinite(edge))
+    power = std::max(kLeastPower, static_cast<int>(std::ilogb(edge)) + 1);
+  const int level = power - kLeastPower;
+  if (!std::isfinite(edge) || level >= kLevels) return everywhere;
+  const Vector3d at = (box.min() * std::ldexp(1.0, -power)).array().floor();
+  if (!(at.cwiseAbs().maxCoeff() < kMostCells)) return everywhere;
+  return {static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()),
+          static_cast<std::int64_t>(at.z()), level};
+}
+
+std::uint32_t& CellGrid::bucket_of(const Cell& cell) noexcept {
+  const auto part = [](std::int64_t x) { return static_cast<std::uint64_t>(x); };
+  const std::uint64_t hash =
+      mixed(part(cell.x) * 73856093u + part(cell.y) * 19349663u + part(cell.z) * 83492791u +
+            static_cast<std::uint64_t>(cell.level) * 2654435761u);
+  return buckets_[hash & (buckets_.size() - 1)];
+}
+
+void CellGrid::grow_to(std::size_t numbers) {
+  if (numbers <= entries_.size()) return;
+  entries_.resize(std::max(numbers, entries_.size() + entries_.size() / 2));
+  const std::size_t buckets = std::bit_ceil(2 * entries_.size());
+  if (buckets <= buckets_.size()) return;
+  buckets_.assign(buckets, kNone);
+  for (std::uint32_t i = 0; i < entries_.size(); ++i)
+    if (entries_[i].cell.level >= 0) link(i);
+}
+
+void CellGrid::link(std::uint32_t number) noexcept {
+  Entry& entry = entries_[number];
+  std::uint32_t& first = bucket_of(entry.cell);
+  entry.before = kNone;
+  entry.after = first;
+  if (first != kNone) entries_[first].before = number;
+  first = number;
+}
+
+void CellGrid::unlink(std::uint32_t number) noexcept {
+  const Entry& entry = entries_[number];
+  (entry.before == kNone ? bucket_of(entry.cell) : entries_[entry.before].after) = entry.after;
+  if (entry.after != kNone) entries_[entry.after].before = entry.before;
+}
+
+void CellGrid::place(std::uint32_t number, const AlignedBox3d& box) {
+  grow_to(std::size_t{number} + 1);
+  Entry& entry = entries_[number];
+  const Cell cell = cell_of(box);
+  entry.box = box;
+  if (cell == entry.cell) return;
+  remove(number);
+  if (cell.level < 0) return;
+  entry.cell = cell;
+  link(number);
+  ++size_;
+  if (in_level_[static_cast<std::size_t>(cell.level)]++ == 0)
+    levels_ |= std::uint64_t{1} << cell.level;
+}
+
+void CellGrid::remove(std::uint32_t number) noexcept {
+  if (number >= entries_.size() || entries_[number].cell.level < 0) return;
+  Cell& cell = entries_[number].cell;
+  unlink(number);
+  --size_;
+  if (--in_level_[static_cast<std::size_t>(cell.level)] == 0)
+    levels_ &= ~(std::uint64_t{1} << cell.level);
+  cell = {};
+}
+
+std::span<const BoxPair> CellGrid::overlaps() {
+  pairs_.clear();
+  for (std::uint32_t i = 0; i < entries_.size(); ++i)
+    if (entries_[i].cell.level >= 0) find_pairs_of(i);
+  return pairs_;
+}
+
+// Of a box with those of its own size and of larger ones: the smaller box looks for the larger.
+void CellGrid::find_pairs_of(std::uint32_t number) {
+  const int own = entries_[number].cell.level;
+  for (std::uint64_t left = levels_ >> own << own; left != 0; left &= left - 1) {
+    const int level = std::countr_zero(left);
+    if (level == kEverywhere) {
+      find_in_cell(number, {0, 0, 0, kEverywhere});
+    } else {
+      find_in_level(number, level);
+    }
+  }
+}
+
+// The lower corner of a box that meets this one lies within one cell below, and not above it.
+void CellGrid::find_in_level(std::uint32_t number, int level) {
+  const Entry& entry = entries_[number];
+  const double scale = std::ldexp(1.0, -(level + kLeastPower));
+  const Vector3d low = (entry.box.min() * scale).array().floor() - 1.0;
+  const Vector3d high = (entry.box.max() * scale).array().floor();
+  const auto index = [](double x) { return static_cast<std::int64_t>(x); };
+  const bool same = level == entry.cell.level;
+  Cell cell;
+  cell.level = level;
+  // Among boxes of one size the one in the lesser cell looks for the other.
+  for (cell.x = same ? entry.cell.x : index(low.x()); cell.x <= index(high.x()); ++cell.x) {
+    const bool level_x = same && cell.x == entry.cell.x;
+    for (cell.y = level_x ? entry.cell.y : index(low.y()); cell.y <= index(high.y()); ++cell.y) {
+      const bool level_y = level_x && cell.y == entry.cell.y;
+      for (cell.z = level_y ? entry.cell.z : index(low.z()); cell.z <= index(high.z()); ++cell.z)
+        find_in_cell(number, cell);
+    }
+  }
+}
+
+void CellGrid::find_in_cell(std::uint32_t number, const Cell& cell) {
+  const Entry& entry = entries_[number];
+  const bool own = cell == entry.cell;
+  for (std::uint32_t i = bucket_of(cell); i != kNone; i = entries_[i].after) {
+    const Entry& other = entries_[i];
+    if (other.cell == cell && (!own || i > number) && meet(entry.box, other.box)) note(number, i);
+  }
+}
+
+void CellGrid::note(std::uint32_t one, std::uint32_t other) {
+  pairs_.push_back({std::min(one, other), std::max(one, other)});
+}
+
+}  // namespace reckon::haptics

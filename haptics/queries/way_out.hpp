@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A short translation that parts two shapes that overlap, for tools that tell a remedy.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "reckon/haptics/queries/query_shape.hpp"
+
+namespace reckon::haptics {
+
+/// Translation of the second shape.
+struct WayOut {
+  double way = std::numeric_limits<double>::infinity();  ///< [m]; 0: they do not overlap
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit, S
+};
+
+/// Surely parts the shapes: of two boxes, balls, capsules, planes the least translation, within
+/// rounding. Of others the shortest that was found along the axes of both shapes and of S, and to
+/// the nearest surface; it may be longer than the least. Up to 1 um is left between the shapes
+/// then. Infinite if an unbounded solid leaves none. Up to 20 times time_of_impact() and 180 times
+/// measure_pair(); noexcept, no allocation.
+[[nodiscard]] WayOut way_out(const QueryShape& a, const Placement& a_at, const QueryShape& b,
+                             const Placement& b_at) noexcept;
+
+}  // namespace reckon::haptics
