@@ -101,6 +101,7 @@ Section<haptics::SceneObject> object_section() {
   using Object = haptics::SceneObject;
   const auto patches = [](const Object& object) { return object.patches; };
   const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
+  const auto no_node = [](const Object&) { return std::string(); };
   Section<Object> section{{
                               {"name", &Object::name, "required; unlike all others"},
                               {"mesh", of_shape(&haptics::MeshShape::file),
@@ -120,9 +121,10 @@ Section<haptics::SceneObject> object_section() {
       {"centre", of_shape(&haptics::MeshShape::centre),
        "mesh: the middle of its bounding box becomes its origin"},
       {"position", in(&Object::pose, &haptics::ObjectPose::position), within("m", -kWorld, kWorld),
-       "of its origin in S"},
+       "of its origin, in S or in its node"},
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
-       "turned about S's x, then y, then z axis"},
+       "turned about x, then y, then z axis of S or of its node"},
+      {"node", no_node, "the [[node]] that it hangs on; absent: none, it stands in S"},
       {"mass", in(&Object::matter, &haptics::Matter::mass), declared("kg", 1e-3, 1e3),
        "of a box or sphere: it is a body, and moves when it is pushed; absent: it stands still"},
       {"body_friction", in(&Object::matter, &haptics::Matter::friction), within("", 0, 10),

@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "reckon/peer/scene/node_section.hpp"
 #include "reckon/peer/scene/scene_extent.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
@@ -135,14 +136,17 @@ void check_bodies(TomlReader& file, const SceneFile& scene) {
 void check_file(TomlReader& file, SceneFile& out) {
   const Section<haptics::SceneObject> section = object_section();
   std::set<std::string> names;
+  std::vector<std::string> hung_on;
   for (TomlReader& table : file.tables("object")) {
     haptics::SceneObject& object = out.scene.objects.emplace_back();
     section.read(table, object);
+    table.read("node", hung_on.emplace_back());
     if (!object.name.empty() && !names.insert(object.name).second) {
       table.problem("name", fmt::format("there is another object '{}': give it a name of its own",
                                         object.name));
     }
   }
+  hang_objects(file, hung_on, out);
   read_regions(file, out);
   read_devices(file, out);
   read_entities(file, out);

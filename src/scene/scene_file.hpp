@@ -13,6 +13,7 @@
 
 #include "reckon/haptics/scene/scene.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/scene/scene_nodes.hpp"
 
 namespace reckon::peer {
 
@@ -22,6 +23,8 @@ struct SceneFile {
   std::filesystem::path path;  ///< as given; empty when parsed from text
   OriginConfig origin;
   haptics::Scene scene;  ///< the objects and exactly the effects that the file declares
+  std::vector<NodeConfig> node_tables;  ///< as written, copies not expanded
+  SceneNodes nodes;                     ///< what they come to, and which objects hang on it
   HandModel hand;
   std::vector<OperatorConfig> operators;  ///< one per simulated hand, in the file's order
   std::vector<EntityConfig> entities;     ///< of all peers, in the file's order
@@ -32,9 +35,9 @@ struct SceneFile {
   NetworkConfig network;
   ImpairmentConfig impairment;
   CouplingConfig coupling;
-  /// Hash of what peers must share: origin, objects with the content of their meshes, effects,
-  /// cells and pool, the reading of accelerations. Comments, order of keys, units and settings of a
-  /// single peer do not change it.
+  /// Hash of what peers must share: origin, objects with the content of their meshes, nodes,
+  /// effects, cells and pool, the reading of accelerations. Comments, order of keys, units and
+  /// settings of a single peer do not change it.
   std::uint64_t hash = 0;
 };
 

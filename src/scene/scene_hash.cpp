@@ -214,6 +214,30 @@ void add_bodies(Hash& hash, const haptics::Scene& scene) {
   }
 }
 
+void add(Hash& hash, const NodeMotion& motion) {
+  hash.fact("turn_axis", motion.turn_axis.normalized());
+  hash.fact("turn_rate", motion.turn_rate);
+  hash.fact("swing", motion.swing);
+  hash.fact("swing_rate", motion.swing_rate);
+  hash.fact("swing_phase", motion.swing_phase);
+}
+
+/// Copies expanded, so that it does not matter whether a file writes them out.
+void add(Hash& hash, const SceneGraph& graph) {
+  for (NodeIndex node = 0; node < graph.size(); ++node) {
+    hash.fact("node", graph.name(node));
+    if (graph.parent(node) != kNoNode) hash.fact("parent", graph.name(graph.parent(node)));
+    hash.fact("kind", word_of(graph.kind(node)));
+    hash.fact("position", graph.rest(node).position);
+    add(hash, graph.rest(node).orientation);
+    hash.fact("scale", graph.rest(node).scale);
+    if (const NodeMotion* const motion = graph.motion(node)) add(hash, *motion);
+    if (graph.kind(node) == NodeKind::switch_ && graph.chosen(node) != kNoNode)
+      hash.fact("shows", graph.name(graph.chosen(node)));
+    if (std::isfinite(graph.farthest(node))) hash.fact("farthest", graph.farthest(node));
+  }
+}
+
 void add(Hash& hash, const haptics::SceneRegion& region) {
   hash.fact("region", region.name);
   if (region.shape) std::visit([&](const auto& shape) { add(hash, shape); }, *region.shape);
@@ -247,6 +271,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   }
   for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
   add_bodies(hash, file.scene);
+  add(hash, file.nodes.graph);
   for (const haptics::SceneRegion& region : file.scene.regions) add(hash, region);
   return hash.value();
 }

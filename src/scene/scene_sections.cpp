@@ -9,6 +9,8 @@
 #include <numbers>
 #include <type_traits>
 
+#include "reckon/peer/scene/node_section.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -215,6 +217,8 @@ const Section<SceneFile>& file_section() {
       {
           {"scene", std::identity(), scene_section(), "the world: its name and its place on Earth"},
           {"object", objects, object_section(), "one thing to touch; none is an empty world"},
+          {"node", &SceneFile::node_tables, node_section(),
+           "a frame that objects and other nodes hang on: docs/scene_graph.md"},
           {"region", regions, region_section(),
            "a part of space, or all of it, in which a device feels a force and touches nothing"},
           {"hand", &SceneFile::hand, hand_section(),

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/haptics/geometry/shape.hpp"
+#include "reckon/peer/scene/graph/graph_node.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
 
 namespace reckon::peer {
@@ -41,6 +42,12 @@ inline constexpr auto kWords<DeviceSource> = std::to_array<Word<DeviceSource>>(
 template <>
 inline constexpr auto kWords<DeviceDriver> = std::to_array<Word<DeviceDriver>>(
     {{"simulated", DeviceDriver::simulated}, {"falcon", DeviceDriver::falcon}});
+
+template <>
+inline constexpr auto kWords<NodeKind> =
+    std::to_array<Word<NodeKind>>({{"group", NodeKind::group},
+                                   {"switch", NodeKind::switch_},
+                                   {"level_of_detail", NodeKind::level_of_detail}});
 
 template <>
 inline constexpr auto kWords<haptics::CsgOperation> =

@@ -43,6 +43,8 @@ constexpr std::array kUnits = std::to_array<Unit>({
     {"rad", "deg", kPi, 180, true},
     {"rad", "rad", 1, 1, false},
     {"rad", "mrad", 1, 1000, false},
+    {"rad/s", "rad/s", 1, 1, true},
+    {"rad/s", "deg/s", kPi, 180, false},
     {"N", "N", 1, 1, true},
     {"N", "mN", 1, 1000, true},
     {"N", "kN", 1000, 1, true},

@@ -13,6 +13,7 @@
 #include "reckon/tools/verbs/loaded_scene.hpp"
 #include "reckon/tools/verbs/scene_bodies.hpp"
 #include "reckon/tools/verbs/scene_explain.hpp"
+#include "reckon/tools/verbs/scene_graph_text.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_stiffness.hpp"
 #include "reckon/tools/verbs/scene_template.hpp"
@@ -53,6 +54,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .value("operators", operators)
         .value("devices", devices)
         .value("entities", entities)
+        .value("nodes", node_count(scene.file))
         .text("hash", hash_text(scene.file.hash))
         .array("notes", notes, append_json_string)
         .array("meshes", meshes,
@@ -62,6 +64,8 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
     return fmt::print(out, "{}", text);
   }
   std::string more;
+  if (const std::size_t nodes = node_count(scene.file); nodes > 0)
+    more += ", " + counted(nodes, "node");
   if (devices > 0) more += ", " + counted(devices, "device");
   if (entities > 0) more += fmt::format(", {} {}", entities, entities == 1 ? "entity" : "entities");
   fmt::print(out, "{}: good; {}, {}{}, hash {}\n", path, counted(objects, "object"),

@@ -19,6 +19,7 @@
 #include "reckon/peer/step_cost/stage_costs.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/scene_graph_text.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_peers.hpp"
 #include "reckon/tools/verbs/scene_settings.hpp"
@@ -178,6 +179,11 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   if (!meshes.empty()) fmt::print(out, "\n");
   if (!meshes.empty()) meshes.print(out);
 
+  TextTable graph({{"SCENE GRAPH"}, {""}});
+  for (const auto& [what, how] : scene_graph_rows(scene.file)) graph.add({what, how});
+  if (!graph.empty()) fmt::print(out, "\n");
+  if (!graph.empty()) graph.print(out);
+
   TextTable rest({{"BETWEEN PEERS"}, {""}});
   for (const auto& [what, how] : scene_settings(scene.file)) rest.add({what, how});
   for (const std::string& note :
@@ -231,6 +237,8 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
     append_mesh_json(text, mesh, "mesh");
     text += '\n';
   }
+  for (const auto& [what, how] : scene_graph_rows(scene.file))
+    JsonObject(text).text("kind", "graph").text("what", what).text("value", how).end("\n");
   for (const auto& [what, how] : scene_settings(scene.file)) {
     JsonObject(text).text("kind", "setting").text("what", what).text("value", how).end("\n");
   }

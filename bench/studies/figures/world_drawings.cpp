@@ -30,9 +30,10 @@ Figure drawing_family() {
   d.arrow({{380, 130}, left.right()}, "");
   d.arrow({{380, 130}, right.left()}, "");
   d.text(380, 120, "siblings");
-  return drawn(std::move(d), "Parent, child and sibling in a scene graph.",
-               "Reckon has no scene graph: a scene is a list of objects, each with its pose, solid "
-               "and surface (docs/scene_files.md).");
+  return drawn(
+      std::move(d), "Parent, child and sibling in a scene graph.",
+      "src/scene/graph: of each node its parent and the end of its subtree; the first child "
+      "stands right behind its parent (docs/scene_graph.md).");
 }
 
 Figure drawing_traversal() {
@@ -54,11 +55,12 @@ Figure drawing_traversal() {
                                                      {b, light},
                                                      {b, shape}}};
   for (const auto& [parent, child] : family) d.arrow({parent.bottom(), child.top()});
-  return drawn(std::move(d),
-               "Traversal from top to bottom, left to right; the numbers show the order, once a "
-               "frame.",
-               "Reckon has no scene graph and draws no scene: the order is drawn by the rule in "
-               "the text, the tree is an example of ours.");
+  return drawn(
+      std::move(d),
+      "Traversal from top to bottom, left to right; the numbers show the order, once a "
+      "frame.",
+      "src/scene/graph: nodes are kept in this order, and GraphWalk modifies a state on the "
+      "way; the tree is an example of ours.");
 }
 
 Figure drawing_contact_point() {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/peer/scene/node_section.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -62,6 +63,7 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
   std::vector<MemberPlace> unsaid = {
       of(file.path),
       of(file.scene),    // its objects, which the check of the file reads
+      of(file.nodes),    // what the tables of nodes come to
       of(file.devices),  // and these
       of(file.entities),
       of(file.network.group),  // read with its port
@@ -98,12 +100,14 @@ TEST(SceneSections, FillEveryMemberOfAnOperatorAndOfAnOutage) {
   EXPECT_THAT(without_key(outage_section(), {}), testing::IsEmpty());
 }
 
-TEST(SceneSections, FillEveryMemberOfADeviceAndOfAnEntity) {
+TEST(SceneSections, FillEveryMemberOfADeviceANodeAndAnEntity) {
   const DeviceConfig device;
   EXPECT_THAT(without_key(device_section(), {place_of(device, device.orientation),
                                              place_of(device, device.delay_samples),
                                              place_of(device, device.period)}),
               testing::IsEmpty());
+  const NodeConfig node;
+  EXPECT_THAT(without_key(node_section(), {place_of(node, node.orientation)}), testing::IsEmpty());
   const EntityConfig entity;
   const auto of = [&](const auto& member) { return place_of(entity, member); };
   EXPECT_THAT(
@@ -136,8 +140,8 @@ TEST(SceneSections, SayNoKeyTwice) {
 template <class T>
 class SceneWords : public testing::Test {};
 using TypesWithWords =
-    testing::Types<OperatorKind, DeviceSource, DeviceDriver, pdu::ForceId, pdu::ForceModelKind,
-                   aoim::CellScheme, pdu::CompressedForm, Prediction,
+    testing::Types<NodeKind, OperatorKind, DeviceSource, DeviceDriver, pdu::ForceId,
+                   pdu::ForceModelKind, aoim::CellScheme, pdu::CompressedForm, Prediction,
                    deadreckon::AccelerationReading, std::optional<pdu::DeadReckoningAlgorithm>,
                    const deadreckon::SendRule*, deadreckon::ConvergenceCurve>;
 TYPED_TEST_SUITE(SceneWords, TypesWithWords);

@@ -56,6 +56,39 @@ TEST(SceneExplain, SaysWhoReceivesAnUpdate) {
   EXPECT_THAT(all, HasSubstr("the tier up to 200 m reaches as far as the radius of 90 m"));
 }
 
+TEST(SceneExplain, SaysWhatHangsOnWhat) {
+  const TemporaryScene scene(
+      "[[node]]\nname = \"table\"\n"
+      "[[node]]\nname = \"cup\"\nparent = \"table\"\nkind = \"switch\"\nshows = \"full\"\n"
+      "[[node]]\nname = \"empty\"\nparent = \"cup\"\n"
+      "[[node]]\nname = \"full\"\nparent = \"cup\"\n"
+      "[[node]]\nname = \"cup2\"\nuse = \"cup\"\n"
+      "[[node]]\nname = \"moon\"\nturn_rate = \"90 deg/s\"\nswing = [0, 0, 0.5]\n"
+      "swing_rate = \"2 Hz\"\n"
+      "[[node]]\nname = \"hill\"\nkind = \"level_of_detail\"\n"
+      "[[node]]\nname = \"near\"\nparent = \"hill\"\nfarthest = \"20 m\"\n"
+      "[[node]]\nname = \"far\"\nparent = \"hill\"\n"
+      "[[object]]\nname = \"shell\"\nsphere = \"1 cm\"\nnode = \"empty\"\n"
+      "[[object]]\nname = \"tea\"\nsphere = \"1 cm\"\nnode = \"full\"\n");
+  const auto result = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out,
+              ::testing::ContainsRegex("nodes +11, 5 levels with the scene and its objects"));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("hang on them +4 objects, 2 of them by copies"));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("copy +cup2 of cup"));
+  EXPECT_THAT(result.out, HasSubstr("cup2 shows cup2/full of cup2/empty, cup2/full"));
+  EXPECT_THAT(result.out, HasSubstr("hill: near to 20 m, far at any distance; hands feel near"));
+  EXPECT_THAT(result.out, HasSubstr("moon turns by 90 deg/s about [0, 0, 1], swings by [0, 0, 0.5] "
+                                    "m at 2 Hz, from 0 deg"));
+  EXPECT_THAT(result.out, HasSubstr("shell, cup2/shell: hidden by a switch, or a coarser level"));
+  EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out,
+              HasSubstr("good; 2 objects, 0 operators, 11 nodes, hash"));
+  EXPECT_THAT(run_reckon({"scene", "check", scene.path(), "--json"}).out,
+              HasSubstr("\"nodes\":11,"));
+  const TemporaryScene plain("[[object]]\nname = \"tea\"\nsphere = \"1 cm\"\n");
+  EXPECT_THAT(run_reckon({"scene", "explain", plain.path()}).out, Not(HasSubstr("SCENE GRAPH")));
+}
+
 TEST(SceneExplain, SaysWhatAQuadTreeCosts) {
   const test::ScratchFolder folder;
   std::ofstream sample(folder.file("town.csv"));

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The time function of a node: a closed form, so that every peer has the same pose at the same time
+// and nothing about it is sent.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "reckon/peer/scene/graph/node_pose.hpp"
+
+namespace reckon::peer {
+
+/// A node turns about an axis through its origin and swings along a line, either or both.
+struct NodeMotion {
+  Eigen::Vector3d turn_axis = Eigen::Vector3d::UnitZ();  ///< in the node's axes; any length > 0
+  double turn_rate = 0.0;                                ///< [rad/s], about it by the right hand
+  Eigen::Vector3d swing = Eigen::Vector3d::Zero();       ///< amplitude [m], in the parent's axes
+  double swing_rate = 0.0;                               ///< [Hz], >= 0
+  double swing_phase = 0.0;                              ///< at time 0 [rad]
+
+  /// Whether it moves at all.
+  [[nodiscard]] bool moves() const noexcept;
+};
+
+/// What makes `motion` no time function, as a sentence; nothing: it is one.
+[[nodiscard]] std::optional<std::string> fault_of(const NodeMotion& motion);
+
+/// A pose in the parent and its rate.
+struct MovedPose {
+  NodePose pose;
+  NodeVelocity velocity;  ///< in the parent's axes
+};
+
+/// The pose at `time` of a node that has the pose `rest` without its motion:
+///   position    rest.position + swing sin(2 pi swing_rate t + swing_phase)
+///   orientation rest.orientation * R(turn_axis, turn_rate t)
+/// and the derivative of both. Some 60 ns.
+[[nodiscard]] MovedPose moved(const NodePose& rest, const NodeMotion& motion,
+                              std::chrono::nanoseconds time) noexcept;
+
+}  // namespace reckon::peer

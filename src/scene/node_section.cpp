@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[node]]: frames that objects and other nodes hang on.
+#include "reckon/peer/scene/node_section.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/scene/scene_nodes.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr double kMostTurn = 4 * std::numbers::pi;
+
+void check_node(TomlReader& table, NodeConfig& node) {
+  table.require("name");
+  if (table.has("name") && node.name.empty())
+    table.problem("name", "a node needs a name: give it one");
+  node.orientation = read_orientation(table);
+  if (table.has("use")) {
+    for (const char* key :
+         {"kind", "shows", "turn_axis", "turn_rate", "swing", "swing_rate", "swing_phase"}) {
+      if (table.has(key))
+        table.problem(key, fmt::format("'{}' is that of '{}', which this node is a copy of: take "
+                                       "the line out, or write it at a node above",
+                                       key, node.use));
+    }
+    return;
+  }
+  const bool swings = !node.motion.swing.isZero(0.0);
+  if (swings && node.motion.swing_rate == 0.0)
+    table.problem("swing", "a node that swings needs 'swing_rate' above 0");
+  for (const char* key : {"swing_rate", "swing_phase"}) {
+    if (table.has(key) && !swings)
+      table.problem(key, fmt::format("only a node that swings takes '{}': give it 'swing'", key));
+  }
+  if (table.has("turn_axis") && node.motion.turn_rate == 0.0)
+    table.problem("turn_axis", "a node that turns needs 'turn_rate', which is not 0");
+}
+
+/// Bodies move by forces, and so cannot follow a time function.
+void check_moved(TomlReader& file, const SceneFile& out) {
+  for (const HungObject& hung : out.nodes.hung) {
+    if (!hung.felt || !out.nodes.graph.moves(hung.node)) continue;
+    const haptics::SceneObject& object = out.scene.objects[hung.object];
+    file.problem_at(
+        fmt::format("object[{}].node", hung.table),
+        object.matter.mass > 0
+            ? fmt::format("'{}' is a body (mass), which forces move, and a time function moves "
+                          "what it hangs on: take one of them out",
+                          object.name)
+            : fmt::format("'{}' hangs below a time function, and objects do not move by one yet: "
+                          "take turn_rate and swing out above it, or hang it elsewhere",
+                          object.name));
+  }
+}
+
+}  // namespace
+
+Section<NodeConfig> node_section() {
+  using Config = NodeConfig;
+  const auto no_turn = [](const Config&) { return Eigen::Vector3d(0, 0, 0); };
+  const auto motion = [](auto member) { return in(&Config::motion, member); };
+  return {
+      {
+          {"name", &Config::name, "required; unlike those of all other nodes"},
+          {"parent", &Config::parent,
+           "the node that it hangs on; absent: the scene, whose frame "
+           "is S"},
+          {"kind", &Config::kind,
+           "group: all that hangs on it is there; switch: of its nodes one is, `shows`; "
+           "level_of_detail: its nodes are one thing from near to far, and hands feel the first"},
+          {"use", &Config::use,
+           "this node is a copy of that one, with all that hangs on it, in its own place and size: "
+           "object \"cube\" of it is \"NAME/cube\""},
+          {"shows", &Config::shows,
+           "switch: the name of the node that is there; absent: the "
+           "first"},
+          {"farthest", &Config::farthest, declared("m", 1e-4, kWorld),
+           "on a level_of_detail: the distance up to which it is shown; absent: any"},
+          {"position", &Config::position, within("m", -kWorld, kWorld),
+           "of its origin in the parent"},
+          {"orientation", no_turn, within("rad", -kMostTurn, kMostTurn),
+           "turned about the parent's x, then y, then z axis"},
+          {"scale", &Config::scale, within("", 1e-3, 1e3),
+           "of all lengths that hang on it; masses and effects stay as they are"},
+          {"turn_axis", motion(&NodeMotion::turn_axis), within("", -1e6, 1e6),
+           "it turns about this axis through its origin, given in its own axes"},
+          {"turn_rate", motion(&NodeMotion::turn_rate), within("rad/s", -1e3, 1e3),
+           "how fast, by the right hand; 0: it does not turn"},
+          {"swing", motion(&NodeMotion::swing), within("m", -1e3, 1e3),
+           "it swings so far to both sides of `position`, in the parent's axes"},
+          {"swing_rate", motion(&NodeMotion::swing_rate), within("Hz", 0, 1e3),
+           "how often, as a sine"},
+          {"swing_phase", motion(&NodeMotion::swing_phase), within("rad", -kMostTurn, kMostTurn),
+           "of the sine at time 0"},
+      },
+      check_node};
+}
+
+void hang_objects(TomlReader& file, const std::vector<std::string>& hung_on, SceneFile& out) {
+  std::vector<NodeProblem> problems;
+  out.nodes = make_nodes(out.node_tables, hung_on, out.scene.objects, problems);
+  for (NodeProblem& problem : problems) file.problem_at(problem.path, std::move(problem.sentence));
+  check_moved(file, out);
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[node]], and the key `node` of objects. Private to the scene reader.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reckon/peer/scene/scene_sections.hpp"
+
+namespace reckon::peer {
+
+[[nodiscard]] Section<NodeConfig> node_section();
+
+/// Makes the scene graph of a file whose nodes and objects are read.
+/// @param hung_on of each object the name of its node; empty: none
+void hang_objects(TomlReader& file, const std::vector<std::string>& hung_on, SceneFile& out);
+
+}  // namespace reckon::peer
