@@ -47,10 +47,10 @@ bool has_carried(const haptics::Scene& scene) {
   return std::ranges::any_of(scene.objects, &haptics::SceneObject::carried);
 }
 
-std::shared_ptr<BodyMover> mover_of(const haptics::Scene& scene,
+std::shared_ptr<BodyMover> mover_of(const haptics::Scene& scene, const SceneNodes& nodes,
                                     std::span<const PeerDevice> devices) {
   if (devices.empty() || !has_carried(scene)) return nullptr;
-  return std::make_shared<BodyMover>(haptics::EffectPlan(scene));
+  return std::make_shared<BodyMover>(haptics::EffectPlan(scene), nodes);
 }
 
 // Bodies need a hand of their peer to move.
@@ -107,7 +107,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       felt_(felt_by(scene, options)),
-      mover_(mover_of(felt_, devices)),
+      mover_(mover_of(felt_, scene.nodes, devices)),
       bodies_(bodies_of(felt_, devices, mover_)),
       servos_(make_servos(scene, felt_, options, devices, bodies_)),
       servo_period_(options.servo_period),
@@ -117,8 +117,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_, link_,
               options.record_shown ? &shown_ : nullptr, counters_, options.capacity,
               options.record_changes, &read_.muted(), options.tap, urgent_.get(), &read_.known(),
-              &read_.felt(), sends_bodies(options) ? &bodies_->outgoing() : nullptr,
-              mover_ ? &mover_->shown() : nullptr, custom_effects_of(servos_)},
+              &read_.felt(), sends_bodies(options) ? &bodies_->outgoing() : nullptr, mover_.get(),
+              custom_effects_of(servos_)},
              {{options.site, options.application},
               options.name,
               options.epoch,

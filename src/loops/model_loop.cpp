@@ -48,11 +48,12 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       outlet_(wiring, counted_),
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
       own_bodies_(wiring.own_bodies),
+      mover_(wiring.mover),
       subscriber_(wiring, participant_, owned_, remote_),
       watches_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       view_(wiring) {
-  if (wiring.shown_bodies != nullptr) remote_bodies_.emplace(*wiring.shown_bodies);
+  if (mover_ != nullptr) remote_bodies_.emplace(mover_->shown());
 }
 
 // A pass
@@ -94,7 +95,10 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   remote_.expire(now);
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
   if (own_bodies_ != nullptr) move_bodies();
-  if (remote_bodies_) remote_bodies_->publish(remote_);
+  if (mover_ != nullptr) {
+    mover_->set_offset(pass_.utc - pass_.now);
+    remote_bodies_->publish(remote_);
+  }
   if (guest_ != nullptr) guest_->begin_pass(*this);
   if (touch_.read_hands()) subscriber_.note_moved();
   touch_.answer_bodies(pass_);

@@ -162,6 +162,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   TouchStage touch_;
   haptics::TripleBuffer<haptics::BodyStates>* own_bodies_;  // null: there are none of ours
   EntityNumber first_body_ = 0;
+  BodyMover* mover_;  // null: nothing is carried
   std::optional<RemoteBodies> remote_bodies_;
   Subscriber subscriber_;
   PeerWatches watches_;

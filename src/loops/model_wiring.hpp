@@ -41,7 +41,7 @@ struct ModelWiring {
   haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< for the read loop; may be null
   haptics::TripleBuffer<FeltSources>* felt = nullptr;    ///< likewise
   haptics::TripleBuffer<haptics::BodyStates>* own_bodies = nullptr;  ///< that we send, or null
-  haptics::TripleBuffer<ShownBodies>* shown_bodies = nullptr;        ///< of another peer, or null
+  BodyMover* mover = nullptr;                                        ///< of what is carried, or null
   /// What servos see of the program's own effects.
   std::vector<std::shared_ptr<const haptics::GuardReport>> custom_effects = {};
 };

@@ -7,6 +7,7 @@
 
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "reckon/peer/scene/scene_nodes.hpp"
@@ -42,19 +43,21 @@ void check_node(TomlReader& table, NodeConfig& node) {
     table.problem("turn_axis", "a node that turns needs 'turn_rate', which is not 0");
 }
 
-/// Bodies move by forces, and so cannot follow a time function.
-void check_moved(TomlReader& file, const SceneFile& out) {
+/// What hangs below a time function is carried by it. Bodies move by forces, and so cannot be.
+void carry_moved(TomlReader& file, SceneFile& out) {
   for (const HungObject& hung : out.nodes.hung) {
     if (!hung.felt || !out.nodes.graph.moves(hung.node)) continue;
-    const haptics::SceneObject& object = out.scene.objects[hung.object];
+    haptics::SceneObject& object = out.scene.objects[hung.object];
+    object.carried = true;
+    const bool is_plane = std::holds_alternative<haptics::PlaneShape>(object.shape);
+    if (!(object.matter.mass > 0) && !is_plane) continue;
     file.problem_at(
         fmt::format("object[{}].node", hung.table),
-        object.matter.mass > 0
-            ? fmt::format("'{}' is a body (mass), which forces move, and a time function moves "
-                          "what it hangs on: take one of them out",
+        is_plane
+            ? fmt::format("'{}' is a plane, which cannot move: give a box, or hang it elsewhere",
                           object.name)
-            : fmt::format("'{}' hangs below a time function, and objects do not move by one yet: "
-                          "take turn_rate and swing out above it, or hang it elsewhere",
+            : fmt::format("'{}' is a body (mass), which forces move, and a time function moves "
+                          "what it hangs on: take one of them out",
                           object.name));
   }
 }
@@ -106,7 +109,7 @@ void hang_objects(TomlReader& file, const std::vector<std::string>& hung_on, Sce
   std::vector<NodeProblem> problems;
   out.nodes = make_nodes(out.node_tables, hung_on, out.scene.objects, problems);
   for (NodeProblem& problem : problems) file.problem_at(problem.path, std::move(problem.sentence));
-  check_moved(file, out);
+  carry_moved(file, out);
 }
 
 }  // namespace reckon::peer

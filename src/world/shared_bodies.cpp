@@ -3,6 +3,7 @@
 #include "reckon/peer/world/shared_bodies.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace reckon::peer {
 namespace {
@@ -11,6 +12,8 @@ using Eigen::Quaterniond;
 using std::chrono::nanoseconds;
 
 constexpr std::uint8_t kCategory = 0x42;
+// Time functions begin anew after some 12 days, so that a double tells their time to 0.1 ns.
+constexpr nanoseconds kAge = std::chrono::seconds(1 << 20);
 
 // Forward, right and down from x, y and z.
 const Quaterniond kLevel(0.0, 1.0, 0.0, 0.0);
@@ -40,12 +43,15 @@ EntityTruth truth_of(const haptics::BodyState& body, nanoseconds time) noexcept 
   return truth;
 }
 
-BodyMover::BodyMover(const haptics::EffectPlan& plan) {
+BodyMover::BodyMover(const haptics::EffectPlan& plan, const SceneNodes& nodes)
+    : graph_(nodes.graph) {
   for (std::uint32_t i = 0; i < plan.objects().size(); ++i) {
     const haptics::PlannedObject& object = plan.objects()[i];
     if (!object.moves()) continue;
     Body& body = bodies_.emplace_back();
     body.object = i;
+    const auto moved = std::ranges::find(nodes.moved, i, &MovedObject::object);
+    if (moved != nodes.moved.end()) body.node = moved->node;
     body.last.orientation = object.orientation;
     body.last.position = object.position - object.orientation * object.origin;
   }
@@ -55,6 +61,7 @@ haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now
   (void)shown_.update();
   const auto found = std::ranges::find(bodies_, object, &Body::object);
   if (found == bodies_.end()) return {};
+  if (found->node != kNoNode) return by_time(found->node, now);
   const auto place = static_cast<std::size_t>(found - bodies_.begin());
   const ShownBodies& shown = shown_.read();
   haptics::ObjectMotion& last = found->last;
@@ -69,6 +76,19 @@ haptics::ObjectMotion BodyMover::motion_of(std::uint32_t object, nanoseconds now
   last.velocity = pose.velocity;
   last.turn_rate = pose.orientation * pose.angular_velocity;
   return last;
+}
+
+haptics::ObjectMotion BodyMover::by_time(NodeIndex node, nanoseconds now) noexcept {
+  if (std::exchange(evaluated_, now) != now)
+    graph_.evaluate((now + offset_.load(std::memory_order_relaxed)) % kAge);
+  const NodePose& pose = graph_.world(node);
+  const NodeVelocity& velocity = graph_.velocity(node);
+  haptics::ObjectMotion out;
+  out.position = pose.position;
+  out.orientation = pose.orientation;
+  out.velocity = velocity.linear;
+  out.turn_rate = velocity.angular;
+  return out;
 }
 
 void RemoteBodies::note(const Inbound& update) noexcept {

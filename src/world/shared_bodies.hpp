@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/scene/scene_nodes.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -42,22 +44,34 @@ struct ShownBodies {
   std::array<Known, haptics::kMostBodies> known{};
 };
 
-/// The servos' side: a body is where the table of remote entities shows it.
+/// The servos' side: a body is where the table of remote entities shows it, and what hangs below a
+/// time function of the scene is where that has it, at the same time for all peers.
 class BodyMover final : public haptics::ObjectMover {
  public:
-  /// @param plan whose objects with a mass are carried; only read here
-  explicit BodyMover(const haptics::EffectPlan& plan);
+  /// @param plan whose objects are carried; only read here  @param nodes of the same scene, copied
+  BodyMover(const haptics::EffectPlan& plan, const SceneNodes& nodes);
 
   [[nodiscard]] haptics::ObjectMotion motion_of(std::uint32_t object,
                                                 std::chrono::nanoseconds now) noexcept override;
   /// Written by the model loop.
   [[nodiscard]] haptics::TripleBuffer<ShownBodies>& shown() noexcept { return shown_; }
+  /// Universal time less that of the servos; from the model loop.
+  void set_offset(std::chrono::nanoseconds offset) noexcept {
+    offset_.store(offset, std::memory_order_relaxed);
+  }
 
  private:
   struct Body {
     std::uint32_t object = 0;
+    NodeIndex node = kNoNode;  // below a time function
     haptics::ObjectMotion last;
   };
+  [[nodiscard]] haptics::ObjectMotion by_time(NodeIndex node,
+                                              std::chrono::nanoseconds now) noexcept;
+
+  SceneGraph graph_;
+  std::atomic<std::chrono::nanoseconds> offset_{std::chrono::nanoseconds(0)};
+  std::chrono::nanoseconds evaluated_{-1};
   haptics::TripleBuffer<ShownBodies> shown_;
   std::vector<Body> bodies_;
 };

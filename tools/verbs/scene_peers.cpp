@@ -20,6 +20,7 @@
 #include "reckon/peer/scene/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -125,8 +126,10 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan
                          const peer::DeviceConfig& device) {
   const auto simulated = make_simulated_device(scene, device);
   const auto shared = std::make_shared<const haptics::EffectPlan>(plan);
-  const haptics::ServoLoop servo(*simulated, shared, servo_of(scene, device),
-                                 haptics::make_bodies(plan, scene.scene));
+  const haptics::ServoLoop servo(
+      *simulated, shared, servo_of(scene, device),
+      haptics::make_bodies(plan, scene.scene,
+                           std::make_shared<peer::BodyMover>(plan, scene.nodes)));
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));
@@ -190,24 +193,31 @@ Facts facts_of(const peer::EntityConfig& entity, const peer::EntityTrack& track)
 std::vector<PeerFact> body_facts(const haptics::EffectPlan& plan) {
   std::size_t count = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  std::size_t carried = 0;
   std::string passed;
   for (const haptics::PlannedObject& object : plan.objects()) {
     if (std::holds_alternative<std::shared_ptr<const haptics::ImplicitSolid>>(object.shape))
       passed += (passed.empty() ? "" : ", ") + object.name;
-    if (!object.moves()) continue;
+    carried += object.carried ? 1 : 0;
+    if (!object.is_body()) continue;
     ++count;
     least = std::min(least, object.matter.mass);
     most = std::max(most, object.matter.mass);
   }
-  if (count == 0) return {};
+  std::vector<PeerFact> rows;
+  if (carried > 0)
+    rows.push_back({1, fmt::format("carried {}", carried), "moved",
+                    "by time functions, at each peer; hands and bodies do not stop them"});
+  if (count == 0) return rows;
   const std::string mass = least < most
                                ? fmt::format("{} to {}", peer::format_quantity(least, "kg"),
                                              peer::format_quantity(most, "kg"))
                                : peer::format_quantity(most, "kg");
-  std::vector<PeerFact> rows{{1, fmt::format("bodies {}", count), "mass", mass},
-                             {1, fmt::format("bodies {}", count), "step",
-                              "in that of its hands, some 2 us for each that lies "
-                              "on another or is pushed"}};
+  rows.push_back({1, fmt::format("bodies {}", count), "mass", mass});
+  rows.push_back(
+      {1, fmt::format("bodies {}", count), "step",
+       "in that of its hands, some 2 us for each that is awake, 10 us and more for one at "
+       "a hand"});
   if (!passed.empty()) rows.push_back({1, fmt::format("bodies {}", count), "go through", passed});
   return rows;
 }

@@ -14,6 +14,7 @@
 #include "reckon/haptics/contact/region_share.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -84,8 +85,10 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
       config.period = device.period;
       config.probe_radius = scene.hand.radius;
       config.probes = probes_of(device);
-      const haptics::ServoLoop servo(*simulated, shared, config,
-                                     haptics::make_bodies(plan, scene.scene));
+      const haptics::ServoLoop servo(
+          *simulated, shared, config,
+          haptics::make_bodies(plan, scene.scene,
+                               std::make_shared<peer::BodyMover>(plan, scene.nodes)));
       std::string name = fmt::format("device {}", ++count);
       if (!device.marking.empty()) name += " " + device.marking;
       devices.push_back({number, std::move(name), peer::stiffness_of(servo, scene.hand)});

@@ -150,16 +150,19 @@ TEST(NodeSection, LetHandsFeelWhatASwitchShowsAndTheFinestLevel) {
   EXPECT_EQ(copied.nodes.graph.farthest(copied.nodes.graph.find("fine").value()), 1.0);
 }
 
-TEST(NodeSection, RefuseObjectsThatATimeFunctionMovesUntilSomethingMovesThem) {
+TEST(NodeSection, CarryWhatHangsBelowATimeFunction) {
   const std::string wheel =
       node("wheel", "turn_rate = \"90 deg/s\"\n") + node("rim", "parent = \"wheel\"\n");
   EXPECT_EQ(refusal(wheel), "") << "without objects nothing is to be moved";
-  EXPECT_EQ(refusal(wheel + ball("stone", "rim")),
-            "x.toml:10:8: 'stone' hangs below a time function, and objects do not move by one yet: "
-            "take turn_rate and swing out above it, or hang it elsewhere");
+  const SceneFile file =
+      parse_scene_file(wheel + ball("stone", "rim") + ball("still", ""), "x.toml");
+  EXPECT_TRUE(file.scene.objects.at(0).carried);
+  EXPECT_FALSE(file.scene.objects.at(1).carried);
   EXPECT_THAT(refusal(wheel + ball("stone", "rim", "mass = \"1 kg\"\n") +
                       "[[operator]]\npassive = true\n[[device]]\npeer = 1\noperator = 1\n"),
               HasSubstr("'stone' is a body (mass), which forces move"));
+  EXPECT_THAT(refusal(wheel + "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nnode = \"rim\"\n"),
+              HasSubstr("'floor' is a plane, which cannot move"));
 }
 
 TEST(SceneNodes, ListWhatATimeFunctionMoves) {
