@@ -3,6 +3,7 @@
 #include "reckon/haptics/bodies/body_push.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reckon::haptics {
 
@@ -12,6 +13,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kLossy = 0.25;  // of a period
+// Of the spring of a patch, over the inertia [1/s^2]: as stiff as steps of half a period at 1 kHz
+// can be.
+constexpr double kTwist = 0.0225 / (0.5e-3 * 0.5e-3);
 
 }  // namespace
 
@@ -21,6 +25,8 @@ BodyPush::BodyPush(std::size_t hand, const BodySpring& spring, const Vector3d& a
       body_(spring.body),
       place_(turned.conjugate() * (spring.point - at)),
       velocity_(spring.velocity),
+      probe_(spring.probe),
+      patch_(spring.patch),
       stiffness_(spring.stiffness),
       friction_(spring.friction),
       first_(spring.force),
@@ -31,7 +37,7 @@ BodyPush::BodyPush(std::size_t hand, const BodySpring& spring, const Vector3d& a
   const Vector3d normal = is_rough || !(size > 0) ? spring.normal : Vector3d(-spring.force / size);
   normal_ = turned.conjugate() * normal;
   const double across = -spring.force.dot(normal);
-  begun_ = {across - spring.stiffness * spring.gap, spring.force + across * normal, normal};
+  begun_ = {across - spring.stiffness * spring.gap, spring.force + across * normal, normal, 0.0};
   tension_ = begun_;
   if (is_rough) friction_ = std::max(friction_, begun_.along.norm() / across);
 }
@@ -57,18 +63,41 @@ Vector3d BodyPush::next() noexcept {
   return force;
 }
 
-void BodyPush::follow(const Vector3d& velocity, const Quaterniond& turned, double dt) noexcept {
+void BodyPush::take_twist(const BodyPush& before) noexcept {
+  const bool is_same =
+      before.hand_ == hand_ && before.body_ == body_ && before.probe_ == probe_ && patch_ > 0;
+  if (is_same && before.tension_.across > 0) begun_.twist = tension_.twist = before.tension_.twist;
+}
+
+Vector3d BodyPush::torque(const Vector3d& turn_rate, double inertia, double share) noexcept {
+  if (!(patch_ > 0) || !(stiffness_ > 0) || !(tension_.across > 0)) return Vector3d::Zero();
+  const double rate = turn_rate.dot(tension_.normal);
+  const double stiffness = kTwist * inertia;
+  const double most = 2.0 / 3.0 * share * friction_ * patch_ * tension_.across;
+  const double wanted = -stiffness * tension_.twist - 1.4 * std::sqrt(kTwist) * inertia * rate;
+  const double held = std::clamp(wanted, -most, most);
+  // What slips is gone.
+  if (held != wanted)
+    tension_.twist = std::clamp(tension_.twist, -most / stiffness, most / stiffness);
+  return held * tension_.normal;
+}
+
+void BodyPush::follow(const Vector3d& velocity, const Vector3d& turn_rate,
+                      const Quaterniond& turned, double dt) noexcept {
   if (!(stiffness_ > 0)) return;
   const Vector3d normal = turned * normal_;
   const Vector3d rate = stiffness_ * (velocity_ - velocity);
   tension_ = after(dt * rate, normal);
+  tension_.twist += dt * turn_rate.dot(normal);
+  if (!(tension_.across > 0)) tension_.twist = 0.0;
   late_ = after(kLossy * static_cast<double>(steps_) * step_ * rate, normal).force();
 }
 
 // It slides where friction does not hold it.
 BodyPush::Tension BodyPush::after(const Vector3d& change, const Vector3d& normal) const noexcept {
   const double away = change.dot(normal);
-  Tension out{tension_.across - away, tension_.along + change - away * normal, normal};
+  Tension out{tension_.across - away, tension_.along + change - away * normal, normal,
+              tension_.twist};
   const double size = out.along.norm(), most = friction_ * std::max(0.0, out.across);
   if (size > most) out.along *= most / size;
   return out;

@@ -21,6 +21,8 @@ struct BodySpring {
   double friction = 0.0;  ///< greatest force along the surface over that across it; 0: smooth
   double gap = 0.0;       ///< [m], between both, if they do not touch yet
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], of the hand there
+  std::size_t probe = 0;                               ///< of the hand
+  double patch = 0.0;  ///< [m], radius of the patch that holds the body against turning; 0: a point
 };
 
 /// Steps in which a period is foreseen, at most.
@@ -43,14 +45,26 @@ class BodyPush {
   [[nodiscard]] const Eigen::Vector3d& place() const noexcept { return place_; }
   [[nodiscard]] double stiffness() const noexcept { return stiffness_; }
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
+  /// See hold().
+  [[nodiscard]] double share() const noexcept { return share_; }
+
+  /// It goes on from the twist that it had in the period before, if it is the same patch.
+  void take_twist(const BodyPush& before) noexcept;
+  /// What its patch turns the body by now [N m], S: a stiff spring against turning about the
+  /// contact normal, which slips at 2/3 of friction, force and radius.
+  /// @param turn_rate of the body [rad/s], S  @param inertia its least [kg m^2]
+  /// @param share of the force that is held, [0, 1]
+  [[nodiscard]] Eigen::Vector3d torque(const Eigen::Vector3d& turn_rate, double inertia,
+                                       double share) noexcept;
 
   /// Begins to foresee `period` [s] in `steps` steps, 1 to kMostSubsteps.
   void begin(double period, std::size_t steps) noexcept;
   /// Force of the spring now [N]; noted as that of the next step while it is foreseen.
   Eigen::Vector3d next() noexcept;
-  /// The hand went on for dt [s], and the body: its point had this mean velocity [m/s].
-  void follow(const Eigen::Vector3d& velocity, const Eigen::Quaterniond& turned,
-              double dt) noexcept;
+  /// The hand went on for dt [s], and the body: its point had this mean velocity [m/s], and it
+  /// turned at this rate [rad/s].
+  void follow(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn_rate,
+              const Eigen::Quaterniond& turned, double dt) noexcept;
   /// The spring is again as at the begin of the period.
   void rewind() noexcept;
   /// Another period begins with the spring as it is.
@@ -70,6 +84,7 @@ class BodyPush {
     double across = 0.0;                               // [N], into the body
     Eigen::Vector3d along = Eigen::Vector3d::Zero();   // [N], the surface
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, out of the body
+    double twist = 0.0;                                // [rad], of the patch, about the normal
 
     [[nodiscard]] Eigen::Vector3d force() const noexcept;
   };
@@ -84,6 +99,8 @@ class BodyPush {
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();  // in the body's axes
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  std::size_t probe_ = 0;
+  double patch_ = 0.0;
   double stiffness_ = 0.0;
   double friction_ = 0.0;
   Tension begun_, tension_;                              // at the begin, now

@@ -239,6 +239,12 @@ Vector3d BodySolver::velocity(std::size_t body, const Vector3d& place) const noe
          vector(dBodyGetAngularVel(id)).cross(orientation(body) * place);
 }
 
+double BodySolver::least_inertia(std::size_t body) const noexcept {
+  dMass mass;
+  dBodyGetMass(bodies_[body].id, &mass);
+  return std::min({mass.I[0], mass.I[5], mass.I[10]});
+}
+
 double BodySolver::energy() const noexcept {
   double sum = 0.0;
   for (const Body& body : bodies_) {
@@ -328,13 +334,14 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
     static_cast<BodySolver*>(self)->collide(a, b);
   });
   solve(dt);
+  double given = lifted_ahead(dt);
   fly_exactly(dt);
   catch_fast();
   dJointGroupEmpty(joints_);
-  double given = 0.0;
   for (BodyForce& force : forces) {
     force.work += 0.5 * dt * force.force.dot(velocity(force.body, force.place));
-    given += force.work;
+    const Vector3d turned = vector(dBodyGetAngularVel(bodies_[force.body].id));
+    given += force.work + dt * std::max(0.0, force.torque.dot(turned));
   }
   // What carried objects did to them is not known.
   if (is_driven_) ledger_.energy = std::numeric_limits<double>::infinity();
@@ -342,6 +349,21 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   rest(dt);
   // What falls asleep or is too fast gives some up.
   ledger_.energy = std::min(ledger_.energy, energy());
+}
+
+// A body that is pushed moves by its new speed for all of the step, and so is lifted by half of the
+// change of its speed more than the pushes did work for. It is as much less when it slows down.
+double BodySolver::lifted_ahead(double dt) const noexcept {
+  double sum = 0.0;
+  for (const Body& body : bodies_) {
+    const bool is_pushed =
+        body.mass > 0 && !body.flies && dBodyIsEnabled(body.id) && dBodyGetNumJoints(body.id) == 0;
+    if (!is_pushed) continue;
+    const Vector3d before(body.before.velocity[0], body.before.velocity[1],
+                          body.before.velocity[2]);
+    sum -= 0.5 * dt * body.mass * gravity_.dot(vector(dBodyGetLinearVel(body.id)) - before);
+  }
+  return sum;
 }
 
 // Where the exact solver is lost, the step is taken again by one that always ends near the
@@ -367,6 +389,7 @@ void BodySolver::apply(std::span<BodyForce> forces) noexcept {
     const Vector3d at = vector(dBodyGetPosition(body.id)) + orientation(force.body) * force.place;
     const Vector3d& f = force.force;
     dBodyAddForceAtPos(body.id, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
+    dBodyAddTorque(body.id, force.torque.x(), force.torque.y(), force.torque.z());
   }
 }
 

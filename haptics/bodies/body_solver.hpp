@@ -24,7 +24,9 @@ struct BodyForce {
   std::size_t body = 0;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the body's axes, from its middle
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], S
-  double work = 0.0;                                ///< [J], that it did, after the step
+  /// [N m], S: it holds the body against turning, and its work is none of the hand's.
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+  double work = 0.0;  ///< [J], that it did, after the step
 };
 
 /// Bodies by their numbers: bit i is body i.
@@ -53,6 +55,8 @@ class BodySolver {
   void carry(std::size_t body, const ObjectMotion& motion) noexcept;
   [[nodiscard]] ObjectMotion motion(std::size_t body) const noexcept;
   [[nodiscard]] bool awake(std::size_t body) const noexcept;
+  /// Of its principal ones [kg m^2].
+  [[nodiscard]] double least_inertia(std::size_t body) const noexcept;
   /// Of a place in the body's axes [m/s].
   [[nodiscard]] Eigen::Vector3d velocity(std::size_t body,
                                          const Eigen::Vector3d& place) const noexcept;
@@ -113,6 +117,7 @@ class BodySolver {
   [[nodiscard]] bool rests() const noexcept;
   void apply(std::span<BodyForce> forces) noexcept;
   void solve(double dt) noexcept;
+  [[nodiscard]] double lifted_ahead(double dt) const noexcept;
   void collide(dGeomID a, dGeomID b) noexcept;
   [[nodiscard]] Walls walls_of(const Body& body, int axis) const noexcept;
   void fly_exactly(double dt) noexcept;

@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr double kLongestStep = 1e-3;     // [s]
+constexpr double kLongestSubstep = 5e-4;  // [s], of what is foreseen
 constexpr double kLongestGap = 0.1;       // [s]
 constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
 constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
@@ -108,7 +109,8 @@ class BodyWorld::Engine {
         !spring.force.allFinite() || !spring.velocity.allFinite())
       return kNoPush;
     const ObjectMotion at = solver_.motion(spring.body);
-    pushes_.emplace_back(hand, spring, at.position, at.orientation);
+    BodyPush& push = pushes_.emplace_back(hand, spring, at.position, at.orientation);
+    for (const BodyPush& before : last_) push.take_twist(before);
     return pushes_.size() - 1;
   }
 
@@ -209,15 +211,16 @@ class BodyWorld::Engine {
       if (!solver_.is_carried(i))
         most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
     const double wanted = std::ceil(period * std::sqrt(most) / kRight);
-    return static_cast<std::size_t>(std::clamp(wanted, 2.0, double{kMostSubsteps}));
+    return static_cast<std::size_t>(std::clamp(
+        std::max(wanted, std::ceil(period / kLongestSubstep)), 2.0, double{kMostSubsteps}));
   }
 
   void foresee_step(std::size_t hand, double time, double dt) noexcept {
     forces_.clear();
     for (BodyPush& push : pushes_)
-      add_force(push, push.hand() == hand ? push.next() : push.mean(time, time + dt));
+      add_force(push, push.hand() == hand ? push.next() : push.mean(time, time + dt), 1.0);
     for (BodyPush& push : last_)
-      if (is_due(push)) add_force(push, push.next());
+      if (is_due(push)) add_force(push, push.next(), 1.0);
     solver_.step(dt, forces_);
     for (BodyPush& push : pushes_)
       if (push.hand() == hand) follow(push, dt);
@@ -225,12 +228,15 @@ class BodyWorld::Engine {
       if (is_due(push)) follow(push, dt);
   }
 
-  void add_force(const BodyPush& push, const Vector3d& force) noexcept {
-    forces_.push_back({push.body(), push.place(), force});
+  void add_force(BodyPush& push, const Vector3d& force, double share) noexcept {
+    const std::size_t body = push.body();
+    const Vector3d torque =
+        push.torque(solver_.motion(body).turn_rate, solver_.least_inertia(body), share);
+    forces_.push_back({body, push.place(), force, torque});
   }
   void follow(BodyPush& push, double dt) noexcept {
-    push.follow(solver_.velocity(push.body(), push.place()),
-                solver_.motion(push.body()).orientation, dt);
+    const ObjectMotion at = solver_.motion(push.body());
+    push.follow(solver_.velocity(push.body(), push.place()), at.turn_rate, at.orientation, dt);
   }
 
   // All that acts, for `whole` [s], in steps of dt [s] or less. @return their length [s]
@@ -240,7 +246,7 @@ class BodyWorld::Engine {
     for (double i = 0; i < steps; ++i) {
       const double time = i * length, next = time + length;
       forces_.clear();
-      for (const BodyPush& push : pushes_) add_force(push, push.mean(time, next));
+      for (BodyPush& push : pushes_) add_force(push, push.mean(time, next), push.share());
       solver_.step(length, forces_);
       for (std::size_t k = 0; k < pushes_.size(); ++k) {
         works_[k] += forces_[k].work;

@@ -166,6 +166,9 @@ struct ServoConfig {
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
+  /// [m], of the patch by which a probe holds bodies against turning about the contact normal, as a
+  /// soft finger does; 0 (a point) to 1. Where they have friction.
+  double patch_radius = 0.0;
   double contact_radius = 0.0;  ///< [m], of the probes against the static scene; 0 (points) to 1
   /// Of the tool on a device of six axes: 1 to 8 places from the handle [m], in axes of the tool,
   /// each at most 1 m away. The first is what remote hands touch. None: the handle is the probe.

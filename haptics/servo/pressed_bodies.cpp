@@ -17,8 +17,9 @@ constexpr double kSoon = 3.0;  // periods, in which what comes nearer may be met
 }  // namespace
 
 template <int axes>
-PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes)
-    : world_(std::move(world)) {
+PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes,
+                                       double patch)
+    : world_(std::move(world)), patch_(patch) {
   if (!world_) return;
   hand_ = world_->add_hand();
   pushes_.reserve(probes * world_->states().size());
@@ -86,6 +87,8 @@ void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, s
   spring.body = static_cast<std::size_t>(body - states.begin());
   spring.stiffness = walls.stiffness_of(object);
   spring.friction = walls.friction_of(object);
+  spring.probe = probe;
+  spring.patch = patch_;
   const std::size_t number = world_->press(hand_, spring);
   if (number != BodyWorld::kNoPush) pushes_.push_back({number, probe, object, walls.gain()});
 }

@@ -23,7 +23,8 @@ namespace reckon::haptics {
 template <int axes>
 class PressedBodiesOf {
  public:
-  PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes);
+  /// @param patch [m], see ServoConfig::patch_radius
+  PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes, double patch = 0.0);
 
   /// Brings the bodies to `now` and books the work that the pushes did, whether or not the handle
   /// can be read.
@@ -53,6 +54,7 @@ class PressedBodiesOf {
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;
+  double patch_ = 0.0;
   std::vector<Push> pushes_;
   double work_ = 0.0;
 };

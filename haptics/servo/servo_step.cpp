@@ -54,7 +54,7 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       port_rate_(tool_.size_at_port(max_rate_)),
       safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
       turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)),
-      pressed_(bodies_, tool_.size()) {
+      pressed_(bodies_, tool_.size(), config_.patch_radius) {
   port_.limit_received_power(config_.max_received_power);
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
 }

@@ -42,6 +42,7 @@ struct OriginConfig {
 /// F = k1 d + k3 d^3 - damping * d'.
 struct HandModel {
   double radius = 0.02;         ///< [m] > 0; also the probe radius against remote hands
+  double patch_radius = 0.0;    ///< [m] >= 0, of the patch that holds bodies against turning
   double contact_radius = 0.0;  ///< [m] >= 0, of the ball with which its device feels objects
   /// [N/m] >= 0; the receiver limits it to the stiffness that its device can show. The default,
   /// with its damper, is the limit of a device of defaults.

@@ -65,6 +65,8 @@ Section<HandModel> hand_section() {
           {"radius", &HandModel::radius, within("m", 1e-4, 1), "of the sphere that others touch"},
           {"contact_radius", &HandModel::contact_radius, within("m", 0, 1),
            "of the ball that feels the objects; 0 is a point"},
+          {"patch_radius", &HandModel::patch_radius, within("m", 0, 1),
+           "of the patch by which it holds bodies against turning, as a soft finger; 0 is a point"},
           {"k1", &HandModel::k1, within("N/m", 0, 1e6),
            "stiffness; each receiver caps it at what its device can show"},
           {"k3", &HandModel::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},

@@ -23,6 +23,7 @@ haptics::ServoConfig servo_config(const peer::SceneFile& scene, const PointerHan
   config.device_orientation = hand.orientation;
   config.probe_radius = scene.hand.radius;
   config.contact_radius = scene.hand.contact_radius;
+  config.patch_radius = scene.hand.patch_radius;
   return config;
 }
 

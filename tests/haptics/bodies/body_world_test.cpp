@@ -246,7 +246,7 @@ TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int passed = 0;
-  for (int shot = 0; shot < 2000; ++shot) {
+  for (int shot = 0; shot < 10'000; ++shot) {
     Table table;
     table.without_gravity();
     SceneObject& wall = table.box(1.0, {0, 0, 0}, {});

@@ -329,7 +329,8 @@ struct Lift {
   double at_end = 0.0;   // [m], height
   double made = -1e9;    // [J]
 };
-Lift lift(double mass, double stiffness, double friction) {
+/// @param off [m], of the fingers beside the cube's middle  @param patch [m], of the fingers
+Lift lift(double mass, double stiffness, double friction, double off = 0.0, double patch = 0.0) {
   Scene scene = cube_of(mass, stiffness);
   scene.gravity = {0, 0, -9.81};
   scene.objects[0].pose.position.z() = kHalf;
@@ -340,8 +341,9 @@ Lift lift(double mass, double stiffness, double friction) {
   floor.effects.of<SpringDamper>() = {400, 0.0};
   const auto plan = std::make_shared<const EffectPlan>(scene);
   const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-  const auto script = [](int side, double t) {
+  const auto script = [off](int side, double t) {
     HandTarget out = hand_at(side, std::min(t, 3.0));
+    out.position.y() = off;
     out.velocity.setZero();
     const double way = side == 1 ? 1 : -1;
     if (t > 8.5) out.position.x() += way * 0.02 * ease((t - 8.5) / 0.5);
@@ -355,7 +357,9 @@ Lift lift(double mass, double stiffness, double friction) {
   for (int s = 0; s < 2; ++s) {
     const auto k = static_cast<std::size_t>(s);
     devices[k].emplace(device_at(script(s, 0).position), [=](double t) { return script(s, t); });
-    servos[k].emplace(*devices[k], plan, ServoConfig{}, world);
+    ServoConfig config;
+    config.patch_radius = patch;
+    servos[k].emplace(*devices[k], plan, config, world);
   }
   Lift out;
   std::optional<double> carried;
@@ -393,6 +397,21 @@ TEST(PushedBody, IsLiftedByTwoFingersShakenAndPutDown) {
   EXPECT_NEAR(cube.at_end, kHalf, 1e-4);
   EXPECT_LE(cube.made, 1e-9);
   EXPECT_LT(lift(0.05, 400, 0.05).highest, kHalf + 0.005) << "a slippery one stays on the floor";
+}
+
+// Held beside its middle, a cube swings through between two points. A patch holds it, as far as
+// 2/3 of friction, force and radius goes.
+TEST(PushedBody, IsHeldAgainstTurningByPatches) {
+  const Lift points = lift(0.1, 400, 0.9, 0.004);
+  const Lift patches = lift(0.1, 400, 0.9, 0.004, 0.006);
+  std::printf(
+      "turned %.3g rad between points, %.3g between patches of 6 mm, made %.3g and %.3g J\n",
+      points.turned, patches.turned, points.made, patches.made);
+  EXPECT_GT(points.turned, 0.5);
+  EXPECT_LT(patches.turned, 0.02);
+  EXPECT_GT(patches.highest, kHalf + 0.03);
+  EXPECT_LE(patches.made, 1e-9);
+  EXPECT_GT(lift(0.1, 400, 0.9, 0.004, 0.001).turned, 0.3) << "too small a patch slips";
 }
 
 // What is malloc'd by the engine below is counted nowhere here: a run with malloc replaced says 0.
