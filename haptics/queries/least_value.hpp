@@ -22,6 +22,16 @@ struct LeastValue {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
 };
 
+/// A function at a point.
+struct FieldSample {
+  double value = 0.0;  ///< [m]
+  /// Of a convex function that nowhere exceeds this one, such as itself; not needed of others.
+  SignedSample below;
+
+  FieldSample(const SignedSample& own) : value(own.value), below(own) {}
+  FieldSample(double own, const SignedSample& convex) : value(own), below(convex) {}
+};
+
 /// Samples of the function in one search, at most.
 inline constexpr std::size_t kMostPieces = 1024;
 
@@ -82,8 +92,9 @@ class PieceQueue {
   std::size_t count_ = 0;
 };
 
-/// @param field  p -> SignedSample; |f(p) - f(q)| <= |p - q|
-/// @param convex whether it lies above its tangents: bounds are then far better
+/// @param field  p -> FieldSample, or SignedSample; |f(p) - f(q)| <= |p - q|
+/// @param convex whether FieldSample::below is of a convex function: its tangents give bounds that
+/// are far better
 /// @param tolerance [m] between the two bounds, at which the search ends; it also ends after
 /// kMostPieces samples. Then the bounds are as far apart as they are.
 template <class Piece, class Field>
@@ -99,13 +110,13 @@ template <class Piece, class Field>
   };
   const auto take = [&](const Piece& piece) {
     const Eigen::Vector3d middle = piece.middle();
-    const SignedSample here = field(middle);
+    const FieldSample here = field(middle);
     ++samples;
     if (piece.on_set()) offer(middle, here.value);
     double bound = here.value - piece.radius();
     if (convex) {
-      const Eigen::Vector3d lowest = piece.lowest(here.gradient);
-      bound = std::max(bound, here.value + here.gradient.dot(lowest - middle));
+      const Eigen::Vector3d lowest = piece.lowest(here.below.gradient);
+      bound = std::max(bound, here.below.value + here.below.gradient.dot(lowest - middle));
       if (piece.on_set()) offer(lowest, field(lowest).value);
     }
     queue.push(bound, piece);

@@ -22,19 +22,22 @@ struct Bounds {
 };
 
 /// What is known of two shapes, a and b. Frame S.
-///
-/// | pair                         | overlap                | distance       | depth |
-/// |------------------------------|------------------------|----------------|----------------------|
-/// | box, ball, capsule, plane    | exact; touching is no  | exact          | exact | | mesh -
-/// plane                 | exact; touching is no  | exact          | exact                | | mesh
-/// - box, ball, capsule    | exact; touching is yes | exact          | bounds               | |
-/// mesh - mesh                  | exact; touching is yes | exact          | bounds               |
-/// | solid - any                  | unknown within bounds  | bounds         | bounds |
+///  - Boxes, balls, capsules, planes, and a mesh with a plane: all is exact. Touching is no
+///  overlap.
+///  - A mesh with a box, ball, capsule or mesh: overlap and distance are exact, touching is an
+///    overlap, and depth lies between two bounds.
+///  - An implicit solid with any other: distance and depth lie between two bounds, and overlap is
+///    unknown where these decide nothing.
 ///
 /// Exact: within 1e-13 of the sizes and the distance. Inside of a mesh is only what a closed mesh
-/// encloses. The bounds of a solid's distance are within 1e-6 sizes for a ball at a primitive and
-/// mostly within 1 % for others; an upper one of depth is that of both bounding boxes, and
-/// way_out() finds a better one.
+/// encloses. The bounds of a solid's distance, in its sizes, median and 95 % of drawn pairs:
+///  - a ball 1e-14; a plane 5e-8; a convex primitive and a box, capsule, mesh or another such 1e-6;
+///  - a ring or a plate with a bore, and a capsule or box: 3e-5 and 3e-3; a mesh or solid: 0.02 and
+///    0.03;
+///  - beside the rounded or mitred edges of an intersection, where its function itself is less than
+///    the distance: 0.03 and 0.15.
+/// An upper bound of depth is that of both bounding boxes, unless the way to the nearest surface
+/// leads out; way_out() finds a shorter one.
 struct PairMeasure {
   Overlap overlap = Overlap::unknown;
   Bounds distance;  ///< [m], >= 0; 0 where they overlap

@@ -159,6 +159,10 @@ SolidGap solid_box_gap(const ImplicitSolid& solid, const OrientedBox& box) noexc
   return gap;
 }
 
+// The mean of both functions is below the greater one, and has no edge where they are equal. At
+// the middle of the nearest points both are equal, and their gradients opposite: there its tangents
+// are as good as they can be.
+//
 // With the closest points a and b, of distance d, both functions are at most d/2 in their middle,
 // which lies in the mean of both bounds. A point of both solids lies there too. If one solid is
 // unbounded: both functions are at most d at the closest point of the other.
@@ -181,8 +185,9 @@ SolidGap solid_solid_gap(const ImplicitSolid& a, const ImplicitSolid& b,
   const auto field = [&](const Vector3d& p) {
     const SignedSample one = a.sample(p);
     const SignedSample two = b.sample(b_at.to_shape(p));
-    if (one.value >= two.value) return one;
-    return SignedSample{two.value, b_at.orientation * two.gradient};
+    const Vector3d gradient = one.gradient + b_at.orientation * two.gradient;
+    return FieldSample(std::max(one.value, two.value),
+                       {0.5 * (one.value + two.value), 0.5 * gradient});
   };
   const double size = a.size() + b.size() + room.centre.norm();
   const bool convex = a.function().convex() && b.function().convex();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -270,6 +271,22 @@ TEST(PairQuery, BoundsOfASolidHoldTheTruth) {
   EXPECT_GT(known, 1'950);
   EXPECT_GT(overlaps, 300);
   EXPECT_LT(widest, 0.01);
+}
+
+TEST(PairQuery, TheBoundsOfConvexSolidsAreClose) {
+  std::mt19937_64 random(12);
+  const QueryShape one = query_solid(CylinderShape{0.06, 0.12});
+  const QueryShape other = query_solid(EllipsoidShape{{0.1, 0.05, 0.03}});
+  std::vector<double> widths;
+  for (int i = 0; i < 200; ++i) {
+    const PairMeasure m =
+        measure_pair(one, drawn_placement(random, 0.15), other, drawn_placement(random, 0.15));
+    if (m.overlap == Overlap::no) widths.push_back(m.distance.most - m.distance.least);
+  }
+  std::sort(widths.begin(), widths.end());
+  ASSERT_GT(widths.size(), 100u);
+  EXPECT_LT(widths[widths.size() / 2], 1e-8);
+  EXPECT_LT(widths[widths.size() * 95 / 100], 1e-6);
 }
 
 TEST(PairQuery, ExchangedShapesHaveTheSameResultToTheBit) {
