@@ -298,11 +298,16 @@ class Expansion {
   bool is_full_ = false;
 };
 
+constexpr double kFarthest = 1e6;  // [m]
+
 /// Sets the pose and size of an object in S; what is wrong with that, if anything is.
 std::optional<std::string> put_at(const NodePose& pose, haptics::SceneObject& object) {
   object.pose.position = pose.position;
   object.pose.orientation = pose.orientation;
-  if (pose.scale < 1e-3 || pose.scale > 1e3)
+  if (!(pose.position.cwiseAbs().maxCoeff() <= kFarthest))
+    return fmt::format(
+        "'{}' lies farther than 1000 km from the origin of S: bring its nodes nearer", object.name);
+  if (!(pose.scale >= 1e-3 && pose.scale <= 1e3))
     return fmt::format("the scales above '{}' come to {:.3g}; let it be 0.001 to 1000", object.name,
                        pose.scale);
   if (scale_shape(object.shape, pose.scale)) return std::nullopt;

@@ -53,6 +53,9 @@ void check_scene(const peer::SceneFile& file) {
     require(object.pose.position.allFinite() && object.pose.orientation.coeffs().allFinite(),
             "a pose that is not finite");
   }
+  for (const peer::HungObject& hung : file.nodes.hung)
+    require(hung.object < (hung.felt ? file.scene.objects : file.nodes.unfelt).size(),
+            "a leaf without an object");
   check_belongings(file);
   require(file.network.group.is_multicast(), "a group that is none");
   require(scene_hash(file) == file.hash, "a scene hashes differently the second time");

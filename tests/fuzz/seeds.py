@@ -19,6 +19,39 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_DATAGRAMS = 400  # of each capture, one for each type and length
 
 
+# A copy below a node that moves, and a choice.
+NODES = b"""[[node]]
+name = "a"
+scale = 2
+turn_rate = 1
+swing = [0, 0, 1]
+swing_rate = 1
+[[node]]
+name = "b"
+parent = "a"
+use = "c"
+[[node]]
+name = "c"
+kind = "switch"
+shows = "d"
+[[node]]
+name = "d"
+parent = "c"
+[[node]]
+name = "e"
+kind = "level_of_detail"
+[[node]]
+name = "f"
+parent = "e"
+use = "d"
+farthest = 2
+[[object]]
+name = "x"
+sphere = 1
+node = "d"
+"""
+
+
 def samples():
     """Name and octets of each golden sample."""
     for path in sorted((ROOT / "tests/support/wire_samples").glob("*.hex")):
@@ -211,7 +244,7 @@ def main(folder):
     write(seeds / "bundle", every + pair + [b"".join(own.values())])
     write(seeds / "force_model", [own["attribute"], *pair])
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
-    write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
+    write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")] + [NODES])
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0), mixed_pcapng(pair),
                               gzip.compress(pcap(pair), mtime=0), lzma.compress(pcap(pair)),
                               bz2.compress(pcap(pair))] + [f.read_bytes() for f in files])
@@ -238,7 +271,8 @@ def main(folder):
     write(seeds / "image", image_seeds())
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/aoim_section.cpp",
-                                     "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/object_section.cpp",
+                                     "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/node_section.cpp",
+                                     "src/scene/object_section.cpp",
                                      "src/scene/scene_words.hpp",
                                      "src/scene/device_section.cpp", "src/scene/entity_section.cpp",
                                      "deadreckon/sending/send_rules.hpp", "deadreckon/motion/convergence.hpp"])):

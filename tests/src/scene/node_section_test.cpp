@@ -276,6 +276,16 @@ TEST(NodeSection, RefuseSizesThatCannotBe) {
   EXPECT_THAT(refusal(node("a", "scale = 100\n") + node("b", "parent = \"a\"\nscale = 100\n") +
                       ball("x", "b")),
               HasSubstr("the scales above 'x' come to 1e+04"));
+  EXPECT_THAT(refusal(node("a", "scale = 1000\n") +
+                      node("b", "parent = \"a\"\nposition = \"2 0 0 km\"\nscale = 0.001\n") +
+                      ball("x", "b")),
+              HasSubstr("x.toml:12:8: 'x' lies farther than 1000 km from the origin of S"));
+  std::string endless;  // more than a double holds, and back
+  for (int i = 0; i < 220; ++i)
+    endless += node(fmt::format("n{}", i),
+                    fmt::format("scale = {}\nposition = [1e6, 0, 0]\n{}", i < 110 ? 1e3 : 1e-3,
+                                i == 0 ? "" : fmt::format("parent = \"n{}\"\n", i - 1)));
+  EXPECT_THAT(refusal(endless + ball("x", "n219")), HasSubstr("farther than 1000 km"));
 }
 
 TEST(NodeSection, AreInTheHashOfAScene) {
