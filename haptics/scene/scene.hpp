@@ -77,7 +77,7 @@ struct Scene {
   std::vector<SceneObject> objects;
   std::vector<SceneRegion> regions{};
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2], S; of bodies
-  WorkSpace work_space;                         ///< of bodies
+  WorkSpace work_space = {};                    ///< of bodies
 };
 
 }  // namespace reckon::haptics

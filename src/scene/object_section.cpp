@@ -131,7 +131,7 @@ Section<haptics::SceneObject> object_section() {
        "between bodies and to what stands still; of a pair, the geometric mean"},
       {"restitution", in(&Object::matter, &haptics::Matter::restitution), within("", 0, 1),
        "how much of its speed a body keeps in a hit; of a pair, the greater one"},
-      {"drag", in(&Object::matter, &haptics::Matter::drag), within("N s/m", 0, 1e3),
+      {"body_drag", in(&Object::matter, &haptics::Matter::drag), within("N s/m", 0, 1e3),
        "of a body: force against its speed"},
       {"patch", patches, patch_section(),
        "mesh: the faces of a material or group with other properties; heights: top, side or "
