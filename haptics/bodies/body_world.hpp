@@ -59,17 +59,18 @@ struct BodyStep {
 using BodyRing = SpscRing<BodyStep>;
 
 /// All bodies of one peer. Hands push them from within their servo steps, all on one thread and at
-/// one rate; the first servo of a period steps the world to it. A force is held until then, as at
-/// the handle, so that what a hand gives up and what a body gets are one.
+/// one rate; the first servo of a period steps the world to it. A hand foresees the period that
+/// begins, shows the mean of its force, and pushes the body as foreseen, so that what a hand gives
+/// up and what a body gets are one (docs/bodies.md).
 ///
-/// Free flight is exact for a constant force. Contacts are inelastic or bounce by the greater of
+/// Free flight and rebounds from the work space are in closed form. Contacts are inelastic or bounce by the greater of
 /// both restitutions, and rub by the geometric mean of both frictions. The solver is ODE's exact
 /// step; what energy it makes beyond what was put in is taken out of the bodies' speeds in the
 /// same step, so that a pile never gains any. A body that has been still for kSleep sleeps until it
 /// is pushed or hit.
 ///
 /// Allocates at construction, and within the first steps until as many contacts were met as there
-/// will be; then nothing. 3 us for one body, 20 us for ten that lie in a pile.
+/// will be; then nothing. 3 us for a body that is awake, 20 us for ten in a pile; body_bench has hands.
 class BodyWorld {
  public:
   static constexpr std::chrono::milliseconds kSleep{1000};

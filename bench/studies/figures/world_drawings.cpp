@@ -141,8 +141,9 @@ Figure drawing_work_space() {
   d.arrow({cube.left(), space.left(40), space.at(-150, 90)});
   d.text(85, 175, "rebound with\ndamped velocity");
   return drawn(std::move(d), "The work space: two users, cubes, and a box of six walls.",
-               "Reckon's scenes hold solids and hands at any place; walls are objects. Bodies that "
-               "move when pushed and rebound are not there yet.");
+               "Reckon's scenes hold solids, bodies and hands at any place; the six walls are the "
+               "scene's work_space, which bodies rebound from and hands do not feel "
+               "(docs/bodies.md).");
 }
 
 }  // namespace reckon::bench
