@@ -15,7 +15,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr const char* kYet = "has a mass, but only boxes and spheres move by it: give one of them";
+constexpr const char* kYet =
+    "has a mass, but only boxes and spheres move by theirs: give one of them";
 
 dGeomID placed(const PlannedObject& object, dGeomID geom) {
   if (object.moves()) return geom;

@@ -58,8 +58,9 @@ void check_body(TomlReader& table, const haptics::SceneObject& object) {
   const bool can = std::holds_alternative<haptics::BoxShape>(object.shape) ||
                    std::holds_alternative<haptics::SphereShape>(object.shape);
   if (!can)
-    table.problem("mass",
-                  "only boxes and spheres move yet: give one of them, or take the mass out");
+    table.problem(
+        "mass",
+        "only boxes and spheres move by their mass: give one of them, or take the mass out");
 }
 
 void check_object(TomlReader& table, haptics::SceneObject& object) {

@@ -40,12 +40,12 @@ TEST(BodyKeys, GiveMassFrictionAndRestitution) {
 TEST(BodyKeys, RefuseWhatCannotMove) {
   EXPECT_THAT(refusal("[[object]]\nname = \"a\"\nplane = [0, 0, 1]\nmass = \"1 kg\"\n" +
                       std::string(kHand)),
-              HasSubstr("only boxes and spheres move by it"));
+              HasSubstr("only boxes and spheres move by their mass"));
   EXPECT_THAT(
       refusal("[[object]]\nname = \"a\"\ncylinder = {radius = \"1 cm\", height = \"4 cm\"}\n"
               "mass = \"1 kg\"\n" +
               std::string(kHand)),
-      HasSubstr("only boxes and spheres move by it"));
+      HasSubstr("only boxes and spheres move by their mass"));
 }
 
 TEST(BodyKeys, AreMovedByDevicesOfTheFirstPeerAtOneRate) {
