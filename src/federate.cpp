@@ -42,7 +42,7 @@ void check_marking(const std::string& marking) {
                                 std::to_string(kLongestMarking) + " ASCII characters at most");
 }
 
-// Numbers of hands and of the scene's entities.
+// Numbers of hands, and of the scene's entities and bodies.
 std::size_t given_already(const FederateOptions& options) {
   const auto moves = [](const haptics::SceneObject& object) {
     return object.matter.mass > 0 || object.carried;

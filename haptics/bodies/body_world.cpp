@@ -58,6 +58,7 @@ class BodyWorld::Engine {
     if (!is_first && !(gap > 0)) return false;
     time_ = now;
     see_carried(now);
+    frozen_ = frozen;
     if (is_first || frozen) {
       works_.assign(pushes_.size(), 0.0);
       last_.clear();
@@ -118,7 +119,8 @@ class BodyWorld::Engine {
     period_ = period;
     stepped_ |= std::uint64_t{1} << hand % 64;
     const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
-    if (std::ranges::none_of(pushes_, own)) return;
+    // What is frozen gives way to nobody.
+    if (frozen_ || std::ranges::none_of(pushes_, own)) return;
     const BodySet pushed = pushed_by(pushes_) | still_pushed();
     const std::size_t steps = steps_for(period);
     BodySet island = solver_.island(pushed);
@@ -265,6 +267,10 @@ class BodyWorld::Engine {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       static_cast<ObjectMotion&>(states_[i]) = solver_.motion(i);
       states_[i].awake = solver_.awake(i);
+      if (frozen_ && !solver_.is_carried(i)) {
+        states_[i].velocity.setZero();
+        states_[i].turn_rate.setZero();
+      }
       const double own = (fine >> i & 1) != 0 ? step : kLongestStep;
       states_[i].step = solver_.is_carried(i) ? 0.0 : own;
     }
@@ -288,6 +294,7 @@ class BodyWorld::Engine {
   std::uint64_t stepped_ = 0;  // hands, in this period
   double period_ = kLongestStep;
   bool started_ = false;
+  bool frozen_ = false;
   nanoseconds time_{0};
   std::uint64_t coarse_ = 0;
 };

@@ -322,7 +322,9 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
-  if (remote_bodies_) remote_bodies_->note(update);
+  // A plain DIS program has none of the scene's bodies.
+  const bool is_peer = arrival.epoch != 0 || scene_.network.interop;
+  if (remote_bodies_ && is_peer) remote_bodies_->note(update);
 }
 
 // In another's name it is neither obeyed nor delivered.

@@ -538,6 +538,30 @@ TEST(PushedBody, StandsStillWhileTheSimulationIsFrozen) {
       << "it falls on as fast as it was";
 }
 
+// However light it is, and whoever presses it.
+TEST(PushedBody, IsAWallWhileTheSimulationIsFrozen) {
+  const Scene scene = cube_of(0.001, 500);
+  const auto plan = std::make_shared<const EffectPlan>(scene);
+  const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
+  const auto in = [](double t) {
+    HandTarget target;
+    target.position.x() = -0.03 + 0.02 * ease(t);
+    return target;
+  };
+  SimulatedDevice device(device_at(in(0).position), in);
+  ServoLoop servo(device, plan, ServoConfig{}, world);
+  ContactSet set;
+  set.frozen = true;
+  servo.contacts().write(set);
+  for (int i = 0; i < 3000; ++i) servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
+  ASSERT_TRUE(servo.snapshots().update());
+  // The hand's spring of 300 N/m wants 10 mm into what has 500 N/m.
+  const double right = 500.0 * 300.0 / 800.0 * 0.01;
+  EXPECT_NEAR(-servo.snapshots().read().force.x(), right, 0.005 * right);
+  EXPECT_EQ(world->states()[0].position, Vector3d::Zero());
+  EXPECT_EQ(world->states()[0].velocity, Vector3d::Zero());
+}
+
 TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
   const Scene scene = cube_of(0.0003, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
