@@ -24,13 +24,18 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr int kContacts = 4;  // of a pair, at most
+// Of an island, up to which the exact solver is the faster one. Beyond it takes their number to the
+// third power, and mostly finds no answer.
+constexpr int kMostExact = 40;
+constexpr int kIterations = 30;
 // Depth at which contacts rest [m], so that they last from step to step.
 constexpr double kRestDepth = 1e-5;
 constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
 constexpr double kBounceSpeed = 0.01;  // [m/s]; slower hits do not bounce
-constexpr double kSlipSpeed = 1e-4;    // [m/s]; faster ones rub along their way
-constexpr double kStillSpeed = 1e-3;   // [m/s]
-constexpr double kStillTurn = 0.02;    // [rad/s]
+constexpr double kHitSoftness = 1e-12;
+constexpr double kSlipSpeed = 1e-4;   // [m/s]; faster ones rub along their way
+constexpr double kStillSpeed = 1e-3;  // [m/s]
+constexpr double kStillTurn = 0.02;   // [rad/s]
 
 constexpr double kNear = 5e-4;  // [m], between the boxes of bodies that may touch
 
@@ -64,6 +69,9 @@ double turning_energy(dBodyID body) noexcept {
                 mass.I[10] * rate.z() * rate.z());
 }
 
+// No body, or one that goes its way whatever it meets.
+bool stands(dBodyID body) noexcept { return body == nullptr || dBodyIsKinematic(body); }
+
 void slow(dBodyID body, double factor) noexcept {
   const Vector3d v = factor * vector(dBodyGetLinearVel(body));
   const Vector3d w = factor * vector(dBodyGetAngularVel(body));
@@ -71,16 +79,21 @@ void slow(dBodyID body, double factor) noexcept {
   dBodySetAngularVel(body, w.x(), w.y(), w.z());
 }
 
-// Friction is bounded along two axes: where a contact slips, one of them is its way.
-void rub_along(dContact& contact, dBodyID first, dBodyID second) noexcept {
-  const Vector3d at = vector(contact.geom.pos), normal = vector(contact.geom.normal);
+// Of the first body against the second one, at a contact of both [m/s].
+Vector3d velocity_at(const dContact& contact, dBodyID first, dBodyID second) noexcept {
+  const Vector3d at = vector(contact.geom.pos);
   const auto velocity = [&](dBodyID body) -> Vector3d {
     if (body == nullptr) return Vector3d::Zero();
     return vector(dBodyGetLinearVel(body)) +
            vector(dBodyGetAngularVel(body)).cross(at - vector(dBodyGetPosition(body)));
   };
-  Vector3d slip = velocity(first) - velocity(second);
-  slip -= normal.dot(slip) * normal;
+  return velocity(first) - velocity(second);
+}
+
+// Friction is bounded along two axes: where a contact slips, one of them is its way.
+void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
+  const Vector3d normal = vector(contact.geom.normal);
+  const Vector3d slip = velocity - normal.dot(velocity) * normal;
   const double speed = slip.norm();
   if (!(speed > kSlipSpeed)) return;
   contact.surface.mode |= dContactFDir1;
@@ -130,7 +143,7 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   keep_within_thread(world_);
   dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(world_, 0.2);
-  dWorldSetQuickStepNumIterations(world_, 60);
+  dWorldSetQuickStepNumIterations(world_, kIterations);
   dWorldSetCFM(world_, 1e-7);
   dWorldSetContactSurfaceLayer(world_, kRestDepth);
   dWorldSetContactMaxCorrectingVel(world_, kParting);
@@ -168,6 +181,7 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
   if (!moves) return;
   Body& body = bodies_.emplace_back();
   body.id = dBodyCreate(world_);
+  dBodySetData(body.id, reinterpret_cast<void*>(bodies_.size() - 1));
   body.geom = geom;
   body.object = number;
   body.start = object.position;
@@ -330,6 +344,7 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
   for (BodyForce& force : forces)
     force.work = 0.5 * dt * force.force.dot(velocity(force.body, force.place));
+  islands_.clear();
   dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
     static_cast<BodySolver*>(self)->collide(a, b);
   });
@@ -366,12 +381,12 @@ double BodySolver::lifted_ahead(double dt) const noexcept {
   return sum;
 }
 
-// Where the exact solver is lost, the step is taken again by one that always ends near the
-// answer.
+// Where the exact solver would take too long or is lost, the step is taken by one that always ends
+// near the answer.
 void BodySolver::solve(double dt) noexcept {
   for (Body& body : bodies_) body.before = body.state();
-  lost = false;
-  dWorldStep(world_, dt);
+  lost = islands_.largest() > kMostExact;
+  if (!lost) dWorldStep(world_, dt);
   if (!lost) return;
   ++ledger_.lost;
   for (Body& body : bodies_) body.set(body.before);
@@ -398,12 +413,12 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
   const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
   if (sleeps(first) && sleeps(second)) return;
   std::array<dContact, kContacts> contacts{};
-  const auto is_kinematic = [](dBodyID body) { return body == nullptr || dBodyIsKinematic(body); };
-  if (is_kinematic(first) && is_kinematic(second)) return;
+  if (stands(first) && stands(second)) return;
   const int count = dCollide(a, b, kContacts, &contacts[0].geom, sizeof(dContact));
   if (count == 0) return;
-  is_driven_ |= is_kinematic(first) && first != nullptr && dBodyIsEnabled(first);
-  is_driven_ |= is_kinematic(second) && second != nullptr && dBodyIsEnabled(second);
+  is_driven_ |= stands(first) && first != nullptr && dBodyIsEnabled(first);
+  is_driven_ |= stands(second) && second != nullptr && dBodyIsEnabled(second);
+  note_contacts(first, second, count);
   const auto* one = static_cast<const Matter*>(dGeomGetData(a));
   const auto* other = static_cast<const Matter*>(dGeomGetData(b));
   for (int i = 0; i < count; ++i) {
@@ -412,8 +427,28 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
     contact.surface.mu = std::sqrt(one->friction * other->friction);
     contact.surface.bounce = std::max(one->restitution, other->restitution);
     contact.surface.bounce_vel = kBounceSpeed;
-    rub_along(contact, first, second);
+    const Vector3d velocity = velocity_at(contact, first, second);
+    rub_along(contact, velocity);
+    // What bounces is a hit: it is over within the step.
+    if (contact.surface.bounce > 0 &&
+        velocity.dot(vector(contact.geom.normal)) < -contact.surface.bounce_vel) {
+      contact.surface.mode |= dContactSoftCFM;
+      contact.surface.soft_cfm = kHitSoftness;
+    }
     dJointAttach(dJointCreateContact(world_, joints_, &contact), first, second);
+  }
+}
+
+void BodySolver::note_contacts(dBodyID first, dBodyID second, int count) noexcept {
+  const auto number = [](dBodyID body) {
+    return reinterpret_cast<std::size_t>(dBodyGetData(body));
+  };
+  if (stands(first)) {
+    islands_.add(number(second), count);
+  } else if (stands(second)) {
+    islands_.add(number(first), count);
+  } else {
+    islands_.join(number(first), number(second), count);
   }
 }
 
@@ -508,14 +543,25 @@ void BodySolver::take_out(double given) noexcept {
   ledger_.energy = std::min(most, energy());
 }
 
+// Bodies that touch one another fall asleep together: one that does so alone would be woken by the
+// others, and disturb them.
 void BodySolver::rest(double dt) noexcept {
-  for (Body& body : bodies_) {
+  std::array<double, kMostBodies> still;  // [s], of islands
+  still.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < size(); ++i) {
+    Body& body = bodies_[i];
     if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
     const double speed = vector(dBodyGetLinearVel(body.id)).norm();
     if (speed > BodyWorld::kFastest) slow(body.id, BodyWorld::kFastest / speed);
     const bool is = speed < kStillSpeed && vector(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
     body.still = is ? body.still + dt : 0.0;
-    if (body.still < pdu::to_seconds(BodyWorld::kSleep)) continue;
+    double& least = still[islands_.island_of(i)];
+    least = std::min(least, body.still);
+  }
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Body& body = bodies_[i];
+    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
+    if (still[islands_.island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) continue;
     slow(body.id, 0.0);
     dBodyDisable(body.id);
   }

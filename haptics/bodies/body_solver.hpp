@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/bodies/body_geoms.hpp"
+#include "reckon/haptics/bodies/contact_islands.hpp"
 #include "reckon/haptics/bodies/flight.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -119,6 +120,7 @@ class BodySolver {
   void solve(double dt) noexcept;
   [[nodiscard]] double lifted_ahead(double dt) const noexcept;
   void collide(dGeomID a, dGeomID b) noexcept;
+  void note_contacts(dBodyID first, dBodyID second, int count) noexcept;
   [[nodiscard]] Walls walls_of(const Body& body, int axis) const noexcept;
   void fly_exactly(double dt) noexcept;
   void catch_fast() noexcept;
@@ -135,6 +137,7 @@ class BodySolver {
   WorkSpace work_space_;
   std::vector<Matter> matters_;  // of geoms
   std::vector<Body> bodies_;
+  ContactIslands<8 * sizeof(BodySet)> islands_;  // of a step
   BodySet carried_ = 0;
   bool is_driven_ = false;  // something that is carried touches a body in this step
   BodySet only_ = all();

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -24,6 +25,7 @@ struct HandTarget {
   Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
   double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: it has let go
   double most_pull = std::numeric_limits<double>::infinity();  ///< [N] >= 0, that the spring gives
+  std::uint32_t buttons = 0;  ///< pressed
 };
 
 /// Target at a time [s] since the device's first read. Must not allocate; called about ten times a
@@ -128,6 +130,7 @@ class SimulatedDevice : public HapticDevice {
   std::chrono::nanoseconds read_at_{0};
   std::chrono::nanoseconds written_at_{0};
   double time_ = 0.0;  // [s], of the plant
+  std::uint32_t buttons_ = 0;
   bool started_ = false;
   bool enabled_ = true;
   bool plugged_ = true;

@@ -18,6 +18,7 @@
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
 #include "reckon/haptics/exchange/servo_tally.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/haptics/scene/grab_spring.hpp"
 #include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::haptics {
@@ -113,8 +114,8 @@ struct ToolState {
   Eigen::Vector3d handle = Eigen::Vector3d::Zero();                 ///< [m], measured
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> S, measured
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m], about the handle, as written
-  std::size_t count = 0;                             ///< of its probes
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();   ///< [N m], about the handle, as written
+  std::size_t count = 0;                              ///< of its probes
   std::array<Eigen::Vector3d, kMostProbes> probes{};  ///< [m], where they are
 };
 
@@ -139,6 +140,7 @@ struct ServoSnapshot : AccountList {
   double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
+  bool grabs = false;    ///< it holds a body
   bool enabled = false;  ///< operator switch held and no trip pending
   ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
@@ -165,10 +167,14 @@ struct ServoConfig {
   std::chrono::nanoseconds period{1'000'000};  ///< nominal; default 1 ms, range 0.1 .. 10 ms
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
-  double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
+  double probe_radius = 0.01;  ///< [m], of our own hand against remote hands; >= 0
   /// [m], of the patch by which a probe holds bodies against turning about the contact normal, as a
   /// soft finger does; 0 (a point) to 1. Where they have friction.
   double patch_radius = 0.0;
+  /// What holds a body that a probe touches while one of these buttons is pressed (bit i is button
+  /// i). Device and body may allow less.
+  GrabSpring grab{};
+  std::uint32_t grab_buttons = 1;
   double contact_radius = 0.0;  ///< [m], of the probes against the static scene; 0 (points) to 1
   /// Of the tool on a device of six axes: 1 to 8 places from the handle [m], in axes of the tool,
   /// each at most 1 m away. The first is what remote hands touch. None: the handle is the probe.

@@ -194,6 +194,8 @@ Section<DeviceConfig> device_section() {
       {"max_torque", &Device::max_torque, within("N m", 1e-3, 100), "of six axes: it can show"},
       {"turn_resolution", &Device::turn_resolution, within("rad", 0, 0.1),
        "of six axes: step of its angle sensors; 0: exact"},
+      {"grab_button", &Device::grab_button, within("", 0, 31),
+       "its button, from 0, by which the hand holds bodies; see grab_stiffness of [hand]"},
       {"probe", &Device::probes, probe_section(),
        "of six axes: a place of the tool that touches, at most 8; remote hands touch the first. "
        "None: the handle"},

@@ -18,6 +18,7 @@
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/haptics/scene/grab_spring.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/network/impairment.hpp"
@@ -43,6 +44,7 @@ struct OriginConfig {
 struct HandModel {
   double radius = 0.02;         ///< [m] > 0; also the probe radius against remote hands
   double patch_radius = 0.0;    ///< [m] >= 0, of the patch that holds bodies against turning
+  haptics::GrabSpring grab{};   ///< what holds a body while the button is pressed
   double contact_radius = 0.0;  ///< [m] >= 0, of the ball with which its device feels objects
   /// [N/m] >= 0; the receiver limits it to the stiffness that its device can show. The default,
   /// with its damper, is the limit of a device of defaults.
@@ -75,9 +77,10 @@ struct OperatorConfig {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();      ///< [m] S: sweep: one end
   Eigen::Vector3d to = Eigen::Vector3d::Zero();        ///< [m] S: sweep: the other end
   std::chrono::nanoseconds period = std::chrono::seconds(2);  ///< sweep: time there and back, > 0
-  std::chrono::nanoseconds start{0};                          ///< at rest until then, >= 0
-  double stiffness = 300.0;                                   ///< [N/m] of the grip, >= 0
-  double damping = 3.0;                                       ///< [N s/m] of the grip, >= 0
+  bool grabs = false;  ///< sweep: on the way to `to` it presses button 0 of its device
+  std::chrono::nanoseconds start{0};  ///< at rest until then, >= 0
+  double stiffness = 300.0;           ///< [N/m] of the grip, >= 0
+  double damping = 3.0;               ///< [N s/m] of the grip, >= 0
   /// Of a device of six axes: the hand turns it by so much, about each axis of S.
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();  ///< [rad]; sweep: at `to`, none at `from`
   double turn_stiffness = 1.0;                       ///< [N m/rad] of the grip, >= 0
@@ -158,9 +161,10 @@ struct DeviceConfig {
   double max_speed = 2.0;           ///< [m/s] > 0; a faster reading switches the force off
   /// [N/s], fastest change of its force in size and direction; 0: as in haptics::ServoConfig.
   double max_force_rate = 0.0;
-  double received_power = 0.2;  ///< [W] > 0, largest average power that others put into its hand
-  double resolution = 0.0;      ///< [m] >= 0, step of its position sensors; 0: exact
-  int delay_samples = 0;        ///< servo periods between a write and the force at the handle, >= 0
+  double received_power = 0.2;    ///< [W] > 0, largest average power that others put into its hand
+  double resolution = 0.0;        ///< [m] >= 0, step of its position sensors; 0: exact
+  std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies
+  int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
 };
 

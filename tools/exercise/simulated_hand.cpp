@@ -62,6 +62,7 @@ haptics::HandScript sweep(const peer::OperatorConfig& config) {
     HandTarget target;
     target.position = config.from + 0.5 * (1.0 - std::cos(phase)) * way;
     target.velocity = 0.5 * rate * std::sin(phase) * way;
+    target.buttons = config.grabs && std::sin(phase) > 0 ? 1 : 0;
     return target;
   };
 }
@@ -221,7 +222,7 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
     }
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period, config.max_force_rate,
-                           config.received_power, probes_of(config)});
+                           config.received_power, config.grab_button, probes_of(config)});
   }
   return hands;
 }
