@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/bodies/body_solver.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,19 +16,23 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/flight.hpp"
+#include "reckon/haptics/geometry/solid_moments.hpp"
+#include "reckon/haptics/geometry/surface_mesh.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr int kContacts = 4;  // of a pair, at most
+constexpr std::size_t kMostFound = 64;  // contacts of a pair with a mesh
 // Of an island, up to which the exact solver is the faster one. Beyond it takes their number to the
 // third power, and mostly finds no answer.
-constexpr int kMostExact = 40;
-constexpr int kIterations = 30;
+constexpr int kMostExact = 24;
+// Of the other one, for one contact, so that a step of many takes no longer.
+constexpr int kIterations = 2000, kFewest = 10, kMostIterations = 30;
 // Depth at which contacts rest [m], so that they last from step to step.
 constexpr double kRestDepth = 1e-5;
 constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
@@ -65,8 +70,10 @@ double turning_energy(dBodyID body) noexcept {
       Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * vector(dBodyGetAngularVel(body));
   dMass mass;
   dBodyGetMass(body, &mass);
-  return 0.5 * (mass.I[0] * rate.x() * rate.x() + mass.I[5] * rate.y() * rate.y() +
-                mass.I[10] * rate.z() * rate.z());
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) sum += rate[i] * mass.I[4 * i + k] * rate[k];
+  return 0.5 * sum;
 }
 
 // No body, or one that goes its way whatever it meets.
@@ -137,18 +144,17 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   start_ode();
   know_thread();
   world_ = dWorldCreate();
-  geoms_.emplace();
+  geoms_.emplace(std::ranges::any_of(plan.objects(), [](const PlannedObject& object) {
+    return object.is_body() && object.is_mesh();
+  }));
   joints_ = dJointGroupCreate(0);
   ray_ = dCreateRay(nullptr, 1.0);
   keep_within_thread(world_);
   dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(world_, 0.2);
-  dWorldSetQuickStepNumIterations(world_, kIterations);
   dWorldSetCFM(world_, 1e-7);
   dWorldSetContactSurfaceLayer(world_, kRestDepth);
   dWorldSetContactMaxCorrectingVel(world_, kParting);
-  // Geoms point to what they are made of, and a step allocates nothing.
-  matters_.reserve(plan.objects().size());
   try {
     for (std::uint32_t i = 0; i < plan.objects().size(); ++i) add(plan.objects()[i], i);
   } catch (...) {
@@ -174,17 +180,12 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
                             " objects: take the mass of some out");
   }
   const dGeomID geom = geoms_->add(object);
-  if (geom != nullptr) {
-    matters_.push_back(object.matter);
-    dGeomSetData(geom, &matters_.back());
-  }
   if (!moves) return;
   Body& body = bodies_.emplace_back();
   body.id = dBodyCreate(world_);
   dBodySetData(body.id, reinterpret_cast<void*>(bodies_.size() - 1));
   body.geom = geom;
   body.object = number;
-  body.start = object.position;
   if (object.carried) {
     carried_ |= BodySet{1} << (bodies_.size() - 1);
     dBodySetKinematic(body.id);
@@ -192,10 +193,13 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
   } else {
     give_mass(body, object);
   }
+  const Vector3d& m = body.middle;
   if (geom != nullptr) dGeomSetBody(geom, body.id);
+  if (!m.isZero(0.0)) dGeomSetOffsetPosition(geom, -m.x(), -m.y(), -m.z());
   const Quaterniond q(object.orientation);
   const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-  dBodySetPosition(body.id, object.position.x(), object.position.y(), object.position.z());
+  body.start = object.position + object.orientation * body.middle;
+  dBodySetPosition(body.id, body.start.x(), body.start.y(), body.start.z());
   dBodySetQuaternion(body.id, turned);
   dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
 }
@@ -203,6 +207,8 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
 void BodySolver::give_mass(Body& body, const PlannedObject& object) {
   body.mass = object.matter.mass;
   body.drag = object.matter.drag;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape))
+    return give_mass(body, **mesh);
   dMass mass;
   if (std::holds_alternative<Ball>(object.shape)) {
     body.inner = dGeomSphereGetRadius(body.geom);
@@ -213,6 +219,22 @@ void BodySolver::give_mass(Body& body, const PlannedObject& object) {
     body.inner = 0.5 * std::min({size[0], size[1], size[2]});
     dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
   }
+  body.least_inertia = std::min({mass.I[0], mass.I[5], mass.I[10]});
+  dBodySetMass(body.id, &mass);
+}
+
+void BodySolver::give_mass(Body& body, const SurfaceMesh& mesh) {
+  const SolidMoments moments = moments_of(mesh);
+  const Matrix3d inertia = body.mass * moments.inertia;
+  body.middle = moments.middle;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(inertia, Eigen::EigenvaluesOnly);
+  body.least_inertia = principal.eigenvalues()(0);
+  ClosestPoint nearest;
+  static_cast<void>(mesh.closest_from(moments.middle, 0, nearest));
+  if (mesh.contains(moments.middle)) body.inner = nearest.distance;
+  dMass mass;
+  dMassSetParameters(&mass, body.mass, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                     inertia(0, 1), inertia(0, 2), inertia(1, 2));
   dBodySetMass(body.id, &mass);
 }
 
@@ -239,8 +261,11 @@ Quaterniond BodySolver::orientation(std::size_t body) const noexcept {
 
 ObjectMotion BodySolver::motion(std::size_t body) const noexcept {
   const dBodyID id = bodies_[body].id;
-  return {vector(dBodyGetPosition(id)), orientation(body), vector(dBodyGetLinearVel(id)),
-          vector(dBodyGetAngularVel(id))};
+  const Quaterniond turned = orientation(body);
+  const Vector3d to_middle = turned * bodies_[body].middle;
+  const Vector3d rate = vector(dBodyGetAngularVel(id));
+  return {vector(dBodyGetPosition(id)) - to_middle, turned,
+          vector(dBodyGetLinearVel(id)) - rate.cross(to_middle), rate};
 }
 
 bool BodySolver::awake(std::size_t body) const noexcept {
@@ -250,13 +275,7 @@ bool BodySolver::awake(std::size_t body) const noexcept {
 Vector3d BodySolver::velocity(std::size_t body, const Vector3d& place) const noexcept {
   const dBodyID id = bodies_[body].id;
   return vector(dBodyGetLinearVel(id)) +
-         vector(dBodyGetAngularVel(id)).cross(orientation(body) * place);
-}
-
-double BodySolver::least_inertia(std::size_t body) const noexcept {
-  dMass mass;
-  dBodyGetMass(bodies_[body].id, &mass);
-  return std::min({mass.I[0], mass.I[5], mass.I[10]});
+         vector(dBodyGetAngularVel(id)).cross(orientation(body) * (place - bodies_[body].middle));
 }
 
 double BodySolver::energy() const noexcept {
@@ -390,6 +409,8 @@ void BodySolver::solve(double dt) noexcept {
   if (!lost) return;
   ++ledger_.lost;
   for (Body& body : bodies_) body.set(body.before);
+  dWorldSetQuickStepNumIterations(
+      world_, std::clamp(kIterations / std::max(1, islands_.all()), kFewest, kMostIterations));
   dRandSetSeed(1);  // so that it is the same twice
   dWorldQuickStep(world_, dt);
 }
@@ -401,7 +422,8 @@ void BodySolver::apply(std::span<BodyForce> forces) noexcept {
       dBodyEnable(body.id);
       body.still = 0.0;
     }
-    const Vector3d at = vector(dBodyGetPosition(body.id)) + orientation(force.body) * force.place;
+    const Vector3d at =
+        vector(dBodyGetPosition(body.id)) + orientation(force.body) * (force.place - body.middle);
     const Vector3d& f = force.force;
     dBodyAddForceAtPos(body.id, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
     dBodyAddTorque(body.id, force.torque.x(), force.torque.y(), force.torque.z());
@@ -412,20 +434,20 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
   const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
   const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
   if (sleeps(first) && sleeps(second)) return;
-  std::array<dContact, kContacts> contacts{};
   if (stands(first) && stands(second)) return;
-  const int count = dCollide(a, b, kContacts, &contacts[0].geom, sizeof(dContact));
-  if (count == 0) return;
+  std::array<dContactGeom, kMostFound> room;
+  const std::span<dContactGeom> found = BodyGeoms::meet(a, b, room);
+  if (found.empty()) return;
   is_driven_ |= stands(first) && first != nullptr && dBodyIsEnabled(first);
   is_driven_ |= stands(second) && second != nullptr && dBodyIsEnabled(second);
-  note_contacts(first, second, count);
-  const auto* one = static_cast<const Matter*>(dGeomGetData(a));
-  const auto* other = static_cast<const Matter*>(dGeomGetData(b));
-  for (int i = 0; i < count; ++i) {
-    dContact& contact = contacts[static_cast<std::size_t>(i)];
+  note_contacts(first, second, static_cast<int>(found.size()));
+  const Matter &one = BodyGeoms::matter_of(a).matter, &other = BodyGeoms::matter_of(b).matter;
+  for (const dContactGeom& place : found) {
+    dContact contact{};
+    contact.geom = place;
     contact.surface.mode = dContactApprox1 | dContactBounce;
-    contact.surface.mu = std::sqrt(one->friction * other->friction);
-    contact.surface.bounce = std::max(one->restitution, other->restitution);
+    contact.surface.mu = std::sqrt(one.friction * other.friction);
+    contact.surface.bounce = std::max(one.restitution, other.restitution);
     contact.surface.bounce_vel = kBounceSpeed;
     const Vector3d velocity = velocity_at(contact, first, second);
     rub_along(contact, velocity);
@@ -456,9 +478,9 @@ void BodySolver::note_contacts(dBodyID first, dBodyID second, int count) noexcep
 Walls BodySolver::walls_of(const Body& body, int axis) const noexcept {
   dReal box[6];
   dGeomGetAABB(body.geom, box);
-  const double half = 0.5 * (box[2 * axis + 1] - box[2 * axis]);
-  const double room = 0.5 * work_space_.size[axis] - half;
-  return {work_space_.position[axis] - room, work_space_.position[axis] + room,
+  const double at = dBodyGetPosition(body.id)[axis];
+  const double middle = work_space_.position[axis], half = 0.5 * work_space_.size[axis];
+  return {middle - half + (at - box[2 * axis]), middle + half - (box[2 * axis + 1] - at),
           work_space_.restitution};
 }
 

@@ -23,7 +23,7 @@ namespace reckon::haptics {
 /// A force on a body in one step.
 struct BodyForce {
   std::size_t body = 0;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the body's axes, from its middle
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the axes of its shape
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], S
   /// [N m], S: it holds the body against turning, and its work is none of the hand's.
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
@@ -57,7 +57,9 @@ class BodySolver {
   [[nodiscard]] ObjectMotion motion(std::size_t body) const noexcept;
   [[nodiscard]] bool awake(std::size_t body) const noexcept;
   /// Of its principal ones [kg m^2].
-  [[nodiscard]] double least_inertia(std::size_t body) const noexcept;
+  [[nodiscard]] double least_inertia(std::size_t body) const noexcept {
+    return bodies_[body].least_inertia;
+  }
   /// Of a place in the body's axes [m/s].
   [[nodiscard]] Eigen::Vector3d velocity(std::size_t body,
                                          const Eigen::Vector3d& place) const noexcept;
@@ -94,8 +96,10 @@ class BodySolver {
     dGeomID geom = nullptr;
     std::uint32_t object = 0;
     double mass = 0.0;
-    double drag = 0.0;   // [N s/m]
-    double inner = 0.0;  // [m], radius of the ball within it
+    double drag = 0.0;           // [N s/m]
+    double inner = 0.0;          // [m], radius of the ball about its middle within it
+    double least_inertia = 0.0;  // [kg m^2], of its principal ones
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of mass, in the axes of its shape [m]
     Eigen::Vector3d start = Eigen::Vector3d::Zero();
     double still = 0.0;  // [s]
     bool flies = true;   // nothing pushes it in this step but its weight
@@ -113,6 +117,7 @@ class BodySolver {
   void destroy() noexcept;
   void add(const PlannedObject& object, std::uint32_t number);
   static void give_mass(Body& body, const PlannedObject& object);
+  static void give_mass(Body& body, const SurfaceMesh& mesh);
   [[nodiscard]] bool acts(std::size_t body) const noexcept { return (only_ >> body & 1) != 0; }
   [[nodiscard]] Eigen::Quaterniond orientation(std::size_t body) const noexcept;
   [[nodiscard]] bool rests() const noexcept;
@@ -135,7 +140,6 @@ class BodySolver {
   dGeomID ray_ = nullptr;  // in no space
   Eigen::Vector3d gravity_;
   WorkSpace work_space_;
-  std::vector<Matter> matters_;  // of geoms
   std::vector<Body> bodies_;
   ContactIslands<8 * sizeof(BodySet)> islands_;  // of a step
   BodySet carried_ = 0;

@@ -25,6 +25,7 @@ constexpr double kLongestGap = 0.1;       // [s]
 constexpr double kJitter = 5e-5;          // [s], of a servo that is on time
 constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
 constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
+constexpr double kBodyTime = 3.5e-6;      // [s], of a step, for each body
 constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
 constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
 
@@ -203,12 +204,11 @@ class BodyWorld::Engine {
     return pushed != 0 && is_small(pushed, steps) ? ~pushed : 0;
   }
 
-  // Whether it is stepped fast enough, by each hand and once more: a body takes 3.5 us, and bodies
-  // that all touch take as the square of their number.
+  // Whether it is stepped fast enough, by each hand and once more.
   [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept {
     const double bodies = std::popcount(island);
     const double times = static_cast<double>(steps * (hands_ + 1));
-    return 3.5e-6 * bodies * bodies * times <= kMostTime;
+    return kBodyTime * bodies * times <= kMostTime;
   }
   [[nodiscard]] static BodySet pushed_by(std::span<const BodyPush> pushes) noexcept {
     BodySet out = 0;

@@ -20,7 +20,7 @@ constexpr double kMostWord = 32767.0;
 constexpr double kLongestLever = 0.3;
 // A torque is computed for where the handle will be in the middle of its being held.
 constexpr double kAhead = 1.5;
-constexpr double kMostTurn = 0.05;  // [rad], that is believed of an exchange
+constexpr double kBelievedTurn = 0.05;  // [rad], that is believed of an exchange
 
 std::uint8_t light_of(FalconStage stage, bool servo_silent) noexcept {
   if (stage == FalconStage::homing) return kBlue;
@@ -54,7 +54,7 @@ void FalconSession::answer(const FalconReport& report) noexcept {
 
   const bool joins = stage_ == FalconStage::running;
   turn_.setZero();
-  if (joins) turn_ = (angles - angles_).cwiseMin(kMostTurn).cwiseMax(-kMostTurn);
+  if (joins) turn_ = (angles - angles_).cwiseMin(kBelievedTurn).cwiseMax(-kBelievedTurn);
   angles_ = angles;
   jacobian_ = pose->jacobian;
   stage_ = FalconStage::running;
