@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+
 namespace reckon::peer {
 
 std::vector<DeviceConfig> devices_of(const SceneFile& scene, std::uint32_t peer) {
@@ -57,28 +59,33 @@ std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities) {
   return tracks;
 }
 
+const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
+  return device.driver == DeviceDriver::falcon ? &haptics::falcon_facts() : nullptr;
+}
+
 void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay) {
   device.driver = driver;
-  if (driver != DeviceDriver::falcon) return;
-  haptics::FalconSettings settings;
+  const haptics::UsbFacts* const facts = usb_facts_of(device);
+  if (facts == nullptr) return;
+  haptics::UsbSettings settings;
   settings.max_force = device.max_force;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.period = device.period;
-  settings.damping = says_damping ? device.damping : haptics::FalconSettings::kAssumedDamping;
+  settings.damping = says_damping ? device.damping : facts->assumed_damping;
   if (says_delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
-  const haptics::DeviceLimits limits = haptics::falcon_limits(settings);
+  const haptics::DeviceLimits limits = haptics::usb_limits(*facts, settings);
   device.max_force = limits.max_force;
   device.damping = limits.damping;
   device.delay_samples = limits.delay_samples;
   device.resolution = limits.resolution;
 }
 
-haptics::FalconSettings falcon_settings_of(const DeviceConfig& device) {
-  haptics::FalconSettings settings;
+haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
+  haptics::UsbSettings settings;
   settings.max_force = device.max_force;
   // use_driver() left the servo's share of it.
-  settings.damping = device.damping / haptics::FalconSettings::kSureShare;
+  settings.damping = device.damping / usb_facts_of(device)->sure_share;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.period = device.period;

@@ -12,7 +12,7 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/haptics/falcon/falcon_session.hpp"
+#include "reckon/haptics/usb/usb_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -72,7 +72,7 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
     table.problem("kind", "a person holds a Falcon, and no pointer moves it: take kind out");
   if (table.has("resolution"))
     table.problem("resolution", "the driver knows the steps of a Falcon: take it out");
-  if (5 * device.period > 2 * haptics::FalconSession::kSilence)
+  if (5 * device.period > 2 * haptics::UsbSession::kSilence)
     table.problem("rate",
                   "a Falcon is let go after 8 ms without a force, which one missed period "
                   "must not bring about: 400 Hz is enough");

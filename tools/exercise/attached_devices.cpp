@@ -9,7 +9,8 @@
 #include <exception>
 #include <utility>
 
-#include "reckon/haptics/falcon/falcon_loop.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 
 namespace reckon::tools {
@@ -20,7 +21,8 @@ using haptics::UsbDeviceSeen;
 constexpr std::chrono::seconds kAskFor{2};
 
 bool is_falcon(const UsbDeviceSeen& device) {
-  return device.vendor == haptics::kFalconVendor && device.product == haptics::kFalconProduct;
+  return device.vendor == haptics::falcon_facts().vendor &&
+         device.product == haptics::falcon_facts().product;
 }
 
 // Of what the driver says, what keeps forces away.
@@ -78,10 +80,12 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std:
 
 std::vector<std::string> ask_falcon() {
   const peer::SteadyClock clock;
-  haptics::FalconExchange exchange;
-  haptics::FalconLoopOptions options;
+  haptics::UsbExchange exchange;
+  haptics::UsbLoopOptions options;
   options.clock = [&clock] { return clock.now(); };
-  haptics::FalconLoop loop(exchange, std::move(options));
+  haptics::UsbLoop loop(exchange,
+                        std::make_unique<haptics::FalconDriver>(haptics::FalconFirmware{}),
+                        std::move(options));
   const auto end = clock.now() + kAskFor;
   while (clock.now() < end) {
     loop.step(std::chrono::milliseconds(1));
@@ -93,8 +97,8 @@ std::vector<std::string> ask_falcon() {
 UsbLook look_at_usb(bool ask) {
   try {
     haptics::UsbContext context;
-    const auto seen =
-        haptics::usb_devices(context, haptics::kFalconVendor, haptics::kFalconProduct);
+    const auto seen = haptics::usb_devices(context, haptics::falcon_facts().vendor,
+                                           haptics::falcon_facts().product);
     const bool asks = ask && std::ranges::any_of(seen, [](const UsbDeviceSeen& device) {
                         return is_falcon(device) && device.is_open_to_us;
                       });

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/haptics/falcon/usb_list.hpp"
+#include "reckon/haptics/usb/usb_list.hpp"
 
 namespace reckon::tools {
 

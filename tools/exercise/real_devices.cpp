@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
@@ -32,6 +33,12 @@ void say_devices(peer::SceneFile& scene, std::size_t peers) {
   for (std::uint32_t peer = 1; peer <= peers; ++peer)
     std::ranges::copy(peer::devices_of(scene, peer), std::back_inserter(devices));
   scene.devices = std::move(devices);
+}
+
+std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
+  haptics::FalconFirmware firmware;
+  if (!device.firmware.empty()) firmware = haptics::FalconFirmware::load(device.firmware.string());
+  return std::make_unique<haptics::FalconDriver>(std::move(firmware));
 }
 
 }  // namespace
@@ -89,28 +96,30 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
                           std::vector<peer::PeerDevice>& wired) {
   const std::vector<DeviceConfig> devices = peer::devices_of(scene, number);
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    if (devices[i].driver != DeviceDriver::falcon) continue;
-    if (falcon_ != nullptr)
-      throw std::runtime_error("one program drives one Falcon: start another peer for the second");
-    haptics::FalconFirmware firmware;
-    if (!devices[i].firmware.empty())
-      firmware = haptics::FalconFirmware::load(devices[i].firmware.string());
-    falcon_ = std::make_unique<peer::FalconThread>(clock_, peer::falcon_settings_of(devices[i]),
-                                                   std::move(firmware));
-    wired[i].device = &falcon_->device();
-    const haptics::DeviceLimits limits = falcon_->device().limits();
+    const DeviceConfig& device = devices[i];
+    const haptics::UsbFacts* const facts = peer::usb_facts_of(device);
+    if (facts == nullptr) continue;
+    if (std::ranges::find(plugged_, device.driver, &Plugged::driver) != plugged_.end()) {
+      throw std::runtime_error(
+          fmt::format("one program drives one {}: start another peer for the second", facts->name));
+    }
+    const haptics::DeviceLimits limits = haptics::usb_limits(*facts, peer::usb_settings_of(device));
+    plugged_.push_back(
+        {device.driver, std::make_unique<peer::UsbThread>(clock_, limits, driver_of(device))});
+    wired[i].device = &plugged_.back().thread->device();
     sentences_.push_back(fmt::format(
-        "Falcon: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
+        "{}: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
         "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
         "stiffer walls",
-        limits.damping, 1e3 * limits.delay_samples * pdu::to_seconds(devices[i].period)));
+        facts->name, limits.damping, 1e3 * limits.delay_samples * pdu::to_seconds(device.period)));
   }
 }
 
 std::vector<std::string> RealDevices::take_notices() {
   std::vector<std::string> all = std::exchange(sentences_, {});
-  if (falcon_ == nullptr) return all;
-  for (std::string& sentence : falcon_->take_notices()) all.push_back(std::move(sentence));
+  for (const Plugged& plugged : plugged_) {
+    for (std::string& sentence : plugged.thread->take_notices()) all.push_back(std::move(sentence));
+  }
   return all;
 }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Falcon behind the real libusb, the kernel's calls answered by a model: what fails, and what the
 // servo, the user and the handle notice. All time is the model's.
-#include "reckon/haptics/falcon/falcon_loop.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,9 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/falcon/falcon_device.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/haptics/usb/usb_device.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
@@ -48,8 +48,8 @@ Scene wall() {
   return scene;
 }
 
-FalconSettings settings() {
-  FalconSettings settings;
+UsbSettings settings() {
+  UsbSettings settings;
   settings.damping = 2.0;
   return settings;
 }
@@ -67,12 +67,13 @@ class Plugged {
  public:
   explicit Plugged(const FalconModelOptions& options = {},
                    std::function<Vector3d(double)> hand = pressing, FalconFirmware firmware = {},
-                   const FalconSettings& chosen = settings())
+                   const UsbSettings& chosen = settings())
       : model(options, std::move(hand)),
         shim(model),
-        device(exchange, chosen),
+        device(exchange, usb_limits(falcon_facts(), chosen)),
         servo(device, EffectPlan(wall()), servo_config()),
-        loop(std::make_unique<FalconLoop>(exchange, loop_options(std::move(firmware)))) {
+        loop(std::make_unique<UsbLoop>(
+            exchange, std::make_unique<FalconDriver>(std::move(firmware)), loop_options())) {
     model.beside([this](nanoseconds now) {
       if (now < next_step_) return;
       next_step_ += period_;
@@ -99,10 +100,10 @@ class Plugged {
 
   FalconModel model;
   test::UsbShim shim;
-  FalconExchange exchange;
-  FalconDevice device;
+  UsbExchange exchange;
+  UsbDevice device;
   ServoLoop servo;
-  std::unique_ptr<FalconLoop> loop;
+  std::unique_ptr<UsbLoop> loop;
   std::vector<std::string> notices;
   bool servo_runs = true;
   double least_own = 0;    // [J], of the device's own books with loan
@@ -110,9 +111,8 @@ class Plugged {
   ServoSnapshot last;
 
  private:
-  FalconLoopOptions loop_options(FalconFirmware firmware) {
-    FalconLoopOptions options;
-    options.firmware = std::move(firmware);
+  UsbLoopOptions loop_options() {
+    UsbLoopOptions options;
     options.clock = [this] { return model.now(); };
     options.open = [this](libusb_context* context) {
       UsbOpening opening{shim.open(context), {}};
@@ -208,7 +208,7 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
 // allowed for. It says so, and a wall may be twice as stiff.
 TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
   const double standard = [] { return Plugged().servo.static_stiffness_limit(); }();
-  FalconSettings quick = settings();
+  UsbSettings quick = settings();
   quick.chain = std::chrono::microseconds(3500);
   Plugged falcon({}, pressing, {}, quick);
   EXPECT_GT(falcon.servo.static_stiffness_limit(), 1.4 * standard);
@@ -221,7 +221,7 @@ TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
 
 // One that is too short is not believed: readings fail, forces stay away, no energy is made.
 TEST(FalconLoop, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
-  FalconSettings quick = settings();
+  UsbSettings quick = settings();
   quick.chain = milliseconds(2);
   FalconModelOptions slow;
   slow.tick_at = 0.15;
@@ -498,26 +498,25 @@ TEST(FalconLoop, AFileThatIsNoFirmwareIsRefusedWithItsName) {
 }
 
 TEST(FalconDevice, TellsWhatItsChainIs) {
-  FalconExchange exchange;
-  FalconSettings settings;
+  UsbSettings settings;
   settings.damping = 1.0;
   settings.max_force = 100;
-  const DeviceLimits limits = FalconDevice(exchange, settings).limits();
+  const DeviceLimits limits = usb_limits(falcon_facts(), settings);
   EXPECT_EQ(limits.delay_samples, 6);  // three exchanges of 2 ms
   EXPECT_EQ(limits.max_force, 8.9);
   EXPECT_EQ(limits.damping, 0.9);
   settings.period = std::chrono::microseconds(2500);
-  EXPECT_EQ(FalconDevice(exchange, settings).limits().delay_samples, 3);
+  EXPECT_EQ(usb_limits(falcon_facts(), settings).delay_samples, 3);
   settings.damping = -1;
-  EXPECT_THROW(FalconDevice(exchange, settings), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(usb_limits(falcon_facts(), settings)), std::invalid_argument);
 }
 
 TEST(FalconDevice, ReadsAndWritesAllocateNothing) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
+  UsbExchange exchange;
+  UsbDevice device(exchange, usb_limits(falcon_facts(), settings()));
   const test::AllocationGuard guard;
   for (int i = 1; i <= 1000; ++i) {
-    exchange.readings.push({Vector3d::Zero(), i - 8, i - 7, 1, 0});
+    exchange.readings.push({Vector3d::Zero(), {}, i - 8, i - 7, 1, 0});
     static_cast<void>(device.read(milliseconds(i)));
     device.write(Vector3d::UnitX(), milliseconds(i));
   }
@@ -525,8 +524,8 @@ TEST(FalconDevice, ReadsAndWritesAllocateNothing) {
 }
 
 TEST(FalconDevice, AForceThatIsNoNumberIsNone) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
+  UsbExchange exchange;
+  UsbDevice device(exchange, usb_limits(falcon_facts(), settings()));
   device.write(Vector3d(std::nan(""), 0, 0), milliseconds(1));
   exchange.force.update();
   EXPECT_TRUE(exchange.force.read().force.isZero(0));
@@ -534,14 +533,14 @@ TEST(FalconDevice, AForceThatIsNoNumberIsNone) {
 
 // Each way of the handle is shown in the step for which the ledger books the force that was held.
 TEST(FalconDevice, ShowsAReadingJustWhenItsForceIsDue) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
+  UsbExchange exchange;
+  UsbDevice device(exchange, usb_limits(falcon_facts(), settings()));
   const int delay = device.limits().delay_samples;
   // The force of write 10 is held until the place 0.1, and that of write 12 (11 was left out) from
   // then on until 0.2.
-  exchange.readings.push({Vector3d::Zero(), 0, 10, 1, 0});
-  exchange.readings.push({Vector3d(0.1, 0, 0), 10, 12, 1, 0});
-  exchange.readings.push({Vector3d(0.2, 0, 0), 12, 40, 1, 0});
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 10, 1, 0});
+  exchange.readings.push({Vector3d(0.1, 0, 0), {}, 10, 12, 1, 0});
+  exchange.readings.push({Vector3d(0.2, 0, 0), {}, 12, 40, 1, 0});
   for (int write = 1; write <= 12 + delay + 1; ++write) {
     const DeviceSample sample = device.read(milliseconds(write));
     device.write(Vector3d::Zero(), milliseconds(write));
@@ -553,9 +552,9 @@ TEST(FalconDevice, ShowsAReadingJustWhenItsForceIsDue) {
 }
 
 TEST(FalconDevice, AReadingThatIsLateFails) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  exchange.readings.push({Vector3d::Zero(), 0, 1, 1, 0});
+  UsbExchange exchange;
+  UsbDevice device(exchange, usb_limits(falcon_facts(), settings()));
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 1, 1, 0});
   const int delay = device.limits().delay_samples;
   for (int write = 1; write <= 20; ++write) {
     EXPECT_EQ(device.read(milliseconds(write)).ok, write - 1 - delay < 1) << write;
@@ -564,11 +563,11 @@ TEST(FalconDevice, AReadingThatIsLateFails) {
 }
 
 TEST(FalconDevice, TellsThatTheForceWasDropped) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  exchange.readings.push({Vector3d::Zero(), 0, 100, 1, 0});
+  UsbExchange exchange;
+  UsbDevice device(exchange, usb_limits(falcon_facts(), settings()));
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
   EXPECT_TRUE(device.read(milliseconds(1)).ok);
-  exchange.readings.push({Vector3d::Zero(), 0, 100, 2, 0});
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 2, 0});
   const DeviceSample sample = device.read(milliseconds(2));
   EXPECT_TRUE(sample.ok && sample.watchdog);
   EXPECT_FALSE(sample.released_at) << "nobody knows where";

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
@@ -132,7 +133,8 @@ TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_NEAR(known.damping, 1.8, 1e-12);
   EXPECT_EQ(known.max_force, 5);
   // And its device has the same.
-  const haptics::DeviceLimits limits = haptics::falcon_limits(falcon_settings_of(known));
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::falcon_facts(), usb_settings_of(known));
   EXPECT_EQ(limits.delay_samples, 4);
   EXPECT_NEAR(limits.damping, 1.8, 1e-12);
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/falcon/falcon_loop.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
@@ -30,8 +30,8 @@ UsbDeviceSeen hub() {
 
 UsbDeviceSeen falcon(bool open) {
   UsbDeviceSeen seen;
-  seen.vendor = haptics::kFalconVendor;
-  seen.product = haptics::kFalconProduct;
+  seen.vendor = haptics::falcon_facts().vendor;
+  seen.product = haptics::falcon_facts().product;
   seen.bus = 1;
   seen.address = 4;
   seen.is_open_to_us = open;

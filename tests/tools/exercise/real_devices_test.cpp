@@ -9,7 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "reckon/haptics/falcon/usb_line.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/usb/usb_line.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -106,7 +107,7 @@ TEST(RealDevices, WhatIsExplainedOfAFalconIsWhatItsServoReliesOn) {
   choose_device({"falcon", ""}, scene, 1, 2);
   const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
   const haptics::DeviceLimits real =
-      haptics::falcon_limits(peer::falcon_settings_of(scene.devices[0]));
+      haptics::usb_limits(haptics::falcon_facts(), peer::usb_settings_of(scene.devices[0]));
   EXPECT_EQ(simulated.max_force, real.max_force);
   EXPECT_NEAR(simulated.damping, real.damping, 1e-15);
   EXPECT_EQ(simulated.delay_samples, real.delay_samples);

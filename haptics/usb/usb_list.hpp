@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/falcon/usb_line.hpp"
+#include "reckon/haptics/usb/usb_line.hpp"
 
 namespace reckon::haptics {
 

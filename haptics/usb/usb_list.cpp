@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/haptics/falcon/usb_list.hpp"
+#include "reckon/haptics/usb/usb_list.hpp"
 
 #include <libusb-1.0/libusb.h>
 
