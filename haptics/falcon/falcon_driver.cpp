@@ -43,8 +43,6 @@ constexpr double kWordsPerTorque = -1e4;  // [1/(N m)]
 constexpr double kMostWord = 32767.0;
 // [m/rad]: beyond it a motor's word could not hold the largest force.
 constexpr double kLongestLever = 0.3;
-// A torque is computed for where the handle will be in the middle of its being held.
-constexpr double kAhead = 1.5;
 constexpr double kMostSweep = 0.05;  // [rad], that is believed of an exchange
 
 constexpr const char* kRefusal = "its FTDI chip refuses a setting: unplug it and plug it in again";
@@ -226,7 +224,7 @@ std::span<const std::uint8_t> FalconDriver::command(UsbStage stage,
 }
 
 std::array<std::int16_t, 3> FalconDriver::motors(const Eigen::Vector3d& force) const noexcept {
-  const auto ahead = falcon_pose(angles_ + kAhead * turn_);
+  const auto ahead = falcon_pose(angles_ + kUsbAhead * turn_);
   const Eigen::Matrix3d& jacobian = ahead ? ahead->jacobian : jacobian_;
   const Eigen::Vector3d words = kWordsPerTorque * falcon_torques(jacobian, falcon_axes(force));
   std::array<std::int16_t, 3> motors{};

@@ -26,6 +26,10 @@ enum class UsbStage : std::uint8_t {
   running,  ///< forces are shown
 };
 
+/// Exchanges from a report to the middle of the time for which the command after it is held: a
+/// torque is computed for where the handle will be then.
+inline constexpr double kUsbAhead = 1.5;
+
 /// A line on which a device is set up. All calls may wait for the device.
 class UsbSetUp {
  public:
