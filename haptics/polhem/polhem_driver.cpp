@@ -26,6 +26,8 @@ constexpr double kMostJump = 0.5;
 constexpr double kMostAdvance = 0.05;  // [rad], that is believed of an exchange
 constexpr double kMilli = 1e-3;
 
+constexpr const char* kSilence = "it does not answer: is its power supply on?";
+
 std::string refusal_of(std::size_t octets) {
   if (octets == static_cast<std::size_t>(PolhemForm::eight)) {
     return "it has the older program whose reports of 8 octets do not tell which command they "
@@ -71,6 +73,7 @@ std::optional<UsbPipes> PolhemDriver::pipes(libusb_device_handle* handle) const 
 std::string PolhemDriver::set_up(UsbSetUp& desk) {
   UsbLine& line = desk.line();
   // It keeps a report for whoever comes, from however long ago.
+  if (!desk.sends(octets_of(PolhemCommand{}))) return kSilence;
   const nanoseconds begin = desk.now();
   while (desk.goes_on() && desk.now() - begin < kStale) desk.wait();
   for (int attempt = 0; attempt < kAttempts && desk.goes_on(); ++attempt) {
@@ -83,7 +86,7 @@ std::string PolhemDriver::set_up(UsbSetUp& desk) {
     if (octets == octets_.size()) return {};
     if (octets > 0) return refusal_of(octets);
   }
-  return "it does not answer: is its power supply on?";
+  return kSilence;
 }
 
 // Without power it has forgotten what it counts from.

@@ -30,16 +30,16 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
   }
 }
 
-// The device would hold the last force for as long as it likes.
+// The device would hold the last force for as long as it likes. One may obey a command only when
+// its last report was fetched.
 UsbLoop::~UsbLoop() {
   if (!line_) return;
   const nanoseconds end = options_.clock() + kFarewell;
-  const auto drain = [&] {
-    while (line_->is_sending() && options_.clock() < end) line_->pump(kGlance);
-  };
-  drain();
+  const auto goes_on = [&] { return options_.clock() < end && line_->fault() == UsbFault::none; };
+  while (line_->is_sending() && goes_on()) line_->pump(kGlance);
+  line_->clear();
   line_->send(driver_->command(UsbStage::silent, nullptr));
-  drain();
+  while ((line_->is_sending() || line_->received().empty()) && goes_on()) line_->pump(kGlance);
 }
 
 std::optional<UsbStage> UsbLoop::stage() const noexcept {
