@@ -30,16 +30,16 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
   }
 }
 
-// The device would hold the last force for as long as it likes. One may obey a command only when
-// its last report was fetched.
+// The device would hold the last force for as long as it likes.
 UsbLoop::~UsbLoop() {
   if (!line_) return;
   const nanoseconds end = options_.clock() + kFarewell;
-  const auto goes_on = [&] { return options_.clock() < end && line_->fault() == UsbFault::none; };
-  while (line_->is_sending() && goes_on()) line_->pump(kGlance);
-  line_->clear();
+  const auto drain = [&] {
+    while (line_->is_sending() && options_.clock() < end) line_->pump(kGlance);
+  };
+  drain();
   line_->send(driver_->command(UsbStage::silent, nullptr));
-  while ((line_->is_sending() || line_->received().empty()) && goes_on()) line_->pump(kGlance);
+  drain();
 }
 
 std::optional<UsbStage> UsbLoop::stage() const noexcept {

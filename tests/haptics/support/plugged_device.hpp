@@ -48,6 +48,7 @@ class PluggedDevice {
         loop(std::make_unique<haptics::UsbLoop>(exchange, std::move(driver), loop_options())) {
     model.beside([this](std::chrono::nanoseconds now) {
       tend();
+      if (!motors_rest()) pulled_at = now;
       if (now < next_step_) return;
       next_step_ += std::chrono::milliseconds(1);
       if (servo_runs) step_servo(now);
@@ -84,6 +85,7 @@ class PluggedDevice {
   std::unique_ptr<haptics::UsbLoop> loop;
   std::vector<std::string> notices;
   bool servo_runs = true;
+  std::chrono::nanoseconds pulled_at{0};  // its motors last
   double least_own = 0;    // [J], of the device's own books with loan
   double least_books = 0;  // [J], of the device's own books with loan and allowance
   haptics::ServoSnapshot last;

@@ -47,7 +47,9 @@ void PolhemModel::Care::tend(PolhemModel& model, const haptics::UsbLoop& loop) {
   model.carry(1 - share_);
   const bool is_there = share_ == 0 && (model.position() - start()).norm() < 1e-6;
   still_ = is_there ? still_ + 1 : 0;
-  if (*stage == haptics::UsbStage::homing && still_ > kStill) model.press();
+  if (*stage != haptics::UsbStage::homing || still_ < kStill) return;
+  model.press();
+  still_ = 0;
 }
 
 Vector3d PolhemModel::start() {

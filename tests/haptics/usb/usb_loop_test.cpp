@@ -222,10 +222,12 @@ TYPED_TEST(UsbLoopTest, ADeviceThatGoesMuteIsSetUpAgain) {
 TYPED_TEST(UsbLoopTest, AStallIsSaidAndTheLineSetUpAgain) {
   Plugged<TypeParam> usb;
   usb.press();
+  const nanoseconds fault = usb.model.now();
   usb.model.stall();
   usb.run(milliseconds(10));
   EXPECT_TRUE(usb.last.force.isZero(0));
   EXPECT_TRUE(usb.motors_rest());
+  EXPECT_LE(usb.pulled_at - fault, milliseconds(10));
   EXPECT_THAT(usb.notices, Contains(HasSubstr("refuses transfers")));
   usb.run(TypeParam::kSettle);
   EXPECT_GT(usb.model.force().z(), 0.5);
@@ -234,10 +236,12 @@ TYPED_TEST(UsbLoopTest, AStallIsSaidAndTheLineSetUpAgain) {
 TYPED_TEST(UsbLoopTest, AShortTransferIsSaidAndTheLineSetUpAgain) {
   Plugged<TypeParam> usb;
   usb.press();
+  const nanoseconds fault = usb.model.now();
   usb.model.cut();
   usb.run(milliseconds(10));
   EXPECT_TRUE(usb.last.force.isZero(0));
   EXPECT_TRUE(usb.motors_rest());
+  EXPECT_LE(usb.pulled_at - fault, milliseconds(10));
   EXPECT_THAT(usb.notices, Contains(HasSubstr("cut short")));
   usb.run(TypeParam::kSettle);
   EXPECT_GT(usb.model.force().z(), 0.5);
