@@ -23,7 +23,8 @@ constexpr nanoseconds kReportTime = milliseconds(50);
 constexpr int kAttempts = 3;
 // [rad] of a joint between two reports: more is no motion, but counters that began anew.
 constexpr double kMostJump = 0.5;
-constexpr double kMostAdvance = 0.05;  // [rad], that is believed of an exchange
+constexpr double kMostAdvance = 0.05;      // [rad], that is believed of an exchange
+constexpr double kHoldUpStep = 1.0 / 250;  // of an exchange
 constexpr double kMilli = 1e-3;
 
 constexpr const char* kSilence = "it does not answer: is its power supply on?";
@@ -164,8 +165,10 @@ std::span<const std::uint8_t> PolhemDriver::command(UsbStage stage,
     sets_counts_ = false;
     has_set_ = true;
   } else if (force != nullptr) {
+    held_up_ = std::min(1.0, held_up_ + kHoldUpStep);
     command.currents = currents(*force);
   }
+  if (force == nullptr) held_up_ = 0;
   octets_ = octets_of(command);
   return octets_;
 }
@@ -174,8 +177,8 @@ std::array<std::int16_t, 3> PolhemDriver::currents(const Vector3d& force) const 
   const Vector3d angles = angles_ + kUsbAhead * turn_;
   const auto ahead = polhem_pose(polhem_1(), angles);
   const Eigen::Matrix3d& jacobian = ahead ? ahead->jacobian : jacobian_;
-  const Vector3d torques =
-      polhem_torques(jacobian, device_to_polhem(force)) + polhem_hold_up(weights_, angles);
+  const Vector3d torques = polhem_torques(jacobian, device_to_polhem(force)) +
+                           held_up_ * polhem_hold_up(weights_, angles);
   const Vector3d told = polhem_currents(polhem_1(), torques) / kMilli;
   const double most = polhem_1().most_current / kMilli;
   std::array<std::int16_t, 3> currents{};

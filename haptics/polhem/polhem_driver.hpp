@@ -37,7 +37,8 @@ inline constexpr double kPolhemLeastLever = 0.05;
 /// join. What they count from is unknown until its button is pressed in its start pose.
 class PolhemDriver final : public UsbDriver {
  public:
-  /// @param weights that its motors hold up while forces are shown; >= 0
+  /// @param weights that its motors hold up while forces are shown, and more and more within the
+  /// first half second; >= 0
   /// @throws std::invalid_argument for other weights
   explicit PolhemDriver(const PolhemWeights& weights = {});
 
@@ -63,6 +64,7 @@ class PolhemDriver final : public UsbDriver {
   PolhemReport report_;
   std::uint64_t malformed_ = 0;
   std::array<std::uint8_t, 14> octets_{};
+  double held_up_ = 0;        // share of the weights
   bool sets_counts_ = false;  // with the next command
   bool has_set_ = false;      // and a report without the request shows that it was obeyed
   bool homed_ = false;

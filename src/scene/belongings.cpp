@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
 
 namespace reckon::peer {
 
@@ -60,7 +61,19 @@ std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities) {
 }
 
 const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
-  return device.driver == DeviceDriver::falcon ? &haptics::falcon_facts() : nullptr;
+  switch (device.driver) {
+    case DeviceDriver::falcon:
+      return &haptics::falcon_facts();
+    case DeviceDriver::polhem:
+      return &haptics::polhem_facts();
+    case DeviceDriver::simulated:
+      break;
+  }
+  return nullptr;
+}
+
+haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device) {
+  return {device.upper_weight, device.fore_weight};
 }
 
 void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay) {
@@ -73,6 +86,7 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bo
   settings.max_speed = device.max_speed;
   settings.period = device.period;
   settings.damping = says_damping ? device.damping : facts->assumed_damping;
+  settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
   if (says_delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
   const haptics::DeviceLimits limits = haptics::usb_limits(*facts, settings);
   device.max_force = limits.max_force;
@@ -84,8 +98,9 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bo
 haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
   haptics::UsbSettings settings;
   settings.max_force = device.max_force;
-  // use_driver() left the servo's share of it.
-  settings.damping = device.damping / usb_facts_of(device)->sure_share;
+  // use_driver() left what the servo gets of it.
+  settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
+  settings.damping = (device.damping + settings.spent_damping) / usb_facts_of(device)->sure_share;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.period = device.period;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/polhem/polhem_kinematics.hpp"
 #include "reckon/haptics/usb/usb_limits.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
@@ -41,6 +42,8 @@ inline constexpr std::uint32_t kMostPeers = 64;
 void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay);
 /// What is known of the real device that a driver drives; null: it is simulated.
 [[nodiscard]] const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device);
+/// What the motors of a Polhem hold up.
+[[nodiscard]] haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device);
 /// For the driver of a real device.
 [[nodiscard]] haptics::UsbSettings usb_settings_of(const DeviceConfig& device);
 

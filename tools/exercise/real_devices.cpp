@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
@@ -24,7 +25,11 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
-constexpr std::array<std::string_view, 1> kDrivers{"falcon"};
+constexpr std::array<std::string_view, 2> kDrivers{"falcon", "polhem"};
+
+DeviceDriver driver_named(std::string_view name) {
+  return name == "polhem" ? DeviceDriver::polhem : DeviceDriver::falcon;
+}
 
 // All devices by name, where the file has none.
 void say_devices(peer::SceneFile& scene, std::size_t peers) {
@@ -36,6 +41,8 @@ void say_devices(peer::SceneFile& scene, std::size_t peers) {
 }
 
 std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
+  if (device.driver == DeviceDriver::polhem)
+    return std::make_unique<haptics::PolhemDriver>(peer::polhem_weights_of(device));
   haptics::FalconFirmware firmware;
   if (!device.firmware.empty()) firmware = haptics::FalconFirmware::load(device.firmware.string());
   return std::make_unique<haptics::FalconDriver>(std::move(firmware));
@@ -44,9 +51,10 @@ std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
 }  // namespace
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
-  line.option("--device", choice.device,
-              "a real device, by its driver, in the place of the peer's first: falcon (see reckon "
-              "devices)");
+  line.option(
+      "--device", choice.device,
+      "a real device, by its driver, in the place of the peer's first: falcon or polhem (see "
+      "reckon devices)");
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
 }
@@ -58,8 +66,8 @@ void check_device_choice(const DeviceChoice& choice) {
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
     throw UsageError(
-        fmt::format("--device: there is no driver '{}'{}; there is falcon (see reckon "
-                    "devices)",
+        fmt::format("--device: there is no driver '{}'{}; there are falcon and polhem (see "
+                    "reckon devices)",
                     name, meant));
   }
   if (choice.firmware.empty()) return;
@@ -80,8 +88,8 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
     // What the scene says of a simulated device's friction and delay is not said of this one.
-    if (first->driver != DeviceDriver::falcon)
-      peer::use_driver(*first, DeviceDriver::falcon, false, false);
+    if (const DeviceDriver chosen = driver_named(choice.device); first->driver != chosen)
+      peer::use_driver(*first, chosen, false, false);
   }
   if (choice.firmware.empty()) return;
   const auto falcon = std::ranges::find_if(scene.devices, [&](const DeviceConfig& device) {

@@ -68,9 +68,14 @@ class PluggedDevice {
     if (loop) care_.tend(model, *loop);
   }
   [[nodiscard]] bool motors_rest() const { return model.motors() == decltype(model.motors()){}; }
-  /// [J], of the device's own books: what the hand put in.
+  /// [J], of the device's own books: what the hand put in since they began.
   [[nodiscard]] double books() const {
-    return model.port_work() + model.damping_loss() + model.lifted();
+    return model.port_work() + model.damping_loss() + model.lifted() - first_;
+  }
+  /// The books begin now, where nothing is touched.
+  void begin_books() {
+    first_ += books();
+    least_own = least_books = 0;
   }
 
  private:
@@ -86,8 +91,8 @@ class PluggedDevice {
   std::vector<std::string> notices;
   bool servo_runs = true;
   std::chrono::nanoseconds pulled_at{0};  // its motors last
-  double least_own = 0;    // [J], of the device's own books with loan
-  double least_books = 0;  // [J], of the device's own books with loan and allowance
+  double least_own = 0;                   // [J], of the device's own books with loan
+  double least_books = 0;                 // [J], of the device's own books with loan and allowance
   haptics::ServoSnapshot last;
 
  private:
@@ -121,6 +126,7 @@ class PluggedDevice {
     least_books = std::min(least_books, books() + last.loan + last.encoder_allowance);
   }
 
+  double first_ = 0;
   std::chrono::nanoseconds next_step_ = std::chrono::milliseconds(1);
 };
 

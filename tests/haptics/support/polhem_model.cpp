@@ -33,7 +33,8 @@ PolhemModel::PolhemModel(const PolhemModelOptions& options, std::function<Vector
 }
 
 Vector3d PolhemModel::Care::hand(const Vector3d& wanted) const {
-  const double smooth = share_ * share_ * (3 - 2 * share_);
+  const double share = std::max(0.0, share_);
+  const double smooth = share * share * (3 - 2 * share);
   return start() + smooth * (wanted - start());
 }
 
@@ -42,10 +43,10 @@ void PolhemModel::Care::tend(PolhemModel& model, const haptics::UsbLoop& loop) {
   constexpr int kStill = 4'000;
   const auto stage = loop.stage();
   if (!model.is_tended_ || !stage) return;
-  if (*stage == haptics::UsbStage::homing) share_ = std::max(0.0, share_ - kStep);
+  if (*stage == haptics::UsbStage::homing) share_ = std::max(kRest, share_ - kStep);
   if (*stage == haptics::UsbStage::running) share_ = std::min(1.0, share_ + kStep);
-  model.carry(1 - share_);
-  const bool is_there = share_ == 0 && (model.position() - start()).norm() < 1e-6;
+  model.carry(std::clamp(share_ / kRest, 0.0, 1.0));
+  const bool is_there = share_ <= 0 && (model.position() - start()).norm() < 1e-6;
   still_ = is_there ? still_ + 1 : 0;
   if (*stage != haptics::UsbStage::homing || still_ < kStill) return;
   model.press();

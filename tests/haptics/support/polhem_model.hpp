@@ -40,8 +40,9 @@ class PolhemModel final : public HeldModel {
     void tend(PolhemModel& model, const haptics::UsbLoop& loop);
 
    private:
-    double share_ = 0;  // of the way from the start pose to where it is wanted
-    int still_ = 0;     // steps for which it has been in the start pose
+    static constexpr double kRest = -1.5;  // before it goes anywhere
+    double share_ = kRest;                 // of the way from the start pose to where it is wanted
+    int still_ = 0;                        // steps for which it has been in the start pose
   };
 
   /// @param hand where the hand wants it [m, frame D] at a time [s]
