@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "reckon/pdu/seconds.hpp"
 
@@ -92,7 +93,7 @@ std::string PolhemDriver::set_up(UsbSetUp& desk) {
 
 // Without power it has forgotten what it counts from.
 void PolhemDriver::lost(bool is_unplugged) noexcept {
-  sets_counts_ = has_set_ = false;
+  asks_ = sets_counts_ = has_set_ = false;
   if (is_unplugged) homed_ = false;
 }
 
@@ -110,9 +111,11 @@ bool PolhemDriver::read(std::span<const std::uint8_t>& transfer) noexcept {
 
 // Whether the counts of the last report are angles. Joins them to those before.
 bool PolhemDriver::is_homed() noexcept {
-  if (report_.info == kAsksToBeHomed) {
-    sets_counts_ = true;
-    homed_ = false;
+  // It asks until its counts are set: once is a damaged report.
+  const bool asked_before = std::exchange(asks_, report_.info == kAsksToBeHomed);
+  if (asks_) {
+    sets_counts_ = asked_before;
+    homed_ = homed_ && !asked_before;
     return false;
   }
   if (has_set_) {

@@ -65,6 +65,7 @@ class PolhemDriver final : public UsbDriver {
   std::uint64_t malformed_ = 0;
   std::array<std::uint8_t, 14> octets_{};
   double held_up_ = 0;        // share of the weights
+  bool asks_ = false;         // to be homed, in its last report
   bool sets_counts_ = false;  // with the next command
   bool has_set_ = false;      // and a report without the request shows that it was obeyed
   bool homed_ = false;

@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -18,6 +20,7 @@
 #include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/polhem_model.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -244,6 +247,17 @@ TEST(PolhemLoop, WhenItsCalibrationButtonIsPressedTheForceIsZeroWithin10Ms) {
   EXPECT_GE(polhem.least_books, -1e-9);
 }
 
+TEST(PolhemLoop, ASingleReportThatAsksToBeHomedSetsNoCounts) {
+  Plugged polhem;
+  polhem.press();
+  polhem.model.leave_alone();
+  polhem.model.ask_once();
+  polhem.run(seconds(2));
+  EXPECT_LT((polhem.last.device - polhem.model.position()).norm(), 1e-4);
+  EXPECT_GT(polhem.model.force().z(), 0.5);
+  EXPECT_GE(polhem.least_books, -1e-9);
+}
+
 TEST(PolhemLoop, UnpluggedItHasToBeHomedAnew) {
   Plugged polhem;
   polhem.press();
@@ -354,6 +368,32 @@ TEST(PolhemLoop, AnotherDeviceUnderItsNumberIsLeftAlone) {
   polhem.run(seconds(1));
   EXPECT_THAT(polhem.notices, ElementsAre(HasSubstr("another device")));
   EXPECT_EQ(polhem.model.commands(), 0U);
+}
+
+// Octets of an exchange, from the start pose on.
+TEST(PolhemDriver, AllocatesNothingOnceItIsSetUp) {
+  PolhemDriver driver({0.1, 0.05});
+  std::array<std::uint8_t, 14> octets{0, 0, 0, 0, 0x78, 0xEC};
+  const Vector3d force(1, 2, 3);
+  UsbReading reading;
+  const auto exchange = [&](std::uint8_t info, const Vector3d* shown) {
+    octets[12] = info;
+    std::span<const std::uint8_t> transfer(octets);
+    EXPECT_TRUE(driver.read(transfer));
+    const UsbStage stage = driver.judge(true, reading);
+    static_cast<void>(driver.command(stage, shown));
+    return stage;
+  };
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(exchange(1, nullptr), UsbStage::homing);
+  for (int i = 0; i < 1'000; ++i) {
+    octets[0] = static_cast<std::uint8_t>(i % 50);
+    EXPECT_EQ(exchange(0, &force), UsbStage::running);
+  }
+  driver.lost(true);
+  EXPECT_EQ(exchange(0, nullptr), UsbStage::homing);
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_LT((reading.position - PolhemModel::start()).norm(), 5e-3);
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ void PolhemModel::report() {
     put(gimbal_[1]);
     put(gimbal_[0]);
   }
-  put(asks_ ? 1 : 0);
+  put(std::exchange(asks_once_, false) || asks_ ? 1 : 0);
   octets.resize(options_.report);
   if (damaged_ > 0) {
     --damaged_;

@@ -54,6 +54,7 @@ class PolhemModel final : public HeldModel {
   void turn_gimbal(const std::array<int, 3>& counts) { gimbal_ = counts; }  ///< outwards
   void forget();                              ///< without power: counters, motors
   void merge(int count) { merged_ = count; }  ///< the next reports come twice in one transfer
+  void ask_once() { asks_once_ = true; }      ///< to be homed, in one report
   void lie(int counts) { lie_ = counts; }     ///< the next report, about its base
 
   /// Where the handle is in its start pose [m].
@@ -86,7 +87,7 @@ class PolhemModel final : public HeldModel {
   std::uint64_t commands_ = 0;
   std::array<int, 3> zero_{};  // added to what its angles give
   std::array<int, 3> gimbal_{};
-  bool asks_ = false, button_ = false, is_tended_ = true;
+  bool asks_ = false, button_ = false, is_tended_ = true, asks_once_ = false;
   int merged_ = 0, lie_ = 0;
 };
 
