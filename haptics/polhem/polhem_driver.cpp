@@ -32,8 +32,9 @@ constexpr const char* kSilence = "it does not answer: is its power supply on?";
 
 std::string refusal_of(std::size_t octets) {
   if (octets == static_cast<std::size_t>(PolhemForm::eight)) {
-    return "it has the older program whose reports of 8 octets do not tell which command they "
-           "follow: load one of 2019 or later, which its makers publish";
+    return "its reports of 8 octets are those of an older program, as a WoodenHaptics has, and do "
+           "not tell which command they follow: only a first Polhem with a program of 2019 or "
+           "later is driven";
   }
   return "its reports have " + std::to_string(octets) + " octets where 14 are known";
 }
