@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
@@ -25,10 +25,13 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
-constexpr std::array<std::string_view, 2> kDrivers{"falcon", "polhem"};
-
-DeviceDriver driver_named(std::string_view name) {
-  return name == "polhem" ? DeviceDriver::polhem : DeviceDriver::falcon;
+// Of real devices.
+std::vector<std::string_view> driver_words() {
+  std::vector<std::string_view> words;
+  for (const auto& word : peer::kWords<DeviceDriver>) {
+    if (word.value != DeviceDriver::simulated) words.push_back(word.name);
+  }
+  return words;
 }
 
 // All devices by name, where the file has none.
@@ -51,24 +54,24 @@ std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
 }  // namespace
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
-  line.option(
-      "--device", choice.device,
-      "a real device, by its driver, in the place of the peer's first: falcon or polhem (see "
-      "reckon devices)");
+  line.option("--device", choice.device,
+              fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
+                          "reckon devices)",
+                          fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
 }
 
 void check_device_choice(const DeviceChoice& choice) {
   const std::string& name = choice.device;
-  if (!name.empty() && std::ranges::find(kDrivers, name) == kDrivers.end()) {
-    const std::string_view nearest = peer::nearest_word(name, kDrivers);
+  const std::vector<std::string_view> words = driver_words();
+  if (!name.empty() && std::ranges::find(words, name) == words.end()) {
+    const std::string_view nearest = peer::nearest_word(name, words);
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
     throw UsageError(
-        fmt::format("--device: there is no driver '{}'{}; there are falcon and polhem (see "
-                    "reckon devices)",
-                    name, meant));
+        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices)", name,
+                    meant, fmt::join(words, ", ")));
   }
   if (choice.firmware.empty()) return;
   try {
@@ -88,8 +91,8 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
     // What the scene says of a simulated device's friction and delay is not said of this one.
-    if (const DeviceDriver chosen = driver_named(choice.device); first->driver != chosen)
-      peer::use_driver(*first, chosen, false, false);
+    const DeviceDriver chosen = *peer::value_of<DeviceDriver>(choice.device);
+    if (first->driver != chosen) peer::use_driver(*first, chosen, false, false);
   }
   if (choice.firmware.empty()) return;
   const auto falcon = std::ranges::find_if(scene.devices, [&](const DeviceConfig& device) {

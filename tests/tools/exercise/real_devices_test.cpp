@@ -72,7 +72,7 @@ TEST(RealDevices, AWrongNameGetsTheNearest) {
   EXPECT_THAT(usage_error([] {
                 check_device_choice({"crane", ""});
               }),
-              HasSubstr("there are falcon and polhem"));
+              HasSubstr("there are falcon, polhem"));
 }
 
 TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
