@@ -40,8 +40,10 @@ inline constexpr auto kWords<DeviceSource> = std::to_array<Word<DeviceSource>>(
     {{"simulated", DeviceSource::simulated}, {"pointer", DeviceSource::pointer}});
 
 template <>
-inline constexpr auto kWords<DeviceDriver> = std::to_array<Word<DeviceDriver>>(
-    {{"simulated", DeviceDriver::simulated}, {"falcon", DeviceDriver::falcon}});
+inline constexpr auto kWords<DeviceDriver> =
+    std::to_array<Word<DeviceDriver>>({{"simulated", DeviceDriver::simulated},
+                                       {"falcon", DeviceDriver::falcon},
+                                       {"polhem", DeviceDriver::polhem}});
 
 template <>
 inline constexpr auto kWords<NodeKind> =

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/falcon_thread.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/usb_thread.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
@@ -39,7 +39,8 @@ class RealDevices {
  public:
   /// Puts real devices in the place of the simulated ones of peer `number` that have a driver.
   /// @param wired that of make_simulated_hands() for that peer @throws std::runtime_error with the
-  /// remedy where the host has no USB, a firmware cannot be read, or a second Falcon is asked for
+  /// remedy where the host has no USB, a firmware cannot be read, or a second device of a kind is
+  /// asked for
   void plug_in(const peer::SceneFile& scene, std::uint32_t number,
                std::vector<peer::PeerDevice>& wired);
   /// Sentences since the last call.
@@ -47,7 +48,11 @@ class RealDevices {
 
  private:
   peer::SteadyClock clock_;
-  std::unique_ptr<peer::FalconThread> falcon_;
+  struct Plugged {
+    peer::DeviceDriver driver;
+    std::unique_ptr<peer::UsbThread> thread;
+  };
+  std::vector<Plugged> plugged_;
   std::vector<std::string> sentences_;
 };
 

@@ -42,7 +42,8 @@ std::string point(const Eigen::Vector3d& p) {
 // --- devices ---
 
 std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
-  if (device.driver == peer::DeviceDriver::falcon) return "a person, by a Novint Falcon";
+  if (const haptics::UsbFacts* const facts = peer::usb_facts_of(device))
+    return fmt::format("a person, by a {}", facts->name);
   if (scene.operators.empty()) return "a hand that holds still";
   const std::size_t count = scene.operators.size();
   const std::size_t index = (device.operator_number - 1) % count;
