@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -76,6 +77,8 @@ class SimulatedDevice : public HapticDevice {
 
   /// The operator's switch.
   void enable(bool held) noexcept { enabled_ = held; }
+  /// Its buttons from the next read on, as DeviceSample::buttons.
+  void press(std::uint32_t buttons) noexcept { buttons_ = buttons; }
   /// While false, reads fail as if the cable were out, and the force is zero.
   void plug(bool in) noexcept;
   /// The handle is there at `now`, wherever it was: no force is held or on its way, the books begin
@@ -130,6 +133,7 @@ class SimulatedDevice : public HapticDevice {
   double time_ = 0.0;  // [s], of the plant
   bool started_ = false;
   bool enabled_ = true;
+  std::uint32_t buttons_ = 0;
   bool plugged_ = true;
   double port_work_ = 0.0;
   double damping_loss_ = 0.0;

@@ -12,10 +12,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/haptics/exchange/force_stop.hpp"
 #include "reckon/haptics/exchange/servo_tally.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/pdu/codec/records.hpp"
@@ -113,8 +115,8 @@ struct ToolState {
   Eigen::Vector3d handle = Eigen::Vector3d::Zero();                 ///< [m], measured
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< tool -> S, measured
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();              ///< [rad/s]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m], about the handle, as written
-  std::size_t count = 0;                             ///< of its probes
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();   ///< [N m], about the handle, as written
+  std::size_t count = 0;                              ///< of its probes
   std::array<Eigen::Vector3d, kMostProbes> probes{};  ///< [m], where they are
 };
 
@@ -139,7 +141,8 @@ struct ServoSnapshot : AccountList {
   double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
-  bool enabled = false;  ///< operator switch held and no trip pending
+  bool enabled = false;  ///< operator switch held, no trip pending, and not stopped
+  bool stopped = false;  ///< the software stop held the force at zero in this step
   ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
   /// [J], absorbed from the hand + sure damping + received - given, to and from hands and bodies.
@@ -165,7 +168,7 @@ struct ServoConfig {
   std::chrono::nanoseconds period{1'000'000};  ///< nominal; default 1 ms, range 0.1 .. 10 ms
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
-  double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
+  double probe_radius = 0.01;  ///< [m], of our own hand against remote hands; >= 0
   /// [m], of the patch by which a probe holds bodies against turning about the contact normal, as a
   /// soft finger does; 0 (a point) to 1. Where they have friction.
   double patch_radius = 0.0;
@@ -187,6 +190,12 @@ struct ServoConfig {
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< gives energy on request (off: a hand cannot push another)
+  /// The software stop, shared by the servos of a program and longer alive than them; null: none
+  /// but the one that `stop_button` makes.
+  ForceStop* stop = nullptr;
+  /// Bit number of DeviceSample::buttons, 0 to 31, of the button that presses and releases the
+  /// stop; none: no button does.
+  std::optional<int> stop_button{};
 };
 
 /// All servo steps for a recorder. A full ring drops and counts new records, so that a slow disk
