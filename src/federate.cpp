@@ -256,6 +256,10 @@ ObjectHandle Federate::hand(std::size_t index) const noexcept {
       static_cast<EntityNumber>(index < participation_->options().devices.size() ? index + 1 : 0)};
 }
 
+haptics::ForceStop& Federate::force_stop() noexcept {
+  return participation_->joined.peer().force_stop();
+}
+
 // The entities of others
 // --------------------------------------------------------------------------------
 

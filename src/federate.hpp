@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/exchange/force_stop.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
@@ -145,6 +146,12 @@ class Federate {
   [[nodiscard]] pdu::EntityId id_of(ObjectHandle object) const noexcept;
   /// The hand that device `index` of the options moves, counted from 0.
   [[nodiscard]] ObjectHandle hand(std::size_t index) const noexcept;
+  /// Takes the force off all hands of this federate while it is pressed, from the next servo step
+  /// on. What it refers to lives as long as the federate, and any thread or signal handler may use
+  /// it.
+  ///
+  ///   federate.force_stop().press(haptics::StopCause::program);
+  [[nodiscard]] haptics::ForceStop& force_stop() noexcept;
 
   // The entities of others ------------------------------------------------------------------------
 

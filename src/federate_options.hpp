@@ -13,6 +13,10 @@
 #include "reckon/peer/scene/scene_holder.hpp"
 #include "reckon/peer/world/peer_device.hpp"
 
+namespace reckon::haptics {
+class ForceStop;
+}
+
 namespace reckon::peer {
 
 class DatagramTap;
@@ -53,6 +57,9 @@ struct FederateOptions {
   /// Joins although this host cannot make a servo step of the scene within its period, and reports
   /// that as a notice. Otherwise joining a LAN with devices throws StepTooDear then.
   bool even_if_slow = false;
+  /// The software stop of its hands, shared with other federates of the program; must outlive the
+  /// federate. Null: one of its own.
+  haptics::ForceStop* force_stop = nullptr;
   bool transfer = true;       ///< give energy on demand; otherwise no hand can push another
   bool record_shown = false;  ///< fill Peer::shown() at every model step
   /// Stream of the random impairment of the scene: peers with different numbers lose different

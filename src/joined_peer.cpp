@@ -117,6 +117,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
   own.tap = options_.tap;
+  own.force_stop = options_.force_stop;
   Link& way = sealed(link, own.site);
   std::unique_ptr<RollCall> roll;
   if (options_.deal) {

@@ -21,8 +21,10 @@ std::chrono::nanoseconds period_of(const PeerOptions& options, const PeerDevice&
 }
 
 haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& options,
-                                  const PeerDevice& device) {
+                                  const PeerDevice& device, haptics::ForceStop& stop) {
   haptics::ServoConfig config;
+  config.stop = &stop;
+  if (device.stop_button >= 0) config.stop_button = device.stop_button;
   config.period = period_of(options, device);
   config.device_origin = device.origin;
   config.device_orientation = device.orientation;
@@ -66,14 +68,15 @@ std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
 
 std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(
     const SceneFile& scene, const haptics::Scene& felt, const PeerOptions& options,
-    std::span<const PeerDevice> devices, const std::shared_ptr<haptics::BodyWorld>& bodies) {
+    std::span<const PeerDevice> devices, const std::shared_ptr<haptics::BodyWorld>& bodies,
+    haptics::ForceStop& stop) {
   refuse_baseline(scene);
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
   if (devices.empty()) return servos;
   const auto plan = std::make_shared<const haptics::EffectPlan>(felt);
   for (const PeerDevice& device : devices) {
     servos.push_back(std::make_unique<haptics::ServoLoop>(
-        *device.device, plan, servo_config(scene, options, device), bodies));
+        *device.device, plan, servo_config(scene, options, device, stop), bodies));
   }
   return servos;
 }
@@ -109,10 +112,11 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
                                     : nullptr),
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
+      force_stop_(options.force_stop != nullptr ? options.force_stop : &own_stop_),
       felt_(felt_by(scene, options)),
       mover_(mover_of(felt_, scene.nodes, devices)),
       bodies_(bodies_of(felt_, devices, mover_)),
-      servos_(make_servos(scene, felt_, options, devices, bodies_)),
+      servos_(make_servos(scene, felt_, options, devices, bodies_, *force_stop_)),
       servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap,
             urgent_ring(scene, urgent_.get())),

@@ -15,6 +15,7 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/exchange/force_stop.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
@@ -56,6 +57,9 @@ struct PeerOptions {
   /// kernel's buffer fills. Memory is used as the ring fills.
   std::size_t datagram_ring = std::size_t{2} << 20;
   DatagramTap* tap = nullptr;  ///< receives the fate of each datagram; outlives the peer
+  /// The software stop of its hands, shared with other peers of a program; outlives the peer. Null:
+  /// one of its own.
+  haptics::ForceStop* force_stop = nullptr;
 };
 
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,
@@ -135,6 +139,10 @@ class Peer {
   /// announces the end. The loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
+  /// Takes the force off all its hands while it is pressed, from each one's next servo step on. Any
+  /// thread, and signal handlers.
+  [[nodiscard]] haptics::ForceStop& force_stop() noexcept { return *force_stop_; }
+
   /// Newest view of the peer; one reader thread.
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
@@ -176,6 +184,8 @@ class Peer {
   std::unique_ptr<DatagramRing> urgent_;  // of the urgent tier, if the scene has one
   DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
+  haptics::ForceStop own_stop_;
+  haptics::ForceStop* force_stop_;
   haptics::Scene felt_;                         // as this peer moves it
   std::shared_ptr<BodyMover> mover_;            // of the bodies of another peer
   std::shared_ptr<haptics::BodyWorld> bodies_;  // of the servos, which share it

@@ -111,6 +111,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
 
   sample.ok = plugged_;
   sample.enabled = enabled_;
+  sample.buttons = buttons_;
   sample.position = position_;
   sample.velocity = velocity_;
   sample.has_velocity = config_.resolution <= 0;

@@ -78,6 +78,8 @@ class SimulatedDevice : public HapticDevice {
 
   /// The operator's switch.
   void enable(bool held) noexcept { enabled_ = held; }
+  /// Its buttons from the next read on, as DeviceSample::buttons.
+  void press(std::uint32_t buttons) noexcept { buttons_ = buttons; }
   /// While false, reads fail as if the cable were out, and the force is zero.
   void plug(bool in) noexcept;
   /// The handle is there at `now`, wherever it was: no force is held or on its way, the books begin
@@ -133,6 +135,7 @@ class SimulatedDevice : public HapticDevice {
   std::uint32_t buttons_ = 0;
   bool started_ = false;
   bool enabled_ = true;
+  std::uint32_t buttons_ = 0;
   bool plugged_ = true;
   double port_work_ = 0.0;
   double damping_loss_ = 0.0;

@@ -12,10 +12,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/haptics/exchange/force_stop.hpp"
 #include "reckon/haptics/exchange/servo_tally.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/scene/grab_spring.hpp"
@@ -141,7 +143,8 @@ struct ServoSnapshot : AccountList {
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
   bool grabs = false;    ///< it holds a body
-  bool enabled = false;  ///< operator switch held and no trip pending
+  bool enabled = false;  ///< operator switch held, no trip pending, and not stopped
+  bool stopped = false;  ///< the software stop held the force at zero in this step
   ToolState tool;
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
   /// [J], absorbed from the hand + sure damping + received - given, to and from hands and bodies.
@@ -193,6 +196,12 @@ struct ServoConfig {
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< gives energy on request (off: a hand cannot push another)
+  /// The software stop, shared by the servos of a program and longer alive than them; null: none
+  /// but the one that `stop_button` makes.
+  ForceStop* stop = nullptr;
+  /// Bit number of DeviceSample::buttons, 0 to 31, of the button that presses and releases the
+  /// stop; none: no button does.
+  std::optional<int> stop_button{};
 };
 
 /// All servo steps for a recorder. A full ring drops and counts new records, so that a slow disk

@@ -36,7 +36,16 @@ Admission Safety::admit(const DeviceSample& sample, bool finite, bool fast) noex
   } else if (fast) {
     trip(Trip::overspeed);
   }
-  return held_ == 0 && sample.enabled ? Admission::shown : Admission::cut;
+  const bool shows = held_ == 0 && sample.enabled;
+  shown_ = shows ? std::min(shown_ + 1, kRampSteps) : 0;
+  return shows ? Admission::shown : Admission::cut;
+}
+
+// `excess` of force or torque over its limit.
+double Safety::within_limits(double excess, double power) const noexcept {
+  const double most = static_cast<double>(shown_) / kRampSteps;
+  const double scale = excess > most ? most / excess : 1.0;
+  return power > max_power_ ? std::min(scale, max_power_ / power) : scale;
 }
 
 double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& velocity) noexcept {
@@ -44,8 +53,7 @@ double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& veloc
     trip(Trip::not_finite);
     return 0.0;
   }
-  const double size = wanted.norm();
-  return within_power(size > max_force_ ? max_force_ / size : 1.0, wanted.dot(velocity));
+  return within_limits(wanted.norm() / max_force_, wanted.dot(velocity));
 }
 
 double Safety::scale(const Wrench& wanted, const Wrench& twist) noexcept {
@@ -55,7 +63,7 @@ double Safety::scale(const Wrench& wanted, const Wrench& twist) noexcept {
   }
   const double excess =
       std::max(wanted.head<3>().norm() / max_force_, wanted.tail<3>().norm() / max_torque_);
-  return within_power(excess > 1.0 ? 1.0 / excess : 1.0, wanted.dot(twist));
+  return within_limits(excess, wanted.dot(twist));
 }
 
 // A lasting cause keeps the force at zero but counts once.

@@ -24,9 +24,10 @@ enum class Admission : std::uint8_t {
 
 /// Decides which share of a wanted force may reach the hand. It only scales, so that the direction
 /// stays, and the caller scales the storage of its contacts by the same factor to keep the energy
-/// accounts exact. After a trip or a released switch the force is 0 for `hold`. Then the contacts
-/// ramp up again by themselves, paid by the port. A single failed reading pauses the force for that
-/// step, and the next step accounts for the motion of the hand. More than kMostMissed failed
+/// accounts exact. After a trip the force is 0 for `hold`. Then the contacts ramp up again by
+/// themselves, paid by the port. At the start, and after each cut, the greatest force that may be
+/// shown rises from 0 to its limit over kRampSteps. A single failed reading pauses the force for
+/// that step, and the next step accounts for the motion of the hand. More than kMostMissed failed
 /// readings in half a second are a trip.
 class Safety {
  public:
@@ -39,6 +40,8 @@ class Safety {
   /// Most failed readings, in a row or within kForgiven samples, that are not yet a trip.
   static constexpr int kMostMissed = 3;
   static constexpr int kForgiven = 500;
+  /// Samples after a cut in which the limits of force and torque rise, evenly.
+  static constexpr int kRampSteps = 100;
 
   /// Of a device that turns. @param max_torque [N m] > 0  @param max_turn [rad/s] > 0
   void limit_turns(double max_torque, double max_turn) noexcept {
@@ -60,15 +63,15 @@ class Safety {
   /// @param wanted force [N], then torque [N m], on the handle
   [[nodiscard]] double scale(const Wrench& wanted, const Wrench& twist) noexcept;
 
+  /// Whether the limits are still rising.
+  [[nodiscard]] bool ramps() const noexcept { return shown_ < kRampSteps; }
   /// Trips since construction. Each cause counts once when it begins.
   [[nodiscard]] std::uint64_t trips() const noexcept { return trips_; }
   [[nodiscard]] Trip last_trip() const noexcept { return last_; }
 
  private:
   [[nodiscard]] Admission admit(const DeviceSample& sample, bool finite, bool fast) noexcept;
-  [[nodiscard]] double within_power(double scale, double power) const noexcept {
-    return power > max_power_ ? std::min(scale, max_power_ / power) : scale;
-  }
+  [[nodiscard]] double within_limits(double excess, double power) const noexcept;
   void trip(Trip cause) noexcept;
 
   double max_force_;
@@ -78,6 +81,7 @@ class Safety {
   double max_turn_ = 0.0;
   int hold_steps_;
   int held_ = 0;
+  int shown_ = 0;     // samples since the last cut, at most kRampSteps
   int missed_ = 0;    // failed readings within kForgiven samples
   int forgiven_ = 0;  // samples until the failures are forgotten
   std::uint64_t trips_ = 0;

@@ -24,7 +24,8 @@ ServoCore::ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
       plan_(checked_plan(std::move(plan))),
       bodies_(checked_bodies(std::move(bodies), *plan_, config_)),
       period_(pdu::to_seconds(config.period)),
-      stiffness_per_damping_(stiffness_per_damping(config_, limits_)) {
+      stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
+      stop_(config_.stop, config_.stop_button) {
   step_.period = period_;
   step_.probe_radius = config_.probe_radius;
   step_.force_limit = std::min(limits_.max_force, config_.max_force);
@@ -49,6 +50,15 @@ void ServoCore::note_time() noexcept {
   elapsed_ =
       count_ > 0 ? std::max(pdu::to_seconds(step_.now - stepped_at_), 0.1 * period_) : period_;
   stepped_at_ = step_.now;
+}
+
+void ServoCore::obey_stop(DeviceSample& reading) noexcept {
+  const bool was_stopped = stopped_;
+  stopped_ = stop_.look(reading, step_.now);
+  if (!stopped_) return;
+  if (!was_stopped) ++tally_.stops;
+  reading.enabled = false;
+  tally_.stopped += elapsed_;
 }
 
 bool ServoCore::take_news(double moved) noexcept {

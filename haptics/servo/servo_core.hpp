@@ -14,6 +14,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/haptics/servo/stop_switch.hpp"
 
 namespace reckon::haptics {
 
@@ -54,6 +55,8 @@ class ServoCore {
   /// at all of them [N s/m]  @param bend [1/s], see ToolOf
   double cap_for(double probe, double tool, double bend) noexcept;
   void note_time() noexcept;
+  /// While the software stop is pressed, the operator's switch counts as released.
+  void obey_stop(DeviceSample& reading) noexcept;
 
   HapticDevice& device_;
   DeviceLimits limits_;
@@ -75,8 +78,10 @@ class ServoCore {
   std::chrono::nanoseconds stepped_at_{0};
   double elapsed_ = 0.0;  // [s], since the last step
   ServoTally tally_;
+  bool stopped_ = false;  // in this step
 
  private:
+  StopSwitch stop_;
   Eigen::Vector3d seen_at_ = Eigen::Vector3d::Zero();  // [m, S], of the probe as last seen
   std::chrono::nanoseconds seen_{0}, moved_{0};        // times of news
 };

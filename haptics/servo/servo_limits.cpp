@@ -46,6 +46,8 @@ ServoConfig checked_config(const ServoConfig& c, const DeviceLimits& limits) {
               std::to_string(limits.axes));
   require(c.probes.size() <= kMostProbes,
           "a tool has at most " + std::to_string(kMostProbes) + " probes");
+  require(!c.stop_button || (*c.stop_button >= 0 && *c.stop_button < 32),
+          "the button of the stop is one of 0 to 31");
   for (const Eigen::Vector3d& probe : c.probes)
     require(probe.norm() <= kFarthestProbe, "a probe must be within 1 m of the handle");
   return c;

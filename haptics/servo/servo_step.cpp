@@ -66,6 +66,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
     reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
   step_.now = now;
   note_time();
+  obey_stop(reading);
   pressed_.settle(step_.now, hands_.frozen(), port_);
   if (sample(reading)) settle();
   const Admission admission = safety_.admit(reading, tool_.twist());
@@ -155,7 +156,7 @@ void ServoStepOf<axes>::reduce(double scale) noexcept {
 template <int axes>
 void ServoStepOf<axes>::note_limit(const Force& force, double scale) noexcept {
   limit_share_ = 1.0;
-  if (!(scale > 0.0) || scale >= 1.0) return;
+  if (!(scale > 0.0) || scale >= 1.0 || safety_.ramps()) return;
   const Force asked = force + static_.held_back(tool_);
   limit_share_ = std::min(1.0, scale * force.norm() / asked.norm());
   tally_.limit.note(limit_share_, newtons(asked), step_.dt);
@@ -429,6 +430,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.extra_share = held_.extra;
   out.limit_share = limit_share_;
   out.enabled = enabled;
+  out.stopped = stopped_;
   out.mesh_ledger = port_.free();
   out.trips = safety_.trips();
   out.count = 0;

@@ -234,6 +234,9 @@ Section<DeviceConfig> device_section() {
        "beyond it waits, and a liar throws the hand no harder"},
       {"resolution", &Device::resolution, within("m", 0, 1e-3),
        "step of its position sensors, along each of its axes; 0: exact"},
+      {"stop_button", &Device::stop_button, declared("", 0, 31),
+       "number of its button that takes all forces of the program off, until it is pressed again; "
+       "absent: none does"},
       {"rate", rate, within("Hz", kLeastRate, 10e3),
        "of its servo; a device lets go after 10 ms without a force, which one missed period must "
        "not bring about"},

@@ -107,6 +107,7 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   if (options_.simulated_time || !scene.network.interop)
     own.application = static_cast<std::uint16_t>(number);
   own.transfer = options_.transfer;
+  own.force_stop = options_.force_stop;
   own.record_shown = options_.measure;
   own.receiver = index;
   own.impairment_changes = options_.impairment_changes;

@@ -46,8 +46,9 @@ struct ExerciseOptions {
   bool trace_bodies = false;        ///< for on_body()
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
-  bool even_if_slow = false;  ///< real time: see FederateOptions
-  bool time_servo = false;    ///< simulated time: measure what servo steps take
+  bool even_if_slow = false;                 ///< real time: see FederateOptions
+  haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null: none
+  bool time_servo = false;                   ///< simulated time: measure what servo steps take
 };
 
 /// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory

@@ -118,6 +118,19 @@ void print_refused(std::FILE* out, const Hands& hands) {
                          behind(some, hands.size())));
 }
 
+// All hands of a program are stopped together.
+void print_stops(std::FILE* out, const Hands& hands) {
+  std::uint64_t stops = 0;
+  double longest = 0.0;
+  for (const HandView* hand : hands) {
+    stops = std::max(stops, hand->servo.tally.stops);
+    longest = std::max(longest, hand->servo.tally.stopped);
+  }
+  if (stops == 0) return;
+  print_line(out, "forces stopped",
+             fmt::format("{}, {:.3g} s in all", counted(stops, "time"), longest));
+}
+
 void print_steps(std::FILE* out, const Hands& hands) {
   std::uint64_t late = 0, let_go = 0, failed = 0;
   double late_cost = 0.0;
@@ -174,6 +187,8 @@ void append_hand(std::string& out, const HandView* hand) {
       .value("late_steps", tally.late)
       .value("let_go", tally.let_go)
       .value("failed_readings", tally.failed)
+      .value("stops", tally.stops)
+      .value("stopped_s", number(tally.stopped))
       .end();
 }
 
@@ -202,6 +217,7 @@ void print_hands(std::FILE* out, const Hands& hands) {
   print_touching(out, hands);
   print_softer(out, hands);
   for (const Kind& kind : kKinds) print_shortfall(out, kind, hands);
+  print_stops(out, hands);
   print_refused(out, hands);
   print_steps(out, hands);
 }

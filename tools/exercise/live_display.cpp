@@ -57,6 +57,7 @@ void LiveDisplay::add(std::vector<std::string> sentences) {
 void LiveDisplay::take_keys() {
   while (const auto press = screen_->key()) {
     if (press->key == Key::character && press->letter == 'q') quit_ = true;
+    if (press->key == Key::character && press->letter == 's') stop_key_ = true;
     next_draw_ = nanoseconds(0);  // at once, in the size that the terminal has now
   }
 }

@@ -27,6 +27,8 @@ namespace reckon::tools {
 class LiveDisplay {
  public:
   static constexpr std::chrono::nanoseconds kDrawEvery = std::chrono::milliseconds(200);
+  /// How often show() is to be called while the table is drawn: so late may a key be.
+  static constexpr std::chrono::nanoseconds kKeysEvery = std::chrono::milliseconds(20);
   static constexpr std::chrono::nanoseconds kStatusEvery = std::chrono::seconds(10);
   /// Notices that are printed after the table; what is older is counted.
   static constexpr std::size_t kMostKept = 20;
@@ -48,6 +50,8 @@ class LiveDisplay {
   /// Takes the keys pressed, and draws when it is time to or the terminal's size is another.
   void show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
             std::chrono::nanoseconds elapsed);
+  /// Whether the user has pressed the key of the software stop since the last call.
+  [[nodiscard]] bool take_stop_key() noexcept { return std::exchange(stop_key_, false); }
   /// Whether the user asked to end.
   [[nodiscard]] bool quit() const noexcept { return quit_; }
   /// Gives the terminal back and tells what is left to tell. Nothing may be shown after.
@@ -68,6 +72,7 @@ class LiveDisplay {
   std::chrono::nanoseconds next_draw_{0};
   std::chrono::nanoseconds next_status_{kStatusEvery};  // of elapsed time
   bool quit_ = false;
+  bool stop_key_ = false;
 };
 
 }  // namespace reckon::tools

@@ -29,7 +29,6 @@ constexpr auto kRight = TextTable::Align::right;
 constexpr double kDegrees = 57.29577951308232;
 constexpr std::size_t kMostNotices = 3;
 constexpr std::size_t kRowsForNotices = 12, kRowsForKeys = 6, kRowsForTitles = 4;
-constexpr std::string_view kKeys = "[q] quit";
 
 std::uint64_t count(const peer::Counters& counters, std::string_view name) {
   const peer::Counter* counter = counters.find(name);
@@ -83,14 +82,15 @@ bool is_felt(const haptics::ServoSnapshot& servo) {
 }
 
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {
-  return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) || is_softened(servo) ||
-         is_cut(servo);
+  return servo.stopped || servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) ||
+         is_softened(servo) || is_cut(servo);
 }
 
 std::string state_text(const HandCell& cell) {
   if (cell.peer.view->frozen) return "FROZEN";
   if (cell.hand == nullptr) return "";
   const haptics::ServoSnapshot& servo = cell.hand->servo;
+  if (servo.stopped) return "STOPPED";
   if (servo.left_out > 0) return fmt::format("{} UNFELT", servo.left_out);
   if (is_cut(servo)) return fmt::format("CUT {:.0f}%", 100.0 * servo.limit_share);
   if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
@@ -304,6 +304,20 @@ std::string softer_text(const LivePicture& picture) {
   return text.empty() ? text : "softer than asked: " + text;
 }
 
+// What the keys do now.
+std::string keys_text(const LivePicture& picture) {
+  bool has_hands = false, stopped = false;
+  for (const TablePeer& peer : picture.peers) {
+    for (const peer::HandView& hand : peer.view->own_hands()) {
+      has_hands = true;
+      stopped |= hand.servo.stopped;
+    }
+  }
+  const std::string quit = "[q] quit";
+  if (!has_hands) return quit;
+  return (stopped ? "[s] let forces come back   " : "[s] stop all forces   ") + quit;
+}
+
 // In as many lines as it takes: an address that is cut leads nowhere.
 void append_head(std::string_view head, std::size_t columns, std::vector<ScreenLine>& out) {
   while (!head.empty() && columns > 0) {
@@ -322,7 +336,7 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
     const auto newest = notices.last(std::min(notices.size(), kMostNotices));
     for (const std::string& notice : newest) foot.push_back({notice});
   }
-  if (size.rows >= kRowsForKeys) foot.push_back({std::string(kKeys), LineStyle::faint});
+  if (size.rows >= kRowsForKeys) foot.push_back({keys_text(picture), LineStyle::faint});
 
   if (size.rows >= kRowsForKeys) append_head(picture.head, size.columns, out);
   const std::string softer = softer_text(picture);

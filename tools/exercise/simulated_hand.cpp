@@ -222,7 +222,8 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
     }
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period, config.max_force_rate,
-                           config.received_power, config.grab_button, probes_of(config)});
+                           config.received_power, config.grab_button, config.stop_button,
+                           probes_of(config)});
   }
   return hands;
 }

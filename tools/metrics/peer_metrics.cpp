@@ -59,6 +59,10 @@ void add_hands(OpenMetrics& out, const peer::PeerView& view) {
     for (const HandNumber& row : kHandNumbers)
       out.gauge(row.name, row.meaning, servo.*row.value, {{"hand", number}});
     out.counter("hand_trips", "times that safety cut the force", servo.trips, {{"hand", number}});
+    out.counter("hand_stops", "times that the software stop took the force off", servo.tally.stops,
+                {{"hand", number}});
+    out.gauge("hand_stopped", "1 while the software stop holds the force at zero",
+              servo.stopped ? 1.0 : 0.0, {{"hand", number}});
   }
 }
 

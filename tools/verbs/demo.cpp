@@ -28,6 +28,7 @@
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/exercise/simulated_slice.hpp"
+#include "reckon/tools/exercise/stop_control.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/demo_page.hpp"
@@ -250,9 +251,10 @@ std::uint8_t exercise_of(const peer::SceneFile& scene, bool simulated) {
 
 void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
                         const DemoOptions& options, const Console& console, LiveDisplay& display,
-                        DemoPage* page) {
+                        DemoPage* page, StopControl& stop) {
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds slice = options.simulated_time ? kSimulatedSlice : kLookEvery;
+  if (display.is_drawn() && !options.simulated_time) slice = LiveDisplay::kKeysEvery;
   if (page != nullptr) slice = SelfView::kLookEvery;
   std::vector<TablePeer> peers(exercise.size());
   while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
@@ -262,6 +264,8 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
       if (page != nullptr) page->note(heard);
     }
     display.add(exercise.device_notices());
+    if (display.take_stop_key()) stop.press_key(exercise.clock().now());
+    display.add(stop.take_notices());
     if (page != nullptr) page->show(exercise);
     for (std::size_t i = 0; i < peers.size(); ++i)
       peers[i] = {&exercise.view(i), &exercise.peer(i).counters()};
@@ -335,9 +339,12 @@ int run(const DemoOptions& asked, const Console& console) {
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   const auto flags = flags_of_switch(options.view);
   if (flags) let_pages_move_hands(scene, options.peers);
+  StopControl stop;  // before the devices
   std::optional<Exercise> exercise;
   try {
-    exercise.emplace(scene, exercise_options(options));
+    ExerciseOptions made = exercise_options(options);
+    made.force_stop = &stop.stop();
+    exercise.emplace(scene, made);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   } catch (const peer::StepTooDear& slow) {
@@ -381,7 +388,7 @@ int run(const DemoOptions& asked, const Console& console) {
   } else if (!options.simulated_time) {
     display.put_in_head("with --view it is shown in a browser, where the mouse is a hand");
   }
-  show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr);
+  show_until_the_end(*exercise, scene, options, console, display, page ? &*page : nullptr, stop);
   display.close();
   page.reset();
   const Cost cost = cost_of(*exercise);

@@ -26,6 +26,7 @@
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
+#include "reckon/tools/exercise/stop_control.hpp"
 #include "reckon/tools/metrics/metrics_server.hpp"
 #include "reckon/tools/metrics/peer_metrics.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -125,7 +126,7 @@ class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
               EntityEvents& events, peer::DatagramTap* tap)
-      : joined_(federate_options(scene, options, hands_, real_, tap),
+      : joined_(federate_options(scene, options, hands_, real_, tap, stop_.stop()),
                 options.events ? &events : nullptr) {
     if (joined_.options().deal) {
       fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
@@ -145,8 +146,13 @@ class RunningPeer {
     return joined_.take_sealing_notices();
   }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
-  /// Of its devices that are no simulation.
-  [[nodiscard]] std::vector<std::string> device_notices() { return real_.take_notices(); }
+  /// Of its devices that are no simulation, and of the software stop.
+  [[nodiscard]] std::vector<std::string> device_notices() {
+    std::vector<std::string> all = real_.take_notices();
+    for (std::string& sentence : stop_.take_notices()) all.push_back(std::move(sentence));
+    return all;
+  }
+  void press_stop_key() { stop_.press_key(now()); }
   /// Its hands that a page may move.
   [[nodiscard]] const std::vector<PointerHand>& pointers() const { return hands_.pointers; }
 
@@ -154,9 +160,10 @@ class RunningPeer {
   static peer::FederateOptions federate_options(const peer::SceneFile& scene,
                                                 const PeerVerbOptions& options,
                                                 SimulatedHands& hands, RealDevices& real,
-                                                peer::DatagramTap* tap) {
+                                                peer::DatagramTap* tap, haptics::ForceStop& stop) {
     peer::FederateOptions own;
     own.tap = tap;
+    own.force_stop = &stop;
     own.name = options.name;
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
@@ -180,6 +187,7 @@ class RunningPeer {
     return own;
   }
 
+  StopControl stop_;      // before the devices
   SimulatedHands hands_;  // before the peer, which makes them while it joins
   RealDevices real_;      // as well
   peer::JoinedPeer joined_;
@@ -344,7 +352,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};
   bool shown = false;  // a picture has come: it has the hands
-  const nanoseconds look_every = flags ? SelfView::kLookEvery : kLookEvery;
+  nanoseconds look_every = display.is_drawn() ? LiveDisplay::kKeysEvery : kLookEvery;
+  if (flags) look_every = SelfView::kLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
     std::this_thread::sleep_for(std::min(look_every, end - running->elapsed()));
     shown |= running->peer().views().update();
@@ -366,6 +375,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
       print_line(console.out, felt_lines(view, elapsed));
       next_felt += kLookEvery;
     }
+    if (display.take_stop_key()) running->press_stop_key();
     tell_notices(*running, console, options.events, display, page ? &*page : nullptr);
     const TablePeer table{&view, &running->peer().counters()};
     display.show(std::span(&table, 1), scene, running->elapsed());

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,8 +22,15 @@ DeviceSample good() {
   return sample;
 }
 
+// One whose limits have risen.
+Safety ready(double max_force, double max_power, double max_speed, int hold_steps) {
+  Safety safety(max_force, max_power, max_speed, hold_steps);
+  for (int i = 0; i < Safety::kRampSteps; ++i) (void)safety.admit(good(), kStill);
+  return safety;
+}
+
 TEST(Safety, SaturatesWithoutTurningTheForce) {
-  Safety safety(8.0, 2.0, 1.0, 10);
+  Safety safety = ready(8.0, 2.0, 1.0, 10);
   const Vector3d wanted(30, -40, 0);
   const Vector3d written = safety.scale(wanted, kStill) * wanted;
   EXPECT_NEAR(written.norm(), 8.0, 1e-12);
@@ -38,7 +46,7 @@ Wrench wrench(const Vector3d& force, const Vector3d& torque) {
 }
 
 TEST(Safety, LimitsForceTorqueAndPowerOfWhatTurnsByOneShare) {
-  Safety safety(8.0, 2.0, 1.0, 10);
+  Safety safety = ready(8.0, 2.0, 1.0, 10);
   safety.limit_turns(0.5, 20.0);
   const Wrench still = Wrench::Zero();
   EXPECT_EQ(safety.scale(wrench({1, 0, 0}, {0, 0.4, 0}), still), 1.0);
@@ -55,7 +63,7 @@ TEST(Safety, LimitsForceTorqueAndPowerOfWhatTurnsByOneShare) {
 }
 
 TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
-  Safety safety(8.0, 2.0, 1.0, 10);
+  Safety safety = ready(8.0, 2.0, 1.0, 10);
   const Vector3d force(3, 0, 4);
   EXPECT_EQ(safety.scale(force, Vector3d(-1, 0, -1)), 1.0) << "the hand puts it in";
   EXPECT_EQ(safety.scale(force, Vector3d(4, 0, -3)), 1.0) << "across";
@@ -119,6 +127,41 @@ TEST(Safety, AReleasedSwitchCutsTheForceWithoutATrip) {
   EXPECT_EQ(safety.admit(released, kStill), Admission::cut);
   EXPECT_EQ(safety.admit(good(), kStill), Admission::shown);
   EXPECT_EQ(safety.trips(), 0u);
+}
+
+// 8 N and 0.4 N m in 100 samples: the force may grow by 80 mN and the torque by 4 mN m in each.
+TEST(Safety, LimitsRiseEvenlyAtTheStartAndAfterEachCut) {
+  Safety safety(8.0, 1e3, 1.0, 10);
+  safety.limit_turns(0.4, 20.0);
+  const Wrench still = Wrench::Zero();
+  const Wrench pushed = wrench({20, 0, 0}, Vector3d::Zero());
+  const Wrench turned = wrench(Vector3d::Zero(), {0, 0, 20});
+  const auto rises = [&](const char* after) {
+    for (int step = 1; step <= 150; ++step) {
+      ASSERT_EQ(safety.admit(good(), still), Admission::shown) << after;
+      const double share = std::min(1.0, step / 100.0);
+      EXPECT_NEAR(20 * safety.scale(pushed, still), 8.0 * share, 1e-12) << after << ' ' << step;
+      EXPECT_NEAR(20 * safety.scale(turned, still), 0.4 * share, 1e-12) << after << ' ' << step;
+    }
+  };
+  rises("start");
+  DeviceSample released = good();
+  released.enabled = false;
+  (void)safety.admit(released, still);
+  rises("switch");
+  (void)safety.admit(good(), wrench({2, 0, 0}, Vector3d::Zero()));
+  while (safety.admit(good(), still) == Admission::cut) {
+  }
+  EXPECT_LE(20 * safety.scale(pushed, still), 0.08 + 1e-12) << "after a trip";
+}
+
+TEST(Safety, AFailedReadingDoesNotBeginTheRiseAnew) {
+  Safety safety = ready(8.0, 2.0, 1.0, 10);
+  DeviceSample lost = good();
+  lost.ok = false;
+  ASSERT_EQ(safety.admit(lost, kStill), Admission::paused);
+  ASSERT_EQ(safety.admit(good(), kStill), Admission::shown);
+  EXPECT_EQ(safety.scale(Vector3d(8, 0, 0), kStill), 1.0);
 }
 
 }  // namespace

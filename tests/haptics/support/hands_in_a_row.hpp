@@ -43,6 +43,7 @@ struct RowHands {
   /// The device of hand i, in the place of one that goes by `target`; none: that one.
   std::function<std::unique_ptr<SimulatedDevice>(std::size_t, const SimulatedDeviceConfig&)> make =
       {};
+  ForceStop* stop = nullptr;  ///< of all servos
   /// What hand i makes of the truth before it tells it.
   std::function<void(std::size_t, RemoteHand&)> lie = {};
 };
@@ -101,6 +102,7 @@ class HandsInARow {
       if (!devices_.back()) devices_.back() = std::make_unique<SimulatedDevice>(device, script);
       ServoConfig servo;
       servo.probe_radius = hands_.radius;
+      servo.stop = hands_.stop;
       servos_.push_back(
           std::make_unique<ServoLoop>(*devices_.back(), EffectPlan(hands.scene), servo));
     }

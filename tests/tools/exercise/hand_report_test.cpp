@@ -95,6 +95,17 @@ TEST_F(HandReport, CountsLateStepsFailedReadingsAndRefusedRecords) {
                             HasSubstr("for 0.5 s, a record near a hand")));
 }
 
+TEST_F(HandReport, SaysHowOftenAndForHowLongForcesWereStopped) {
+  for (peer::HandView& hand : views_) {
+    hand.servo.tally.stops = 2;
+    hand.servo.tally.stopped = 3.25;
+  }
+  EXPECT_THAT(text(), HasSubstr("forces stopped             2 times, 3.25 s in all\n"));
+  const auto json = nlohmann::json::parse(hands_json(hands_));
+  EXPECT_EQ(json[1]["stops"], 2);
+  EXPECT_EQ(json[1]["stopped_s"], 3.25);
+}
+
 TEST_F(HandReport, HasEveryHandWithBothNumbersInJson) {
   views_[3].stiffness.walls_asked = 20000;
   views_[3].stiffness.walls = 1425;

@@ -86,6 +86,15 @@ TEST(LiveTable, FillsATerminalOfAnySizeAndNoMore) {
   }
 }
 
+TEST(LiveTable, SaysThatForcesAreStoppedAndHowTheyComeBack) {
+  Peers all(2, 1);
+  EXPECT_THAT(all.shown(24, 80).back(), AllOf(HasSubstr("[s] stop all forces"), HasSubstr("[q]")));
+  all.view(1).hands[0].servo.stopped = true;
+  EXPECT_EQ(lines_with(all.shown(24, 80), "STOPPED"), 1U);
+  EXPECT_THAT(all.shown(24, 80).back(), HasSubstr("[s] let forces come back"));
+  EXPECT_THAT(Peers(1, 1, 0).shown(24, 80).back(), Not(HasSubstr("[s]"))) << "no hand";
+}
+
 TEST(LiveTable, GivesEachEntityOneLineAtEightyColumns) {
   const auto lines = Peers(1, 5).shown(24, 80);
   EXPECT_EQ(lines_with(lines, "7:7:"), 5U);

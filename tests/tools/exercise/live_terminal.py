@@ -114,6 +114,22 @@ def one_peer(program, scene):
     assert b"'BOB' joined" in after and b" cost" in after, after
 
 
+def stopped(program):
+    """The key s and SIGUSR1 stop all forces and let them come back; the summary counts it."""
+    terminal = Terminal(demo(program), rows=40, columns=120)
+    terminal.expect("stop all forces")
+    terminal.press("s")
+    terminal.expect("STOPPED")
+    terminal.process.send_signal(signal.SIGUSR1)
+    for _ in range(10):
+        terminal.pump()
+    terminal.press("q")
+    after = terminal.expect_end().split(LEAVE_SCREEN)[-1]
+    for said in (b"all forces are stopped by the key s", b"forces come back: SIGUSR1", b"forces stopped             1 time,"):
+        assert said in after, after
+    assert terminal.process.returncode == 0
+
+
 def main():
     if "RECKON_IN_NAMESPACE" not in os.environ:
         pseudo_terminal.into_namespace()
@@ -123,6 +139,7 @@ def main():
     resized(program)
     endings(program)
     plain(program)
+    stopped(program)
     one_peer(program, str(pathlib.Path(sys.argv[2]) / "two_hands.toml"))
     print("good")
 
