@@ -111,11 +111,10 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
 
   sample.ok = plugged_;
   sample.enabled = enabled_;
-  sample.buttons = buttons_;
+  sample.buttons = buttons_ | scripted_;
   sample.position = position_;
   sample.velocity = velocity_;
   sample.has_velocity = config_.resolution <= 0;
-  sample.buttons = buttons_;
   const double step = config_.resolution;
   if (step > 0) sample.position = (position_ / step).array().round().matrix() * step;
   if (turn_) {
@@ -174,7 +173,7 @@ void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;
   if (script_) target = script_(time_);
-  buttons_ = target.buttons;
+  scripted_ = target.buttons;
   Eigen::Vector3d pull = config_.hand_stiffness * (target.position - position_);
   const double pulls = pull.norm();
   if (pulls > target.most_pull) pull *= target.most_pull / pulls;

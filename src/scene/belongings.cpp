@@ -66,6 +66,7 @@ const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
       return &haptics::falcon_facts();
     case DeviceDriver::polhem:
       return &haptics::polhem_facts();
+    case DeviceDriver::plugin:
     case DeviceDriver::simulated:
       break;
   }

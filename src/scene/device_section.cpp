@@ -65,6 +65,15 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
 void check_kind(TomlReader& table, const DeviceConfig& device) {
   if (device.driver != DeviceDriver::falcon && table.has("firmware"))
     table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
+  for (const char* key : {"plugin", "plugin_options"}) {
+    if (device.driver != DeviceDriver::plugin && table.has(key)) {
+      table.problem(key,
+                    "only a driver that is a shared library has it: add driver = \"plugin\", or "
+                    "take it out");
+    }
+  }
+  if (device.driver == DeviceDriver::plugin && device.plugin.empty())
+    table.problem("driver", "a plugin is a shared library: name it with plugin = \"driver.so\"");
   for (const char* key : {"upper_weight", "fore_weight"}) {
     if (device.driver != DeviceDriver::polhem && table.has(key)) {
       table.problem(key,
@@ -189,6 +198,9 @@ Section<DeviceConfig> device_section() {
           {"driver", &Device::driver,
            "what it is: simulated; or a Novint Falcon or a Polhem on USB, which a person holds; in "
            "simulated time its operator stands in"},
+          {"plugin", &Device::plugin,
+           "of a plugin: the shared library of the driver; what the device can do, it says itself"},
+          {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
           {"firmware", &Device::firmware,
            "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
           {"upper_weight", &Device::upper_weight, within("N m", 0, 2),

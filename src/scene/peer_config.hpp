@@ -133,6 +133,7 @@ enum class DeviceDriver : std::uint8_t {
   simulated,  ///< a mass that its operator holds
   falcon,     ///< a Novint Falcon on USB, that a person holds
   polhem,     ///< a Polhem on USB, that a person holds
+  plugin,     ///< whatever a shared library drives
 };
 
 /// A place of a tool that touches.
@@ -149,6 +150,8 @@ struct DeviceConfig {
   std::filesystem::path firmware;  ///< of a Falcon; absolute once loaded; empty: none is loaded
   double upper_weight = 0.0;       ///< [N m] >= 0, of a Polhem's upper link while it is level
   double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link while that is level
+  std::filesystem::path plugin;    ///< shared library of its driver; absolute once loaded
+  std::string plugin_options;      ///< for that driver
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin

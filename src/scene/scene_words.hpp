@@ -43,7 +43,8 @@ template <>
 inline constexpr auto kWords<DeviceDriver> =
     std::to_array<Word<DeviceDriver>>({{"simulated", DeviceDriver::simulated},
                                        {"falcon", DeviceDriver::falcon},
-                                       {"polhem", DeviceDriver::polhem}});
+                                       {"polhem", DeviceDriver::polhem},
+                                       {"plugin", DeviceDriver::plugin}});
 
 template <>
 inline constexpr auto kWords<NodeKind> =

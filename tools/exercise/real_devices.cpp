@@ -25,13 +25,18 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
-// Of real devices.
+// Of devices on USB.
 std::vector<std::string_view> driver_words() {
   std::vector<std::string_view> words;
   for (const auto& word : peer::kWords<DeviceDriver>) {
-    if (word.value != DeviceDriver::simulated) words.push_back(word.name);
+    if (word.value != DeviceDriver::simulated && word.value != DeviceDriver::plugin)
+      words.push_back(word.name);
   }
   return words;
+}
+
+bool is_plugin(const std::string& device) {
+  return device.find('/') != std::string::npos || device.ends_with(".so");
 }
 
 // All devices by name, where the file has none.
@@ -56,7 +61,7 @@ std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
   line.option("--device", choice.device,
               fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
-                          "reckon devices)",
+                          "reckon devices), or the file of a driver (DRIVER.so)",
                           fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
@@ -65,13 +70,14 @@ void add_device_flags(CommandLine& line, DeviceChoice& choice) {
 void check_device_choice(const DeviceChoice& choice) {
   const std::string& name = choice.device;
   const std::vector<std::string_view> words = driver_words();
-  if (!name.empty() && std::ranges::find(words, name) == words.end()) {
+  if (!name.empty() && !is_plugin(name) && std::ranges::find(words, name) == words.end()) {
     const std::string_view nearest = peer::nearest_word(name, words);
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
     throw UsageError(
-        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices)", name,
-                    meant, fmt::join(words, ", ")));
+        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), and "
+                    "files of drivers: ./DRIVER.so",
+                    name, meant, fmt::join(words, ", ")));
   }
   if (choice.firmware.empty()) return;
   try {
@@ -91,7 +97,10 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
     // What the scene says of a simulated device's friction and delay is not said of this one.
-    const DeviceDriver chosen = *peer::value_of<DeviceDriver>(choice.device);
+    const bool by_file = is_plugin(choice.device);
+    const DeviceDriver chosen =
+        by_file ? DeviceDriver::plugin : *peer::value_of<DeviceDriver>(choice.device);
+    if (by_file) first->plugin = std::filesystem::absolute(choice.device);
     if (first->driver != chosen) peer::use_driver(*first, chosen, false, false);
   }
   if (choice.firmware.empty()) return;
@@ -108,6 +117,15 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
   const std::vector<DeviceConfig> devices = peer::devices_of(scene, number);
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const DeviceConfig& device = devices[i];
+    if (device.driver == DeviceDriver::plugin) {
+      plugins_.push_back(
+          std::make_unique<haptics::PluginDevice>(device.plugin, device.plugin_options));
+      wired[i].device = plugins_.back().get();
+      sentences_.push_back(fmt::format(
+          "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
+          plugins_.back()->name(), plugins_.back()->limits().damping, device.plugin.string()));
+      continue;
+    }
     const haptics::UsbFacts* const facts = peer::usb_facts_of(device);
     if (facts == nullptr) continue;
     if (std::ranges::find(plugged_, device.driver, &Plugged::driver) != plugged_.end()) {
@@ -131,6 +149,8 @@ std::vector<std::string> RealDevices::take_notices() {
   for (const Plugged& plugged : plugged_) {
     for (std::string& sentence : plugged.thread->take_notices()) all.push_back(std::move(sentence));
   }
+  for (const auto& plugin : plugins_)
+    for (std::string& sentence : plugin->take_notices()) all.push_back(std::move(sentence));
   return all;
 }
 

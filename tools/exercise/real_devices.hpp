@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/plugin/plugin_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -18,7 +19,7 @@ namespace reckon::tools {
 
 /// --device and --firmware of a demo or a peer.
 struct DeviceChoice {
-  std::string device;    ///< name of a driver; empty: as the scene says
+  std::string device;    ///< name of a driver, or file of one; empty: as the scene says
   std::string firmware;  ///< file; empty: as the scene says
 };
 
@@ -39,8 +40,8 @@ class RealDevices {
  public:
   /// Puts real devices in the place of the simulated ones of peer `number` that have a driver.
   /// @param wired that of make_simulated_hands() for that peer @throws std::runtime_error with the
-  /// remedy where the host has no USB, a firmware cannot be read, or a second device of a kind is
-  /// asked for
+  /// remedy where a plugin is refused, the host has no USB, a firmware cannot be read, or a second
+  /// device of a kind is asked for
   void plug_in(const peer::SceneFile& scene, std::uint32_t number,
                std::vector<peer::PeerDevice>& wired);
   /// Sentences since the last call.
@@ -53,6 +54,7 @@ class RealDevices {
     std::unique_ptr<peer::UsbThread> thread;
   };
   std::vector<Plugged> plugged_;
+  std::vector<std::unique_ptr<haptics::PluginDevice>> plugins_;
   std::vector<std::string> sentences_;
 };
 

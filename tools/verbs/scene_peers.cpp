@@ -44,6 +44,11 @@ std::string point(const Eigen::Vector3d& p) {
 std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   if (const haptics::UsbFacts* const facts = peer::usb_facts_of(device))
     return fmt::format("a person, by a {}", facts->name);
+  if (device.driver == peer::DeviceDriver::plugin)
+    return fmt::format(
+        "whoever {} drives it for, which says what it can do; the limits here are "
+        "those of a simulated one in its place",
+        device.plugin.filename().string());
   if (scene.operators.empty()) return "a hand that holds still";
   const std::size_t count = scene.operators.size();
   const std::size_t index = (device.operator_number - 1) % count;

@@ -107,7 +107,8 @@ TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
   };
   EXPECT_THAT(refused("[[device.probe]]\nposition = \"40 0 0 mm\"\n"),
               HasSubstr("only a device that turns has 'probe': add axes = 6"));
-  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"), HasSubstr("only a device that turns has 'max_torque'"));
+  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"),
+              HasSubstr("only a device that turns has 'max_torque'"));
   EXPECT_THAT(refused("axes = 4\n"),
               HasSubstr("x.toml:2:8: a device has 3 axes, or 6 with torque"));
   EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping in all of them"));
@@ -153,6 +154,14 @@ TEST(DeviceSection, RefusesWhatAFalconIsNot) {
               HasSubstr("no_such_file"));
   EXPECT_THAT(refusal("[[device]]\nfirmware = \"no_such_file\"\n" + std::string(kOperator)),
               HasSubstr("only a Falcon has one"));
+}
+
+TEST(DeviceSection, APluginIsNamedByItsFile) {
+  const std::string plugin = "[[device]]\ndriver = \"plugin\"\n";
+  EXPECT_THAT(refusal(plugin + kOperator), HasSubstr("name it with plugin = \"driver.so\""));
+  EXPECT_THAT(refusal(plugin + "plugin = \"no_such.so\"\n" + kOperator), HasSubstr("no_such.so"));
+  EXPECT_THAT(refusal("[[device]]\nplugin_options = \"x\"\n" + std::string(kOperator)),
+              HasSubstr("add driver = \"plugin\""));
 }
 
 TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {

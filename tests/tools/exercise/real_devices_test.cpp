@@ -75,6 +75,24 @@ TEST(RealDevices, AWrongNameGetsTheNearest) {
               HasSubstr("there are falcon, polhem"));
 }
 
+TEST(RealDevices, AFileOfADriverIsLoadedAndTold) {
+  const std::string file = std::string(RECKON_TEST_DRIVERS) + "/dummy_device.so";
+  EXPECT_EQ(usage_error([&] { check_device_choice({file, ""}); }), "");
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({file, ""}, scene, 2, 2);
+  EXPECT_EQ(scene.devices.at(1).driver, DeviceDriver::plugin);
+  SimulatedHands hands = make_simulated_hands(scene, 2);
+  RealDevices real;
+  real.plug_in(scene, 2, hands.wired);
+  EXPECT_NE(hands.wired.at(0).device, hands.devices.at(0).get());
+  EXPECT_EQ(hands.wired.at(0).device->limits().max_force, 10.0);
+  EXPECT_THAT(real.take_notices(),
+              ::testing::ElementsAre(AllOf(HasSubstr("dummy: 1 N s/m"), HasSubstr(file))));
+
+  scene.devices[1].plugin = "none.so";
+  EXPECT_THROW(RealDevices().plug_in(scene, 2, hands.wired), std::runtime_error);
+}
+
 TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
   const test::ScratchFolder folder;
   const std::string file = folder.file("program.bin");
