@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/bodies/body_solver.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,18 +11,15 @@
 #include <mutex>
 #include <string>
 #include <utility>
-#include <variant>
 
+#include "reckon/haptics/bodies/body_mass.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/flight.hpp"
-#include "reckon/haptics/geometry/solid_moments.hpp"
-#include "reckon/haptics/geometry/surface_mesh.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
@@ -205,37 +201,13 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
 }
 
 void BodySolver::give_mass(Body& body, const PlannedObject& object) {
+  const BodyMass given = mass_of(object);
   body.mass = object.matter.mass;
   body.drag = object.matter.drag;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape))
-    return give_mass(body, **mesh);
-  dMass mass;
-  if (std::holds_alternative<Ball>(object.shape)) {
-    body.inner = dGeomSphereGetRadius(body.geom);
-    dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(body.geom));
-  } else {
-    dVector3 size;
-    dGeomBoxGetLengths(body.geom, size);
-    body.inner = 0.5 * std::min({size[0], size[1], size[2]});
-    dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
-  }
-  body.least_inertia = std::min({mass.I[0], mass.I[5], mass.I[10]});
-  dBodySetMass(body.id, &mass);
-}
-
-void BodySolver::give_mass(Body& body, const SurfaceMesh& mesh) {
-  const SolidMoments moments = moments_of(mesh);
-  const Matrix3d inertia = body.mass * moments.inertia;
-  body.middle = moments.middle;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(inertia, Eigen::EigenvaluesOnly);
-  body.least_inertia = principal.eigenvalues()(0);
-  ClosestPoint nearest;
-  static_cast<void>(mesh.closest_from(moments.middle, 0, nearest));
-  if (mesh.contains(moments.middle)) body.inner = nearest.distance;
-  dMass mass;
-  dMassSetParameters(&mass, body.mass, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
-                     inertia(0, 1), inertia(0, 2), inertia(1, 2));
-  dBodySetMass(body.id, &mass);
+  body.inner = given.inner;
+  body.least_inertia = given.least_inertia;
+  body.middle = given.middle;
+  dBodySetMass(body.id, &given.mass);
 }
 
 void BodySolver::carry(std::size_t body, const ObjectMotion& motion) noexcept {

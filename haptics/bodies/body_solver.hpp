@@ -117,7 +117,6 @@ class BodySolver {
   void destroy() noexcept;
   void add(const PlannedObject& object, std::uint32_t number);
   static void give_mass(Body& body, const PlannedObject& object);
-  static void give_mass(Body& body, const SurfaceMesh& mesh);
   [[nodiscard]] bool acts(std::size_t body) const noexcept { return (only_ >> body & 1) != 0; }
   [[nodiscard]] Eigen::Quaterniond orientation(std::size_t body) const noexcept;
   [[nodiscard]] bool rests() const noexcept;
