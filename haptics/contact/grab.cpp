@@ -17,36 +17,25 @@ constexpr double kLeastGain = 0.01;
 
 void Grab::take(std::size_t body, const GrabSpring& spring, const Vector3d& probe,
                 const ObjectMotion& motion) noexcept {
+  *this = {};
   holds_ = true;
   body_ = body;
   spring_ = spring;
   motion_ = motion;
-  shown_ = 1.0;
-  reset(probe);
-}
-
-void Grab::reset(const Vector3d& probe) noexcept {
-  probe_ = probe;
-  place_ = motion_.orientation.conjugate() * (probe - motion_.position);
-  force_.setZero();
-  change_.setZero();
-  stored_ = lent_ = 0.0;
-  gain_ = 1.0;
+  place_ = motion.orientation.conjugate() * (probe - motion.position);
 }
 
 void Grab::let_go(EnergyLedger& ledger) noexcept {
   if (!holds_) return;
   // What was lent for the body's motion was no storage.
   ledger.book(-gain_ * lent_);
-  reset(probe_);
-  holds_ = false;
+  *this = {};
 }
 
 Vector3d Grab::move(const Vector3d& probe, EnergyLedger& ledger) noexcept {
   if (!holds_) return Vector3d::Zero();
   const double before = booked();
   const Vector3d force = force_;
-  probe_ = probe;
   const Vector3d stretch = probe - point();
   force_ = -spring_.stiffness * stretch;
   stored_ = 0.5 * spring_.stiffness * stretch.squaredNorm();
@@ -60,10 +49,7 @@ void Grab::settle(double dt, EnergyLedger& ledger) noexcept {
   if (!holds_) return;
   const double debt = ledger.debt();
   if (debt > 0) scale_gain(debt < booked() ? 1.0 - debt / booked() : 0.0, ledger);
-  if (gain_ < kLeastGain) {
-    scale_gain(0.0, ledger);
-    return reset(probe_);
-  }
+  if (gain_ < kLeastGain) return let_go(ledger);
   const double wanted = std::min(1.0 - gain_, dt / kRampSeconds);
   const double rise = stored_ > 0 ? std::clamp(ledger.level() / stored_, 0.0, std::max(0.0, wanted))
                                   : std::max(0.0, wanted);

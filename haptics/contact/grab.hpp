@@ -14,8 +14,8 @@
 namespace reckon::haptics {
 
 /// It begins unstretched, so that nothing jumps and nothing has to be paid. Where the ledger is
-/// short its gain falls, and rises in 100 ms as the ledger pays; where nothing of it is left, it
-/// slips: it holds the body anew where the probe is. Order of calls within a step: place, move,
+/// short its gain falls, and rises in 100 ms as the ledger pays; where nothing of it is left, as
+/// after a cut to zero, the body is lost. Order of calls within a step: place, move,
 /// settle, load, shown, attenuate; all but the last of them do nothing while nothing is held. One
 /// thread; allocates nothing.
 class Grab {
@@ -34,8 +34,6 @@ class Grab {
 
   /// The body goes on.
   void place(const ObjectMotion& motion) noexcept { motion_ = motion; }
-  /// Holds the body anew where the probe is.
-  void reset(const Eigen::Vector3d& probe) noexcept;
   /// The probe goes on, and what the spring stored or released is booked. @return by how much its
   /// force changed [N]
   Eigen::Vector3d move(const Eigen::Vector3d& probe, EnergyLedger& ledger) noexcept;
@@ -83,7 +81,6 @@ class Grab {
   GrabSpring spring_;
   ObjectMotion motion_;
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();   // in the body's axes [m]
-  Eigen::Vector3d probe_ = Eigen::Vector3d::Zero();   // [m, S]
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();   // of the spring at a gain of 1 [N]
   Eigen::Vector3d change_ = Eigen::Vector3d::Zero();  // [N]
   double stored_ = 0.0, lent_ = 0.0;                  // [J], at a gain of 1

@@ -29,7 +29,7 @@ template <int axes>
 void StaticContactOf<axes>::reset(const Tool& tool) noexcept {
   for (std::size_t i = 0; i < size(); ++i) {
     walls_[i]->reset(tool.place(i));
-    grabs_[i].reset(tool.place(i));
+    grabs_[i] = {};
   }
   regions_.reset(tool.place());
   deepest_ = 0;

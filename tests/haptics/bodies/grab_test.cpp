@@ -376,6 +376,19 @@ TEST(Grab, WhatSticksIsTornOffAtItsMost) {
   EXPECT_GT(held.body().position.z(), 0.1);
 }
 
+// A hand that was cut off is somewhere else afterwards.
+TEST(Grab, ABodyIsLostWhereTheForceIsCutToZero) {
+  Rig rig(cube_on_floor(0.1), device_at({0, 0, 0.05}), holding(250, 0.5), lifts);
+  for (int i = 0; i < 3'000; ++i) rig.step();
+  ASSERT_TRUE(rig.step().grabs);
+  rig.device.plug(false);
+  for (int i = 0; i < 100; ++i) rig.step();
+  rig.device.plug(true);
+  for (int i = 0; i < 2'000; ++i) rig.step();
+  EXPECT_FALSE(rig.step().grabs) << "the button is still pressed, but nothing is touched";
+  EXPECT_NEAR(rig.body().position.z(), kHalf, 1e-4);
+}
+
 // What moves by itself, and what stands still, is not held.
 TEST(Grab, HoldsBodiesAlone) {
   Scene scene = cube_on_floor(0.1);
