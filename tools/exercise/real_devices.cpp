@@ -16,6 +16,7 @@
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -98,6 +99,10 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
     falcon_ = std::make_unique<peer::FalconThread>(clock_, peer::falcon_settings_of(devices[i]),
                                                    std::move(firmware));
     wired[i].device = &falcon_->device();
+    if (const haptics::HandMapping mapping = mapping_of(devices[i]); !mapping.is_plain())
+      wired[i].device =
+          mapped_.emplace_back(std::make_unique<haptics::MappedDevice>(*wired[i].device, mapping))
+              .get();
     const haptics::DeviceLimits limits = falcon_->device().limits();
     sentences_.push_back(fmt::format(
         "Falcon: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/devices/mapped_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/falcon_thread.hpp"
 #include "reckon/peer/peer.hpp"
@@ -48,6 +49,7 @@ class RealDevices {
  private:
   peer::SteadyClock clock_;
   std::unique_ptr<peer::FalconThread> falcon_;
+  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped_;  // before the real ones
   std::vector<std::string> sentences_;
 };
 
