@@ -31,6 +31,8 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   config.probe_radius = scene.hand.radius;
   config.contact_radius = scene.hand.contact_radius;
   config.patch_radius = scene.hand.patch_radius;
+  config.grab = scene.hand.grab;
+  config.grab_buttons = std::uint32_t{1} << device.grab_button % 32;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   if (device.received_power > 0) config.max_received_power = device.received_power;
   config.probes = device.probes;

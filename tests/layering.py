@@ -48,7 +48,7 @@ def read(root):
     files = {}
     for top in MAY_KNOW:
         for path in sorted((root / top).rglob("*")):
-            if path.suffix in (".cpp", ".hpp") or path.name in ("CMakeLists.txt", "README.md"):
+            if path.suffix in (".cpp", ".hpp", ".h") or path.name in ("CMakeLists.txt", "README.md"):
                 files[path.relative_to(root).as_posix()] = path.read_text(encoding="utf-8")
     return {path: text for path, text in files.items() if not path.startswith(FOREIGN)}
 

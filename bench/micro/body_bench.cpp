@@ -2,17 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // What bodies cost a servo step: a row of cubes on a floor, of which a hand holds down the first
 // one or none. Each row holds the time of a step and how far the force is from that of the two
-// springs in series, in newtons.
+// springs in series, in newtons. Then, until the force is written, beside the same scene without
+// bodies, alternated.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/queries/pair_query.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
 namespace {
@@ -84,5 +90,124 @@ BENCHMARK(servo_step_at_bodies)
     ->Args({6, 50, 0})
     ->Args({6, 50, 1})
     ->Args({27, 50, 0});
+
+/// Notes when its force is written.
+class StampedDevice : public SimulatedDevice {
+ public:
+  using SimulatedDevice::SimulatedDevice;
+  void write(const Vector3d& force, nanoseconds now) noexcept override {
+    written = std::chrono::steady_clock::now();
+    SimulatedDevice::write(force, now);
+  }
+  std::chrono::steady_clock::time_point written;
+};
+
+/// A hand that presses a wall, and balls that bounce for ever where it does not come.
+struct Bouncing {
+  explicit Bouncing(std::size_t balls) {
+    Scene scene = row_of(0, 0.0);
+    scene.objects[0].matter.restitution = 1.0;
+    for (std::size_t i = 0; i < balls; ++i) {
+      SceneObject& ball = scene.objects.emplace_back();
+      ball.name = "ball " + std::to_string(i);
+      ball.shape = SphereShape{0.5 * kEdge};
+      ball.pose.position = {1 + 1.5 * kEdge * static_cast<double>(i), 0, kEdge};
+      ball.matter = {0.05, 0.5, 1.0};
+    }
+    SimulatedDeviceConfig config;
+    config.hand_stiffness = kGrip;
+    device.emplace(config, [](double) { return HandTarget{{0, 0, -kWanted}}; });
+    plan = std::make_shared<const EffectPlan>(scene);
+    servo.emplace(*device, plan, ServoConfig{}, make_bodies(*plan, scene));
+  }
+  /// Until the force is written, and the whole step [us].
+  std::pair<double, double> step() {
+    using Micros = std::chrono::duration<double, std::micro>;
+    const auto begin = std::chrono::steady_clock::now();
+    servo->step(now += kPeriod);
+    const auto end = std::chrono::steady_clock::now();
+    return {Micros(device->written - begin).count(), Micros(end - begin).count()};
+  }
+
+  std::shared_ptr<const EffectPlan> plan;
+  std::optional<StampedDevice> device;
+  std::optional<ServoLoop> servo;
+  nanoseconds now{1'000'000'000};
+};
+
+double share_of(std::vector<double>& times, double share) {
+  const auto nth =
+      times.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(times.size() - 1));
+  std::ranges::nth_element(times, nth);
+  return *nth;
+}
+
+// Argument: balls that are awake and not touched.
+void until_force_is_written(benchmark::State& state) {
+  Bouncing with(static_cast<std::size_t>(state.range(0))), without(0);
+  std::vector<double> times, bare, whole;
+  for (int i = 0; i < 1000; ++i) with.step(), without.step();
+  for (auto _ : state) {
+    const auto [written, step] = with.step();
+    times.push_back(written);
+    whole.push_back(step);
+    bare.push_back(without.step().first);
+  }
+  state.counters["median_us"] = share_of(times, 0.5);
+  state.counters["p999_us"] = share_of(times, 0.999);
+  state.counters["bare_median_us"] = share_of(bare, 0.5);
+  state.counters["bare_p999_us"] = share_of(bare, 0.999);
+  state.counters["p999_ratio"] = share_of(times, 0.999) / share_of(bare, 0.999);
+  state.counters["step_median_us"] = share_of(whole, 0.5);
+}
+// A step of all bodies while boxes fall into a pile, from drawn places, until all are asleep; and
+// how deep the two that overlap most do. Argument: boxes.
+void pile_falls(benchmark::State& state) {
+  Scene scene = row_of(0, 0.0);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < state.range(0); ++i) {
+    SceneObject& box = scene.objects.emplace_back();
+    box.name = "box " + std::to_string(i);
+    box.shape = BoxShape{Vector3d::Constant(kEdge)};
+    box.pose.position = {0.05 * (i % 3) + 0.004 * any(random), 0.05 * (i / 3 % 3),
+                         0.05 + 0.05 * (i / 9)};
+    box.pose.orientation =
+        Eigen::Quaterniond(1, 0.2 * any(random), 0.2 * any(random), 0).normalized();
+    box.matter = {0.1, 0.5, 0.0};
+  }
+  const EffectPlan plan(scene);
+  const QueryShape shape = QueryShape::box(Vector3d::Constant(kEdge));
+  std::vector<double> times;
+  double deepest = 0.0, asleep = 0.0;
+  for (auto _ : state) {
+    const auto world = make_bodies(plan, scene);
+    nanoseconds now{0};
+    world->advance_to(now);
+    const auto is_awake = [&] { return std::ranges::any_of(world->states(), &BodyState::awake); };
+    for (int i = 0; i < 10'000 && is_awake(); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      world->advance_to(now += kPeriod);
+      times.push_back(
+          std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
+              .count());
+    }
+    asleep = std::chrono::duration<double>(now).count();
+    const auto at = [](const BodyState& body) {
+      return Placement{body.position, body.orientation.toRotationMatrix()};
+    };
+    for (const BodyState& a : world->states())
+      for (const BodyState& b : world->states())
+        if (&a < &b)
+          deepest = std::max(deepest, measure_pair(shape, at(a), shape, at(b)).depth.most);
+  }
+  state.counters["median_us"] = share_of(times, 0.5);
+  state.counters["p99_us"] = share_of(times, 0.99);
+  state.counters["asleep_after_s"] = asleep;
+  state.counters["deepest_um"] = 1e6 * deepest;
+}
+BENCHMARK(pile_falls)->ArgName("boxes")->Arg(10)->Arg(30)->Arg(60)->Iterations(1);
+
+BENCHMARK(until_force_is_written)->ArgName("balls")->Arg(0)->Arg(8)->Arg(27)->Arg(60);
 
 }  // namespace

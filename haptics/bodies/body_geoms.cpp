@@ -16,7 +16,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr const char* kYet =
-    "has a mass, but only boxes and spheres move by theirs: give one of them";
+    "has a mass, but only boxes, spheres and closed meshes move by theirs: give one of them";
+constexpr std::size_t kMostTriangles = 20'000;
 
 dGeomID placed(const PlannedObject& object, dGeomID geom) {
   if (object.moves()) return geom;
@@ -27,13 +28,26 @@ dGeomID placed(const PlannedObject& object, dGeomID geom) {
   return geom;
 }
 
+void check_body(const PlannedObject& object, const SurfaceMesh& mesh) {
+  if (!mesh.report().closed)
+    refuse_body(object, "has a mass, but its mesh is open and encloses nothing: close it");
+  if (mesh.triangles().size() > kMostTriangles) {
+    refuse_body(object, "has a mass and " + std::to_string(mesh.triangles().size()) +
+                            " triangles, a body has at most " + std::to_string(kMostTriangles) +
+                            ": thin it");
+  }
+  if (!mesh.origin().isZero(0.0))
+    refuse_body(object, "has a mass, and a mesh far from its file's origin: add centre = true");
+}
+
 }  // namespace
 
 void refuse_body(const PlannedObject& object, const std::string& why) {
   throw std::invalid_argument("object '" + object.name + "' " + why);
 }
 
-BodyGeoms::BodyGeoms() : space_(dSimpleSpaceCreate(nullptr)) {}
+BodyGeoms::BodyGeoms(bool meshes_meet)
+    : space_(dSimpleSpaceCreate(nullptr)), meshes_meet_(meshes_meet) {}
 
 BodyGeoms::~BodyGeoms() {
   dSpaceDestroy(space_);
@@ -41,6 +55,33 @@ BodyGeoms::~BodyGeoms() {
 }
 
 dGeomID BodyGeoms::add(const PlannedObject& object) {
+  const dGeomID geom = make(object);
+  if (geom == nullptr) return nullptr;
+  GeomMatter& matter = matters_.emplace_back(GeomMatter{object.matter});
+  const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape);
+  if (mesh != nullptr && meshes_meet_) {
+    auto& probed = probed_[mesh->get()];
+    if (!probed) probed = std::make_unique<const ProbedMesh>(*mesh);
+    matter.mesh = probed.get();
+  }
+  dGeomSetData(geom, &matter);
+  return geom;
+}
+
+std::span<dContactGeom> BodyGeoms::meet(dGeomID a, dGeomID b,
+                                        std::span<dContactGeom> room) noexcept {
+  const ProbedMesh *one = matter_of(a).mesh, *other = matter_of(b).mesh;
+  if (one != nullptr && other != nullptr) {
+    room = room.first(haptics::meet(*one, a, *other, b, room));
+  } else {
+    const int most = one != nullptr || other != nullptr ? static_cast<int>(room.size()) : 4;
+    const int count = dCollide(a, b, most, room.data(), sizeof(dContactGeom));
+    room = room.first(static_cast<std::size_t>(count));
+  }
+  return room.first(keep_widest(room));
+}
+
+dGeomID BodyGeoms::make(const PlannedObject& object) {
   return std::visit(
       [&](const auto& shape) -> dGeomID {
         using S = std::decay_t<decltype(shape)>;
@@ -55,8 +96,8 @@ dGeomID BodyGeoms::add(const PlannedObject& object) {
           const Vector3d size = shape.bounds().sizes();
           return placed(object, dCreateBox(space_, size.x(), size.y(), size.z()));
         } else if constexpr (std::is_same_v<S, std::shared_ptr<const SurfaceMesh>>) {
-          if (object.is_body()) refuse_body(object, kYet);
-          return placed(object, make_mesh(*shape));
+          if (object.is_body()) check_body(object, *shape);
+          return placed(object, make_mesh(shape));
         } else {
           if (object.is_body()) refuse_body(object, kYet);
           return nullptr;
@@ -65,7 +106,8 @@ dGeomID BodyGeoms::add(const PlannedObject& object) {
       object.shape);
 }
 
-dGeomID BodyGeoms::make_mesh(const SurfaceMesh& mesh) {
+dGeomID BodyGeoms::make_mesh(const std::shared_ptr<const SurfaceMesh>& shape) {
+  const SurfaceMesh& mesh = *shape;
   std::vector<double>& corners = corners_.emplace_back();
   std::vector<dTriIndex>& indices = indices_.emplace_back();
   for (const Triangle& triangle : mesh.triangles()) {

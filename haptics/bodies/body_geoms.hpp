@@ -4,9 +4,13 @@
 #pragma once
 
 #include <deque>
+#include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/bodies/mesh_contacts.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
@@ -15,10 +19,17 @@ namespace reckon::haptics {
 /// @throws std::invalid_argument "object '..' {why}"
 [[noreturn]] void refuse_body(const PlannedObject& object, const std::string& why);
 
+/// What a geom is made of; its data.
+struct GeomMatter {
+  Matter matter;
+  const ProbedMesh* mesh = nullptr;  ///< of a mesh, where one with a mass moves
+};
+
 /// A space of shapes: boxes, spheres, planes, meshes. One thread at a time.
 class BodyGeoms {
  public:
-  BodyGeoms();
+  /// @param meshes_meet whether one with a mass is a mesh, which others are to meet
+  explicit BodyGeoms(bool meshes_meet);
   ~BodyGeoms();
   BodyGeoms(const BodyGeoms&) = delete;
   BodyGeoms& operator=(const BodyGeoms&) = delete;
@@ -27,15 +38,25 @@ class BodyGeoms {
   /// @return null for a solid that bodies pass through  @throws std::invalid_argument for one that
   /// cannot move
   dGeomID add(const PlannedObject& object);
+  /// Contacts of two of them as dCollide finds them, those that hold best; 4 at most.
+  [[nodiscard]] static std::span<dContactGeom> meet(dGeomID a, dGeomID b,
+                                                    std::span<dContactGeom> room) noexcept;
+  [[nodiscard]] static const GeomMatter& matter_of(dGeomID geom) noexcept {
+    return *static_cast<const GeomMatter*>(dGeomGetData(geom));
+  }
   [[nodiscard]] dSpaceID space() const noexcept { return space_; }
 
  private:
-  [[nodiscard]] dGeomID make_mesh(const SurfaceMesh& mesh);
+  [[nodiscard]] dGeomID make(const PlannedObject& object);
+  [[nodiscard]] dGeomID make_mesh(const std::shared_ptr<const SurfaceMesh>& mesh);
 
   dSpaceID space_;
+  bool meshes_meet_;
   std::vector<dTriMeshDataID> meshes_;
   std::deque<std::vector<double>> corners_;  // ODE points to them
   std::deque<std::vector<dTriIndex>> indices_;
+  std::deque<GeomMatter> matters_;
+  std::map<const SurfaceMesh*, std::unique_ptr<const ProbedMesh>> probed_;  // shared by copies
 };
 
 }  // namespace reckon::haptics

@@ -16,6 +16,7 @@ constexpr double kLossy = 0.25;  // of a period
 // Of the spring of a patch, over the inertia [1/s^2]: as stiff as steps of half a period at 1 kHz
 // can be.
 constexpr double kTwist = 0.0225 / (0.5e-3 * 0.5e-3);
+constexpr double kFastestRest = 400.0;  // [1/s], in which a grip may bring a body's turning to rest
 
 }  // namespace
 
@@ -27,17 +28,26 @@ BodyPush::BodyPush(std::size_t hand, const BodySpring& spring, const Vector3d& a
       velocity_(spring.velocity),
       probe_(spring.probe),
       patch_(spring.patch),
+      grips_(spring.grips),
+      viscosity_(spring.viscosity),
+      turning_(spring.turning),
+      dragged_(spring.drag),
+      drag_(spring.drag),
       stiffness_(spring.stiffness),
       friction_(spring.friction),
       first_(spring.force),
       late_(spring.force) {
+  if (grips_) {
+    begun_ = tension_ = {0.0, spring.force, spring.normal, 0.0, true};
+    return;
+  }
   // A smooth surface pushes along the force that it has, also at an edge.
   const double size = spring.force.norm();
   const bool is_rough = spring.friction > 0 && spring.force.dot(spring.normal) < 0;
   const Vector3d normal = is_rough || !(size > 0) ? spring.normal : Vector3d(-spring.force / size);
   normal_ = turned.conjugate() * normal;
   const double across = -spring.force.dot(normal);
-  begun_ = {across - spring.stiffness * spring.gap, spring.force + across * normal, normal, 0.0};
+  begun_ = {across - spring.stiffness * spring.gap, spring.force + across * normal, normal};
   tension_ = begun_;
   if (is_rough) friction_ = std::max(friction_, begun_.along.norm() / across);
 }
@@ -53,23 +63,30 @@ void BodyPush::begin(double period, std::size_t steps) noexcept {
   noted_ = 0;
 }
 
-void BodyPush::rewind() noexcept { tension_ = begun_; }
+void BodyPush::rewind() noexcept {
+  tension_ = begun_;
+  drag_ = dragged_;
+}
 
-void BodyPush::renew() noexcept { begun_ = tension_; }
+void BodyPush::renew() noexcept {
+  begun_ = tension_;
+  dragged_ = drag_;
+}
 
 Vector3d BodyPush::next() noexcept {
-  const Vector3d force = tension_.force();
+  const Vector3d force = tension_.force() + drag_;
   if (noted_ < steps_) forces_[noted_++] = force;
   return force;
 }
 
 void BodyPush::take_twist(const BodyPush& before) noexcept {
-  const bool is_same =
-      before.hand_ == hand_ && before.body_ == body_ && before.probe_ == probe_ && patch_ > 0;
+  const bool is_same = !grips_ && !before.grips_ && before.hand_ == hand_ &&
+                       before.body_ == body_ && before.probe_ == probe_ && patch_ > 0;
   if (is_same && before.tension_.across > 0) begun_.twist = tension_.twist = before.tension_.twist;
 }
 
 Vector3d BodyPush::torque(const Vector3d& turn_rate, double inertia, double share) noexcept {
+  if (grips_) return -share * std::min(turning_, kFastestRest * inertia) * turn_rate;
   if (!(patch_ > 0) || !(stiffness_ > 0) || !(tension_.across > 0)) return Vector3d::Zero();
   const double rate = turn_rate.dot(tension_.normal);
   const double stiffness = kTwist * inertia;
@@ -88,6 +105,7 @@ void BodyPush::follow(const Vector3d& velocity, const Vector3d& turn_rate,
   const Vector3d normal = turned * normal_;
   const Vector3d rate = stiffness_ * (velocity_ - velocity);
   tension_ = after(dt * rate, normal);
+  drag_ = viscosity_ * (velocity_ - velocity);
   tension_.twist += dt * turn_rate.dot(normal);
   if (!(tension_.across > 0)) tension_.twist = 0.0;
   late_ = after(kLossy * static_cast<double>(steps_) * step_ * rate, normal).force();
@@ -95,6 +113,7 @@ void BodyPush::follow(const Vector3d& velocity, const Vector3d& turn_rate,
 
 // It slides where friction does not hold it.
 BodyPush::Tension BodyPush::after(const Vector3d& change, const Vector3d& normal) const noexcept {
+  if (grips_) return {0.0, tension_.along + change, normal, 0.0, true};
   const double away = change.dot(normal);
   Tension out{tension_.across - away, tension_.along + change - away * normal, normal,
               tension_.twist};
@@ -103,8 +122,9 @@ BodyPush::Tension BodyPush::after(const Vector3d& change, const Vector3d& normal
   return out;
 }
 
-// It never pulls.
+// It never pulls, but for one that grips.
 Vector3d BodyPush::Tension::force() const noexcept {
+  if (grips) return along;
   if (!(across > 0)) return Vector3d::Zero();
   return along - across * normal;
 }

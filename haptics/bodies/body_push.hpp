@@ -23,6 +23,11 @@ struct BodySpring {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], of the hand there
   std::size_t probe = 0;                               ///< of the hand
   double patch = 0.0;  ///< [m], radius of the patch that holds the body against turning; 0: a point
+  /// It holds the body: it pulls as well as it pushes, and does not slip.
+  bool grips = false;
+  double viscosity = 0.0;                          ///< [N s/m], of one that grips
+  Eigen::Vector3d drag = Eigen::Vector3d::Zero();  ///< [N], of that, on the body, now
+  double turning = 0.0;  ///< [N m s/rad], of one that grips, against turning
 };
 
 /// Steps in which a period is foreseen, at most.
@@ -51,7 +56,8 @@ class BodyPush {
   /// It goes on from the twist that it had in the period before, if it is the same patch.
   void take_twist(const BodyPush& before) noexcept;
   /// What its patch turns the body by now [N m], S: a stiff spring against turning about the
-  /// contact normal, which slips at 2/3 of friction, force and radius.
+  /// contact normal, which slips at 2/3 of friction, force and radius. Of one that grips: viscosity
+  /// against all turning.
   /// @param turn_rate of the body [rad/s], S  @param inertia its least [kg m^2]
   /// @param share of the force that is held, [0, 1]
   [[nodiscard]] Eigen::Vector3d torque(const Eigen::Vector3d& turn_rate, double inertia,
@@ -85,6 +91,7 @@ class BodyPush {
     Eigen::Vector3d along = Eigen::Vector3d::Zero();   // [N], the surface
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, out of the body
     double twist = 0.0;                                // [rad], of the patch, about the normal
+    bool grips = false;                                // then all is along
 
     [[nodiscard]] Eigen::Vector3d force() const noexcept;
   };
@@ -101,6 +108,11 @@ class BodyPush {
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   std::size_t probe_ = 0;
   double patch_ = 0.0;
+  bool grips_ = false;
+  double viscosity_ = 0.0;
+  double turning_ = 0.0;
+  Eigen::Vector3d dragged_ = Eigen::Vector3d::Zero();  // [N], of viscosity, at the begin
+  Eigen::Vector3d drag_ = Eigen::Vector3d::Zero();     // now
   double stiffness_ = 0.0;
   double friction_ = 0.0;
   Tension begun_, tension_;                              // at the begin, now

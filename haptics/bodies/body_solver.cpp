@@ -11,8 +11,8 @@
 #include <mutex>
 #include <string>
 #include <utility>
-#include <variant>
 
+#include "reckon/haptics/bodies/body_mass.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/bodies/flight.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -23,14 +23,20 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr int kContacts = 4;  // of a pair, at most
+constexpr std::size_t kMostFound = 64;  // contacts of a pair with a mesh
+// Of an island, up to which the exact solver is the faster one. Beyond it takes their number to the
+// third power, and mostly finds no answer.
+constexpr int kMostExact = 24;
+// Of the other one, for one contact, so that a step of many takes no longer.
+constexpr int kIterations = 2000, kFewest = 10, kMostIterations = 30;
 // Depth at which contacts rest [m], so that they last from step to step.
 constexpr double kRestDepth = 1e-5;
 constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
 constexpr double kBounceSpeed = 0.01;  // [m/s]; slower hits do not bounce
-constexpr double kSlipSpeed = 1e-4;    // [m/s]; faster ones rub along their way
-constexpr double kStillSpeed = 1e-3;   // [m/s]
-constexpr double kStillTurn = 0.02;    // [rad/s]
+constexpr double kHitSoftness = 1e-12;
+constexpr double kSlipSpeed = 1e-4;   // [m/s]; faster ones rub along their way
+constexpr double kStillSpeed = 1e-3;  // [m/s]
+constexpr double kStillTurn = 0.02;   // [rad/s]
 
 constexpr double kNear = 5e-4;  // [m], between the boxes of bodies that may touch
 
@@ -60,9 +66,14 @@ double turning_energy(dBodyID body) noexcept {
       Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * vector(dBodyGetAngularVel(body));
   dMass mass;
   dBodyGetMass(body, &mass);
-  return 0.5 * (mass.I[0] * rate.x() * rate.x() + mass.I[5] * rate.y() * rate.y() +
-                mass.I[10] * rate.z() * rate.z());
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) sum += rate[i] * mass.I[4 * i + k] * rate[k];
+  return 0.5 * sum;
 }
+
+// No body, or one that goes its way whatever it meets.
+bool stands(dBodyID body) noexcept { return body == nullptr || dBodyIsKinematic(body); }
 
 void slow(dBodyID body, double factor) noexcept {
   const Vector3d v = factor * vector(dBodyGetLinearVel(body));
@@ -71,16 +82,21 @@ void slow(dBodyID body, double factor) noexcept {
   dBodySetAngularVel(body, w.x(), w.y(), w.z());
 }
 
-// Friction is bounded along two axes: where a contact slips, one of them is its way.
-void rub_along(dContact& contact, dBodyID first, dBodyID second) noexcept {
-  const Vector3d at = vector(contact.geom.pos), normal = vector(contact.geom.normal);
+// Of the first body against the second one, at a contact of both [m/s].
+Vector3d velocity_at(const dContact& contact, dBodyID first, dBodyID second) noexcept {
+  const Vector3d at = vector(contact.geom.pos);
   const auto velocity = [&](dBodyID body) -> Vector3d {
     if (body == nullptr) return Vector3d::Zero();
     return vector(dBodyGetLinearVel(body)) +
            vector(dBodyGetAngularVel(body)).cross(at - vector(dBodyGetPosition(body)));
   };
-  Vector3d slip = velocity(first) - velocity(second);
-  slip -= normal.dot(slip) * normal;
+  return velocity(first) - velocity(second);
+}
+
+// Friction is bounded along two axes: where a contact slips, one of them is its way.
+void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
+  const Vector3d normal = vector(contact.geom.normal);
+  const Vector3d slip = velocity - normal.dot(velocity) * normal;
   const double speed = slip.norm();
   if (!(speed > kSlipSpeed)) return;
   contact.surface.mode |= dContactFDir1;
@@ -124,18 +140,17 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   start_ode();
   know_thread();
   world_ = dWorldCreate();
-  geoms_.emplace();
+  geoms_.emplace(std::ranges::any_of(plan.objects(), [](const PlannedObject& object) {
+    return object.is_body() && object.is_mesh();
+  }));
   joints_ = dJointGroupCreate(0);
   ray_ = dCreateRay(nullptr, 1.0);
   keep_within_thread(world_);
   dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(world_, 0.2);
-  dWorldSetQuickStepNumIterations(world_, 60);
   dWorldSetCFM(world_, 1e-7);
   dWorldSetContactSurfaceLayer(world_, kRestDepth);
   dWorldSetContactMaxCorrectingVel(world_, kParting);
-  // Geoms point to what they are made of, and a step allocates nothing.
-  matters_.reserve(plan.objects().size());
   try {
     for (std::uint32_t i = 0; i < plan.objects().size(); ++i) add(plan.objects()[i], i);
   } catch (...) {
@@ -161,16 +176,12 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
                             " objects: take the mass of some out");
   }
   const dGeomID geom = geoms_->add(object);
-  if (geom != nullptr) {
-    matters_.push_back(object.matter);
-    dGeomSetData(geom, &matters_.back());
-  }
   if (!moves) return;
   Body& body = bodies_.emplace_back();
   body.id = dBodyCreate(world_);
+  dBodySetData(body.id, reinterpret_cast<void*>(bodies_.size() - 1));
   body.geom = geom;
   body.object = number;
-  body.start = object.position;
   if (object.carried) {
     carried_ |= BodySet{1} << (bodies_.size() - 1);
     dBodySetKinematic(body.id);
@@ -178,28 +189,25 @@ void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
   } else {
     give_mass(body, object);
   }
+  const Vector3d& m = body.middle;
   if (geom != nullptr) dGeomSetBody(geom, body.id);
+  if (!m.isZero(0.0)) dGeomSetOffsetPosition(geom, -m.x(), -m.y(), -m.z());
   const Quaterniond q(object.orientation);
   const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-  dBodySetPosition(body.id, object.position.x(), object.position.y(), object.position.z());
+  body.start = object.position + object.orientation * body.middle;
+  dBodySetPosition(body.id, body.start.x(), body.start.y(), body.start.z());
   dBodySetQuaternion(body.id, turned);
   dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
 }
 
 void BodySolver::give_mass(Body& body, const PlannedObject& object) {
+  const BodyMass given = mass_of(object);
   body.mass = object.matter.mass;
   body.drag = object.matter.drag;
-  dMass mass;
-  if (std::holds_alternative<Ball>(object.shape)) {
-    body.inner = dGeomSphereGetRadius(body.geom);
-    dMassSetSphereTotal(&mass, body.mass, dGeomSphereGetRadius(body.geom));
-  } else {
-    dVector3 size;
-    dGeomBoxGetLengths(body.geom, size);
-    body.inner = 0.5 * std::min({size[0], size[1], size[2]});
-    dMassSetBoxTotal(&mass, body.mass, size[0], size[1], size[2]);
-  }
-  dBodySetMass(body.id, &mass);
+  body.inner = given.inner;
+  body.least_inertia = given.least_inertia;
+  body.middle = given.middle;
+  dBodySetMass(body.id, &given.mass);
 }
 
 void BodySolver::carry(std::size_t body, const ObjectMotion& motion) noexcept {
@@ -225,8 +233,11 @@ Quaterniond BodySolver::orientation(std::size_t body) const noexcept {
 
 ObjectMotion BodySolver::motion(std::size_t body) const noexcept {
   const dBodyID id = bodies_[body].id;
-  return {vector(dBodyGetPosition(id)), orientation(body), vector(dBodyGetLinearVel(id)),
-          vector(dBodyGetAngularVel(id))};
+  const Quaterniond turned = orientation(body);
+  const Vector3d to_middle = turned * bodies_[body].middle;
+  const Vector3d rate = vector(dBodyGetAngularVel(id));
+  return {vector(dBodyGetPosition(id)) - to_middle, turned,
+          vector(dBodyGetLinearVel(id)) - rate.cross(to_middle), rate};
 }
 
 bool BodySolver::awake(std::size_t body) const noexcept {
@@ -236,13 +247,7 @@ bool BodySolver::awake(std::size_t body) const noexcept {
 Vector3d BodySolver::velocity(std::size_t body, const Vector3d& place) const noexcept {
   const dBodyID id = bodies_[body].id;
   return vector(dBodyGetLinearVel(id)) +
-         vector(dBodyGetAngularVel(id)).cross(orientation(body) * place);
-}
-
-double BodySolver::least_inertia(std::size_t body) const noexcept {
-  dMass mass;
-  dBodyGetMass(bodies_[body].id, &mass);
-  return std::min({mass.I[0], mass.I[5], mass.I[10]});
+         vector(dBodyGetAngularVel(id)).cross(orientation(body) * (place - bodies_[body].middle));
 }
 
 double BodySolver::energy() const noexcept {
@@ -330,6 +335,7 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
   for (BodyForce& force : forces)
     force.work = 0.5 * dt * force.force.dot(velocity(force.body, force.place));
+  islands_.clear();
   dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
     static_cast<BodySolver*>(self)->collide(a, b);
   });
@@ -366,15 +372,17 @@ double BodySolver::lifted_ahead(double dt) const noexcept {
   return sum;
 }
 
-// Where the exact solver is lost, the step is taken again by one that always ends near the
-// answer.
+// Where the exact solver would take too long or is lost, the step is taken by one that always ends
+// near the answer.
 void BodySolver::solve(double dt) noexcept {
   for (Body& body : bodies_) body.before = body.state();
-  lost = false;
-  dWorldStep(world_, dt);
+  lost = islands_.largest() > kMostExact;
+  if (!lost) dWorldStep(world_, dt);
   if (!lost) return;
   ++ledger_.lost;
   for (Body& body : bodies_) body.set(body.before);
+  dWorldSetQuickStepNumIterations(
+      world_, std::clamp(kIterations / std::max(1, islands_.all()), kFewest, kMostIterations));
   dRandSetSeed(1);  // so that it is the same twice
   dWorldQuickStep(world_, dt);
 }
@@ -386,7 +394,8 @@ void BodySolver::apply(std::span<BodyForce> forces) noexcept {
       dBodyEnable(body.id);
       body.still = 0.0;
     }
-    const Vector3d at = vector(dBodyGetPosition(body.id)) + orientation(force.body) * force.place;
+    const Vector3d at =
+        vector(dBodyGetPosition(body.id)) + orientation(force.body) * (force.place - body.middle);
     const Vector3d& f = force.force;
     dBodyAddForceAtPos(body.id, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
     dBodyAddTorque(body.id, force.torque.x(), force.torque.y(), force.torque.z());
@@ -397,23 +406,43 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
   const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
   const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
   if (sleeps(first) && sleeps(second)) return;
-  std::array<dContact, kContacts> contacts{};
-  const auto is_kinematic = [](dBodyID body) { return body == nullptr || dBodyIsKinematic(body); };
-  if (is_kinematic(first) && is_kinematic(second)) return;
-  const int count = dCollide(a, b, kContacts, &contacts[0].geom, sizeof(dContact));
-  if (count == 0) return;
-  is_driven_ |= is_kinematic(first) && first != nullptr && dBodyIsEnabled(first);
-  is_driven_ |= is_kinematic(second) && second != nullptr && dBodyIsEnabled(second);
-  const auto* one = static_cast<const Matter*>(dGeomGetData(a));
-  const auto* other = static_cast<const Matter*>(dGeomGetData(b));
-  for (int i = 0; i < count; ++i) {
-    dContact& contact = contacts[static_cast<std::size_t>(i)];
+  if (stands(first) && stands(second)) return;
+  std::array<dContactGeom, kMostFound> room;
+  const std::span<dContactGeom> found = BodyGeoms::meet(a, b, room);
+  if (found.empty()) return;
+  is_driven_ |= stands(first) && first != nullptr && dBodyIsEnabled(first);
+  is_driven_ |= stands(second) && second != nullptr && dBodyIsEnabled(second);
+  note_contacts(first, second, static_cast<int>(found.size()));
+  const Matter &one = BodyGeoms::matter_of(a).matter, &other = BodyGeoms::matter_of(b).matter;
+  for (const dContactGeom& place : found) {
+    dContact contact{};
+    contact.geom = place;
     contact.surface.mode = dContactApprox1 | dContactBounce;
-    contact.surface.mu = std::sqrt(one->friction * other->friction);
-    contact.surface.bounce = std::max(one->restitution, other->restitution);
+    contact.surface.mu = std::sqrt(one.friction * other.friction);
+    contact.surface.bounce = std::max(one.restitution, other.restitution);
     contact.surface.bounce_vel = kBounceSpeed;
-    rub_along(contact, first, second);
+    const Vector3d velocity = velocity_at(contact, first, second);
+    rub_along(contact, velocity);
+    // What bounces is a hit: it is over within the step.
+    if (contact.surface.bounce > 0 &&
+        velocity.dot(vector(contact.geom.normal)) < -contact.surface.bounce_vel) {
+      contact.surface.mode |= dContactSoftCFM;
+      contact.surface.soft_cfm = kHitSoftness;
+    }
     dJointAttach(dJointCreateContact(world_, joints_, &contact), first, second);
+  }
+}
+
+void BodySolver::note_contacts(dBodyID first, dBodyID second, int count) noexcept {
+  const auto number = [](dBodyID body) {
+    return reinterpret_cast<std::size_t>(dBodyGetData(body));
+  };
+  if (stands(first)) {
+    islands_.add(number(second), count);
+  } else if (stands(second)) {
+    islands_.add(number(first), count);
+  } else {
+    islands_.join(number(first), number(second), count);
   }
 }
 
@@ -421,9 +450,9 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
 Walls BodySolver::walls_of(const Body& body, int axis) const noexcept {
   dReal box[6];
   dGeomGetAABB(body.geom, box);
-  const double half = 0.5 * (box[2 * axis + 1] - box[2 * axis]);
-  const double room = 0.5 * work_space_.size[axis] - half;
-  return {work_space_.position[axis] - room, work_space_.position[axis] + room,
+  const double at = dBodyGetPosition(body.id)[axis];
+  const double middle = work_space_.position[axis], half = 0.5 * work_space_.size[axis];
+  return {middle - half + (at - box[2 * axis]), middle + half - (box[2 * axis + 1] - at),
           work_space_.restitution};
 }
 
@@ -508,14 +537,25 @@ void BodySolver::take_out(double given) noexcept {
   ledger_.energy = std::min(most, energy());
 }
 
+// Bodies that touch one another fall asleep together: one that does so alone would be woken by the
+// others, and disturb them.
 void BodySolver::rest(double dt) noexcept {
-  for (Body& body : bodies_) {
+  std::array<double, kMostBodies> still;  // [s], of islands
+  still.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < size(); ++i) {
+    Body& body = bodies_[i];
     if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
     const double speed = vector(dBodyGetLinearVel(body.id)).norm();
     if (speed > BodyWorld::kFastest) slow(body.id, BodyWorld::kFastest / speed);
     const bool is = speed < kStillSpeed && vector(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
     body.still = is ? body.still + dt : 0.0;
-    if (body.still < pdu::to_seconds(BodyWorld::kSleep)) continue;
+    double& least = still[islands_.island_of(i)];
+    least = std::min(least, body.still);
+  }
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Body& body = bodies_[i];
+    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
+    if (still[islands_.island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) continue;
     slow(body.id, 0.0);
     dBodyDisable(body.id);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/bodies/body_geoms.hpp"
+#include "reckon/haptics/bodies/contact_islands.hpp"
 #include "reckon/haptics/bodies/flight.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -22,7 +23,7 @@ namespace reckon::haptics {
 /// A force on a body in one step.
 struct BodyForce {
   std::size_t body = 0;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the body's axes, from its middle
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< [m], in the axes of its shape
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], S
   /// [N m], S: it holds the body against turning, and its work is none of the hand's.
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
@@ -56,7 +57,9 @@ class BodySolver {
   [[nodiscard]] ObjectMotion motion(std::size_t body) const noexcept;
   [[nodiscard]] bool awake(std::size_t body) const noexcept;
   /// Of its principal ones [kg m^2].
-  [[nodiscard]] double least_inertia(std::size_t body) const noexcept;
+  [[nodiscard]] double least_inertia(std::size_t body) const noexcept {
+    return bodies_[body].least_inertia;
+  }
   /// Of a place in the body's axes [m/s].
   [[nodiscard]] Eigen::Vector3d velocity(std::size_t body,
                                          const Eigen::Vector3d& place) const noexcept;
@@ -93,8 +96,10 @@ class BodySolver {
     dGeomID geom = nullptr;
     std::uint32_t object = 0;
     double mass = 0.0;
-    double drag = 0.0;   // [N s/m]
-    double inner = 0.0;  // [m], radius of the ball within it
+    double drag = 0.0;           // [N s/m]
+    double inner = 0.0;          // [m], radius of the ball about its middle within it
+    double least_inertia = 0.0;  // [kg m^2], of its principal ones
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of mass, in the axes of its shape [m]
     Eigen::Vector3d start = Eigen::Vector3d::Zero();
     double still = 0.0;  // [s]
     bool flies = true;   // nothing pushes it in this step but its weight
@@ -119,6 +124,7 @@ class BodySolver {
   void solve(double dt) noexcept;
   [[nodiscard]] double lifted_ahead(double dt) const noexcept;
   void collide(dGeomID a, dGeomID b) noexcept;
+  void note_contacts(dBodyID first, dBodyID second, int count) noexcept;
   [[nodiscard]] Walls walls_of(const Body& body, int axis) const noexcept;
   void fly_exactly(double dt) noexcept;
   void catch_fast() noexcept;
@@ -133,8 +139,8 @@ class BodySolver {
   dGeomID ray_ = nullptr;  // in no space
   Eigen::Vector3d gravity_;
   WorkSpace work_space_;
-  std::vector<Matter> matters_;  // of geoms
   std::vector<Body> bodies_;
+  ContactIslands<8 * sizeof(BodySet)> islands_;  // of a step
   BodySet carried_ = 0;
   bool is_driven_ = false;  // something that is carried touches a body in this step
   BodySet only_ = all();

@@ -22,8 +22,10 @@ using std::chrono::nanoseconds;
 constexpr double kLongestStep = 1e-3;     // [s]
 constexpr double kLongestSubstep = 5e-4;  // [s], of what is foreseen
 constexpr double kLongestGap = 0.1;       // [s]
+constexpr double kJitter = 5e-5;          // [s], of a servo that is on time
 constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
 constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
+constexpr double kBodyTime = 3.5e-6;      // [s], of a step, for each body
 constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
 constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
 
@@ -60,46 +62,68 @@ class BodyWorld::Engine {
     see_carried(now);
     frozen_ = frozen;
     if (is_first || frozen) {
+      go_back();
       works_.assign(pushes_.size(), 0.0);
       last_.clear();
       pushes_.clear();
-      stepped_ = 0;
+      begin_period();
+      lead_ = 0.0;
       put_carried();
       read_states(0.0);
       return true;
     }
     works_.assign(pushes_.size(), 0.0);
     const double whole = std::min(gap, kLongestGap);
-    std::size_t steps = 1;
-    for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
-    drive_carried(gap);
-    const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
-    if (pushed != 0 && is_small(pushed, steps)) {
+    const BodySet rest = ahead_ > 0 ? rest_ : apart();
+    double length = kLongestStep;
+    if (rest != 0) {
       // What is pushed goes on in small steps, all else as if nothing were.
-      solver_.only(pushed);
-      const double dt = std::min(kLongestStep, period_ / static_cast<double>(steps));
-      const double length = push_for(whole, dt);
-      solver_.only(~pushed);
-      drive_carried(gap);
-      go_on(whole);
+      const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps()));
+      if (rest != BodySolver::all()) {
+        drive_carried(gap);
+        solver_.only(~rest);
+        length = push_for(whole, dt);
+      }
+      lead_ = ahead_ - whole;
+      if (lead_ < -kJitter) {
+        drive_carried(gap);
+        solver_.only(rest);
+        go_on(-lead_);
+        lead_ = 0.0;
+      }
       solver_.only(BodySolver::all());
-      put_carried();
-      read_states(length, pushed);
     } else {
-      const double length = push_for(whole, kLongestStep);
-      put_carried();
-      read_states(length);
+      drive_carried(gap);
+      length = push_for(whole, kLongestStep);
     }
+    put_carried();
+    read_states(length, rest != 0 ? ~rest : BodySolver::all());
     for (BodyPush& push : pushes_) push.renew();
     std::swap(pushes_, last_);
     pushes_.clear();
-    stepped_ = 0;
+    begin_period();
     return true;
+  }
+
+  void written(std::size_t hand) noexcept {
+    written_ |= std::uint64_t{1} << hand % 64;
+    if (static_cast<std::size_t>(std::popcount(written_)) < hands_ || ahead_ > 0) return;
+    if (frozen_ || !started_ || !(period_ > lead_)) return;
+    rest_ = apart();
+    if (rest_ == 0) return;
+    ahead_ = period_;
+    // What is carried goes on as it does now.
+    put_carried();
+    solver_.only(rest_);
+    solver_.keep();
+    go_on(period_ - lead_);
+    solver_.only(BodySolver::all());
   }
 
   std::size_t push(std::size_t body, const Vector3d& point, const Vector3d& force) noexcept {
     if (body >= states_.size() || pushes_.size() >= kMostPushes || !force.allFinite())
       return kNoPush;
+    go_back();
     const ObjectMotion at = solver_.motion(body);
     pushes_.emplace_back(body, at.orientation.conjugate() * (point - at.position), force);
     return pushes_.size() - 1;
@@ -156,12 +180,35 @@ class BodyWorld::Engine {
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
 
  private:
-  // Whether it is stepped fast enough, by each hand and once more: a body takes 3.5 us, and bodies
-  // that all touch take as the square of their number.
+  // To the period's begin, where all others are.
+  void go_back() noexcept {
+    if (!(std::exchange(ahead_, 0.0) > 0)) return;
+    solver_.only(rest_);
+    solver_.restore();
+    solver_.only(BodySolver::all());
+  }
+  void begin_period() noexcept {
+    stepped_ = written_ = 0;
+    ahead_ = 0.0;
+  }
+  [[nodiscard]] std::size_t most_steps() const noexcept {
+    std::size_t steps = 1;
+    for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
+    return steps;
+  }
+  // What is stepped apart from the islands that hands push; none where these take one step.
+  [[nodiscard]] BodySet apart() const noexcept {
+    if (pushes_.empty()) return BodySolver::all();
+    const std::size_t steps = most_steps();
+    const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
+    return pushed != 0 && is_small(pushed, steps) ? ~pushed : 0;
+  }
+
+  // Whether it is stepped fast enough, by each hand and once more.
   [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept {
     const double bodies = std::popcount(island);
     const double times = static_cast<double>(steps * (hands_ + 1));
-    return 3.5e-6 * bodies * bodies * times <= kMostTime;
+    return kBodyTime * bodies * times <= kMostTime;
   }
   [[nodiscard]] static BodySet pushed_by(std::span<const BodyPush> pushes) noexcept {
     BodySet out = 0;
@@ -258,7 +305,7 @@ class BodyWorld::Engine {
     return length;
   }
   void go_on(double whole) noexcept {
-    const double steps = std::ceil(whole / kLongestStep - 1e-9);
+    const double steps = std::max(1.0, std::ceil((whole - kJitter) / kLongestStep - 1e-9));
     for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
   }
 
@@ -291,7 +338,10 @@ class BodyWorld::Engine {
   std::vector<BodyForce> forces_;  // of a step
   std::vector<double> works_;
   std::size_t hands_ = 0;
-  std::uint64_t stepped_ = 0;  // hands, in this period
+  std::uint64_t stepped_ = 0, written_ = 0;  // hands, in this period
+  BodySet rest_ = 0;                         // that has gone on to the period's end
+  double ahead_ = 0.0;                       // [s], of this period, in which it has
+  double lead_ = 0.0;  // [s], that it is ahead of the hands, after a step that came early
   double period_ = kLongestStep;
   bool started_ = false;
   bool frozen_ = false;
@@ -344,6 +394,7 @@ std::size_t BodyWorld::add_hand() noexcept { return engine_->add_hand(); }
 std::size_t BodyWorld::press(std::size_t hand, const BodySpring& spring) noexcept {
   return engine_->press(hand, spring);
 }
+void BodyWorld::written(std::size_t hand) noexcept { engine_->written(hand); }
 void BodyWorld::foresee(std::size_t hand, double period) noexcept {
   engine_->foresee(hand, period);
 }

@@ -63,14 +63,15 @@ using BodyRing = SpscRing<BodyStep>;
 /// begins, shows the mean of its force, and pushes the body as foreseen, so that what a hand gives
 /// up and what a body gets are one (docs/bodies.md).
 ///
-/// Free flight and rebounds from the work space are in closed form. Contacts are inelastic or bounce by the greater of
-/// both restitutions, and rub by the geometric mean of both frictions. The solver is ODE's exact
-/// step; what energy it makes beyond what was put in is taken out of the bodies' speeds in the
-/// same step, so that a pile never gains any. A body that has been still for kSleep sleeps until it
-/// is pushed or hit.
+/// Free flight and rebounds from the work space are in closed form. Contacts are inelastic or
+/// bounce by the greater of both restitutions, and rub by the geometric mean of both frictions. The
+/// solver is ODE's exact step; what energy it makes beyond what was put in is taken out of the
+/// bodies' speeds in the same step, so that a pile never gains any. A body that has been still for
+/// kSleep sleeps until it is pushed or hit.
 ///
 /// Allocates at construction, and within the first steps until as many contacts were met as there
-/// will be; then nothing. 3 us for a body that is awake, 20 us for ten in a pile; body_bench has hands.
+/// will be; then nothing. 3 us for a body that is awake, 20 us for ten in a pile; body_bench has
+/// hands.
 class BodyWorld {
  public:
   static constexpr std::chrono::milliseconds kSleep{1000};
@@ -116,6 +117,9 @@ class BodyWorld {
   [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
   /// The body gets this share of a push, [0, 1], and `rest` [N] besides.
   void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
+  /// The hand's force is written. After the last hand of a period the bodies that no hand touches
+  /// go on to its end, so that no force waits for them.
+  void written(std::size_t hand) noexcept;
   /// Work that a push of the period before did on its body [J].
   [[nodiscard]] double work(std::size_t push) const noexcept;
 
@@ -131,7 +135,8 @@ class BodyWorld {
   [[nodiscard]] double energy() const noexcept;
   /// Energy that was taken out because the solver had made it [J], since the start.
   [[nodiscard]] double taken_out() const noexcept;
-  /// Steps in which the exact solver was lost and an iterative one answered, since the start.
+  /// Steps in which the exact solver was lost, or would have taken too long, and an iterative one
+  /// answered, since the start.
   [[nodiscard]] std::uint64_t approximated() const noexcept;
   /// Periods of a hand whose island was too large to be foreseen as a whole, since the start.
   [[nodiscard]] std::uint64_t coarse() const noexcept;

@@ -115,6 +115,8 @@ void ContactSolver::place(std::uint32_t body, const ObjectMotion& motion) noexce
   moving.pushed = contacts_[moving.object].force;
   moving.before = moving.motion;
   moving.motion = motion;
+  // It stands where it stood.
+  if (!moving.is_moved()) return;
   moving.now.place(motion.position, motion.orientation.toRotationMatrix());
 }
 

@@ -27,7 +27,10 @@ StaticContactOf<axes>::StaticContactOf(const EffectPlan& plan, double stiffness_
 
 template <int axes>
 void StaticContactOf<axes>::reset(const Tool& tool) noexcept {
-  for (std::size_t i = 0; i < size(); ++i) walls_[i]->reset(tool.place(i));
+  for (std::size_t i = 0; i < size(); ++i) {
+    walls_[i]->reset(tool.place(i));
+    grabs_[i] = {};
+  }
   regions_.reset(tool.place());
   deepest_ = 0;
 }
@@ -39,6 +42,9 @@ void StaticContactOf<axes>::settle(const Tool& tool, double dt, Port& port) noex
     const Eigen::Vector3d change = walls_[i]->move(tool.place(i), dt, port);
     if (in_steps) port.follow(tool.at_port(i, change), tool.motion());
     walls_[i]->settle(dt, port);
+    const Eigen::Vector3d pull = grabs_[i].move(tool.place(i), port);
+    if (in_steps) port.follow(tool.at_port(i, pull), tool.motion());
+    grabs_[i].settle(dt, port);
   }
   if constexpr (axes != 3) find_deepest();
   if (regions_.empty()) return;
@@ -61,6 +67,7 @@ void StaticContactOf<axes>::load(const Tool& tool, double dt, Load& load) noexce
     PortLoad& one = sum.of_probe();
     if (i == 0 && !regions_.empty()) regions_.load(tool.velocity(), dt, one);
     walls_[i]->load(tool.velocity(i), dt, one);
+    grabs_[i].load(one);
     sum.add(tool, i);
   }
   sum.finish(tool);
@@ -75,20 +82,26 @@ double StaticContactOf<axes>::lacks() const noexcept {
 
 template <int axes>
 void StaticContactOf<axes>::shown(double extra) noexcept {
-  for (std::size_t i = 0; i < size(); ++i) walls_[i]->shown(extra);
+  for (std::size_t i = 0; i < size(); ++i) {
+    walls_[i]->shown(extra);
+    grabs_[i].shown(extra);
+  }
   if (!regions_.empty()) regions_.shown(extra);
 }
 
 template <int axes>
 void StaticContactOf<axes>::attenuate(double factor, EnergyLedger& ledger) noexcept {
-  for (std::size_t i = 0; i < size(); ++i) walls_[i]->attenuate(factor, ledger);
+  for (std::size_t i = 0; i < size(); ++i) {
+    walls_[i]->attenuate(factor, ledger);
+    grabs_[i].attenuate(factor, ledger);
+  }
   if (!regions_.empty()) regions_.attenuate(factor, ledger);
 }
 
 template <int axes>
 Eigen::Vector3d StaticContactOf<axes>::force() const noexcept {
   Eigen::Vector3d sum = regions_.force();
-  for (std::size_t i = 0; i < size(); ++i) sum = walls_[i]->force() + sum;
+  for (std::size_t i = 0; i < size(); ++i) sum = walls_[i]->force() + grabs_[i].force() + sum;
   return sum;
 }
 
@@ -110,7 +123,8 @@ template <int axes>
 typename StaticContactOf<axes>::Force StaticContactOf<axes>::held_back(
     const Tool& tool) const noexcept {
   Force sum = Force::Zero();
-  for (std::size_t i = 0; i < size(); ++i) sum += tool.at_port(i, walls_[i]->held_back());
+  for (std::size_t i = 0; i < size(); ++i)
+    sum += tool.at_port(i, walls_[i]->held_back() + grabs_[i].held_back());
   return sum;
 }
 

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 
+#include "reckon/haptics/contact/grab.hpp"
 #include "reckon/haptics/contact/region_forces.hpp"
 #include "reckon/haptics/contact/tool.hpp"
 #include "reckon/haptics/contact/wall_contact.hpp"
@@ -16,9 +18,9 @@
 
 namespace reckon::haptics {
 
-/// Contact of a tool with all static objects, each probe for itself, and the forces of all regions,
-/// which act at the first probe. All of them are paid by the device's one port. Order of calls
-/// within a step: settle, load, shown, attenuate.
+/// Contact of a tool with all static objects and bodies, each probe for itself, the bodies that the
+/// probes hold, and the forces of all regions, which act at the first probe. All of them are paid
+/// by the device's one port. Order of calls within a step: settle, load, shown, attenuate.
 /// @tparam axes of the device: 3, with a point for a tool, or 6
 template <int axes>
 class StaticContactOf {
@@ -36,7 +38,10 @@ class StaticContactOf {
 
   /// One of the objects that move goes on, before settle(); see ContactSolver.
   void place(std::uint32_t body, const ObjectMotion& motion) noexcept {
-    for (std::size_t i = 0; i < size(); ++i) walls_[i]->place(body, motion);
+    for (std::size_t i = 0; i < size(); ++i) {
+      walls_[i]->place(body, motion);
+      if (grabs_[i].holds() && grabs_[i].body() == body) grabs_[i].place(motion);
+    }
   }
   /// The springs of bodies at a probe give way by so much [N] in the sample that begins; for the
   /// next load().
@@ -68,6 +73,10 @@ class StaticContactOf {
   [[nodiscard]] const WallContact& walls(std::size_t probe = 0) const noexcept {
     return *walls_[probe];
   }
+  /// What a probe holds.
+  [[nodiscard]] Grab& grab(std::size_t probe) noexcept { return grabs_[probe]; }
+  [[nodiscard]] const Grab& grab(std::size_t probe) const noexcept { return grabs_[probe]; }
+  [[nodiscard]] bool grabs() const noexcept { return std::ranges::any_of(grabs_, &Grab::holds); }
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
   /// Sum of walls and regions at all probes [N, S], after shown().
   [[nodiscard]] Eigen::Vector3d force() const noexcept;
@@ -91,6 +100,7 @@ class StaticContactOf {
   void find_deepest() noexcept;
 
   std::array<std::optional<WallContact>, kMost> walls_;  // of the probes
+  std::array<Grab, kMost> grabs_;                        // likewise
   std::size_t size_ = 1;
   RegionForces regions_;
   std::size_t deepest_ = 0;

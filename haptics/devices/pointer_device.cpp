@@ -66,6 +66,7 @@ HandTarget PointerDevice::target_at(double time) noexcept {
   target.velocity = path_.velocity();
   target.grip = grip_.share();
   target.most_pull = most_pull_;
+  target.buttons = grip_.holds() && inbox_.sample().grabs ? 1 : 0;
   return target;
 }
 

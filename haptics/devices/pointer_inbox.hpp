@@ -14,7 +14,8 @@ namespace reckon::haptics {
 /// Where a pointer wants the hand to be.
 struct PointerSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
-  bool held = true;  ///< false: it lets go, and the position says nothing
+  bool held = true;    ///< false: it lets go, and the position says nothing
+  bool grabs = false;  ///< the device's button 0 is pressed
 };
 
 /// Samples come at any rate and carry no time: the newest one counts, from when the device reads

@@ -114,7 +114,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
 
   sample.ok = plugged_;
   sample.enabled = enabled_;
-  sample.buttons = buttons_;
+  sample.buttons = buttons_ | scripted_;
   sample.position = position_;
   sample.velocity = velocity_;
   sample.has_velocity = config_.resolution <= 0;
@@ -176,6 +176,7 @@ void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;
   if (script_) target = script_(time_);
+  scripted_ = target.buttons;
   Eigen::Vector3d pull = config_.hand_stiffness * (target.position - position_);
   const double pulls = pull.norm();
   if (pulls > target.most_pull) pull *= target.most_pull / pulls;

@@ -26,6 +26,7 @@ struct HandTarget {
   Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
   double grip = 1.0;  ///< 0 .. 1, share of the hand's spring and damper; 0: it has let go
   double most_pull = std::numeric_limits<double>::infinity();  ///< [N] >= 0, that the spring gives
+  std::uint32_t buttons = 0;                                   ///< pressed
 };
 
 /// Target at a time [s] since the device's first read. Must not allocate; called about ten times a
@@ -81,7 +82,8 @@ class SimulatedDevice : public HapticDevice {
 
   /// The operator's switch.
   void enable(bool held) noexcept { enabled_ = held; }
-  /// Its buttons from the next read on, as DeviceSample::buttons.
+  /// Its buttons from the next read on, as DeviceSample::buttons, besides those that its hand
+  /// presses.
   void press(std::uint32_t buttons) noexcept { buttons_ = buttons; }
   /// While false, reads fail as if the cable were out, and the force is zero.
   void plug(bool in) noexcept;
@@ -135,9 +137,10 @@ class SimulatedDevice : public HapticDevice {
   std::chrono::nanoseconds read_at_{0};
   std::chrono::nanoseconds written_at_{0};
   double time_ = 0.0;  // [s], of the plant
+  std::uint32_t buttons_ = 0;
   bool started_ = false;
   bool enabled_ = true;
-  std::uint32_t buttons_ = 0;
+  std::uint32_t scripted_ = 0;  // buttons
   bool plugged_ = true;
   double port_work_ = 0.0;
   double damping_loss_ = 0.0;

@@ -37,10 +37,11 @@ struct Shortfall {
 
 /// Totals since the start of the servo.
 struct ServoTally {
-  double hands = 0.0;   ///< [s] in contact with remote hands and bodies
-  double scene = 0.0;   ///< [s] in contact with the static scene
-  Shortfall held_back;  ///< springs of hands, for lack of energy
-  Shortfall crowd;      ///< springs of hands that are together stiffer than the device can show
+  double hands = 0.0;    ///< [s] in contact with remote hands and bodies
+  double scene = 0.0;    ///< [s] in contact with the static scene
+  double grabbed = 0.0;  ///< [s] in which it held a body
+  Shortfall held_back;   ///< springs of hands, for lack of energy
+  Shortfall crowd;       ///< springs of hands that are together stiffer than the device can show
   /// The shown force against the force of springs at their received stiffness: energy has been
   /// short for longer, and both ends show the contact softer.
   Shortfall softened;

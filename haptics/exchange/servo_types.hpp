@@ -20,6 +20,7 @@
 #include "reckon/haptics/exchange/force_stop.hpp"
 #include "reckon/haptics/exchange/servo_tally.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/haptics/scene/grab_spring.hpp"
 #include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::haptics {
@@ -141,6 +142,7 @@ struct ServoSnapshot : AccountList {
   double limit_share = 1.0;      ///< share of all forces, if they exceed the device's limit
   std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
+  bool grabs = false;    ///< it holds a body
   bool enabled = false;  ///< operator switch held, no trip pending, and not stopped
   bool stopped = false;  ///< the software stop held the force at zero in this step
   ToolState tool;
@@ -172,6 +174,10 @@ struct ServoConfig {
   /// [m], of the patch by which a probe holds bodies against turning about the contact normal, as a
   /// soft finger does; 0 (a point) to 1. Where they have friction.
   double patch_radius = 0.0;
+  /// What holds a body that a probe touches while one of these buttons is pressed (bit i is button
+  /// i). Device and body may allow less.
+  GrabSpring grab{};
+  std::uint32_t grab_buttons = 1;
   double contact_radius = 0.0;  ///< [m], of the probes against the static scene; 0 (points) to 1
   /// Of the tool on a device of six axes: 1 to 8 places from the handle [m], in axes of the tool,
   /// each at most 1 m away. The first is what remote hands touch. None: the handle is the probe.

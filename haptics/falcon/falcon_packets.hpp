@@ -14,6 +14,8 @@
 namespace reckon::haptics {
 
 inline constexpr std::size_t kFalconPacket = 16;  ///< octets of a command, and of a report
+/// Octets of modem and line status that its FTDI chip puts before each packet: UsbPipes::header.
+inline constexpr std::size_t kFalconHeader = 2;
 
 /// To the device.
 struct FalconCommand {
@@ -54,16 +56,5 @@ class FalconReportParser {
   std::size_t length_ = 0;
   std::uint64_t malformed_ = 0;
 };
-
-/// Calls `each` with every octet of a transfer from an FTDI chip that is not its own: each of its
-/// packets of 64 begins with two of modem and line status.
-template <class Each>
-void each_serial_octet(std::span<const std::uint8_t> transfer, Each&& each) {
-  constexpr std::size_t kUsbPacket = 64;
-  constexpr std::size_t kStatus = 2;
-  for (std::size_t i = 0; i < transfer.size(); ++i) {
-    if (i % kUsbPacket >= kStatus) each(transfer[i]);
-  }
-}
 
 }  // namespace reckon::haptics

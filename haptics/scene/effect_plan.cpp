@@ -181,6 +181,7 @@ PlannedObject plan_object(const SceneObject& object) {
                         plan_effects(object),
                         nullptr,
                         object.matter,
+                        object.grab,
                         object.carried};
   // A mesh whose vertices are far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {

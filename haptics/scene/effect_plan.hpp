@@ -50,6 +50,7 @@ struct PlannedObject {
   /// Patches of a mesh, or null. With patches, `effects` are those of triangles in no patch.
   std::shared_ptr<const SurfacePatches> patches;
   Matter matter;
+  GrabSpring grab;       ///< of a body: it sticks to the hand that touches it
   bool carried = false;  ///< by an ObjectMover
 
   /// Its pose here is the one that it has at the start.

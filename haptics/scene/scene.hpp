@@ -14,6 +14,7 @@
 #include "reckon/haptics/effects/effect_declarations.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/regions/region_types.hpp"
+#include "reckon/haptics/scene/grab_spring.hpp"
 
 namespace reckon::haptics {
 
@@ -58,6 +59,7 @@ struct SceneObject {
   /// Those of the program, in the order of their keys.
   std::vector<DeclaredCustomEffect> custom_effects{};
   Matter matter{};
+  GrabSpring grab{};  ///< of a body: it sticks to the hand that touches it
   /// An ObjectMover moves it, and no push does, whatever its mass.
   bool carried = false;
 };

@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/contact/region_share.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 
@@ -13,16 +18,51 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kSoon = 3.0;  // periods, in which what comes nearer may be met
+// Of what a body can take of a spring beside the wall's, and of viscosity that is held for a
+// period.
+constexpr double kSpringShare = 0.5;
+constexpr double kViscousShare = 0.1;
+
+// As far as device and body can take it.
+GrabSpring held_by(GrabSpring spring, double mass, double period, double cap) {
+  spring.stiffness = std::min(
+      {spring.stiffness, kGrabOverWalls * cap, kSpringShare * stiffest_push(mass, period)});
+  spring.viscosity = std::min(spring.viscosity, kViscousShare * mass / period);
+  return spring;
+}
 
 }  // namespace
 
 template <int axes>
-PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes,
-                                       double patch)
-    : world_(std::move(world)), patch_(patch) {
+PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const EffectPlan& plan,
+                                       const ServoConfig& config, std::size_t probes,
+                                       double stiffness_cap)
+    : world_(std::move(world)),
+      patch_(config.patch_radius),
+      pad_(std::max(config.patch_radius, config.probe_radius)),
+      buttons_(config.grab_buttons) {
   if (!world_) return;
   hand_ = world_->add_hand();
-  pushes_.reserve(probes * world_->states().size());
+  pushes_.reserve(probes * (world_->states().size() + 1));
+  const double period = pdu::to_seconds(config.period);
+  for (const BodyState& body : world_->states()) {
+    const PlannedObject& object = plan.objects()[body.object];
+    const auto held = [&](const GrabSpring& spring) {
+      return body.carried ? GrabSpring{}
+                          : held_by(spring, object.matter.mass, period, stiffness_cap);
+    };
+    holds_.push_back({held(config.grab), held(object.grab)});
+  }
+}
+
+template <int axes>
+double PressedBodiesOf<axes>::grab_stiffness() const noexcept {
+  double least = 0.0;
+  for (const Hold& hold : holds_) {
+    const double one = hold.by_button.stiffness;
+    if (one > 0 && (least == 0.0 || one < least)) least = one;
+  }
+  return least;
 }
 
 template <int axes>
@@ -43,6 +83,39 @@ void PressedBodiesOf<axes>::place(StaticContactOf<axes>& contacts) const noexcep
   if (!world_) return;
   const std::span<const BodyState> states = world_->states();
   for (std::uint32_t i = 0; i < states.size(); ++i) contacts.place(i, states[i]);
+}
+
+template <int axes>
+void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
+                                 std::uint32_t pressed, EnergyLedger& ledger) noexcept {
+  if (!world_) return;
+  const bool is_pressed = (pressed & buttons_) != 0;
+  for (std::size_t probe = 0; probe < tool.size(); ++probe) {
+    Grab& grab = contacts.grab(probe);
+    if (grab.tears() || (grab.holds() && by_[probe] && !is_pressed)) grab.let_go(ledger);
+    if (!grab.holds()) take(tool, contacts, probe, is_pressed);
+  }
+}
+
+// The body that pushes hardest.
+template <int axes>
+void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
+                                 std::size_t probe, bool pressed) noexcept {
+  const ContactResult& touched = contacts.walls(probe).result();
+  const std::span<const BodyState> states = world_->states();
+  double most = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::uint32_t object = states[i].object;
+    if (std::ranges::find(touched.touched, object) == touched.touched.end()) continue;
+    const double force = touched.objects[object].force.norm();
+    const Hold& hold = holds_[i];
+    const bool by_button = pressed && hold.by_button.stiffness > 0;
+    const GrabSpring& spring = by_button ? hold.by_button : hold.by_touch;
+    if (!(force > most) || !(spring.stiffness > 0)) continue;
+    most = force;
+    by_[probe] = by_button;
+    contacts.grab(probe).take(i, spring, tool.place(probe), states[i]);
+  }
 }
 
 template <int axes>
@@ -70,12 +143,39 @@ void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<ax
       spring.velocity = velocity;
       press(walls, probe, near->index, spring);
     }
+    const Grab& grab = contacts.grab(probe);
+    if (grab.holds()) press_held(grab, probe, velocity);
   }
   world_->foresee(hand_, period);
-  std::array<Vector3d, kMostProbes> change;
-  change.fill(Vector3d::Zero());
-  for (const Push& push : pushes_) change[push.probe] -= world_->change(push.number);
-  for (std::size_t probe = 0; probe < tool.size(); ++probe) contacts.foresee(probe, change[probe]);
+  std::array<Vector3d, kMostProbes> of_walls, of_grab;
+  of_walls.fill(Vector3d::Zero());
+  of_grab.fill(Vector3d::Zero());
+  for (const Push& push : pushes_)
+    (push.grips ? of_grab : of_walls)[push.probe] -= world_->change(push.number);
+  for (std::size_t probe = 0; probe < tool.size(); ++probe) {
+    contacts.foresee(probe, of_walls[probe]);
+    contacts.grab(probe).foresee(of_grab[probe]);
+  }
+}
+
+template <int axes>
+void PressedBodiesOf<axes>::press_held(const Grab& grab, std::size_t probe,
+                                       const Vector3d& velocity) noexcept {
+  BodySpring spring;
+  spring.body = grab.body();
+  spring.point = grab.point();
+  spring.force = -grab.spring_force();
+  spring.normal = Vector3d::UnitZ();
+  spring.stiffness = grab.stiffness();
+  spring.velocity = velocity;
+  spring.probe = probe;
+  spring.grips = true;
+  spring.viscosity = grab.viscosity();
+  spring.drag = grab.viscosity() * (velocity - grab.point_velocity());
+  spring.turning = grab.viscosity() * pad_ * pad_;
+  const std::size_t number = world_->press(hand_, spring);
+  if (number != BodyWorld::kNoPush)
+    pushes_.push_back({number, probe, world_->states()[spring.body].object, true});
 }
 
 template <int axes>
@@ -90,16 +190,18 @@ void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, s
   spring.probe = probe;
   spring.patch = patch_;
   const std::size_t number = world_->press(hand_, spring);
-  if (number != BodyWorld::kNoPush) pushes_.push_back({number, probe, object, walls.gain()});
+  if (number != BodyWorld::kNoPush) pushes_.push_back({number, probe, object, false});
 }
 
 template <int axes>
-void PressedBodiesOf<axes>::hold(const StaticContactOf<axes>& contacts, double share) noexcept {
+void PressedBodiesOf<axes>::hold(const StaticContactOf<axes>& contacts, double springs,
+                                 double effects) noexcept {
   for (const Push& push : pushes_) {
-    const WallContact& walls = contacts.walls(push.probe);
-    const double kept = push.gain > 0 ? walls.gain() / push.gain : 0.0;
-    world_->hold(push.number, share * kept, -share * walls.effects_of(push.object));
+    Vector3d rest = Vector3d::Zero();
+    if (!push.grips) rest = -effects * contacts.walls(push.probe).effects_of(push.object);
+    world_->hold(push.number, springs, rest);
   }
+  if (world_) world_->written(hand_);
 }
 
 template class PressedBodiesOf<3>;

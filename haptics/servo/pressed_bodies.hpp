@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a servo does to the bodies that its tool touches, and what that costs its port.
+// What a servo does to the bodies that its tool touches and holds, and what that costs its port.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -14,17 +15,22 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/contact/tool.hpp"
+#include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/passivity/energy_ledger.hpp"
 
 namespace reckon::haptics {
 
-/// The pushes of one servo. Order of calls within a step: settle, place, foresee, hold. Does
+/// The pushes of one servo. Order of calls within a step: settle, place, grab, foresee, hold. Does
 /// nothing without bodies.
 template <int axes>
 class PressedBodiesOf {
  public:
-  /// @param patch [m], see ServoConfig::patch_radius
-  PressedBodiesOf(std::shared_ptr<BodyWorld> world, std::size_t probes, double patch = 0.0);
+  /// @param plan only read here  @param stiffness_cap [N/m], of walls
+  PressedBodiesOf(std::shared_ptr<BodyWorld> world, const EffectPlan& plan,
+                  const ServoConfig& config, std::size_t probes, double stiffness_cap);
+
+  /// See ServoLoop.
+  [[nodiscard]] double grab_stiffness() const noexcept;
 
   /// Brings the bodies to `now` and books the work that the pushes did, whether or not the handle
   /// can be read.
@@ -32,12 +38,16 @@ class PressedBodiesOf {
   void settle(std::chrono::nanoseconds now, bool frozen, EnergyLedger& ledger) noexcept;
   /// Tells the contacts where the bodies are.
   void place(StaticContactOf<axes>& contacts) const noexcept;
+  /// Takes hold of bodies that are touched, where the hand is told to or they stick to it, and lets
+  /// them go. @param pressed the buttons of the device
+  void grab(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, std::uint32_t pressed,
+            EnergyLedger& ledger) noexcept;
   /// Foresees the period [s] that begins, after the contacts have settled.
   void foresee(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
-  /// Of what the contacts show the hand gets `share`, and so do the bodies. Where energy is short
-  /// for a change within the period the hand does without it, the bodies do not: their springs are
-  /// conservative.
-  void hold(const StaticContactOf<axes>& contacts, double share) noexcept;
+  /// The hand gets `springs` of the springs as they were foreseen, and `effects` of the effects
+  /// that the contacts show, and so do the bodies. Where energy is short for a change within the
+  /// period the hand does without it, the bodies do not: their springs are conservative.
+  void hold(const StaticContactOf<axes>& contacts, double springs, double effects) noexcept;
   /// [J], since the start, less what they gave back.
   [[nodiscard]] double work() const noexcept { return work_; }
 
@@ -46,15 +56,26 @@ class PressedBodiesOf {
     std::size_t number = 0;  // of the world
     std::size_t probe = 0;
     std::uint32_t object = 0;
-    double gain = 0.0;  // of the walls when it was pressed
+    bool grips = false;
+  };
+  /// What holds one body.
+  struct Hold {
+    GrabSpring by_button, by_touch;
   };
 
   void press(const WallContact& walls, std::size_t probe, std::uint32_t object,
              BodySpring spring) noexcept;
+  void press_held(const Grab& grab, std::size_t probe, const Eigen::Vector3d& velocity) noexcept;
+  void take(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, std::size_t probe,
+            bool pressed) noexcept;
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;
   double patch_ = 0.0;
+  double pad_ = 0.0;  // [m], radius by which a grip resists turning
+  std::uint32_t buttons_ = 0;
+  std::vector<Hold> holds_;             // of the bodies
+  std::array<bool, kMostProbes> by_{};  // a probe holds its body by the button
   std::vector<Push> pushes_;
   double work_ = 0.0;
 };

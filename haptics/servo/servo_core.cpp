@@ -32,7 +32,7 @@ ServoCore::ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
 }
 
 double ServoCore::cap_for(double probe, double tool, double bend) noexcept {
-  static_cap_ = static_cap(*plan_, limits_, tool, stiffness_per_damping_) - bend * tool;
+  static_cap_ = static_cap(*plan_, config_, limits_, tool, stiffness_per_damping_) - bend * tool;
   max_rate_ = std::min(config_.max_force_rate, stiffness_per_damping_ * tool * kSafeSpeed);
   max_power_ = std::min(config_.max_power, limits_.max_force * kSafeSpeed);
   const auto shown = [&](double cap) {

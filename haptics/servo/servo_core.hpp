@@ -30,6 +30,7 @@ class ServoCore {
 
   virtual void step(std::chrono::nanoseconds now) noexcept = 0;
   [[nodiscard]] virtual bool has_near() noexcept = 0;
+  [[nodiscard]] virtual double grab_stiffness() const noexcept = 0;
   [[nodiscard]] bool take_news(double moved) noexcept;
 
   [[nodiscard]] TripleBuffer<ContactSet>& contacts() noexcept { return contacts_; }

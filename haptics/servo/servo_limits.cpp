@@ -34,6 +34,9 @@ ServoConfig checked_config(const ServoConfig& c, const DeviceLimits& limits) {
   require(c.max_received_power > 0, "largest power from others must be above 0 W");
   require(c.stiffness_share > 0 && c.stiffness_share <= 1,
           "stiffness share of the passive limit must be above 0 and at most 1");
+  require(
+      c.grab.stiffness >= 0 && c.grab.viscosity >= 0 && c.grab.most > 0,
+      "what holds bodies has a stiffness and a viscosity of 0 or more, and holds more than 0 N");
   require(c.max_contacts <= kMaxRemoteHands,
           "at most " + std::to_string(kMaxRemoteHands) + " remote hands are possible");
   require(c.device_origin.allFinite() && std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
@@ -93,14 +96,31 @@ std::shared_ptr<BodyWorld> checked_bodies(std::shared_ptr<BodyWorld> bodies, con
   return bodies;
 }
 
+namespace {
+
+// Of all that may hold a body, the greatest numbers.
+GrabSpring greatest_hold(const EffectPlan& plan, const ServoConfig& config) {
+  GrabSpring out;
+  for (const PlannedObject& object : plan.objects()) {
+    if (!object.is_body()) continue;
+    for (const GrabSpring& one : {config.grab, object.grab}) {
+      out.stiffness = std::max(out.stiffness, one.stiffness);
+      out.viscosity = std::max(out.viscosity, one.viscosity);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 // K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
 double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
   return config.stiffness_share * 2.0 /
          (pdu::to_seconds(config.period) * (1 + 2 * limits.delay_samples));
 }
 
-double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double damping,
-                  double per_damping) {
+double static_cap(const EffectPlan& plan, const ServoConfig& config, const DeviceLimits& limits,
+                  double damping, double per_damping) {
   const double share = kMostStaticShare * damping;
   double objects = 0.0;
   for (const PlannedObject& object : plan.objects()) {
@@ -110,8 +130,11 @@ double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double dam
   for (const PlannedRegion& region : plan.regions()) {
     stiffness += region.stiffness();
   }
-  const double whole = per_damping * (share - std::min(objects, 0.5 * share));
-  const double cap = whole - std::min(stiffness, kMostRegionShare * whole);
+  const GrabSpring held = greatest_hold(plan, config);
+  const double dampers = objects + held.viscosity;
+  const double whole = per_damping * (share - std::min(dampers, 0.5 * share));
+  const double cap = whole - std::min(stiffness, kMostRegionShare * whole) -
+                     std::min(held.stiffness, kMostRegionShare * whole);
   return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
 }
 

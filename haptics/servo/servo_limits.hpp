@@ -27,7 +27,7 @@ namespace reckon::haptics {
 [[nodiscard]] double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits);
 /// Greatest stiffness of a surface of the static scene [N/m].
 /// @param damping [N s/m], sure, that all probes together meet  @param per_damping [1/s], see above
-[[nodiscard]] double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double damping,
-                                double per_damping);
+[[nodiscard]] double static_cap(const EffectPlan& plan, const ServoConfig& config,
+                                const DeviceLimits& limits, double damping, double per_damping);
 
 }  // namespace reckon::haptics

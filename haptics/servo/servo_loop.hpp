@@ -71,6 +71,8 @@ class ServoLoop {
   [[nodiscard]] double body_stiffness_limit() const noexcept {
     return core_->body_stiffness_limit();
   }
+  /// By which its button holds the body that takes least [N/m]; 0: it holds none.
+  [[nodiscard]] double grab_stiffness() const noexcept { return core_->grab_stiffness(); }
   /// Guaranteed damping of the device [N s/m].
   [[nodiscard]] double damping() const noexcept { return core_->limits().damping; }
   /// Greatest force [N] that is written to the device.

@@ -54,7 +54,7 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       port_rate_(tool_.size_at_port(max_rate_)),
       safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
       turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)),
-      pressed_(bodies_, tool_.size(), config_.patch_radius) {
+      pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
 }
@@ -77,6 +77,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (contacts_.update()) hands_.take(contacts_.read(), step_, count_);
   hands_.advance(step_, count_, port_);
 
+  pressed_.grab(tool_, static_, buttons_, port_);
   pressed_.foresee(tool_, static_, period_);
   Load wanted = load();
   if (step_.transfer) {
@@ -178,6 +179,7 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
   }
   HandlePose pose = pose_of(reading.position);
   if constexpr (axes == 6) pose.orientation = turned(reading.turn->orientation);
+  buttons_ = reading.buttons;
   step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
   if (!std::exchange(started_, true)) {
@@ -273,7 +275,8 @@ template <int axes>
 void ServoStepOf<axes>::push_bodies(double scale) noexcept {
   const double whole = held_.force.squaredNorm();
   const double all = scale > 0.0 ? 1.0 : 0.0;
-  pressed_.hold(static_, whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : all);
+  const double share = whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : all;
+  pressed_.hold(static_, share * held_.walls, share);
 }
 
 // All springs are one force to the hand: opposite forces cancel and cost nothing.
@@ -391,6 +394,8 @@ template <int axes>
 void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
+  const bool grabs = static_.grabs();
+  if (grabs) tally_.grabbed += step_.dt;
   // Others feel the hand at the first probe.
   const ContactResult& first = axes == 3 ? mesh : static_.walls().result();
   const Vector3d scp = first.in_contact ? first.scp : step_.probe;
@@ -419,6 +424,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.mesh_normal = mesh.normal;
   out.mesh_patch = mesh.in_contact ? mesh.objects[mesh.deepest].patch : 0;
   out.in_mesh_contact = mesh.in_contact;
+  out.grabs = grabs;
   out.spring_share = held_.springs;
   out.crowd_share = crowd_share_;
   out.extra_share = held_.extra;

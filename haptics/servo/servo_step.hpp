@@ -30,6 +30,9 @@ class ServoStepOf final : public ServoCore {
 
   void step(std::chrono::nanoseconds now) noexcept override;
   [[nodiscard]] bool has_near() noexcept override;
+  [[nodiscard]] double grab_stiffness() const noexcept override {
+    return pressed_.grab_stiffness();
+  }
 
  private:
   using Force = AxisForces<axes>;  // in the port's coordinates
@@ -80,7 +83,8 @@ class ServoStepOf final : public ServoCore {
   std::uint64_t next_search_ = 0;                     // of surfaces, by count_
   bool near_surface_ = true;
   PressedBodiesOf<axes> pressed_;
-  double rested_ = 0.0;  // [s], time short of energy and at rest
+  std::uint32_t buttons_ = 0;  // of the last good reading
+  double rested_ = 0.0;        // [s], time short of energy and at rest
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};  // last good reading
   Force written_ = Force::Zero();           // held since the last step

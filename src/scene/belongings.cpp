@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+
 namespace reckon::peer {
 
 std::vector<DeviceConfig> devices_of(const SceneFile& scene, std::uint32_t peer) {
@@ -57,28 +60,48 @@ std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities) {
   return tracks;
 }
 
+const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
+  switch (device.driver) {
+    case DeviceDriver::falcon:
+      return &haptics::falcon_facts();
+    case DeviceDriver::polhem:
+      return &haptics::polhem_facts();
+    case DeviceDriver::plugin:
+    case DeviceDriver::simulated:
+      break;
+  }
+  return nullptr;
+}
+
+haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device) {
+  return {device.upper_weight, device.fore_weight};
+}
+
 void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay) {
   device.driver = driver;
-  if (driver != DeviceDriver::falcon) return;
-  haptics::FalconSettings settings;
+  const haptics::UsbFacts* const facts = usb_facts_of(device);
+  if (facts == nullptr) return;
+  haptics::UsbSettings settings;
   settings.max_force = device.max_force;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.period = device.period;
-  settings.damping = says_damping ? device.damping : haptics::FalconSettings::kAssumedDamping;
+  settings.damping = says_damping ? device.damping : facts->assumed_damping;
+  settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
   if (says_delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
-  const haptics::DeviceLimits limits = haptics::falcon_limits(settings);
+  const haptics::DeviceLimits limits = haptics::usb_limits(*facts, settings);
   device.max_force = limits.max_force;
   device.damping = limits.damping;
   device.delay_samples = limits.delay_samples;
   device.resolution = limits.resolution;
 }
 
-haptics::FalconSettings falcon_settings_of(const DeviceConfig& device) {
-  haptics::FalconSettings settings;
+haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
+  haptics::UsbSettings settings;
   settings.max_force = device.max_force;
-  // use_driver() left the servo's share of it.
-  settings.damping = device.damping / haptics::FalconSettings::kSureShare;
+  // use_driver() left what the servo gets of it.
+  settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
+  settings.damping = (device.damping + settings.spent_damping) / usb_facts_of(device)->sure_share;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.period = device.period;

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "reckon/haptics/falcon/falcon_device.hpp"
+#include "reckon/haptics/polhem/polhem_kinematics.hpp"
+#include "reckon/haptics/usb/usb_limits.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 
@@ -37,9 +38,13 @@ inline constexpr std::uint32_t kMostPeers = 64;
 
 /// The device gets this driver, and with it the limits of what the driver drives, as far as they
 /// are not its own: `says_damping` and `says_delay` tell that the device's damping and delay are
-/// those of a Falcon, not of what is simulated.
+/// those of the real device, not of what is simulated.
 void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay);
-/// For the driver of a Falcon that the device has.
-[[nodiscard]] haptics::FalconSettings falcon_settings_of(const DeviceConfig& device);
+/// What is known of the real device that a driver drives; null: it is simulated.
+[[nodiscard]] const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device);
+/// What the motors of a Polhem hold up.
+[[nodiscard]] haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device);
+/// For the driver of a real device.
+[[nodiscard]] haptics::UsbSettings usb_settings_of(const DeviceConfig& device);
 
 }  // namespace reckon::peer

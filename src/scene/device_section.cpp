@@ -14,7 +14,7 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/haptics/falcon/falcon_session.hpp"
+#include "reckon/haptics/usb/usb_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
@@ -73,26 +73,58 @@ void check_mapping(TomlReader& table, const DeviceConfig& device) {
   if (device.clutch_button >= 0 && device.clutch_button == device.stop_button)
     table.problem("clutch_button", fmt::format("button {} already stops all forces: name another",
                                                device.stop_button));
+  const int grabs = static_cast<int>(device.grab_button);
+  if (table.has("grab_button") && (grabs == device.stop_button || grabs == device.clutch_button))
+    table.problem(
+        "grab_button",
+        fmt::format("button {} already stops all forces, or is the clutch: name another", grabs));
+}
+
+// What only one kind of device has.
+void check_kind(TomlReader& table, const DeviceConfig& device) {
+  if (device.driver != DeviceDriver::falcon && table.has("firmware"))
+    table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
+  for (const char* key : {"plugin", "plugin_options"}) {
+    if (device.driver != DeviceDriver::plugin && table.has(key)) {
+      table.problem(key,
+                    "only a driver that is a shared library has it: add driver = \"plugin\", or "
+                    "take it out");
+    }
+  }
+  if (device.driver == DeviceDriver::plugin && device.plugin.empty())
+    table.problem("driver", "a plugin is a shared library: name it with plugin = \"driver.so\"");
+  for (const char* key : {"upper_weight", "fore_weight"}) {
+    if (device.driver != DeviceDriver::polhem && table.has(key)) {
+      table.problem(key,
+                    "only a Polhem has links whose weight is held up: add driver = "
+                    "\"polhem\", or take it out");
+    }
+  }
 }
 
 // What the driver knows of its device is not said once more.
 void check_driver(TomlReader& table, DeviceConfig& device) {
-  if (device.driver != DeviceDriver::falcon) {
-    if (table.has("firmware"))
-      table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
-    return;
-  }
+  check_kind(table, device);
+  const haptics::UsbFacts* const facts = usb_facts_of(device);
+  if (facts == nullptr) return;
+  const std::string name = facts->name;
   if (device.source == DeviceSource::pointer)
-    table.problem("kind", "a person holds a Falcon, and no pointer moves it: take kind out");
+    table.problem("kind", "a person holds a " + name + ", and no pointer moves it: take kind out");
   if (table.has("resolution"))
-    table.problem("resolution", "the driver knows the steps of a Falcon: take it out");
-  if (5 * device.period > 2 * haptics::FalconSession::kSilence)
-    table.problem("rate",
-                  "a Falcon is let go after 8 ms without a force, which one missed period "
-                  "must not bring about: 400 Hz is enough");
+    table.problem("resolution", "the driver knows the steps of a " + name + ": take it out");
+  if (5 * device.period > 2 * haptics::UsbSession::kSilence)
+    table.problem("rate", "a " + name +
+                              " is let go after 8 ms without a force, which one missed period "
+                              "must not bring about: 400 Hz is enough");
   const bool described = !device.described.name.empty();
   use_driver(device, device.driver, described || table.has("damping"),
              described || table.has("delay"));
+  if (device.upper_weight + device.fore_weight > 0 && !(device.damping > 0)) {
+    table.problem("damping", fmt::format("to hold the links up costs {:.2g} N s/m of damping, and "
+                                         "none is left for walls: state more, if you are sure of "
+                                         "it, or less weight",
+                                         usb_settings_of(device).spent_damping));
+  }
 }
 
 // Of what is not said a described device has what a simulated one has.
@@ -157,8 +189,10 @@ void check_axes(TomlReader& table, const DeviceConfig& device) {
   if (device.axes == 6) {
     if (device.source == DeviceSource::pointer)
       table.problem("axes", "a pointer moves three axes: take out axes = 6, or kind = \"pointer\"");
-    if (device.driver == DeviceDriver::falcon)
-      table.problem("axes", "a Falcon has three axes: take out axes = 6, or driver = \"falcon\"");
+    if (const haptics::UsbFacts* const facts = usb_facts_of(device)) {
+      table.problem("axes",
+                    fmt::format("a {} has three axes: take out axes = 6, or driver", facts->name));
+    }
     if (!(device.damping > 0))
       table.problem("damping", "a device of six axes needs damping in all of them");
     if (device.probes.size() > haptics::kMostProbes) {
@@ -219,13 +253,20 @@ Section<DeviceConfig> device_section() {
            "holds "
            "it at first"},
           {"driver", &Device::driver,
-           "what it is: simulated; or a Novint Falcon on USB, which a person holds; in simulated "
-           "time its operator stands in"},
+           "what it is: simulated; or a Novint Falcon or a Polhem on USB, which a person holds; in "
+           "simulated time its operator stands in"},
           {"descriptor", no_descriptor,
            "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
            "before it: docs/devices.md"},
+          {"plugin", &Device::plugin,
+           "of a plugin: the shared library of the driver; what the device can do, it says itself"},
+          {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
           {"firmware", &Device::firmware,
            "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
+          {"upper_weight", &Device::upper_weight, within("N m", 0, 2),
+           "of a Polhem: torque that pulls its upper link down while that is level; held up by its "
+           "motors while forces are shown, which costs damping"},
+          {"fore_weight", &Device::fore_weight, within("N m", 0, 2), "the same of its fore link"},
           {"reach", &Device::reach, within("m", 0.001, 10),
            "of a pointer: so far from there it takes the hand, along each axis of the device"},
           {"marking", &Device::marking,
@@ -249,6 +290,8 @@ Section<DeviceConfig> device_section() {
       {"max_torque", &Device::max_torque, within("N m", 1e-3, 100), "of six axes: it can show"},
       {"turn_resolution", &Device::turn_resolution, within("rad", 0, 0.1),
        "of six axes: step of its angle sensors; 0: exact"},
+      {"grab_button", &Device::grab_button, within("", 0, 31),
+       "its button, from 0, by which the hand holds bodies; see grab_stiffness of [hand]"},
       {"probe", &Device::probes, probe_section(),
        "of six axes: a place of the tool that touches, at most 8; remote hands touch the first. "
        "None: the handle"},

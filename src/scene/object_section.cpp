@@ -98,6 +98,21 @@ Section<haptics::SurfacePatch> patch_section() {
           add_patch_effects};
 }
 
+namespace {
+
+Section<haptics::GrabSpring> grab_section() {
+  using haptics::GrabSpring;
+  return {{
+      {"stiffness", &GrabSpring::stiffness, within("N/m", 0, 1e5),
+       "of its spring, as far as device and body can take it"},
+      {"viscosity", &GrabSpring::viscosity, within("N s/m", 0, 100), "of its spring"},
+      {"most", &GrabSpring::most, declared("N", 1e-3, 1e3),
+       "what pulls harder tears it off; absent: nothing does"},
+  }};
+}
+
+}  // namespace
+
 Section<haptics::SceneObject> object_section() {
   using Object = haptics::SceneObject;
   const auto patches = [](const Object& object) { return object.patches; };
@@ -127,13 +142,17 @@ Section<haptics::SceneObject> object_section() {
        "turned about x, then y, then z axis of S or of its node"},
       {"node", no_node, "the [[node]] that it hangs on; absent: none, it stands in S"},
       {"mass", in(&Object::matter, &haptics::Matter::mass), declared("kg", 1e-3, 1e3),
-       "of a box or sphere: it is a body, and moves when it is pushed; absent: it stands still"},
+       "of a box, sphere or closed mesh: it is a body, and moves when it is pushed; absent: it "
+       "stands "
+       "still"},
       {"body_friction", in(&Object::matter, &haptics::Matter::friction), within("", 0, 10),
        "between bodies and to what stands still; of a pair, the geometric mean"},
       {"restitution", in(&Object::matter, &haptics::Matter::restitution), within("", 0, 1),
        "how much of its speed a body keeps in a hit; of a pair, the greater one"},
       {"body_drag", in(&Object::matter, &haptics::Matter::drag), within("N s/m", 0, 1e3),
        "of a body: force against its speed"},
+      {"grab", &Object::grab, grab_section(),
+       "of a body: it sticks to the hand that touches it, until it is torn off"},
       {"patch", patches, patch_section(),
        "mesh: the faces of a material or group with other properties; heights: top, side or "
        "bottom"},

@@ -18,6 +18,7 @@
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/haptics/scene/grab_spring.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/network/impairment.hpp"
@@ -43,6 +44,7 @@ struct OriginConfig {
 struct HandModel {
   double radius = 0.02;         ///< [m] > 0; also the probe radius against remote hands
   double patch_radius = 0.0;    ///< [m] >= 0, of the patch that holds bodies against turning
+  haptics::GrabSpring grab{};   ///< what holds a body while the button is pressed
   double contact_radius = 0.0;  ///< [m] >= 0, of the ball with which its device feels objects
   /// [N/m] >= 0; the receiver limits it to the stiffness that its device can show. The default,
   /// with its damper, is the limit of a device of defaults.
@@ -75,9 +77,10 @@ struct OperatorConfig {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();      ///< [m] S: sweep: one end
   Eigen::Vector3d to = Eigen::Vector3d::Zero();        ///< [m] S: sweep: the other end
   std::chrono::nanoseconds period = std::chrono::seconds(2);  ///< sweep: time there and back, > 0
-  std::chrono::nanoseconds start{0};                          ///< at rest until then, >= 0
-  double stiffness = 300.0;                                   ///< [N/m] of the grip, >= 0
-  double damping = 3.0;                                       ///< [N s/m] of the grip, >= 0
+  bool grabs = false;  ///< sweep: on the way to `to` it presses button 0 of its device
+  std::chrono::nanoseconds start{0};  ///< at rest until then, >= 0
+  double stiffness = 300.0;           ///< [N/m] of the grip, >= 0
+  double damping = 3.0;               ///< [N s/m] of the grip, >= 0
   /// Of a device of six axes: the hand turns it by so much, about each axis of S.
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();  ///< [rad]; sweep: at `to`, none at `from`
   double turn_stiffness = 1.0;                       ///< [N m/rad] of the grip, >= 0
@@ -129,6 +132,8 @@ enum class DeviceSource : std::uint8_t {
 enum class DeviceDriver : std::uint8_t {
   simulated,  ///< a mass that its operator holds
   falcon,     ///< a Novint Falcon on USB, that a person holds
+  polhem,     ///< a Polhem on USB, that a person holds
+  plugin,     ///< whatever a shared library drives
 };
 
 /// A place of a tool that touches.
@@ -159,6 +164,10 @@ struct DeviceConfig {
   double scale = 1.0;              ///< > 0, ways of the hand in S for one of the handle
   bool left_handed = false;        ///< its left and right change sides
   int clutch_button = -1;          ///< while it is down the hand stands still; negative: none
+  double upper_weight = 0.0;       ///< [N m] >= 0, of a Polhem's upper link while it is level
+  double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link while that is level
+  std::filesystem::path plugin;    ///< shared library of its driver; absolute once loaded
+  std::string plugin_options;      ///< for that driver
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
@@ -174,10 +183,11 @@ struct DeviceConfig {
   double max_speed = 2.0;           ///< [m/s] > 0; a faster reading switches the force off
   /// [N/s], fastest change of its force in size and direction; 0: as in haptics::ServoConfig.
   double max_force_rate = 0.0;
-  double received_power = 0.2;  ///< [W] > 0, largest average power that others put into its hand
-  int stop_button = -1;         ///< its button that stops all forces, 0 to 31; negative: none
-  double resolution = 0.0;      ///< [m] >= 0, step of its position sensors; 0: exact
-  int delay_samples = 0;        ///< servo periods between a write and the force at the handle, >= 0
+  double received_power = 0.2;    ///< [W] > 0, largest average power that others put into its hand
+  int stop_button = -1;           ///< its button that stops all forces, 0 to 31; negative: none
+  std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies
+  double resolution = 0.0;        ///< [m] >= 0, step of its position sensors; 0: exact
+  int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
 };
 

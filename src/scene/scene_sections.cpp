@@ -60,6 +60,9 @@ Section<SceneFile> scene_section() {
 }
 
 Section<HandModel> hand_section() {
+  const auto grab = [](double haptics::GrabSpring::*member) {
+    return in(&HandModel::grab, member);
+  };
   return {
       {
           {"radius", &HandModel::radius, within("m", 1e-4, 1), "of the sphere that others touch"},
@@ -67,6 +70,11 @@ Section<HandModel> hand_section() {
            "of the ball that feels the objects; 0 is a point"},
           {"patch_radius", &HandModel::patch_radius, within("m", 0, 1),
            "of the patch by which it holds bodies against turning, as a soft finger; 0 is a point"},
+          {"grab_stiffness", grab(&haptics::GrabSpring::stiffness), within("N/m", 0, 1e5),
+           "of the spring by which it holds a body while its button is pressed, as far as device "
+           "and body can take it; 0: it holds none"},
+          {"grab_viscosity", grab(&haptics::GrabSpring::viscosity), within("N s/m", 0, 100),
+           "of that spring"},
           {"k1", &HandModel::k1, within("N/m", 0, 1e6),
            "stiffness; each receiver caps it at what its device can show"},
           {"k3", &HandModel::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
@@ -89,6 +97,7 @@ Section<OperatorConfig> sweep_section() {
        "how a device of six axes is turned at `to`, about the axis of S of this vector; not at "
        "`from`"},
       {"period", &OperatorConfig::period, within("s", 0.01, 86400), "period, sinusoidal motion"},
+      {"grab", &OperatorConfig::grabs, "on the way to `to` it holds what it touches"},
   }};
 }
 

@@ -41,8 +41,11 @@ inline constexpr auto kWords<DeviceSource> = std::to_array<Word<DeviceSource>>(
     {{"simulated", DeviceSource::simulated}, {"pointer", DeviceSource::pointer}});
 
 template <>
-inline constexpr auto kWords<DeviceDriver> = std::to_array<Word<DeviceDriver>>(
-    {{"simulated", DeviceDriver::simulated}, {"falcon", DeviceDriver::falcon}});
+inline constexpr auto kWords<DeviceDriver> =
+    std::to_array<Word<DeviceDriver>>({{"simulated", DeviceDriver::simulated},
+                                       {"falcon", DeviceDriver::falcon},
+                                       {"polhem", DeviceDriver::polhem},
+                                       {"plugin", DeviceDriver::plugin}});
 
 template <>
 inline constexpr auto kWords<haptics::DeviceKind> = std::to_array<Word<haptics::DeviceKind>>(

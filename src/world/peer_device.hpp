@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct PeerDevice {
   std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
   double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
   double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
-  int stop_button = -1;         ///< of the software stop, 0 to 31; negative: none
+  std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies
+  int stop_button = -1;           ///< of the software stop, 0 to 31; negative: none
   /// Of the tool on a device of six axes, see haptics::ServoConfig; none: the handle.
   std::vector<Eigen::Vector3d> probes{};
 };

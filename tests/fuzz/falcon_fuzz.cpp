@@ -12,6 +12,7 @@
 
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
 #include "reckon/haptics/falcon/falcon_packets.hpp"
+#include "reckon/haptics/usb/usb_line.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {
@@ -68,7 +69,7 @@ void check(Input input) {
   }
   require(parser.malformed() <= input.size(), "more dropped than came");
   std::size_t own = 0;
-  haptics::each_serial_octet(input, [&](std::uint8_t) { ++own; });
+  haptics::each_payload_octet(input, haptics::kFalconHeader, [&](std::uint8_t) { ++own; });
   require(own <= input.size(), "more octets than came");
   require(heap.allocations() == 0, "reading took heap");
 }

@@ -260,6 +260,9 @@ def main(folder):
     digits = b"5a" * 32
     report = b"<BAAAPPPPEDCB\xb6A>"
     write(seeds / "falcon", [report, b"\x01\x60" + report + report[:7], report[5:] + report, b"<AAAA" + report])
+    counts = b"\x00\x00\x00\x00\x78\xec" + bytes(6)
+    write(seeds / "polhem", [counts + b"\x00\x00", counts + b"\x01\x00", counts[:6] + b"\x07\x00",
+                             b"\xff\x7f\x00\x80\x01\xf0\x88\x13\x10\x27\x00\x01\x00\x00" * 3])
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
                                b"\nepoch 2 from 2026-12-01T06:00:00Z secret " + digits + b"\n"])

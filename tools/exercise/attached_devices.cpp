@@ -5,11 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
+#include <memory>
+#include <string_view>
 #include <utility>
 
-#include "reckon/haptics/falcon/falcon_loop.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 
 namespace reckon::tools {
@@ -19,14 +24,41 @@ using haptics::UsbDeviceSeen;
 
 constexpr std::chrono::seconds kAskFor{2};
 
-bool is_falcon(const UsbDeviceSeen& device) {
-  return device.vendor == haptics::kFalconVendor && device.product == haptics::kFalconProduct;
+// A kind of device that there is a driver for.
+struct Kind {
+  std::string_view driver, product, use;
+  const haptics::UsbFacts& facts;
+  std::unique_ptr<haptics::UsbDriver> (*make)();
+};
+
+const std::array<Kind, 2>& kinds() {
+  static const std::array<Kind, 2> kAll{
+      Kind{"falcon", "Novint Falcon",
+           "3 axes, 8.9 N in a cube of 80 mm: reckon demo --device falcon", haptics::falcon_facts(),
+           []() -> std::unique_ptr<haptics::UsbDriver> {
+             return std::make_unique<haptics::FalconDriver>(haptics::FalconFirmware{});
+           }},
+      Kind{"polhem", "Polhem", "3 axes, 5 N in a cube of 100 mm: reckon demo --device polhem",
+           haptics::polhem_facts(), []() -> std::unique_ptr<haptics::UsbDriver> {
+             return std::make_unique<haptics::PolhemDriver>();
+           }}};
+  return kAll;
 }
 
-// Of what the driver says, what keeps forces away.
-std::string problem_in(const std::vector<std::string>& said) {
+// Null: another's.
+const Kind* kind_of(const UsbDeviceSeen& device) {
+  const auto found = std::ranges::find_if(kinds(), [&](const Kind& kind) {
+    return device.vendor == kind.facts.vendor && device.product == kind.facts.product;
+  });
+  return found == kinds().end() ? nullptr : &*found;
+}
+
+// Of what its driver says, what keeps forces away.
+std::string problem_in(const Kind& kind, const std::vector<std::string>& said) {
+  const std::string its_own = std::string(kind.facts.name) + ": ";
   for (const std::string& sentence : said) {
-    const bool is_good = sentence.find("ready") != std::string::npos ||
+    const bool is_good = !sentence.starts_with(its_own) ||
+                         sentence.find("ready") != std::string::npos ||
                          sentence.find("an exchange takes") != std::string::npos ||
                          sentence.find("firmware loaded") != std::string::npos;
     if (!is_good) return sentence;
@@ -34,13 +66,14 @@ std::string problem_in(const std::vector<std::string>& said) {
   return {};
 }
 
-AttachedDevice falcon_of(const UsbDeviceSeen& seen, const std::vector<std::string>& said) {
+AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
+                        const std::vector<std::string>& said) {
   AttachedDevice device;
-  device.driver = "falcon";
-  device.name = fmt::format("Novint Falcon, /dev/bus/usb/{:03}/{:03}", seen.bus, seen.address);
-  device.use = "3 axes, 8.9 N in a cube of 80 mm: reckon demo --device falcon";
+  device.driver = kind.driver;
+  device.name = fmt::format("{}, /dev/bus/usb/{:03}/{:03}", kind.product, seen.bus, seen.address);
+  device.use = kind.use;
   if (seen.is_open_to_us) {
-    device.problem = problem_in(said);
+    device.problem = problem_in(kind, said);
   } else if (seen.is_denied) {
     device.problem = "this user may not open it";
     device.remedy = "sudo reckon devices --install-rule, and plug it in again";
@@ -51,12 +84,35 @@ AttachedDevice falcon_of(const UsbDeviceSeen& seen, const std::vector<std::strin
   return device;
 }
 
+// Sets a device up without any force. @return what its driver says of it, within 2 s
+std::vector<std::string> ask(const Kind& kind) {
+  const peer::SteadyClock clock;
+  haptics::UsbExchange exchange;
+  haptics::UsbLoopOptions options;
+  options.clock = [&clock] { return clock.now(); };
+  haptics::UsbLoop loop(exchange, kind.make(), std::move(options));
+  const auto end = clock.now() + kAskFor;
+  while (clock.now() < end) {
+    loop.step(std::chrono::milliseconds(1));
+    if (auto said = loop.take_notices(); !said.empty()) return said;
+  }
+  return {fmt::format("{}: it says nothing", kind.facts.name)};
+}
+
 }  // namespace
 
 std::string_view udev_rule() noexcept {
   return "# Devices that Reckon drives, for whoever sits at this host.\n"
          "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", "
+         "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
+         "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\", "
          "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n";
+}
+
+std::string driver_names() {
+  std::string names;
+  for (const Kind& kind : kinds()) names += (names.empty() ? "" : ", ") + std::string(kind.driver);
+  return names;
 }
 
 UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std::string>& said) {
@@ -67,8 +123,8 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std:
         "/dev/bus/usb of its host";
   }
   for (const UsbDeviceSeen& device : seen) {
-    if (is_falcon(device)) {
-      look.devices.push_back(falcon_of(device, said));
+    if (const Kind* const kind = kind_of(device)) {
+      look.devices.push_back(attached(*kind, device, said));
     } else {
       ++look.others;
     }
@@ -76,29 +132,20 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std:
   return look;
 }
 
-std::vector<std::string> ask_falcon() {
-  const peer::SteadyClock clock;
-  haptics::FalconExchange exchange;
-  haptics::FalconLoopOptions options;
-  options.clock = [&clock] { return clock.now(); };
-  haptics::FalconLoop loop(exchange, std::move(options));
-  const auto end = clock.now() + kAskFor;
-  while (clock.now() < end) {
-    loop.step(std::chrono::milliseconds(1));
-    if (auto said = loop.take_notices(); !said.empty()) return said;
-  }
-  return {"Falcon: it says nothing"};
-}
-
-UsbLook look_at_usb(bool ask) {
+UsbLook look_at_usb(bool ask_them) {
   try {
     haptics::UsbContext context;
-    const auto seen =
-        haptics::usb_devices(context, haptics::kFalconVendor, haptics::kFalconProduct);
-    const bool asks = ask && std::ranges::any_of(seen, [](const UsbDeviceSeen& device) {
-                        return is_falcon(device) && device.is_open_to_us;
-                      });
-    return judge_usb(seen, asks ? ask_falcon() : std::vector<std::string>());
+    const auto seen = haptics::usb_devices(
+        context, [](const UsbDeviceSeen& device) { return kind_of(device) != nullptr; });
+    std::vector<std::string> said;
+    for (const Kind& kind : kinds()) {
+      const bool is_here = std::ranges::any_of(seen, [&](const UsbDeviceSeen& device) {
+        return kind_of(device) == &kind && device.is_open_to_us;
+      });
+      if (!ask_them || !is_here) continue;
+      for (std::string& sentence : ask(kind)) said.push_back(std::move(sentence));
+    }
+    return judge_usb(seen, said);
   } catch (const std::exception& error) {
     UsbLook look;
     look.problem = error.what();

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/haptics/falcon/usb_list.hpp"
+#include "reckon/haptics/usb/usb_list.hpp"
 
 namespace reckon::tools {
 
@@ -33,13 +33,15 @@ struct UsbLook {
 inline constexpr const char* kRuleFile = "70-reckon.rules";
 inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";
 
-/// What devices of USB are for us. `said` is what the driver had to say of the one that is open to
-/// us; see ask_falcon().
+/// Names of all drivers, as --device has them.
+[[nodiscard]] std::string driver_names();
+
+/// What devices of USB are for us. `said` is what the drivers had to say of those that are open to
+/// us.
 [[nodiscard]] UsbLook judge_usb(const std::vector<haptics::UsbDeviceSeen>& seen,
                                 const std::vector<std::string>& said);
-/// Sets a Falcon up without any force, and tells what the driver says of it within 2 s.
-[[nodiscard]] std::vector<std::string> ask_falcon();
-/// Looks at this host. @param ask whether devices that can be opened are set up and asked
-[[nodiscard]] UsbLook look_at_usb(bool ask);
+/// Looks at this host. @param ask_them whether devices that can be opened are set up without any
+/// force and asked, for 2 s each at most
+[[nodiscard]] UsbLook look_at_usb(bool ask_them);
 
 }  // namespace reckon::tools

@@ -173,7 +173,8 @@ void append_hand(std::string& out, const HandView* hand) {
       .value("hand_asked_n_m", number(device.hand_asked))
       .value("hand_straight_from_m", number(device.straight_from()))
       .value("touching_hands_s", number(tally.hands))
-      .value("touching_scene_s", number(tally.scene));
+      .value("touching_scene_s", number(tally.scene))
+      .value("holding_body_s", number(tally.grabbed));
   append_shortfall(object.member("held_back"), tally.held_back);
   append_shortfall(object.member("softened"), tally.softened);
   append_shortfall(object.member("crowded"), tally.crowd);

@@ -78,7 +78,7 @@ bool is_cut(const haptics::ServoSnapshot& servo) {
 // What a column of newtons with two digits does not show as 0.00.
 bool is_felt(const haptics::ServoSnapshot& servo) {
   constexpr double kLeastShown = 0.005;  // [N]
-  return servo.in_mesh_contact || servo.force.norm() >= kLeastShown;
+  return servo.in_mesh_contact || servo.grabs || servo.force.norm() >= kLeastShown;
 }
 
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {

@@ -5,16 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
@@ -24,7 +26,19 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
-constexpr std::array<std::string_view, 1> kDrivers{"falcon"};
+// Of devices on USB.
+std::vector<std::string_view> driver_words() {
+  std::vector<std::string_view> words;
+  for (const auto& word : peer::kWords<DeviceDriver>) {
+    if (word.value != DeviceDriver::simulated && word.value != DeviceDriver::plugin)
+      words.push_back(word.name);
+  }
+  return words;
+}
+
+bool is_plugin(const std::string& device) {
+  return device.find('/') != std::string::npos || device.ends_with(".so");
+}
 
 // All devices by name, where the file has none.
 void say_devices(peer::SceneFile& scene, std::size_t peers) {
@@ -35,26 +49,36 @@ void say_devices(peer::SceneFile& scene, std::size_t peers) {
   scene.devices = std::move(devices);
 }
 
+std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
+  if (device.driver == DeviceDriver::polhem)
+    return std::make_unique<haptics::PolhemDriver>(peer::polhem_weights_of(device));
+  haptics::FalconFirmware firmware;
+  if (!device.firmware.empty()) firmware = haptics::FalconFirmware::load(device.firmware.string());
+  return std::make_unique<haptics::FalconDriver>(std::move(firmware));
+}
+
 }  // namespace
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
   line.option("--device", choice.device,
-              "a real device, by its driver, in the place of the peer's first: falcon (see reckon "
-              "devices)");
+              fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
+                          "reckon devices), or the file of a driver (DRIVER.so)",
+                          fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
 }
 
 void check_device_choice(const DeviceChoice& choice) {
   const std::string& name = choice.device;
-  if (!name.empty() && std::ranges::find(kDrivers, name) == kDrivers.end()) {
-    const std::string_view nearest = peer::nearest_word(name, kDrivers);
+  const std::vector<std::string_view> words = driver_words();
+  if (!name.empty() && !is_plugin(name) && std::ranges::find(words, name) == words.end()) {
+    const std::string_view nearest = peer::nearest_word(name, words);
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
     throw UsageError(
-        fmt::format("--device: there is no driver '{}'{}; there is falcon (see reckon "
-                    "devices)",
-                    name, meant));
+        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), and "
+                    "files of drivers: ./DRIVER.so",
+                    name, meant, fmt::join(words, ", ")));
   }
   if (choice.firmware.empty()) return;
   try {
@@ -74,8 +98,11 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
     // What the scene says of a simulated device's friction and delay is not said of this one.
-    if (first->driver != DeviceDriver::falcon)
-      peer::use_driver(*first, DeviceDriver::falcon, false, false);
+    const bool by_file = is_plugin(choice.device);
+    const DeviceDriver chosen =
+        by_file ? DeviceDriver::plugin : *peer::value_of<DeviceDriver>(choice.device);
+    if (by_file) first->plugin = std::filesystem::absolute(choice.device);
+    if (first->driver != chosen) peer::use_driver(*first, chosen, false, false);
   }
   if (choice.firmware.empty()) return;
   const auto falcon = std::ranges::find_if(scene.devices, [&](const DeviceConfig& device) {
@@ -86,36 +113,52 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
   falcon->firmware = std::filesystem::absolute(choice.firmware);
 }
 
+haptics::HapticDevice* RealDevices::as_mapped(haptics::HapticDevice& device,
+                                              const DeviceConfig& config) {
+  const haptics::HandMapping mapping = mapping_of(config);
+  if (mapping.is_plain()) return &device;
+  return mapped_.emplace_back(std::make_unique<haptics::MappedDevice>(device, mapping)).get();
+}
+
 void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
                           std::vector<peer::PeerDevice>& wired) {
   const std::vector<DeviceConfig> devices = peer::devices_of(scene, number);
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    if (devices[i].driver != DeviceDriver::falcon) continue;
-    if (falcon_ != nullptr)
-      throw std::runtime_error("one program drives one Falcon: start another peer for the second");
-    haptics::FalconFirmware firmware;
-    if (!devices[i].firmware.empty())
-      firmware = haptics::FalconFirmware::load(devices[i].firmware.string());
-    falcon_ = std::make_unique<peer::FalconThread>(clock_, peer::falcon_settings_of(devices[i]),
-                                                   std::move(firmware));
-    wired[i].device = &falcon_->device();
-    if (const haptics::HandMapping mapping = mapping_of(devices[i]); !mapping.is_plain())
-      wired[i].device =
-          mapped_.emplace_back(std::make_unique<haptics::MappedDevice>(*wired[i].device, mapping))
-              .get();
-    const haptics::DeviceLimits limits = falcon_->device().limits();
+    const DeviceConfig& device = devices[i];
+    if (device.driver == DeviceDriver::plugin) {
+      plugins_.push_back(
+          std::make_unique<haptics::PluginDevice>(device.plugin, device.plugin_options));
+      wired[i].device = as_mapped(*plugins_.back(), device);
+      sentences_.push_back(fmt::format(
+          "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
+          plugins_.back()->name(), plugins_.back()->limits().damping, device.plugin.string()));
+      continue;
+    }
+    const haptics::UsbFacts* const facts = peer::usb_facts_of(device);
+    if (facts == nullptr) continue;
+    if (std::ranges::find(plugged_, device.driver, &Plugged::driver) != plugged_.end()) {
+      throw std::runtime_error(
+          fmt::format("one program drives one {}: start another peer for the second", facts->name));
+    }
+    const haptics::DeviceLimits limits = haptics::usb_limits(*facts, peer::usb_settings_of(device));
+    plugged_.push_back(
+        {device.driver, std::make_unique<peer::UsbThread>(clock_, limits, driver_of(device))});
+    wired[i].device = as_mapped(plugged_.back().thread->device(), device);
     sentences_.push_back(fmt::format(
-        "Falcon: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
+        "{}: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
         "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
         "stiffer walls",
-        limits.damping, 1e3 * limits.delay_samples * pdu::to_seconds(devices[i].period)));
+        facts->name, limits.damping, 1e3 * limits.delay_samples * pdu::to_seconds(device.period)));
   }
 }
 
 std::vector<std::string> RealDevices::take_notices() {
   std::vector<std::string> all = std::exchange(sentences_, {});
-  if (falcon_ == nullptr) return all;
-  for (std::string& sentence : falcon_->take_notices()) all.push_back(std::move(sentence));
+  for (const Plugged& plugged : plugged_) {
+    for (std::string& sentence : plugged.thread->take_notices()) all.push_back(std::move(sentence));
+  }
+  for (const auto& plugin : plugins_)
+    for (std::string& sentence : plugin->take_notices()) all.push_back(std::move(sentence));
   return all;
 }
 

@@ -9,17 +9,18 @@
 #include <vector>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
+#include "reckon/haptics/plugin/plugin_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/falcon_thread.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/usb_thread.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
 
 /// --device and --firmware of a demo or a peer.
 struct DeviceChoice {
-  std::string device;    ///< name of a driver; empty: as the scene says
+  std::string device;    ///< name of a driver, or file of one; empty: as the scene says
   std::string firmware;  ///< file; empty: as the scene says
 };
 
@@ -40,16 +41,26 @@ class RealDevices {
  public:
   /// Puts real devices in the place of the simulated ones of peer `number` that have a driver.
   /// @param wired that of make_simulated_hands() for that peer @throws std::runtime_error with the
-  /// remedy where the host has no USB, a firmware cannot be read, or a second Falcon is asked for
+  /// remedy where a plugin is refused, the host has no USB, a firmware cannot be read, or a second
+  /// device of a kind is asked for
   void plug_in(const peer::SceneFile& scene, std::uint32_t number,
                std::vector<peer::PeerDevice>& wired);
   /// Sentences since the last call.
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:
+  /// As the hand has it.
+  [[nodiscard]] haptics::HapticDevice* as_mapped(haptics::HapticDevice& device,
+                                                 const peer::DeviceConfig& config);
+
   peer::SteadyClock clock_;
-  std::unique_ptr<peer::FalconThread> falcon_;
+  struct Plugged {
+    peer::DeviceDriver driver;
+    std::unique_ptr<peer::UsbThread> thread;
+  };
+  std::vector<Plugged> plugged_;
   std::vector<std::unique_ptr<haptics::MappedDevice>> mapped_;  // before the real ones
+  std::vector<std::unique_ptr<haptics::PluginDevice>> plugins_;
   std::vector<std::string> sentences_;
 };
 

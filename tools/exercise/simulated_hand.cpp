@@ -62,6 +62,7 @@ haptics::HandScript sweep(const peer::OperatorConfig& config) {
     HandTarget target;
     target.position = config.from + 0.5 * (1.0 - std::cos(phase)) * way;
     target.velocity = 0.5 * rate * std::sin(phase) * way;
+    target.buttons = config.grabs && std::sin(phase) > 0 ? 1 : 0;
     return target;
   };
 }
@@ -248,7 +249,7 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
           hands.mapped.emplace_back(std::make_unique<haptics::MappedDevice>(*wired, mapping)).get();
     hands.wired.push_back({wired, config.marking, config.position, config.orientation,
                            config.period, config.max_force_rate, config.received_power,
-                           config.stop_button, probes_of(config)});
+                           config.grab_button, config.stop_button, probes_of(config)});
   }
   return hands;
 }

@@ -59,10 +59,10 @@ struct PointerHand {
   PointerRecorder* recorder = nullptr;  ///< gets the same, for a second device; null: none
 
   /// Leads the hand to a point of S [m]; see haptics::PointerInbox::put, whose thread it is.
-  bool lead(const Eigen::Vector3d& p_S) const noexcept {
-    return put({orientation.conjugate() * (p_S - origin), true});
+  bool lead(const Eigen::Vector3d& p_S, bool grabs = false) const noexcept {
+    return put({orientation.conjugate() * (p_S - origin), true, grabs});
   }
-  void let_go() const noexcept { static_cast<void>(put({{}, false})); }
+  void let_go() const noexcept { static_cast<void>(put({{}, false, false})); }
 
  private:
   bool put(const haptics::PointerSample& sample) const noexcept {

@@ -79,8 +79,8 @@ int list_devices(const DevicesOptions& options, const Console& console) {
     else
       print_device(console.out, device);
   }
-  fmt::print(console.err, "{} that can be held, {} on USB; drivers: falcon\n",
-             counted(look.devices.size(), "device"), counted(look.others, "other"));
+  fmt::print(console.err, "{} that can be held, {} on USB; drivers: {}\n",
+             counted(look.devices.size(), "device"), counted(look.others, "other"), driver_names());
   const auto has_problem = [](const AttachedDevice& device) { return !device.problem.empty(); };
   const bool any = std::ranges::any_of(look.devices, has_problem);
   const bool needs_rule = std::ranges::any_of(look.devices, [](const AttachedDevice& device) {

@@ -43,7 +43,13 @@ std::string point(const Eigen::Vector3d& p) {
 // --- devices ---
 
 std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
-  if (device.driver == peer::DeviceDriver::falcon) return "a person, by a Novint Falcon";
+  if (const haptics::UsbFacts* const facts = peer::usb_facts_of(device))
+    return fmt::format("a person, by a {}", facts->name);
+  if (device.driver == peer::DeviceDriver::plugin)
+    return fmt::format(
+        "whoever {} drives it for, which says what it can do; the limits here are "
+        "those of a simulated one in its place",
+        device.plugin.filename().string());
   if (scene.operators.empty()) return "a hand that holds still";
   const std::size_t count = scene.operators.size();
   const std::size_t index = (device.operator_number - 1) % count;
@@ -88,6 +94,7 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
   config.contact_radius = scene.hand.contact_radius;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   config.max_received_power = device.received_power;
+  config.grab = scene.hand.grab;
   config.probes = probes_of(device);
   return config;
 }
@@ -124,15 +131,7 @@ std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& 
   return text.empty() ? text : text + " as asked";
 }
 
-std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
-                         const peer::DeviceConfig& device) {
-  const auto simulated = make_simulated_device(scene, device);
-  const auto shared = std::make_shared<const haptics::EffectPlan>(plan);
-  haptics::MappedDevice hand(*simulated, mapping_of(device));
-  const haptics::ServoLoop servo(
-      hand, shared, servo_of(scene, device),
-      haptics::make_bodies(plan, scene.scene,
-                           std::make_shared<peer::BodyMover>(plan, scene.nodes)));
+std::string stiffness_of(const peer::SceneFile& scene, const haptics::ServoLoop& servo) {
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));
@@ -167,13 +166,35 @@ std::string mapping_text(const peer::DeviceConfig& device) {
   return text;
 }
 
+/// How its button holds bodies, if there are any.
+std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
+                    const haptics::ServoLoop& servo) {
+  if (device.peer > 1) return "none: the scene's first peer moves them";
+  if (!(scene.hand.grab.stiffness > 0))
+    return "none: grab_stiffness of [hand] would, while its button is pressed";
+  std::string text = fmt::format("while button {} is pressed, by {}", device.grab_button,
+                                 about(servo.grab_stiffness(), "N/m"));
+  if (servo.grab_stiffness() < scene.hand.grab.stiffness)
+    text += fmt::format(" of {} asked: device, or the lightest body, takes no more",
+                        peer::format_quantity(scene.hand.grab.stiffness, "N/m"));
+  return text;
+}
+
 Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                const peer::DeviceConfig& device) {
+  const auto simulated = make_simulated_device(scene, device);
+  haptics::MappedDevice hand(*simulated, mapping_of(device));
+  const haptics::ServoLoop servo(
+      hand, std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
+      haptics::make_bodies(plan, scene.scene,
+                           std::make_shared<peer::BodyMover>(plan, scene.nodes)));
   Facts facts = {{"held by", holder_of(scene, device)},
                  {"stands at", point(device.position)},
                  {"limits", limits_of(device)},
                  {"force grows by", growth_of(scene, device)},
-                 {"stiffness", stiffness_of(scene, plan, device)}};
+                 {"stiffness", stiffness_of(scene, servo)}};
+  if (std::ranges::any_of(plan.objects(), &haptics::PlannedObject::is_body))
+    facts.push_back({"holds bodies", hold_of(scene, device, servo)});
   if (device.axes == 6) facts.insert(facts.begin() + 3, {"turns", tool_of(device)});
   if (const std::string text = mapping_text(device); !text.empty())
     facts.insert(facts.begin() + 2, {"hand moves", text});

@@ -65,7 +65,7 @@ void ViewControls::point(Watcher watcher, const PointerRequest& request, std::ch
   for (Hand& hand : hands_) {
     if (hand.index != request.hand || hand.owner != watcher) continue;
     if (request.held) {
-      static_cast<void>(hand.pointer.lead(request.position.cast<double>()));
+      static_cast<void>(hand.pointer.lead(request.position.cast<double>(), request.grabs));
     } else {
       hand.pointer.let_go();
     }

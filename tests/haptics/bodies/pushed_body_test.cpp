@@ -571,6 +571,32 @@ TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
   EXPECT_THROW(ServoLoop(device, plan, ServoConfig{}), std::invalid_argument);
 }
 
+// It goes on after the hands' forces are written, for a whole period: where the next step comes
+// sooner it is ahead by so much, and where it comes up to 50 us later, behind.
+TEST(PushedBody, FallsBesideAHandAsTheClosedFormSaysWhereStepsJitter) {
+  Scene scene = cube_of(0.05, 400);
+  scene.gravity = {0, 0, -9.81};
+  const auto plan = std::make_shared<const EffectPlan>(scene);
+  for (const long jitter : {0L, 40'000L, 400'000L, 20'000'000L}) {
+    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
+    SimulatedDevice device(device_at(Vector3d(0, 0.5, 0)));
+    ServoLoop servo(device, plan, ServoConfig{}, world);
+    std::mt19937 random(7);
+    nanoseconds now{1'000'000'000};
+    const long soonest = std::min(jitter, 800'000L) / 2;
+    const double off = jitter > 0 ? 1e-9 * static_cast<double>(std::max(soonest, 50'000L)) : 0.0;
+    for (int i = 0; i < 300; ++i) {
+      servo.step(now);
+      const double t = 1e-9 * static_cast<double>((now - nanoseconds(1'000'000'000)).count());
+      const double z = world->states()[0].position.z();
+      EXPECT_NEAR(z, -0.5 * 9.81 * t * t, 1e-9 + 9.81 * off * (t + off))
+          << jitter << " ns, step " << i;
+      now += nanoseconds(1'000'000 - soonest);
+      if (jitter > 0) now += nanoseconds(static_cast<long>(random()) % jitter);
+    }
+  }
+}
+
 // A cube thrown at a hand that holds still: what moves meets the hand, and is felt.
 TEST(PushedBody, MeetsAHandThatStandsInItsWay) {
   for (unsigned seed = 1; seed <= 40; ++seed) {

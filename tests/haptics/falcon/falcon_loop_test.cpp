@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Falcon behind the real libusb, the kernel's calls answered by a model: what fails, and what the
 // servo, the user and the handle notice. All time is the model's.
-#include "reckon/haptics/falcon/falcon_loop.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/falcon/falcon_device.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
-#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/tests/haptics/support/falcon_model.hpp"
-#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/haptics/support/plugged_device.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -36,57 +34,21 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kWallAt = 0.0;  // [m], from above along z
-
-Scene wall() {
-  Scene scene;
-  SceneObject object;
-  object.effects.of<SpringDamper>().stiffness = 20'000;  // softened to what the device can hold
-  object.name = "wall";
-  object.shape = PlaneShape{Vector3d::UnitZ()};
-  scene.objects.push_back(object);
-  return scene;
-}
-
-FalconSettings settings() {
-  FalconSettings settings;
+UsbSettings settings() {
+  UsbSettings settings;
   settings.damping = 2.0;
   return settings;
 }
 
-ServoConfig servo_config() {
-  ServoConfig config;
-  config.probe_radius = 0;
-  return config;
-}
-
 Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)}; }
 
-// Model, thread and servo on one clock. The servo steps every millisecond, beside the thread.
-class Plugged {
+class Plugged : public test::PluggedDevice<FalconModel> {
  public:
   explicit Plugged(const FalconModelOptions& options = {},
                    std::function<Vector3d(double)> hand = pressing, FalconFirmware firmware = {},
-                   const FalconSettings& chosen = settings())
-      : model(options, std::move(hand)),
-        shim(model),
-        device(exchange, chosen),
-        servo(device, EffectPlan(wall()), servo_config()),
-        loop(std::make_unique<FalconLoop>(exchange, loop_options(std::move(firmware)))) {
-    model.beside([this](nanoseconds now) {
-      if (now < next_step_) return;
-      next_step_ += period_;
-      if (servo_runs) step_servo(now);
-    });
-  }
-
-  void run(nanoseconds time) {
-    const nanoseconds end = model.now() + time;
-    while (model.now() < end) {
-      loop->step(milliseconds(1));
-      for (std::string& notice : loop->take_notices()) notices.push_back(std::move(notice));
-    }
-  }
+                   const UsbSettings& chosen = settings())
+      : PluggedDevice(options, std::move(hand), std::make_unique<FalconDriver>(std::move(firmware)),
+                      usb_limits(falcon_facts(), chosen)) {}
 
   // Until the force is there.
   void press() {
@@ -94,46 +56,6 @@ class Plugged {
     ASSERT_GT(model.force().z(), 0.5) << "no wall is felt";
     notices.clear();
   }
-
-  [[nodiscard]] bool motors_rest() const { return model.motors() == std::array<std::int16_t, 3>{}; }
-
-  FalconModel model;
-  test::UsbShim shim;
-  FalconExchange exchange;
-  FalconDevice device;
-  ServoLoop servo;
-  std::unique_ptr<FalconLoop> loop;
-  std::vector<std::string> notices;
-  bool servo_runs = true;
-  double least_own = 0;    // [J], of the device's own books with loan
-  double least_books = 0;  // [J], of the device's own books with loan and allowance
-  ServoSnapshot last;
-
- private:
-  FalconLoopOptions loop_options(FalconFirmware firmware) {
-    FalconLoopOptions options;
-    options.firmware = std::move(firmware);
-    options.clock = [this] { return model.now(); };
-    options.open = [this](libusb_context* context) {
-      UsbOpening opening{shim.open(context), {}};
-      if (opening.handle == nullptr) opening.problem = "none is attached";
-      return opening;
-    };
-    options.discover = false;
-    return options;
-  }
-
-  void step_servo(nanoseconds now) {
-    servo.step(now);
-    servo.snapshots().update();
-    last = servo.snapshots().read();
-    const double books = model.port_work() + model.damping_loss();
-    least_own = std::min(least_own, books + last.loan);
-    least_books = std::min(least_books, books + last.loan + last.encoder_allowance);
-  }
-
-  nanoseconds period_ = milliseconds(1);
-  nanoseconds next_step_ = milliseconds(1);
 };
 
 TEST(FalconLoop, AWallIsFeltThroughTheRealLibrary) {
@@ -188,7 +110,7 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
     });
     falcon.run(std::chrono::seconds(4));
     EXPECT_GE(falcon.least_books, -1e-9) << "seed " << seed;
-    const double books = falcon.model.port_work() + falcon.model.damping_loss();
+    const double books = falcon.books();
     EXPECT_LE(falcon.last.port_energy, books + falcon.last.encoder_allowance) << "seed " << seed;
     least = std::min(least, falcon.least_own);
     meter = std::max(meter, falcon.last.port_energy - books);
@@ -208,7 +130,7 @@ TEST(FalconLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
 // allowed for. It says so, and a wall may be twice as stiff.
 TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
   const double standard = [] { return Plugged().servo.static_stiffness_limit(); }();
-  FalconSettings quick = settings();
+  UsbSettings quick = settings();
   quick.chain = std::chrono::microseconds(3500);
   Plugged falcon({}, pressing, {}, quick);
   EXPECT_GT(falcon.servo.static_stiffness_limit(), 1.4 * standard);
@@ -221,7 +143,7 @@ TEST(FalconLoop, AQuickChainMayBeStatedAndAllowsStifferWalls) {
 
 // One that is too short is not believed: readings fail, forces stay away, no energy is made.
 TEST(FalconLoop, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
-  FalconSettings quick = settings();
+  UsbSettings quick = settings();
   quick.chain = milliseconds(2);
   FalconModelOptions slow;
   slow.tick_at = 0.15;
@@ -229,161 +151,6 @@ TEST(FalconLoop, AChainThatIsSlowerThanStatedGivesFailedReadingsAndNoEnergy) {
   falcon.run(std::chrono::seconds(3));
   EXPECT_GT(falcon.last.tally.failed, 500U);
   EXPECT_GE(falcon.least_books, -1e-9);
-}
-
-TEST(FalconLoop, UnpluggedTheForceIsZeroWithin10Ms) {
-  Plugged falcon;
-  falcon.press();
-  falcon.shim.unplug();
-  falcon.model.forget();  // the device itself has no power
-  falcon.run(milliseconds(10));
-  EXPECT_TRUE(falcon.last.force.isZero(0));
-  EXPECT_FALSE(falcon.last.enabled);
-  EXPECT_FALSE(falcon.loop->stage());
-  EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("unplugged")));
-}
-
-TEST(FalconLoop, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
-  std::mt19937 random(7);
-  std::uniform_int_distribution<int> instant(0, 400);
-  // In and out: a hand that only holds still would not pay back what each ramp borrows.
-  Plugged falcon({}, [](double t) { return Vector3d(0, 0, 0.02 * std::sin(3 * t) - 0.01); });
-  for (int i = 0; i < 60; ++i) {
-    // Also while it is set up, and while the force ramps up.
-    falcon.run(milliseconds(i % 2 == 0 ? 1000 : 0) +
-               std::chrono::microseconds(997) * instant(random));
-    falcon.shim.unplug();
-    if (i % 3 == 0) falcon.model.forget();
-    falcon.run(milliseconds(10));
-    ASSERT_TRUE(falcon.last.force.isZero(0)) << "round " << i;
-    falcon.run(milliseconds(10 + instant(random)));
-    if (i % 3 == 0) falcon.model.wake();
-    falcon.shim.plug();
-  }
-  double felt = 0;
-  for (int i = 0; i < 3000; ++i) {
-    falcon.run(milliseconds(1));
-    felt = std::max(felt, falcon.model.force().z());
-  }
-  EXPECT_GT(felt, 0.5);
-  EXPECT_GE(falcon.least_books, -1e-9);
-}
-
-TEST(FalconLoop, PluggedInAgainItGoesOnByItselfAndTheForceRampsUp) {
-  Plugged falcon;
-  falcon.press();
-  const double before = falcon.model.force().z();
-  falcon.shim.unplug();
-  falcon.run(milliseconds(700));
-  falcon.notices.clear();
-  falcon.shim.plug();
-  double most_step = 0, last = falcon.model.force().z();
-  for (int i = 0; i < 3000; ++i) {
-    falcon.run(milliseconds(1));
-    const double now = falcon.model.force().z();
-    most_step = std::max(most_step, std::abs(now - last));
-    last = now;
-  }
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("ready")));
-  EXPECT_NEAR(last, before, 0.1);
-  EXPECT_LT(most_step, 0.2) << "[N] in 1 ms";
-  EXPECT_GE(falcon.least_books, -1e-9);
-}
-
-TEST(FalconLoop, AFalconThatIsNotThereIsSaidOnceAndFoundLater) {
-  Plugged falcon;
-  falcon.shim.unplug();
-  falcon.run(std::chrono::seconds(2));
-  EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("none is attached")));
-  EXPECT_TRUE(falcon.last.force.isZero(0));
-  falcon.shim.plug();
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-}
-
-TEST(FalconLoop, AServoThatIsSilentLeavesNoForceAfter10Ms) {
-  Plugged falcon;
-  falcon.press();
-  falcon.servo_runs = false;
-  falcon.run(milliseconds(10));
-  EXPECT_TRUE(falcon.motors_rest());
-  falcon.run(std::chrono::seconds(1));
-  EXPECT_TRUE(falcon.motors_rest());
-  EXPECT_THAT(falcon.notices, IsEmpty());
-  // It comes back: what the contacts hold is written off, and they fade in.
-  falcon.servo_runs = true;
-  falcon.run(milliseconds(50));
-  EXPECT_TRUE(falcon.motors_rest());
-  EXPECT_GT(falcon.last.trips, 0U);
-  falcon.run(std::chrono::seconds(2));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-}
-
-TEST(FalconLoop, AtTheEndOfTheProgramTheDeviceIsToldAZero) {
-  Plugged falcon;
-  falcon.press();
-  falcon.loop.reset();
-  falcon.model.pass(std::chrono::microseconds(500));  // the octets are on the line
-  EXPECT_TRUE(falcon.motors_rest());
-}
-
-TEST(FalconLoop, ATransferThatIsLateIsZeroWithin10Ms) {
-  Plugged falcon;
-  falcon.press();
-  falcon.model.hang(milliseconds(40));
-  falcon.run(milliseconds(10));
-  EXPECT_TRUE(falcon.last.force.isZero(0)) << "the servo asks for none";
-  falcon.run(milliseconds(40));
-  EXPECT_TRUE(falcon.motors_rest());
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-  EXPECT_GE(falcon.least_books, -1e-9);
-}
-
-TEST(FalconLoop, AReportThatDoesNotComeIsAnsweredByAZero) {
-  Plugged falcon;
-  falcon.press();
-  falcon.model.mute(milliseconds(30));
-  falcon.run(milliseconds(10));
-  EXPECT_TRUE(falcon.motors_rest()) << "the device takes commands still";
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-  EXPECT_THAT(falcon.notices, ::testing::Each(Not(HasSubstr("unplugged"))));
-}
-
-TEST(FalconLoop, ADeviceThatGoesMuteIsSetUpAgain) {
-  Plugged falcon;
-  falcon.press();
-  falcon.model.mute(milliseconds(600));
-  falcon.run(milliseconds(400));
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("does not answer any more")));
-  EXPECT_TRUE(falcon.motors_rest());
-  falcon.run(std::chrono::seconds(4));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-}
-
-TEST(FalconLoop, AStallIsSaidAndTheLineSetUpAgain) {
-  Plugged falcon;
-  falcon.press();
-  falcon.model.stall();
-  falcon.run(milliseconds(10));
-  EXPECT_TRUE(falcon.last.force.isZero(0));
-  EXPECT_TRUE(falcon.motors_rest());
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("refuses transfers")));
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-}
-
-TEST(FalconLoop, AShortTransferIsSaidAndTheLineSetUpAgain) {
-  Plugged falcon;
-  falcon.press();
-  falcon.model.cut();
-  falcon.run(milliseconds(10));
-  EXPECT_TRUE(falcon.last.force.isZero(0));
-  EXPECT_TRUE(falcon.motors_rest());
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("cut short")));
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
 }
 
 TEST(FalconLoop, ReportsInPiecesAreFeltAsWholeOnes) {
@@ -498,81 +265,17 @@ TEST(FalconLoop, AFileThatIsNoFirmwareIsRefusedWithItsName) {
 }
 
 TEST(FalconDevice, TellsWhatItsChainIs) {
-  FalconExchange exchange;
-  FalconSettings settings;
+  UsbSettings settings;
   settings.damping = 1.0;
   settings.max_force = 100;
-  const DeviceLimits limits = FalconDevice(exchange, settings).limits();
+  const DeviceLimits limits = usb_limits(falcon_facts(), settings);
   EXPECT_EQ(limits.delay_samples, 6);  // three exchanges of 2 ms
   EXPECT_EQ(limits.max_force, 8.9);
   EXPECT_EQ(limits.damping, 0.9);
   settings.period = std::chrono::microseconds(2500);
-  EXPECT_EQ(FalconDevice(exchange, settings).limits().delay_samples, 3);
+  EXPECT_EQ(usb_limits(falcon_facts(), settings).delay_samples, 3);
   settings.damping = -1;
-  EXPECT_THROW(FalconDevice(exchange, settings), std::invalid_argument);
-}
-
-TEST(FalconDevice, ReadsAndWritesAllocateNothing) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  const test::AllocationGuard guard;
-  for (int i = 1; i <= 1000; ++i) {
-    exchange.readings.push({Vector3d::Zero(), i - 8, i - 7, 1, 0});
-    static_cast<void>(device.read(milliseconds(i)));
-    device.write(Vector3d::UnitX(), milliseconds(i));
-  }
-  EXPECT_EQ(guard.count(), 0U);
-}
-
-TEST(FalconDevice, AForceThatIsNoNumberIsNone) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  device.write(Vector3d(std::nan(""), 0, 0), milliseconds(1));
-  exchange.force.update();
-  EXPECT_TRUE(exchange.force.read().force.isZero(0));
-}
-
-// Each way of the handle is shown in the step for which the ledger books the force that was held.
-TEST(FalconDevice, ShowsAReadingJustWhenItsForceIsDue) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  const int delay = device.limits().delay_samples;
-  // The force of write 10 is held until the place 0.1, and that of write 12 (11 was left out) from
-  // then on until 0.2.
-  exchange.readings.push({Vector3d::Zero(), 0, 10, 1, 0});
-  exchange.readings.push({Vector3d(0.1, 0, 0), 10, 12, 1, 0});
-  exchange.readings.push({Vector3d(0.2, 0, 0), 12, 40, 1, 0});
-  for (int write = 1; write <= 12 + delay + 1; ++write) {
-    const DeviceSample sample = device.read(milliseconds(write));
-    device.write(Vector3d::Zero(), milliseconds(write));
-    ASSERT_TRUE(sample.ok);
-    const int due = write - 1 - delay;  // the write whose sample ends here
-    EXPECT_EQ(sample.position.x(), due < 10 ? 0.0 : due < 12 ? 0.1 : 0.2) << due;
-    EXPECT_FALSE(sample.watchdog);
-  }
-}
-
-TEST(FalconDevice, AReadingThatIsLateFails) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  exchange.readings.push({Vector3d::Zero(), 0, 1, 1, 0});
-  const int delay = device.limits().delay_samples;
-  for (int write = 1; write <= 20; ++write) {
-    EXPECT_EQ(device.read(milliseconds(write)).ok, write - 1 - delay < 1) << write;
-    device.write(Vector3d::Zero(), milliseconds(write));
-  }
-}
-
-TEST(FalconDevice, TellsThatTheForceWasDropped) {
-  FalconExchange exchange;
-  FalconDevice device(exchange, settings());
-  exchange.readings.push({Vector3d::Zero(), 0, 100, 1, 0});
-  EXPECT_TRUE(device.read(milliseconds(1)).ok);
-  exchange.readings.push({Vector3d::Zero(), 0, 100, 2, 0});
-  const DeviceSample sample = device.read(milliseconds(2));
-  EXPECT_TRUE(sample.ok && sample.watchdog);
-  EXPECT_FALSE(sample.released_at) << "nobody knows where";
-  EXPECT_FALSE(device.read(milliseconds(3)).watchdog);
+  EXPECT_THROW(static_cast<void>(usb_limits(falcon_facts(), settings)), std::invalid_argument);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/haptics/usb/usb_line.hpp"
+
 namespace reckon::haptics {
 namespace {
 
@@ -80,7 +82,7 @@ TEST(FalconPackets, PutsReportsTogetherFromAnyPieces) {
       at += n;
       if (n < 62) break;
     }
-    each_serial_octet(transfer, [&](std::uint8_t octet) {
+    each_payload_octet(transfer, kFalconHeader, [&](std::uint8_t octet) {
       if (const auto report = parser.take(octet)) read.push_back(*report);
     });
   }
@@ -112,9 +114,9 @@ TEST(FalconPackets, DropsWhatIsNoReportAndFindsTheNext) {
 TEST(FalconPackets, AnEmptyOrShortTransferHasNothing) {
   const std::vector<std::uint8_t> status{0x01, 0x60};
   int count = 0;
-  each_serial_octet(std::span(status).first(0), [&](std::uint8_t) { ++count; });
-  each_serial_octet(std::span(status).first(1), [&](std::uint8_t) { ++count; });
-  each_serial_octet(status, [&](std::uint8_t) { ++count; });
+  each_payload_octet(std::span(status).first(0), kFalconHeader, [&](std::uint8_t) { ++count; });
+  each_payload_octet(std::span(status).first(1), kFalconHeader, [&](std::uint8_t) { ++count; });
+  each_payload_octet(status, kFalconHeader, [&](std::uint8_t) { ++count; });
   EXPECT_EQ(count, 0);
 }
 

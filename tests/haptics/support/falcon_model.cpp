@@ -2,25 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cerrno>
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
-#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::test {
 namespace {
 
 using Eigen::Vector3d;
 using haptics::FalconGeometry;
-using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kStep = microseconds(50);
-constexpr nanoseconds kFrame = milliseconds(1);
 constexpr nanoseconds kOctet = nanoseconds(6'667);    // at 1.5 Mbaud
 constexpr nanoseconds kWatchdog = milliseconds(100);  // of its own
 constexpr std::size_t kPacket = 62;                   // octets, beside two of status
@@ -34,28 +29,30 @@ Vector3d place(const Vector3d& p_D) {
 }  // namespace
 
 FalconModel::FalconModel(const FalconModelOptions& options, std::function<Vector3d(double)> hand)
-    : options_(options),
-      hand_(std::move(hand)),
+    : HeldModel(options, std::move(hand)),
+      options_(options),
       random_(options.seed),
-      position_(place(hand_(0))),
       has_firmware_(options.has_firmware),
       homed_(options.homed) {
-  move(0);
+  begin();
 }
 
-Vector3d FalconModel::position() const {
-  return {position_.x(), FalconGeometry::kMiddle - position_.z(), position_.y()};
-}
-
-Vector3d FalconModel::force() const {
-  const Vector3d own = own_force();
-  return {own.x(), -own.z(), own.y()};
-}
-
-Vector3d FalconModel::own_force() const {
+Vector3d FalconModel::torques() const {
   Vector3d torques;
   for (int i = 0; i < 3; ++i) torques[i] = -1e-4 * motors_[static_cast<std::size_t>(i)];
-  return jacobian_.transpose().inverse() * torques;
+  return torques;
+}
+
+std::optional<HeldModel::Joints> FalconModel::joints_at(const Vector3d& position) const {
+  const auto angles = haptics::falcon_angles(place(position));
+  if (!angles) return std::nullopt;
+  Joints joints{*angles, Eigen::Matrix3d::Zero()};
+  if (const auto pose = haptics::falcon_pose(*angles)) {
+    joints.jacobian.row(0) = pose->jacobian.row(0);
+    joints.jacobian.row(1) = -pose->jacobian.row(2);
+    joints.jacobian.row(2) = pose->jacobian.row(1);
+  }
+  return joints;
 }
 
 void FalconModel::forget() {
@@ -67,45 +64,6 @@ void FalconModel::forget() {
   command_.clear();
   loaded_.clear();
   greeting_.clear();
-}
-
-void FalconModel::pass(nanoseconds time) {
-  const nanoseconds end = now_ + time;
-  while (now_ < end) {
-    const nanoseconds h = std::min(kStep, end - now_);
-    move(pdu::to_seconds(h));
-    now_ += h;
-    run_line();
-    if (beside_) beside_(now_);
-  }
-}
-
-// Velocity first, as in SimulatedDevice: each book with the velocity that moves the handle.
-void FalconModel::move(double h) {
-  const Vector3d before = angles_;
-  if (h > 0) {
-    const double t = pdu::to_seconds(now_);
-    const Vector3d target = place(hand_(t));
-    const Vector3d speed = turned(hand_(t + 1e-4) - hand_(t)) / 1e-4;
-    const Vector3d hand = options_.hand_stiffness * (target - position_) +
-                          options_.hand_damping * (speed - velocity_);
-    velocity_ += h / options_.mass * (hand + own_force() - options_.damping * velocity_);
-    position_ += h * velocity_;
-    damping_loss_ += h * options_.damping * velocity_.squaredNorm();
-  }
-  const auto angles = haptics::falcon_angles(position_);
-  const auto pose = angles ? haptics::falcon_pose(*angles) : std::nullopt;
-  if (!angles) {  // at the end of its reach
-    position_ -= h * velocity_;
-    velocity_.setZero();
-    return;
-  }
-  angles_ = *angles;
-  if (pose) jacobian_ = pose->jacobian;
-  if (h > 0) {
-    for (int i = 0; i < 3; ++i)
-      port_work_ += 1e-4 * motors_[static_cast<std::size_t>(i)] * (angles_[i] - before[i]);
-  }
 }
 
 void FalconModel::run_line() {
@@ -225,19 +183,9 @@ int FalconModel::control(std::uint8_t request, std::uint16_t value,
   return 0;
 }
 
-void FalconModel::begin_out(std::span<const std::uint8_t> octets) {
-  out_.assign(octets.begin(), octets.end());
-  out_at_ = (now_ / kFrame + 1) * kFrame;
-}
-
-std::optional<int> FalconModel::out_done() {
-  if (std::exchange(stalls_, false)) return -EPIPE;
-  if (now_ < out_at_ || now_ < hangs_until_) return std::nullopt;
-  auto taken = out_.size();
-  if (std::exchange(cuts_, false)) taken /= 2;
+void FalconModel::take_transfer(std::span<const std::uint8_t> octets) {
   nanoseconds at = now_;
-  for (std::size_t i = 0; i < taken; ++i) to_device_.emplace_back(at += kOctet, out_[i]);
-  return static_cast<int>(taken);
+  for (const std::uint8_t octet : octets) to_device_.emplace_back(at += kOctet, octet);
 }
 
 std::optional<int> FalconModel::in_done(std::span<std::uint8_t> octets) {

@@ -88,7 +88,7 @@ int UsbShim::answer(unsigned long request, void* argument) {
       return control(argument);
     case USBDEVFS_SUBMITURB: {
       const usbdevfs_urb& urb = urb_of(argument);
-      if (urb.type == USBDEVFS_URB_TYPE_BULK && (urb.endpoint & 0x80) == 0) {
+      if (urb.type != USBDEVFS_URB_TYPE_CONTROL && (urb.endpoint & 0x80) == 0) {
         model_.begin_out({static_cast<const std::uint8_t*>(urb.buffer),
                           static_cast<std::size_t>(urb.buffer_length)});
       }
@@ -114,7 +114,7 @@ int UsbShim::control(void* argument) {
   return 1;
 }
 
-bool UsbShim::end_bulk(void* pointer) {
+bool UsbShim::end_transfer(void* pointer) {
   usbdevfs_urb& urb = urb_of(pointer);
   auto* const octets = static_cast<std::uint8_t*>(urb.buffer);
   std::optional<int> result;
@@ -144,7 +144,7 @@ void UsbShim::end(Request& request) {
     urb.actual_length = 0;
     request.ended = true;
   } else {
-    request.ended = end_bulk(request.urb);
+    request.ended = end_transfer(request.urb);
   }
 }
 

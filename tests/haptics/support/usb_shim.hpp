@@ -68,7 +68,7 @@ class UsbShim {
   int control(void* argument);
   int reap(void* argument);
   void end(Request& request);
-  bool end_bulk(void* urb);
+  bool end_transfer(void* urb);
 
   UsbModel& model_;
   int file_ = -1;

@@ -263,6 +263,7 @@ TEST_F(DescribedDeviceSection, ReadsHowTheHandleMovesTheHand) {
   EXPECT_EQ(device.stop_button, 0);
   EXPECT_EQ(device_of("").stop_button, -1);
   EXPECT_THAT(refusal("clutch_button = 3\nstop_button = 3\n"), HasSubstr("name another"));
+  EXPECT_THAT(refusal("clutch_button = 3\ngrab_button = 3\n"), HasSubstr("name another"));
   EXPECT_THAT(refusal("stop_button = 32\n"), HasSubstr("it must be 0 to 31"));
   EXPECT_THAT(refusal("scale = 0\n"), HasSubstr("it must be 0.01 to 100"));
   EXPECT_THAT(refusal("kind = \"pointer\"\nscale = 2\n"), HasSubstr("a pointer has no 'scale'"));

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
@@ -105,7 +107,8 @@ TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
   };
   EXPECT_THAT(refused("[[device.probe]]\nposition = \"40 0 0 mm\"\n"),
               HasSubstr("only a device that turns has 'probe': add axes = 6"));
-  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"), HasSubstr("only a device that turns has 'max_torque'"));
+  EXPECT_THAT(refused("max_torque = \"1 N m\"\n"),
+              HasSubstr("only a device that turns has 'max_torque'"));
   EXPECT_THAT(refused("axes = 4\n"),
               HasSubstr("x.toml:2:8: a device has 3 axes, or 6 with torque"));
   EXPECT_THAT(refused("axes = 6\ndamping = 0\n"), HasSubstr("needs damping in all of them"));
@@ -132,7 +135,8 @@ TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_NEAR(known.damping, 1.8, 1e-12);
   EXPECT_EQ(known.max_force, 5);
   // And its device has the same.
-  const haptics::DeviceLimits limits = haptics::falcon_limits(falcon_settings_of(known));
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::falcon_facts(), usb_settings_of(known));
   EXPECT_EQ(limits.delay_samples, 4);
   EXPECT_NEAR(limits.damping, 1.8, 1e-12);
 }
@@ -150,6 +154,51 @@ TEST(DeviceSection, RefusesWhatAFalconIsNot) {
               HasSubstr("no_such_file"));
   EXPECT_THAT(refusal("[[device]]\nfirmware = \"no_such_file\"\n" + std::string(kOperator)),
               HasSubstr("only a Falcon has one"));
+}
+
+TEST(DeviceSection, APluginIsNamedByItsFile) {
+  const std::string plugin = "[[device]]\ndriver = \"plugin\"\n";
+  EXPECT_THAT(refusal(plugin + kOperator), HasSubstr("name it with plugin = \"driver.so\""));
+  EXPECT_THAT(refusal(plugin + "plugin = \"no_such.so\"\n" + kOperator), HasSubstr("no_such.so"));
+  EXPECT_THAT(refusal("[[device]]\nplugin_options = \"x\"\n" + std::string(kOperator)),
+              HasSubstr("add driver = \"plugin\""));
+}
+
+TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
+  const DeviceConfig plain = device_of("driver = \"polhem\"\n");
+  EXPECT_EQ(plain.driver, DeviceDriver::polhem);
+  EXPECT_EQ(plain.max_force, 5.0);
+  EXPECT_EQ(plain.delay_samples, 6);
+  EXPECT_NEAR(plain.damping, 0.9 * 0.2, 1e-12) << "assumed, less a tenth";
+  EXPECT_EQ(plain.resolution, 95e-6);
+
+  // To hold the links up costs damping: the slope of the torque, an exchange late, at 50 mm.
+  const DeviceConfig held = device_of(
+      "driver = \"polhem\"\ndamping = \"2 N s/m\"\nupper_weight = \"0.17 N m\"\n"
+      "fore_weight = \"0.055 N m\"\n");
+  EXPECT_NEAR(held.damping, 1.8 - 0.17 * 0.002 / (0.05 * 0.05), 1e-12);
+  EXPECT_EQ(polhem_weights_of(held).upper, 0.17);
+  EXPECT_EQ(polhem_weights_of(held).fore, 0.055);
+  // And its device has the same.
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::polhem_facts(), usb_settings_of(held));
+  EXPECT_NEAR(limits.damping, held.damping, 1e-12);
+}
+
+TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
+  const std::string polhem = "[[device]]\ndriver = \"polhem\"\n";
+  EXPECT_THAT(refusal(polhem + "axes = 6\n" + kOperator), HasSubstr("a Polhem has three axes"));
+  EXPECT_THAT(refusal(polhem + "rate = \"300 Hz\"\n" + kOperator), HasSubstr("a Polhem is let go"));
+  EXPECT_THAT(refusal(polhem + "kind = \"pointer\"\n" + kOperator),
+              HasSubstr("a person holds a Polhem"));
+  EXPECT_THAT(refusal(polhem + "firmware = \"x.bin\"\n" + kOperator),
+              HasSubstr("only a Falcon has one"));
+  EXPECT_THAT(refusal(polhem + "upper_weight = \"0.5 N m\"\n" + kOperator),
+              HasSubstr("costs 0.4 N s/m of damping"));
+  for (const std::string key : {"upper_weight", "fore_weight"}) {
+    EXPECT_THAT(refusal("[[device]]\n" + key + " = \"0.1 N m\"\n" + kOperator),
+                HasSubstr("only a Polhem has links"));
+  }
 }
 
 // Whose device it is, is each host's own matter.
@@ -193,6 +242,8 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.source, standard.source);
   EXPECT_EQ(silent.driver, standard.driver);
   EXPECT_EQ(silent.firmware, standard.firmware);
+  EXPECT_EQ(silent.upper_weight, standard.upper_weight);
+  EXPECT_EQ(silent.fore_weight, standard.fore_weight);
   EXPECT_EQ(silent.reach, standard.reach);
   EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());
 }

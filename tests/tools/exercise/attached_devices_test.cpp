@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/falcon/falcon_loop.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
@@ -30,8 +30,8 @@ UsbDeviceSeen hub() {
 
 UsbDeviceSeen falcon(bool open) {
   UsbDeviceSeen seen;
-  seen.vendor = haptics::kFalconVendor;
-  seen.product = haptics::kFalconProduct;
+  seen.vendor = haptics::falcon_facts().vendor;
+  seen.product = haptics::falcon_facts().product;
   seen.bus = 1;
   seen.address = 4;
   seen.is_open_to_us = open;
@@ -47,6 +47,35 @@ TEST(AttachedDevices, SayHowAFalconWouldBeUsed) {
   EXPECT_EQ(look.devices[0].name, "Novint Falcon, /dev/bus/usb/001/004");
   EXPECT_THAT(look.devices[0].use, HasSubstr("--device falcon"));
   EXPECT_THAT(look.devices[0].problem, IsEmpty());
+}
+
+UsbDeviceSeen polhem(bool open) {
+  UsbDeviceSeen seen;
+  seen.vendor = 0x1234;
+  seen.product = 6;
+  seen.bus = 2;
+  seen.address = 17;
+  seen.is_open_to_us = open;
+  return seen;
+}
+
+TEST(AttachedDevices, SayHowAPolhemWouldBeUsedAndWhatIsInTheWay) {
+  const UsbLook ready = judge_usb({polhem(true)}, {"Polhem: ready: forces are shown"});
+  ASSERT_EQ(ready.devices.size(), 1U);
+  EXPECT_EQ(ready.devices[0].driver, "polhem");
+  EXPECT_EQ(ready.devices[0].name, "Polhem, /dev/bus/usb/002/017");
+  EXPECT_THAT(ready.devices[0].use, HasSubstr("--device polhem"));
+  EXPECT_THAT(ready.devices[0].problem, IsEmpty());
+  // Beside a Falcon, each has its own.
+  const UsbLook both =
+      judge_usb({falcon(true), polhem(true)},
+                {"Falcon: ready: forces are shown", "Polhem: not homed: hold it straight ahead"});
+  ASSERT_EQ(both.devices.size(), 2U);
+  EXPECT_THAT(both.devices[0].problem, IsEmpty());
+  EXPECT_THAT(both.devices[1].problem, HasSubstr("not homed"));
+  UsbDeviceSeen denied = polhem(false);
+  denied.is_denied = true;
+  EXPECT_THAT(judge_usb({denied}, {}).devices.at(0).remedy, HasSubstr("--install-rule"));
 }
 
 TEST(AttachedDevices, SayWhoMayNotOpenItAndTheRemedy) {
@@ -84,6 +113,7 @@ TEST(AttachedDevices, TheRuleIsWrittenWhereItIsAskedFor) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(text, udev_rule());
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\""));
+  EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\""));
   EXPECT_THAT(text, HasSubstr("TAG+=\"uaccess\""));
 }
 
@@ -102,7 +132,7 @@ TEST(AttachedDevices, TheVerbTellsOfThisHost) {
     EXPECT_NE(result.status, 0);
     EXPECT_THAT(result.err, HasSubstr(look.problem));
   } else {
-    EXPECT_THAT(result.err, HasSubstr("drivers: falcon"));
+    EXPECT_THAT(result.err, HasSubstr("drivers: falcon, polhem"));
   }
   EXPECT_THAT(run_reckon({"doctor", "--iface", "lo"}).out, HasSubstr("USB"));
 }

@@ -9,7 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "reckon/haptics/falcon/usb_line.hpp"
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/haptics/usb/usb_line.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -70,7 +72,25 @@ TEST(RealDevices, AWrongNameGetsTheNearest) {
   EXPECT_THAT(usage_error([] {
                 check_device_choice({"crane", ""});
               }),
-              HasSubstr("there is falcon"));
+              HasSubstr("there are falcon, polhem"));
+}
+
+TEST(RealDevices, AFileOfADriverIsLoadedAndTold) {
+  const std::string file = std::string(RECKON_TEST_DRIVERS) + "/dummy_device.so";
+  EXPECT_EQ(usage_error([&] { check_device_choice({file, ""}); }), "");
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({file, ""}, scene, 2, 2);
+  EXPECT_EQ(scene.devices.at(1).driver, DeviceDriver::plugin);
+  SimulatedHands hands = make_simulated_hands(scene, 2);
+  RealDevices real;
+  real.plug_in(scene, 2, hands.wired);
+  EXPECT_NE(hands.wired.at(0).device, hands.devices.at(0).get());
+  EXPECT_EQ(hands.wired.at(0).device->limits().max_force, 10.0);
+  EXPECT_THAT(real.take_notices(),
+              ::testing::ElementsAre(AllOf(HasSubstr("dummy: 1 N s/m"), HasSubstr(file))));
+
+  scene.devices[1].plugin = "none.so";
+  EXPECT_THROW(RealDevices().plug_in(scene, 2, hands.wired), std::runtime_error);
 }
 
 TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
@@ -106,12 +126,36 @@ TEST(RealDevices, WhatIsExplainedOfAFalconIsWhatItsServoReliesOn) {
   choose_device({"falcon", ""}, scene, 1, 2);
   const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
   const haptics::DeviceLimits real =
-      haptics::falcon_limits(peer::falcon_settings_of(scene.devices[0]));
+      haptics::usb_limits(haptics::falcon_facts(), peer::usb_settings_of(scene.devices[0]));
   EXPECT_EQ(simulated.max_force, real.max_force);
   EXPECT_NEAR(simulated.damping, real.damping, 1e-15);
   EXPECT_EQ(simulated.delay_samples, real.delay_samples);
   EXPECT_EQ(simulated.resolution, real.resolution);
   EXPECT_EQ(simulated.max_speed, real.max_speed);
+}
+
+TEST(RealDevices, APolhemIsTakenInTheSameWayWithItsOwnLimits) {
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  EXPECT_THAT(usage_error([] {
+                check_device_choice({"polhme", ""});
+              }),
+              HasSubstr("did you mean 'polhem'?"));
+  choose_device({"polhem", ""}, scene, 1, 2);
+  EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::polhem);
+  EXPECT_EQ(scene.devices[1].driver, DeviceDriver::simulated);
+  const haptics::DeviceLimits simulated = make_simulated_device(scene, scene.devices[0])->limits();
+  const haptics::DeviceLimits real =
+      haptics::usb_limits(haptics::polhem_facts(), peer::usb_settings_of(scene.devices[0]));
+  EXPECT_EQ(simulated.max_force, 5.0);
+  EXPECT_EQ(real.max_force, 5.0);
+  EXPECT_NEAR(simulated.damping, 0.9 * 0.2, 1e-15);
+  EXPECT_NEAR(real.damping, 0.9 * 0.2, 1e-15);
+  EXPECT_EQ(simulated.delay_samples, real.delay_samples);
+  EXPECT_EQ(simulated.resolution, real.resolution);
+  EXPECT_THAT(usage_error([&] {
+                choose_device({"", __FILE__}, scene, 1, 2);
+              }),
+              HasSubstr("add --device falcon"));
 }
 
 TEST(RealDevices, ADemoGoesOnWithoutTheDeviceAndSaysSoOnce) {
@@ -124,6 +168,10 @@ TEST(RealDevices, ADemoGoesOnWithoutTheDeviceAndSaysSoOnce) {
       test::run_reckon({"demo", "--device", "falcon", "--for", "700ms", "--json"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("Falcon: "));
+  const test::ProgramResult other =
+      test::run_reckon({"demo", "--device", "polhem", "--for", "700ms", "--json"});
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("Polhem: none is attached"));
 }
 
 }  // namespace

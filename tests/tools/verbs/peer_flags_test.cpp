@@ -104,7 +104,9 @@ class PeerFlags : public testing::Test {
       facts.insert("serves a page");
     if (result.err.find("metrics: http://127.0.0.1:") != std::string::npos)
       facts.insert("serves metrics");
-    if (result.err.find("Falcon: ") != std::string::npos) facts.insert("speaks of its device");
+    if (result.err.find("Falcon: ") != std::string::npos ||
+        result.err.find("Polhem: ") != std::string::npos)
+      facts.insert("speaks of its device");
     for (const std::string& line : result.lines()) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
       if (row.is_discarded()) {
@@ -160,6 +162,7 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
       {"--impair", "loss=100%", "hears somebody", false},
       {"--key", key_, host, false},
       {"--device", "falcon", "speaks of its device"},
+      {"--device", "polhem", "speaks of its device"},
   };
   for (const Change& change : changes) {
     const Facts facts = facts_of(scene_, with(mode_, change.flag, change.value));

@@ -28,7 +28,7 @@ export const COMMANDS = {
   speed: (times) => command(3, ['f32', times]),
   live: () => command(4),
   step: (step) => command(5, ['i8', step]),
-  pointer: (hand, [x, y, z], held) => command(6, ['u16', hand], ['f32', x], ['f32', y], ['f32', z], ['u8', held ? 1 : 0]),
+  pointer: (hand, [x, y, z], held, grabs) => command(6, ['u16', hand], ['f32', x], ['f32', y], ['f32', z], ['u8', held ? (grabs ? 2 : 1) : 0]),
   network: ({ delay, jitter, loss, outage }) =>
     command(7, ['f32', delay], ['f32', jitter], ['f32', loss], ['u8', outage ? 1 : 0]),
   askHand: () => command(8),

@@ -12,6 +12,7 @@ export class PointerHand {
     Object.assign(this, { stage, tell, say });
     this.index = null;
     this.held = false;
+    this.grabs = false;
     this.wanted = new Vector3();
     this.keys = new Set();
     this.button = byId('hand');
@@ -40,7 +41,7 @@ export class PointerHand {
     this.held = false;
     this.button.textContent = this.index === null ? 'Take a hand' : 'Give it back';
     const how = matchMedia('(pointer: coarse)').matches ? 'One finger moves it, a second one up and down in depth. Lifting the first lets go.'
-      : 'Move the mouse; wheel or shift for depth. Leaving the picture lets go.';
+      : 'Move the mouse; wheel or shift for depth; its button holds what the hand touches. Leaving the picture lets go.';
     this.text.textContent = this.index === null ? (text ?? '') : how;
     if (text) this.say(text);
     if (this.index !== null && this.stage.large !== 'touch') this.stage.swap();
@@ -99,12 +100,13 @@ export class PointerHand {
     this.keys.clear();
     if (!this.held) return;
     this.held = false;
-    this.tell('pointer', this.index, this.wanted.toArray(), false);
+    this.grabs = false;
+    this.tell('pointer', this.index, this.wanted.toArray(), false, false);
   }
 
   // 60 times a second, however slowly pictures are drawn: a hand without samples lets go.
   send() {
-    if (this.index !== null && this.held) this.tell('pointer', this.index, this.wanted.toArray(), true);
+    if (this.index !== null && this.held) this.tell('pointer', this.index, this.wanted.toArray(), true, this.grabs);
   }
 
   // Once a picture.

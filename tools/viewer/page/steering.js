@@ -34,6 +34,7 @@ export class Steering {
     this.page.stage.canvas.setPointerCapture(event.pointerId);
     if (!this.handed || event.button !== 0 || this.fingers.size !== 1) return;
     this.holder = event.pointerId;
+    this.page.hand.grabs = event.pointerType !== 'touch';
     this.page.hand.move(this.page.moment, event.offsetX, event.offsetY);
   }
 
@@ -75,6 +76,7 @@ export class Steering {
     const held = this.fingers.delete(event.pointerId);
     if (event.pointerId === this.holder) {
       this.holder = null;
+      this.page.hand.grabs = false;
       if (this.handed && event.pointerType === 'touch') this.page.hand.letGo();
     }
     const still = this.start && Math.hypot(event.clientX - this.start[0], event.clientY - this.start[1]) < CLICK;

@@ -77,8 +77,9 @@ std::optional<PageRequest> pointer(Reader in) noexcept {
       return std::nullopt;
   }
   const std::uint8_t held = in.u8();
-  if (held > 1) return std::nullopt;
-  request.held = held == 1;
+  if (held > 2) return std::nullopt;
+  request.held = held > 0;
+  request.grabs = held == 2;
   return request;
 }
 

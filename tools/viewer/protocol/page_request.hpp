@@ -35,6 +35,7 @@ struct PointerRequest {
   std::uint16_t hand = 0;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]
   bool held = false;
+  bool grabs = false;  ///< it holds what it touches
 };
 /// What the network does from now on.
 struct NetworkRequest {

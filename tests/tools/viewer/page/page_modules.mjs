@@ -175,7 +175,8 @@ test('Commands have the octets of the protocol', () => {
   assert.equal(hex(COMMANDS.speed(1)), '030000803f');
   assert.equal(hex(COMMANDS.live()), '04');
   assert.equal(hex(COMMANDS.step(-2)), '05fe');
-  assert.equal(hex(COMMANDS.pointer(1, [1, 0, 0], true)), '0601000000803f000000000000000001');
+  assert.equal(hex(COMMANDS.pointer(1, [1, 0, 0], true, false)), '0601000000803f000000000000000001');
+  assert.equal(hex(COMMANDS.pointer(1, [1, 0, 0], true, true)), '0601000000803f000000000000000002');
   assert.equal(hex(COMMANDS.network({ delay: 1, jitter: 0, loss: 1, outage: true })), '070000803f000000000000803f01');
   assert.deepEqual([hex(COMMANDS.askHand()), hex(COMMANDS.giveHand()), hex(COMMANDS.follow(258))], ['08', '09', '0a0201']);
 });
@@ -199,7 +200,9 @@ function touched(hasHand) {
     return { down: (...at) => send('pointerdown', at), to: (...at) => send('pointermove', at),
       up: () => { send('pointerup', last); send('pointerleave', last); } };
   };
-  return { finger, told: () => told.splice(0) };
+  const mouse = (type, buttons) => listeners.get(type)({ pointerId: 9, pointerType: 'mouse', button: 0, buttons, clientX: 0, clientY: 0,
+    offsetX: 0, offsetY: 0, movementX: 0, movementY: 0 });
+  return { finger, mouse, hand, told: () => told.splice(0) };
 }
 
 test('One finger moves a hand in its plane, a second one in depth, and the camera stands', () => {
@@ -221,6 +224,18 @@ test('One finger moves a hand in its plane, a second one in depth, and the camer
   two.to(90, 90);
   two.up();
   assert.deepEqual(told(), [['letGo']], 'the finger that is left moves nothing');
+});
+
+test('The button of a mouse that is a hand holds what the hand touches, a finger does not', () => {
+  const { finger, mouse, hand } = touched(true);
+  mouse('pointermove', 0);
+  assert.ok(!hand.grabs);
+  mouse('pointerdown', 1);
+  assert.ok(hand.grabs);
+  mouse('pointerup', 0);
+  assert.ok(!hand.grabs);
+  finger(1).down(1, 1);
+  assert.ok(!hand.grabs);
 });
 
 test('Without a hand two fingers move the camera alone', () => {

@@ -38,6 +38,10 @@ TEST(PageRequest, IsReadOfEachKind) {
   EXPECT_EQ(pointer.hand, 1);
   EXPECT_EQ(pointer.position.z(), 3.F);
   EXPECT_TRUE(pointer.held);
+  EXPECT_FALSE(pointer.grabs);
+  const auto grabbing = std::get<PointerRequest>(
+      *read_page_request(message(6, std::uint16_t{1}, 1.F, 2.F, 3.F, std::uint8_t{2})));
+  EXPECT_TRUE(grabbing.held && grabbing.grabs);
   const auto network =
       std::get<NetworkRequest>(*read_page_request(message(7, 300.F, 0.F, 0.5F, kOn)));
   EXPECT_EQ(network.delay_ms, 300.F);
@@ -60,6 +64,7 @@ TEST(PageRequest, RefusesNumbersThatAreNoneOrOutOfRange) {
   EXPECT_TRUE(is_refused(message(5, std::int8_t{100})));
   EXPECT_TRUE(is_refused(message(6, std::uint16_t{0}, kNan, 0.F, 0.F, kOn)));
   EXPECT_TRUE(is_refused(message(6, std::uint16_t{0}, 0.F, 1e30F, 0.F, kOn)));
+  EXPECT_TRUE(is_refused(message(6, std::uint16_t{0}, 0.F, 0.F, 0.F, std::uint8_t{3})));
   EXPECT_TRUE(is_refused(message(6, std::uint16_t{0}, 0.F, 0.F, 0.F, std::uint8_t{2})));
   EXPECT_TRUE(is_refused(message(7, -1.F, 0.F, 0.F, kOn)));
   EXPECT_TRUE(is_refused(message(7, 0.F, 301.F, 0.F, kOn)));

@@ -1,34 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The talk with a Falcon that is set up: what it is told, what its reports mean, and when its force
+// The talk with a device that is set up: what it is told, what its reports mean, and when its force
 // has to be dropped. Pure: octets and time are passed in.
 #pragma once
 
-#include <Eigen/Core>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
 
-#include "reckon/haptics/falcon/falcon_exchange.hpp"
-#include "reckon/haptics/falcon/falcon_packets.hpp"
+#include "reckon/haptics/usb/usb_driver.hpp"
+#include "reckon/haptics/usb/usb_exchange.hpp"
 
 namespace reckon::haptics {
 
-/// How far a Falcon is.
-enum class FalconStage : std::uint8_t {
-  silent,   ///< has not answered yet
-  homing,   ///< its arms have not passed their reference places: no force
-  outside,  ///< its counts are no pose, or one near a singular one: no force
-  running,  ///< forces are shown
-};
-
-/// One command at a time, one report in answer. The device's thread alone calls it; no allocation.
+/// One command at a time, one report in answer, of the instant from which the command holds. The
+/// device's thread alone calls it; no allocation.
 ///
 /// The force is dropped, and the run of readings ends, where the servo has not written for
 /// kSilence, a report has not come for kLate, or the stage is not `running`. It comes back by
 /// itself: the servo, whose readings failed meanwhile, lets its contacts ramp up.
-class FalconSession {
+class UsbSession {
  public:
   /// With an exchange of 2 ms a zero is at the device 10 ms after the servo's last write.
   static constexpr std::chrono::milliseconds kSilence{8};
@@ -39,15 +31,17 @@ class FalconSession {
   /// Without a report for so long it has to be set up anew.
   static constexpr std::chrono::milliseconds kLost{200};
 
-  /// @param exchange outlives it  @param run of the first readings  @param now of its begin
-  FalconSession(FalconExchange& exchange, std::uint32_t run, std::chrono::nanoseconds now) noexcept
-      : exchange_(exchange), run_(run), heard_at_(now) {}
+  /// @param exchange, driver outlive it  @param run of the first readings  @param now of its begin
+  UsbSession(UsbExchange& exchange, UsbDriver& driver, std::uint32_t run,
+             std::chrono::nanoseconds now) noexcept
+      : exchange_(exchange), driver_(driver), run_(run), heard_at_(now) {}
 
-  /// What the device sent, in any pieces.
-  void take(std::span<const std::uint8_t> octets, std::chrono::nanoseconds now) noexcept;
-  /// What to tell the device now, if anything. Call while nothing is on its way to it, and send the
-  /// answer at once.
-  [[nodiscard]] std::optional<FalconCommand> next(std::chrono::nanoseconds now) noexcept;
+  /// A transfer that the device sent.
+  void take(std::span<const std::uint8_t> transfer, std::chrono::nanoseconds now) noexcept;
+  /// What to tell the device now, if anything: valid until the next call. Call while nothing is on
+  /// its way to it, and send the answer at once.
+  [[nodiscard]] std::optional<std::span<const std::uint8_t>> next(
+      std::chrono::nanoseconds now) noexcept;
   /// Whether a report is overdue.
   [[nodiscard]] bool is_late(std::chrono::nanoseconds now) const noexcept {
     return awaiting_ && now - sent_at_ > kLate;
@@ -56,7 +50,7 @@ class FalconSession {
   [[nodiscard]] bool is_lost(std::chrono::nanoseconds now) const noexcept {
     return now - heard_at_ > kLost;
   }
-  [[nodiscard]] FalconStage stage() const noexcept { return stage_; }
+  [[nodiscard]] UsbStage stage() const noexcept { return stage_; }
   /// Of the readings that it gives next.
   [[nodiscard]] std::uint32_t run() const noexcept { return run_; }
   /// Reports that came too late, since the begin.
@@ -66,28 +60,22 @@ class FalconSession {
     return timed_ < kTimed ? std::chrono::nanoseconds(0) : longest_;
   }
   static constexpr int kTimed = 500;
-  /// Octets that were no reports, since the begin.
-  [[nodiscard]] std::uint64_t malformed() const noexcept { return parser_.malformed(); }
 
  private:
-  void answer(const FalconReport& report) noexcept;
-  [[nodiscard]] std::array<std::int16_t, 3> motors() const noexcept;
-  void leave(FalconStage stage) noexcept;
+  void answer() noexcept;
+  void leave(UsbStage stage) noexcept;
 
-  FalconExchange& exchange_;
+  UsbExchange& exchange_;
+  UsbDriver& driver_;
   std::uint32_t run_;
   std::chrono::nanoseconds heard_at_;
-  FalconReportParser parser_;
-  FalconStage stage_ = FalconStage::silent;
+  UsbStage stage_ = UsbStage::silent;
   std::int64_t held_ = 0;  // number of the force that the device holds
   std::int64_t sent_ = 0;  // number of the force that was sent last
   std::chrono::nanoseconds sent_at_{0};
   std::chrono::nanoseconds deaf_until_{0};
   bool awaiting_ = false;
   bool servo_silent_ = true;
-  Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();  // [rad], of the last report
-  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
-  Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
   std::uint64_t late_ = 0;
   int timed_ = 0;
   std::chrono::nanoseconds longest_{0};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/haptics/falcon/usb_line.hpp"
+#include "reckon/haptics/usb/usb_line.hpp"
 
 #include <libusb-1.0/libusb.h>
 #include <sys/time.h>
@@ -8,17 +8,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "reckon/haptics/falcon/falcon_packets.hpp"
-
 namespace reckon::haptics {
 namespace {
 
-constexpr int kInterface = 0;
-constexpr unsigned char kIn = 0x81, kOut = 0x02;
-constexpr std::uint8_t kToChip = 0x40;  // of a vendor, out
-constexpr std::uint8_t kFromChip = 0xC0;
-constexpr std::uint8_t kReadLatency = 10;
-constexpr std::uint16_t kPort = 0;   // of a chip with one
+constexpr std::uint8_t kToDevice = 0x40;  // of a vendor
+constexpr std::uint8_t kFromDevice = 0xC0;
+constexpr std::uint16_t kPort = 0;   // of a device with one
 constexpr unsigned kPatience = 100;  // [ms], of a request
 constexpr std::size_t kInbox = 4096;
 
@@ -69,15 +64,48 @@ UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor, std::u
   return opening;
 }
 
+void close_usb_device(libusb_device_handle* handle) noexcept { libusb_close(handle); }
+
+namespace {
+
+// An interrupt each way, or none.
+std::optional<UsbPipes> pipes_of(const libusb_interface_descriptor& about) {
+  if (about.bInterfaceClass != LIBUSB_CLASS_HID) return std::nullopt;
+  UsbPipes pipes{true, 0, 0, about.bInterfaceNumber, 0};
+  for (int i = 0; i < about.bNumEndpoints; ++i) {
+    const libusb_endpoint_descriptor& end = about.endpoint[i];
+    if ((end.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK) != LIBUSB_TRANSFER_TYPE_INTERRUPT) continue;
+    const bool is_in = (end.bEndpointAddress & LIBUSB_ENDPOINT_IN) != 0;
+    (is_in ? pipes.in : pipes.out) = end.bEndpointAddress;
+  }
+  if (pipes.in == 0 || pipes.out == 0) return std::nullopt;
+  return pipes;
+}
+
+}  // namespace
+
+std::optional<UsbPipes> hid_pipes(libusb_device_handle* handle) {
+  libusb_config_descriptor* config = nullptr;
+  if (libusb_get_active_config_descriptor(libusb_get_device(handle), &config) != 0)
+    return std::nullopt;
+  std::optional<UsbPipes> pipes;
+  for (int i = 0; i < config->bNumInterfaces && !pipes; ++i) {
+    const libusb_interface& interface = config->interface[i];
+    if (interface.num_altsetting > 0) pipes = pipes_of(interface.altsetting[0]);
+  }
+  libusb_free_config_descriptor(config);
+  return pipes;
+}
+
 void UsbLine::Free::operator()(libusb_transfer* transfer) const noexcept {
   libusb_free_transfer(transfer);
 }
 
-UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle)
-    : context_(context), handle_(handle), inbox_(kInbox) {
-  // Where the kernel drives the chip as a serial port, it gives way and comes back at the end.
+UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPipes& pipes)
+    : context_(context), handle_(handle), pipes_(pipes), inbox_(kInbox) {
+  // Where the kernel drives the device itself, it gives way and comes back at the end.
   static_cast<void>(libusb_set_auto_detach_kernel_driver(handle, 1));
-  const int code = libusb_claim_interface(handle, kInterface);
+  const int code = libusb_claim_interface(handle, pipes_.interface);
   if (code != 0) {
     libusb_close(handle);
     throw std::runtime_error("another program has it: " + reason(code));
@@ -85,8 +113,7 @@ UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle)
   out_.reset(libusb_alloc_transfer(0));
   for (std::size_t i = 0; i < kListeners; ++i) {
     in_[i].reset(libusb_alloc_transfer(0));
-    libusb_fill_bulk_transfer(in_[i].get(), handle, kIn, in_octets_[i].data(),
-                              static_cast<int>(kMost), &UsbLine::ended_in, this, 0);
+    fill(*in_[i], pipes_.in, in_octets_[i], &UsbLine::ended_in);
     listen(in_[i].get());
   }
 }
@@ -96,27 +123,37 @@ UsbLine::~UsbLine() {
   if (sending_) libusb_cancel_transfer(out_.get());
   for (const Transfer& transfer : in_) libusb_cancel_transfer(transfer.get());
   while (listening_ > 0 || sending_) context_.wait(std::chrono::milliseconds(10));
-  libusb_release_interface(handle_, kInterface);
+  libusb_release_interface(handle_, pipes_.interface);
   libusb_close(handle_);
 }
 
-bool UsbLine::control(std::uint8_t request, std::uint16_t value) noexcept {
-  return libusb_control_transfer(handle_, kToChip, request, value, kPort, nullptr, 0, kPatience) >=
-         0;
+void UsbLine::fill(libusb_transfer& transfer, std::uint8_t end, std::span<std::uint8_t> octets,
+                   void (*ended)(libusb_transfer*)) noexcept {
+  const auto count = static_cast<int>(octets.size());
+  if (pipes_.are_interrupts) {
+    libusb_fill_interrupt_transfer(&transfer, handle_, end, octets.data(), count, ended, this, 0);
+  } else {
+    libusb_fill_bulk_transfer(&transfer, handle_, end, octets.data(), count, ended, this, 0);
+  }
 }
 
-std::uint8_t UsbLine::latency_timer() noexcept {
-  std::uint8_t time = 0;
+bool UsbLine::request(std::uint8_t request, std::uint16_t value) noexcept {
+  return libusb_control_transfer(handle_, kToDevice, request, value, kPort, nullptr, 0,
+                                 kPatience) >= 0;
+}
+
+std::optional<std::uint8_t> UsbLine::ask(std::uint8_t request) noexcept {
+  std::uint8_t octet = 0;
   const int count =
-      libusb_control_transfer(handle_, kFromChip, kReadLatency, 0, kPort, &time, 1, kPatience);
-  return count == 1 ? time : std::uint8_t{0};
+      libusb_control_transfer(handle_, kFromDevice, request, 0, kPort, &octet, 1, kPatience);
+  if (count != 1) return std::nullopt;
+  return octet;
 }
 
 bool UsbLine::send(std::span<const std::uint8_t> octets) noexcept {
   if (sending_ || fault_ != UsbFault::none || octets.size() > kMost) return false;
   std::ranges::copy(octets, out_octets_.begin());
-  libusb_fill_bulk_transfer(out_.get(), handle_, kOut, out_octets_.data(),
-                            static_cast<int>(octets.size()), &UsbLine::ended_out, this, 0);
+  fill(*out_, pipes_.out, std::span(out_octets_).first(octets.size()), &UsbLine::ended_out);
   const int code = libusb_submit_transfer(out_.get());
   if (code == 0) {
     sending_ = true;
@@ -143,9 +180,11 @@ void UsbLine::note(int status) noexcept {
 // Nobody has read for a long time where the inbox is full: what comes then is of no use.
 void UsbLine::take(const libusb_transfer& transfer) noexcept {
   const auto count = static_cast<std::size_t>(std::max(0, transfer.actual_length));
-  each_serial_octet({transfer.buffer, count}, [&](std::uint8_t octet) {
-    if (length_ < inbox_.size()) inbox_[length_++] = octet;
-  });
+  if (transfers_ == ends_.size() || count > inbox_.size() - length_) return;
+  each_payload_octet({transfer.buffer, count}, pipes_.header,
+                     [&](std::uint8_t octet) { inbox_[length_++] = octet; });
+  const std::size_t before = transfers_ == 0 ? 0 : ends_[transfers_ - 1];
+  if (length_ > before) ends_[transfers_++] = length_;
 }
 
 void UsbLine::ended_in(libusb_transfer* transfer) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A serial line behind an FTDI chip on USB: octets both ways by asynchronous transfers of libusb.
+// A line to a device on USB: octets both ways by asynchronous transfers of libusb.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,30 +55,63 @@ using UsbOpener = std::function<UsbOpening(libusb_context*)>;
 /// Opens the first device of these numbers that is attached.
 [[nodiscard]] UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor,
                                          std::uint16_t product);
+/// Gives a handle back that no UsbLine has.
+void close_usb_device(libusb_device_handle* handle) noexcept;
 
-/// One line. The constructor, the destructor and control() may wait for the device, at most 0.1 s
+/// Where the octets of a device go.
+struct UsbPipes {
+  bool are_interrupts = false;  ///< of transfers; false: bulk
+  std::uint8_t in = 0x81, out = 0x02;
+  std::uint8_t interface = 0;
+  /// Octets before the payload of each packet of 64 that came: a serial chip's own.
+  std::size_t header = 0;
+};
+
+/// The pipes of the first interface of class HID that has an interrupt each way. @return nothing
+/// where there is none, or its descriptors cannot be read
+[[nodiscard]] std::optional<UsbPipes> hid_pipes(libusb_device_handle* handle);
+
+/// Calls `each` with every octet of a transfer that is payload.
+template <class Each>
+void each_payload_octet(std::span<const std::uint8_t> transfer, std::size_t header, Each&& each) {
+  constexpr std::size_t kUsbPacket = 64;
+  for (std::size_t i = 0; i < transfer.size(); ++i) {
+    if (i % kUsbPacket >= header) each(transfer[i]);
+  }
+}
+
+/// One line. The constructor, the destructor and requests may wait for the device, at most 0.1 s
 /// each; all else is immediate, and allocates nothing.
 class UsbLine {
  public:
   /// Claims the device and listens from now on. @param handle of an open device, which becomes the
   /// line's own @throws std::runtime_error if it cannot be claimed, with the reason
-  UsbLine(UsbContext& context, libusb_device_handle* handle);
+  UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPipes& pipes);
   ~UsbLine();
   UsbLine(const UsbLine&) = delete;
   UsbLine& operator=(const UsbLine&) = delete;
 
-  /// A request to the chip itself. @return false if it is refused
-  bool control(std::uint8_t request, std::uint16_t value) noexcept;
-  /// Its latency timer [ms]; 0: it does not tell.
-  [[nodiscard]] std::uint8_t latency_timer() noexcept;
+  /// A request of its maker's. @return false if it is refused
+  bool request(std::uint8_t request, std::uint16_t value) noexcept;
+  /// One that asks for an octet. @return nothing if it is refused
+  [[nodiscard]] std::optional<std::uint8_t> ask(std::uint8_t request) noexcept;
 
   /// Handles transfers that have ended, and waits for one so long at most.
   void pump(std::chrono::microseconds longest) noexcept { context_.wait(longest); }
-  /// Octets that came over the line since clear(), without the chip's own.
+  /// Payload that came over the line since clear().
   [[nodiscard]] std::span<const std::uint8_t> received() const noexcept {
     return {inbox_.data(), length_};
   }
-  void clear() noexcept { length_ = 0; }
+  /// The same, transfer by transfer, but for those without any.
+  template <class Each>
+  void each_transfer(Each&& each) const {
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < transfers_; ++i) {
+      each(received().subspan(from, ends_[i] - from));
+      from = ends_[i];
+    }
+  }
+  void clear() noexcept { length_ = transfers_ = 0; }
   /// Sends up to kMost octets. @return false while the last ones are under way, or after a fault
   bool send(std::span<const std::uint8_t> octets) noexcept;
   [[nodiscard]] bool is_sending() const noexcept { return sending_; }
@@ -93,6 +127,8 @@ class UsbLine {
   };
   using Transfer = std::unique_ptr<libusb_transfer, Free>;
 
+  void fill(libusb_transfer& transfer, std::uint8_t end, std::span<std::uint8_t> octets,
+            void (*ended)(libusb_transfer*)) noexcept;
   void listen(libusb_transfer* transfer) noexcept;
   void note(int status) noexcept;
   void take(const libusb_transfer& transfer) noexcept;
@@ -101,12 +137,15 @@ class UsbLine {
 
   UsbContext& context_;
   libusb_device_handle* handle_;
+  UsbPipes pipes_;
   std::array<Transfer, kListeners> in_;
   std::array<std::array<std::uint8_t, kMost>, kListeners> in_octets_{};
   Transfer out_;
   std::array<std::uint8_t, kMost> out_octets_{};
   std::vector<std::uint8_t> inbox_;
   std::size_t length_ = 0;
+  std::array<std::size_t, 256> ends_{};  // of transfers in the inbox
+  std::size_t transfers_ = 0;
   std::size_t listening_ = 0;
   bool sending_ = false;
   bool closing_ = false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/falcon_thread.hpp"
+#include "reckon/peer/usb_thread.hpp"
 
 #include <chrono>
 #include <utility>
@@ -13,32 +13,31 @@ namespace {
 constexpr std::chrono::microseconds kLongestWait{1000};
 constexpr std::chrono::milliseconds kSilence{500};
 
-haptics::FalconLoopOptions options_of(const Clock& clock, haptics::FalconFirmware firmware) {
-  haptics::FalconLoopOptions options;
-  options.firmware = std::move(firmware);
+haptics::UsbLoopOptions options_of(const Clock& clock) {
+  haptics::UsbLoopOptions options;
   options.clock = [&clock] { return clock.now(); };
   return options;
 }
 
 }  // namespace
 
-FalconThread::FalconThread(const Clock& clock, const haptics::FalconSettings& settings,
-                           haptics::FalconFirmware firmware)
+UsbThread::UsbThread(const Clock& clock, const haptics::DeviceLimits& limits,
+                     std::unique_ptr<haptics::UsbDriver> driver)
     : clock_(clock),
-      device_(exchange_, settings),
-      loop_(exchange_, options_of(clock, std::move(firmware))),
+      device_(exchange_, limits),
+      loop_(exchange_, std::move(driver), options_of(clock)),
       pulse_(clock, kSilence),
       thread_([this] { run(); }) {
-  name_thread(thread_.native_handle(), "rk-falcon");
+  name_thread(thread_.native_handle(), "rk-usb");
 }
 
-FalconThread::~FalconThread() {
+UsbThread::~UsbThread() {
   stop_ = true;
   loop_.stop();
   thread_.join();
 }
 
-void FalconThread::run() noexcept {
+void UsbThread::run() noexcept {
   RealTimePriority priority(kPriority, pulse_);
   while (!stop_) {
     loop_.step(kLongestWait);

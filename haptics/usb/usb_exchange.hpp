@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Between the servo and the thread of a Falcon: the newest force one way, every reading the other.
+// Between the servo and the thread of a device on USB: the newest force one way, every reading the
+// other.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
@@ -14,15 +17,17 @@
 namespace reckon::haptics {
 
 /// A force as the servo wrote it.
-struct FalconForce {
+struct UsbForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], frame D
   std::int64_t number = 0;                          ///< of the write, from 1
   std::chrono::nanoseconds at{0};                   ///< of the write
 };
 
 /// A report of the device, with the forces on both sides of its instant.
-struct FalconReading {
+struct UsbReading {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
+  /// Tool -> D, a unit one, where the device can tell how its handle is turned.
+  std::optional<Eigen::Quaterniond> orientation = {};
   std::int64_t before = 0;  ///< number of the force that was held until then
   std::int64_t after = 0;   ///< number of the force that is held from then on
   /// Changes where the force was dropped, whatever for: readings of two runs do not join.
@@ -31,11 +36,11 @@ struct FalconReading {
 };
 
 /// Neither side waits for the other. Allocates once, here.
-struct FalconExchange {
+struct UsbExchange {
   static constexpr std::size_t kReadings = 256;
 
-  TripleBuffer<FalconForce> force;
-  SpscRing<FalconReading> readings{kReadings};
+  TripleBuffer<UsbForce> force;
+  SpscRing<UsbReading> readings{kReadings};
 };
 
 }  // namespace reckon::haptics

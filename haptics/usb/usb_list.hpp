@@ -4,10 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/falcon/usb_line.hpp"
+#include "reckon/haptics/usb/usb_line.hpp"
 
 namespace reckon::haptics {
 
@@ -20,9 +21,9 @@ struct UsbDeviceSeen {
   std::string problem;     ///< the library's reason, where it is not open to us
 };
 
-/// All devices whose descriptors can be read; only those of this vendor and product are opened, for
-/// a moment, and none is claimed.
-[[nodiscard]] std::vector<UsbDeviceSeen> usb_devices(UsbContext& context, std::uint16_t vendor,
-                                                     std::uint16_t product);
+/// All devices whose descriptors can be read; only those that `is_ours` says are opened, for a
+/// moment, and none is claimed.
+[[nodiscard]] std::vector<UsbDeviceSeen> usb_devices(
+    UsbContext& context, const std::function<bool(const UsbDeviceSeen&)>& is_ours);
 
 }  // namespace reckon::haptics

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/haptics/falcon/usb_list.hpp"
+#include "reckon/haptics/usb/usb_list.hpp"
 
 #include <libusb-1.0/libusb.h>
 
 namespace reckon::haptics {
 
-std::vector<UsbDeviceSeen> usb_devices(UsbContext& context, std::uint16_t vendor,
-                                       std::uint16_t product) {
+std::vector<UsbDeviceSeen> usb_devices(UsbContext& context,
+                                       const std::function<bool(const UsbDeviceSeen&)>& is_ours) {
   std::vector<UsbDeviceSeen> seen;
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(context.get(), &list);
@@ -19,7 +19,7 @@ std::vector<UsbDeviceSeen> usb_devices(UsbContext& context, std::uint16_t vendor
     device.product = about.idProduct;
     device.bus = libusb_get_bus_number(list[i]);
     device.address = libusb_get_device_address(list[i]);
-    if (device.vendor != vendor || device.product != product) continue;
+    if (!is_ours(device)) continue;
     libusb_device_handle* handle = nullptr;
     const int code = libusb_open(list[i], &handle);
     device.is_open_to_us = code == 0;

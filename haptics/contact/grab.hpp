@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A body held by one probe: a spring with viscosity from a place of the probe to a place of the
+// body, booked as a wall's is.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/haptics/scene/grab_spring.hpp"
+
+namespace reckon::haptics {
+
+/// It begins unstretched, so that nothing jumps and nothing has to be paid. Where the ledger is
+/// short its gain falls, and rises in 100 ms as the ledger pays; where nothing of it is left, as
+/// after a cut to zero, the body is lost. Order of calls within a step: place, move,
+/// settle, load, shown, attenuate; all but the last of them do nothing while nothing is held. One
+/// thread; allocates nothing.
+class Grab {
+ public:
+  /// Holds a body from now on. @param body its number among the objects that move
+  /// @param spring of a stiffness and a viscosity that device and body can take
+  /// @param probe [m, S]  @param motion of the body
+  void take(std::size_t body, const GrabSpring& spring, const Eigen::Vector3d& probe,
+            const ObjectMotion& motion) noexcept;
+  /// What the spring stores is lost.
+  void let_go(EnergyLedger& ledger) noexcept;
+  [[nodiscard]] bool holds() const noexcept { return holds_; }
+  [[nodiscard]] std::size_t body() const noexcept { return body_; }
+  /// Whether it is pulled harder than the most that it holds.
+  [[nodiscard]] bool tears() const noexcept { return holds_ && force_.norm() > spring_.most; }
+
+  /// The body goes on.
+  void place(const ObjectMotion& motion) noexcept { motion_ = motion; }
+  /// The probe goes on, and what the spring stored or released is booked. @return by how much its
+  /// force changed [N]
+  Eigen::Vector3d move(const Eigen::Vector3d& probe, EnergyLedger& ledger) noexcept;
+  /// Lowers the gain for a debt, and raises it as the ledger pays. @param dt [s], of the sample
+  void settle(double dt, EnergyLedger& ledger) noexcept;
+  /// The mean force over the sample that begins, with its viscosity, differs by so much from the
+  /// spring's present one [N]. For the next load().
+  void foresee(const Eigen::Vector3d& change) noexcept { change_ = change; }
+  /// Adds the forces to be held.
+  void load(PortLoad& load) const noexcept;
+  /// Takes the held share of the forces besides the spring's, [0, 1].
+  void shown(double extra) noexcept { shown_ = extra; }
+  /// Scales force and storage by `factor` in [0, 1].
+  void attenuate(double factor, EnergyLedger& ledger) noexcept;
+
+  /// On the hand [N, S], after shown().
+  [[nodiscard]] Eigen::Vector3d force() const noexcept {
+    return holds_ ? Eigen::Vector3d(spring_force() + shown_ * change_) : Eigen::Vector3d::Zero();
+  }
+  /// Of it, that of the spring.
+  [[nodiscard]] Eigen::Vector3d spring_force() const noexcept { return gain_ * force_; }
+  /// That the spring lacks because its gain is below 1 [N].
+  [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
+    return holds_ ? Eigen::Vector3d((1.0 - gain_) * force_) : Eigen::Vector3d::Zero();
+  }
+  [[nodiscard]] double gain() const noexcept { return gain_; }
+  [[nodiscard]] double stiffness() const noexcept { return gain_ * spring_.stiffness; }
+  [[nodiscard]] double viscosity() const noexcept { return gain_ * spring_.viscosity; }
+  /// Where the body is held [m, S].
+  [[nodiscard]] Eigen::Vector3d point() const noexcept {
+    return motion_.position + motion_.orientation * place_;
+  }
+  /// Of that place [m/s].
+  [[nodiscard]] Eigen::Vector3d point_velocity() const noexcept {
+    return motion_.velocity + motion_.turn_rate.cross(motion_.orientation * place_);
+  }
+
+ private:
+  // What is out of the ledger for the spring [J].
+  [[nodiscard]] double booked() const noexcept { return gain_ * (stored_ - lent_); }
+  void scale_gain(double factor, EnergyLedger& ledger) noexcept;
+
+  bool holds_ = false;
+  std::size_t body_ = 0;
+  GrabSpring spring_;
+  ObjectMotion motion_;
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();   // in the body's axes [m]
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();   // of the spring at a gain of 1 [N]
+  Eigen::Vector3d change_ = Eigen::Vector3d::Zero();  // [N]
+  double stored_ = 0.0, lent_ = 0.0;                  // [J], at a gain of 1
+  double gain_ = 1.0;
+  double shown_ = 1.0;
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a Novint Falcon needs that other devices on USB do not: an FTDI chip and a firmware to be
+// set up, its packets and its geometry.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/falcon/falcon_packets.hpp"
+#include "reckon/haptics/usb/usb_driver.hpp"
+
+namespace reckon::haptics {
+
+/// What is known of every Falcon: 8.9 N, by its maker; 0.3 N s/m are assumed, nine tenths of which
+/// the servo gets.
+[[nodiscard]] const UsbFacts& falcon_facts() noexcept;
+
+/// The program that a Falcon runs. It belongs to its maker and is not part of Reckon; the device
+/// forgets it without power.
+struct FalconFirmware {
+  static constexpr std::size_t kLeast = 1'000;   ///< octets
+  static constexpr std::size_t kMost = 262'144;  ///< octets
+
+  std::vector<std::uint8_t> octets;
+
+  /// @throws std::runtime_error for a file that cannot be read or has no size of a firmware; the
+  /// text has the file and the remedy. No checksum is known: the device's echo is compared.
+  [[nodiscard]] static FalconFirmware load(const std::string& file);
+};
+
+/// One Falcon. Its exchange takes 2 ms: a command waits for the next USB frame, and its chip keeps
+/// the report until its latency timer of 1 ms.
+class FalconDriver final : public UsbDriver {
+ public:
+  /// @param firmware empty: none is loaded
+  explicit FalconDriver(FalconFirmware firmware);
+
+  [[nodiscard]] const UsbFacts& facts() const noexcept override { return falcon_facts(); }
+  [[nodiscard]] const char* how_to_home() const noexcept override;
+  [[nodiscard]] std::optional<UsbPipes> pipes(libusb_device_handle* handle) const override;
+  [[nodiscard]] std::string set_up(UsbSetUp& desk) override;
+
+  void lost(bool is_unplugged) noexcept override;
+  void restart() noexcept override { parser_.restart(); }
+  [[nodiscard]] bool read(std::span<const std::uint8_t>& transfer) noexcept override;
+  [[nodiscard]] UsbStage judge(bool follows, UsbReading& reading) noexcept override;
+  [[nodiscard]] std::span<const std::uint8_t> command(
+      UsbStage stage, const Eigen::Vector3d* force) noexcept override;
+  [[nodiscard]] std::uint64_t malformed() const noexcept override { return parser_.malformed(); }
+
+ private:
+  [[nodiscard]] bool answers(UsbSetUp& desk);
+  [[nodiscard]] std::string load_firmware(UsbSetUp& desk);
+  [[nodiscard]] std::array<std::int16_t, 3> motors(const Eigen::Vector3d& force) const noexcept;
+
+  FalconFirmware firmware_;
+  FalconReportParser parser_;
+  FalconReport report_;
+  std::array<std::uint8_t, kFalconPacket> octets_{};
+  Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();  // [rad], of the last report
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
+  Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr std::uint16_t kAsksToBeHomed = 1;
+constexpr nanoseconds kStale = milliseconds(20);  // what is under way from before has come by then
+constexpr nanoseconds kReportTime = milliseconds(50);
+constexpr int kAttempts = 3;
+// [rad] of a joint between two reports: more is no motion, but counters that began anew.
+constexpr double kMostJump = 0.5;
+constexpr double kMostAdvance = 0.05;      // [rad], that is believed of an exchange
+constexpr double kHoldUpStep = 1.0 / 250;  // of an exchange
+constexpr double kMilli = 1e-3;
+
+constexpr const char* kSilence = "it does not answer: is its power supply on?";
+
+std::string refusal_of(std::size_t octets) {
+  if (octets == static_cast<std::size_t>(PolhemForm::eight)) {
+    return "its reports of 8 octets are those of an older program, as a WoodenHaptics has, and do "
+           "not tell which command they follow: only a first Polhem with a program of 2019 or "
+           "later is driven";
+  }
+  return "its reports have " + std::to_string(octets) + " octets where 14 are known";
+}
+
+}  // namespace
+
+const UsbFacts& polhem_facts() noexcept {
+  static constexpr UsbFacts kFacts{.name = "Polhem",
+                                   .vendor = 0x1234,  // as its program has it
+                                   .product = 0x0006,
+                                   .most_force = 5.0,
+                                   .sure_share = 0.9,
+                                   .assumed_damping = 0.2,
+                                   .reach = 0.05,
+                                   .resolution = 95e-6};
+  return kFacts;
+}
+
+double polhem_spent_damping(const PolhemWeights& weights) noexcept {
+  const double slope = std::max(weights.upper, weights.fore);  // [N m/rad]
+  return slope * pdu::to_seconds(kUsbExchange) / (kPolhemLeastLever * kPolhemLeastLever);
+}
+
+PolhemDriver::PolhemDriver(const PolhemWeights& weights) : weights_(weights) {
+  // Written so that not-a-number is refused.
+  if (!(weights.upper >= 0) || !(weights.fore >= 0))
+    throw std::invalid_argument("Polhem: weights of its links must be 0 or more N m");
+}
+
+const char* PolhemDriver::how_to_home() const noexcept {
+  return "hold it straight ahead, its upper link upright and its fore link level, and press its "
+         "calibration button";
+}
+
+std::optional<UsbPipes> PolhemDriver::pipes(libusb_device_handle* handle) const {
+  return hid_pipes(handle);
+}
+
+std::string PolhemDriver::set_up(UsbSetUp& desk) {
+  UsbLine& line = desk.line();
+  // It keeps a report for whoever comes, from however long ago.
+  if (!desk.sends(octets_of(PolhemCommand{}))) return kSilence;
+  const nanoseconds begin = desk.now();
+  while (desk.goes_on() && desk.now() - begin < kStale) desk.wait();
+  for (int attempt = 0; attempt < kAttempts && desk.goes_on(); ++attempt) {
+    line.clear();
+    if (!desk.sends(octets_of(PolhemCommand{}))) break;
+    const nanoseconds end = desk.now() + kReportTime;
+    while (desk.goes_on() && line.received().empty() && desk.now() < end) desk.wait();
+    std::size_t octets = 0;
+    line.each_transfer([&](std::span<const std::uint8_t> transfer) { octets = transfer.size(); });
+    if (octets == octets_.size()) return {};
+    if (octets > 0) return refusal_of(octets);
+  }
+  return kSilence;
+}
+
+// Without power it has forgotten what it counts from.
+void PolhemDriver::lost(bool is_unplugged) noexcept {
+  asks_ = sets_counts_ = has_set_ = false;
+  if (is_unplugged) homed_ = false;
+}
+
+bool PolhemDriver::read(std::span<const std::uint8_t>& transfer) noexcept {
+  if (transfer.empty()) return false;
+  const auto report = polhem_report(PolhemForm::fourteen, transfer);
+  transfer = {};
+  if (!report) {
+    ++malformed_;
+    return false;
+  }
+  report_ = *report;
+  return true;
+}
+
+// Whether the counts of the last report are angles. Joins them to those before.
+bool PolhemDriver::is_homed() noexcept {
+  // It asks until its counts are set: once is a damaged report.
+  const bool asked_before = std::exchange(asks_, report_.info == kAsksToBeHomed);
+  if (asks_) {
+    sets_counts_ = asked_before;
+    homed_ = homed_ && !asked_before;
+    return false;
+  }
+  if (has_set_) {
+    has_set_ = false;
+    homed_ = true;
+    std::ranges::copy_n(polhem_1().home_counts.begin(), 3, counts_.begin());
+  }
+  if (!homed_) return false;
+  const Vector3d steps = polhem_count_steps(polhem_1());
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const auto low = static_cast<std::uint16_t>(counts_[i]);
+    const auto way = static_cast<std::int16_t>(static_cast<std::uint16_t>(report_.arm[i]) - low);
+    if (std::abs(way) * steps[static_cast<Eigen::Index>(i)] > kMostJump) homed_ = false;
+    counts_[i] += way;
+  }
+  return homed_;
+}
+
+// Whether the arm is far from singular poses, and its motors could show the largest force here.
+bool PolhemDriver::bears(const PolhemPose& pose, const Vector3d& angles) const noexcept {
+  const Eigen::Matrix3d levers = pose.jacobian.transpose() * pose.jacobian;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> turns;
+  turns.computeDirect(levers, Eigen::EigenvaluesOnly);
+  if (!(turns.eigenvalues()[0] > kPolhemLeastLever * kPolhemLeastLever)) return false;
+  const Vector3d torques = polhem_facts().most_force * pose.jacobian.colwise().norm().transpose() +
+                           polhem_hold_up(weights_, angles).cwiseAbs();
+  return polhem_currents(polhem_1(), torques).cwiseAbs().maxCoeff() < polhem_1().most_current;
+}
+
+UsbStage PolhemDriver::judge(bool follows, UsbReading& reading) noexcept {
+  if (!is_homed()) return UsbStage::homing;
+  const Vector3d angles = polhem_angles_at(polhem_1(), counts_);
+  const auto pose = polhem_pose(polhem_1(), angles);
+  if (!pose || !bears(*pose, angles)) return UsbStage::outside;
+  turn_.setZero();
+  if (follows) turn_ = (angles - angles_).cwiseMin(kMostAdvance).cwiseMax(-kMostAdvance);
+  angles_ = angles;
+  jacobian_ = pose->jacobian;
+  reading.position = polhem_to_device(pose->position - polhem_1().middle);
+  reading.orientation = polhem_orientation(polhem_1(), angles, report_.gimbal);
+  reading.buttons = report_.button ? 1 : 0;
+  return UsbStage::running;
+}
+
+std::span<const std::uint8_t> PolhemDriver::command(UsbStage stage,
+                                                    const Eigen::Vector3d* force) noexcept {
+  PolhemCommand command;
+  if (stage == UsbStage::homing && sets_counts_) {
+    command.counts = polhem_1().home_counts;
+    sets_counts_ = false;
+    has_set_ = true;
+  } else if (force != nullptr) {
+    held_up_ = std::min(1.0, held_up_ + kHoldUpStep);
+    command.currents = currents(*force);
+  }
+  if (force == nullptr) held_up_ = 0;
+  octets_ = octets_of(command);
+  return octets_;
+}
+
+std::array<std::int16_t, 3> PolhemDriver::currents(const Vector3d& force) const noexcept {
+  const Vector3d angles = angles_ + kUsbAhead * turn_;
+  const auto ahead = polhem_pose(polhem_1(), angles);
+  const Eigen::Matrix3d& jacobian = ahead ? ahead->jacobian : jacobian_;
+  const Vector3d torques = polhem_torques(jacobian, device_to_polhem(force)) +
+                           held_up_ * polhem_hold_up(weights_, angles);
+  const Vector3d told = polhem_currents(polhem_1(), torques) / kMilli;
+  const double most = polhem_1().most_current / kMilli;
+  std::array<std::int16_t, 3> currents{};
+  for (std::size_t i = 0; i < currents.size(); ++i) {
+    const double current = std::clamp(told[static_cast<Eigen::Index>(i)], -most, most);
+    currents[i] = static_cast<std::int16_t>(std::lround(current));
+  }
+  return currents;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/usb/usb_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon::haptics {
+
+UsbDevice::UsbDevice(UsbExchange& exchange, const DeviceLimits& limits)
+    : exchange_(exchange), limits_(limits) {}
+
+void UsbDevice::take_readings() noexcept {
+  UsbReading reading;
+  while (exchange_.readings.pop(reading)) {
+    if (reading.run != run_) {
+      dropped_ = dropped_ || has_shown_;
+      run_ = reading.run;
+      has_shown_ = false;
+      count_ = 0;
+    }
+    if (count_ == waiting_.size()) return;
+    waiting_[(first_ + count_++) % waiting_.size()] = reading;
+  }
+}
+
+DeviceSample UsbDevice::read(std::chrono::nanoseconds) noexcept {
+  take_readings();
+  // Before the first write the device holds none, number 0.
+  const std::int64_t due = std::max<std::int64_t>(0, written_ - limits_.delay_samples);
+  while (count_ > 0 && waiting_[first_].before <= due) {
+    shown_ = waiting_[first_];
+    has_shown_ = true;
+    first_ = (first_ + 1) % waiting_.size();
+    --count_;
+  }
+  DeviceSample sample;
+  sample.ok = has_shown_ && shown_.after > due;
+  if (!sample.ok) return sample;
+  sample.position = shown_.position;
+  if (shown_.orientation) sample.turn = DeviceTurn{*shown_.orientation};
+  sample.buttons = shown_.buttons;
+  sample.watchdog = dropped_;
+  dropped_ = false;
+  return sample;
+}
+
+void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept {
+  UsbForce& newest = exchange_.force.write_slot();
+  newest.force = force.allFinite() ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  newest.number = ++written_;
+  newest.at = now;
+  exchange_.force.publish();
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A device on USB as the servo sees it.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/usb/usb_exchange.hpp"
+
+namespace reckon::haptics {
+
+/// Reads and writes are atomics and copies: no lock, no allocation, no system call. Another thread
+/// (UsbLoop) has the device.
+///
+/// Its delay is fixed, though the device is not in step with the servo. A force waits for one
+/// exchange at most, is held for one, and the report that ends it comes after a third. Each report
+/// tells which writes it stands between. A read shows the last report before which only forces were
+/// held that are `delay` writes old, so that the ledger books each way of the handle under the very
+/// force that was held. Where that report has not come, or the device is gone, the reading fails.
+class UsbDevice final : public HapticDevice {
+ public:
+  /// @param exchange outlives it  @param limits see usb_limits()
+  UsbDevice(UsbExchange& exchange, const DeviceLimits& limits);
+
+  [[nodiscard]] DeviceLimits limits() const noexcept override { return limits_; }
+  [[nodiscard]] DeviceSample read(std::chrono::nanoseconds now) noexcept override;
+  void write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept override;
+
+ private:
+  void take_readings() noexcept;
+
+  UsbExchange& exchange_;
+  DeviceLimits limits_;
+  std::int64_t written_ = 0;
+  // Those not shown yet, a ring.
+  std::array<UsbReading, 2 * UsbExchange::kReadings> waiting_{};
+  std::size_t first_ = 0, count_ = 0;
+  UsbReading shown_;
+  std::uint32_t run_ = 0;
+  bool has_shown_ = false;  // a reading of this run
+  bool dropped_ = false;    // the force was, and the servo does not know
+};
+
+}  // namespace reckon::haptics

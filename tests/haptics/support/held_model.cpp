@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/haptics/support/held_model.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::test {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kMotionStep = std::chrono::microseconds(50);
+constexpr nanoseconds kFrame = std::chrono::milliseconds(1);
+
+}  // namespace
+
+HeldModel::HeldModel(const HeldModelOptions& options, std::function<Vector3d(double)> hand)
+    : options_(options), hand_(std::move(hand)), position_(hand_(0)) {}
+
+void HeldModel::begin() {
+  move(0);
+  first_height_ = height(angles_);
+}
+
+double HeldModel::lifted() const { return height(angles_) - first_height_; }
+
+Vector3d HeldModel::force() const { return jacobian_.transpose().inverse() * torques(); }
+
+// Of the links, by the slope of their height over the joints.
+Vector3d HeldModel::weight() const {
+  constexpr double kStep = 1e-5;
+  Vector3d slope;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d step = kStep * Vector3d::Unit(i);
+    slope[i] = (height(angles_ + step) - height(angles_ - step)) / (2 * kStep);
+  }
+  if (slope.isZero(0)) return slope;
+  return jacobian_.transpose().inverse() * -slope;
+}
+
+void HeldModel::pass(nanoseconds time) {
+  const nanoseconds end = now_ + time;
+  while (now_ < end) {
+    const nanoseconds h = std::min(kMotionStep, end - now_);
+    move(pdu::to_seconds(h));
+    now_ += h;
+    run_line();
+    if (beside_) beside_(now_);
+  }
+}
+
+// Velocity first, as in SimulatedDevice: each book with the velocity that moves the handle.
+void HeldModel::move(double h) {
+  const Vector3d before = angles_;
+  if (h > 0) {
+    const double t = pdu::to_seconds(now_);
+    const Vector3d speed = (hand_(t + 1e-4) - hand_(t)) / 1e-4;
+    const Vector3d hand = options_.hand_stiffness * (hand_(t) - position_) +
+                          options_.hand_damping * (speed - velocity_);
+    velocity_ += h / options_.mass *
+                 (hand + force() + (1 - carried_) * weight() - options_.damping * velocity_);
+    position_ += h * velocity_;
+    damping_loss_ += h * options_.damping * velocity_.squaredNorm();
+  }
+  const std::optional<Joints> joints = joints_at(position_);
+  if (!joints) {  // at the end of its reach
+    position_ -= h * velocity_;
+    velocity_.setZero();
+    return;
+  }
+  angles_ = joints->angles;
+  if (!joints->jacobian.isZero(0)) jacobian_ = joints->jacobian;
+  if (h > 0) port_work_ -= torques().dot(angles_ - before);
+}
+
+void HeldModel::begin_out(std::span<const std::uint8_t> octets) {
+  out_.assign(octets.begin(), octets.end());
+  const auto at = nanoseconds(static_cast<std::int64_t>(1e6 * options_.out_at));
+  out_at_ = ((now_ - at) / kFrame + 1) * kFrame + at;
+}
+
+std::optional<int> HeldModel::out_done() {
+  if (std::exchange(stalls_, false)) return -EPIPE;
+  if (now_ < out_at_ || now_ < hangs_until_ || !has_room()) return std::nullopt;
+  std::span<const std::uint8_t> taken(out_);
+  if (std::exchange(cuts_, false)) taken = taken.first(taken.size() / 2);
+  take_transfer(taken);
+  return static_cast<int>(taken.size());
+}
+
+}  // namespace reckon::test

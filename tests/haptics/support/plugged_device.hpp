@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A device on USB behind the real libusb, the kernel's calls answered by a model, with the thread
+// and the servo that use it. All of them on the model's clock.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/haptics/usb/usb_device.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
+#include "reckon/tests/haptics/support/usb_shim.hpp"
+
+namespace reckon::test {
+
+/// A floor at z = 0 of 20,000 N/m, softened to what a device can hold.
+inline haptics::Scene stiff_floor() {
+  haptics::Scene scene;
+  haptics::SceneObject object;
+  object.effects.of<haptics::SpringDamper>().stiffness = 20'000;
+  object.name = "wall";
+  object.shape = haptics::PlaneShape{Eigen::Vector3d::UnitZ()};
+  scene.objects.push_back(object);
+  return scene;
+}
+
+/// The servo steps every millisecond, beside the thread.
+template <class Model>
+class PluggedDevice {
+ public:
+  using Hand = std::function<Eigen::Vector3d(double)>;
+
+  template <class Options>
+  PluggedDevice(const Options& options, Hand wanted, std::unique_ptr<haptics::UsbDriver> driver,
+                const haptics::DeviceLimits& limits)
+      : model(options, tended(std::move(wanted))),
+        shim(model),
+        device(exchange, limits),
+        servo(device, haptics::EffectPlan(stiff_floor()), servo_config()),
+        loop(std::make_unique<haptics::UsbLoop>(exchange, std::move(driver), loop_options())) {
+    model.beside([this](std::chrono::nanoseconds now) {
+      tend();
+      if (!motors_rest()) pulled_at = now;
+      if (now < next_step_) return;
+      next_step_ += std::chrono::milliseconds(1);
+      if (servo_runs) step_servo(now);
+    });
+  }
+
+  void run(std::chrono::nanoseconds time) {
+    const std::chrono::nanoseconds end = model.now() + time;
+    while (model.now() < end) {
+      loop->step(std::chrono::milliseconds(1));
+      for (std::string& notice : loop->take_notices()) notices.push_back(std::move(notice));
+    }
+  }
+
+  /// A step of 50 us of what a person does to it.
+  void tend() {
+    if (loop) care_.tend(model, *loop);
+  }
+  [[nodiscard]] bool motors_rest() const { return model.motors() == decltype(model.motors()){}; }
+  /// [J], of the device's own books: what the hand put in since they began.
+  [[nodiscard]] double books() const {
+    return model.port_work() + model.damping_loss() + model.lifted() - first_;
+  }
+  /// The books begin now, where nothing is touched.
+  void begin_books() {
+    first_ += books();
+    least_own = least_books = 0;
+  }
+
+ private:
+  typename Model::Care care_;  // what a person does to it
+
+ public:
+  Model model;
+  UsbShim shim;
+  haptics::UsbExchange exchange;
+  haptics::UsbDevice device;
+  haptics::ServoLoop servo;
+  std::unique_ptr<haptics::UsbLoop> loop;
+  std::vector<std::string> notices;
+  bool servo_runs = true;
+  std::chrono::nanoseconds pulled_at{0};  // its motors last
+  double least_own = 0;                   // [J], of the device's own books with loan
+  double least_books = 0;                 // [J], of the device's own books with loan and allowance
+  haptics::ServoSnapshot last;
+
+ private:
+  Hand tended(Hand wanted) {
+    return [this, wanted = std::move(wanted)](double t) { return care_.hand(wanted(t)); };
+  }
+
+  static haptics::ServoConfig servo_config() {
+    haptics::ServoConfig config;
+    config.probe_radius = 0;
+    return config;
+  }
+
+  haptics::UsbLoopOptions loop_options() {
+    haptics::UsbLoopOptions options;
+    options.clock = [this] { return model.now(); };
+    options.open = [this](libusb_context* context) {
+      haptics::UsbOpening opening{shim.open(context), {}};
+      if (opening.handle == nullptr) opening.problem = "none is attached";
+      return opening;
+    };
+    options.discover = false;
+    return options;
+  }
+
+  void step_servo(std::chrono::nanoseconds now) {
+    servo.step(now);
+    servo.snapshots().update();
+    last = servo.snapshots().read();
+    least_own = std::min(least_own, books() + last.loan);
+    least_books = std::min(least_books, books() + last.loan + last.encoder_allowance);
+  }
+
+  double first_ = 0;
+  std::chrono::nanoseconds next_step_ = std::chrono::milliseconds(1);
+};
+
+}  // namespace reckon::test

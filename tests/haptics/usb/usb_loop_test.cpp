@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Each kind of device behind the real libusb, the kernel's calls answered by a model: what fails,
+// and what the servo, the user and the handle notice. All time is the model's.
+#include "reckon/haptics/usb/usb_loop.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/tests/haptics/support/falcon_model.hpp"
+#include "reckon/tests/haptics/support/plugged_device.hpp"
+#include "reckon/tests/haptics/support/polhem_model.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct Falcon {
+  using Model = test::FalconModel;
+  using Options = test::FalconModelOptions;
+  static std::unique_ptr<UsbDriver> driver() {
+    return std::make_unique<FalconDriver>(FalconFirmware{});
+  }
+  static const UsbFacts& facts() { return falcon_facts(); }
+  static void wake(Model& model) { model.wake(); }
+  static constexpr milliseconds kReady{1000};   // to be taken up
+  static constexpr milliseconds kSettle{3000};  // to press again
+};
+
+struct Polhem {
+  using Model = test::PolhemModel;
+  using Options = test::PolhemModelOptions;
+  static std::unique_ptr<UsbDriver> driver() { return std::make_unique<PolhemDriver>(); }
+  static const UsbFacts& facts() { return polhem_facts(); }
+  static void wake(Model&) {}
+  static constexpr milliseconds kReady{3000};  // and homed
+  static constexpr milliseconds kSettle{5000};
+};
+
+DeviceLimits limits(const UsbFacts& facts = falcon_facts()) {
+  UsbSettings settings;
+  settings.damping = 2.0;
+  return usb_limits(facts, settings);
+}
+
+Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)}; }
+
+template <class Kind>
+class Plugged : public test::PluggedDevice<typename Kind::Model> {
+ public:
+  explicit Plugged(std::function<Vector3d(double)> hand = pressing)
+      : test::PluggedDevice<typename Kind::Model>(typename Kind::Options{}, std::move(hand),
+                                                  Kind::driver(), limits(Kind::facts())) {}
+
+  // Until the force is there.
+  void press() {
+    this->run(Kind::kSettle);
+    ASSERT_GT(this->model.force().z(), 0.5) << "no wall is felt";
+    this->notices.clear();
+  }
+};
+
+template <class Kind>
+class UsbLoopTest : public ::testing::Test {};
+using Kinds = ::testing::Types<Falcon, Polhem>;
+struct Names {
+  template <class Kind>
+  static std::string GetName(int) {
+    return Kind::facts().name;
+  }
+};
+TYPED_TEST_SUITE(UsbLoopTest, Kinds, Names);
+
+TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10Ms) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  usb.shim.unplug();
+  usb.model.forget();  // the device itself has no power
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+  EXPECT_FALSE(usb.last.enabled);
+  EXPECT_FALSE(usb.loop->stage());
+  EXPECT_THAT(usb.notices, ::testing::ElementsAre(HasSubstr("unplugged")));
+}
+
+TYPED_TEST(UsbLoopTest, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> instant(0, 400);
+  // In and out: a hand that only holds still would not pay back what each ramp borrows.
+  Plugged<TypeParam> usb([](double t) { return Vector3d(0, 0, 0.02 * std::sin(3 * t) - 0.01); });
+  for (int i = 0; i < 60; ++i) {
+    // Also while it is set up, and while the force ramps up.
+    usb.run((i % 2 == 0 ? nanoseconds(TypeParam::kReady) : nanoseconds(0)) +
+            std::chrono::microseconds(997) * instant(random));
+    usb.shim.unplug();
+    if (i % 3 == 0) usb.model.forget();
+    usb.run(milliseconds(10));
+    ASSERT_TRUE(usb.last.force.isZero(0)) << "round " << i;
+    usb.run(milliseconds(10 + instant(random)));
+    if (i % 3 == 0) TypeParam::wake(usb.model);
+    usb.shim.plug();
+  }
+  double felt = 0;
+  for (int i = 0; i < TypeParam::kSettle.count(); ++i) {
+    usb.run(milliseconds(1));
+    felt = std::max(felt, usb.model.force().z());
+  }
+  EXPECT_GT(felt, 0.5);
+  EXPECT_GE(usb.least_books, -1e-9);
+}
+
+TYPED_TEST(UsbLoopTest, PluggedInAgainItGoesOnByItselfAndTheForceRampsUp) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  const double before = usb.model.force().z();
+  usb.shim.unplug();
+  usb.run(milliseconds(700));
+  usb.notices.clear();
+  usb.shim.plug();
+  double most_step = 0, last = usb.model.force().z();
+  for (int i = 0; i < TypeParam::kSettle.count(); ++i) {
+    usb.run(milliseconds(1));
+    const double now = usb.model.force().z();
+    most_step = std::max(most_step, std::abs(now - last));
+    last = now;
+  }
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("ready")));
+  EXPECT_NEAR(last, before, 0.1);
+  EXPECT_LT(most_step, 0.2) << "[N] in 1 ms";
+  EXPECT_GE(usb.least_books, -1e-9);
+}
+
+TYPED_TEST(UsbLoopTest, ADeviceThatIsNotThereIsSaidOnceAndFoundLater) {
+  Plugged<TypeParam> usb;
+  usb.shim.unplug();
+  usb.run(std::chrono::seconds(2));
+  EXPECT_THAT(usb.notices, ::testing::ElementsAre(HasSubstr("none is attached")));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+  usb.shim.plug();
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+TYPED_TEST(UsbLoopTest, AServoThatIsSilentLeavesNoForceAfter10Ms) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  usb.servo_runs = false;
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.motors_rest());
+  usb.run(std::chrono::seconds(1));
+  EXPECT_TRUE(usb.motors_rest());
+  EXPECT_THAT(usb.notices, IsEmpty());
+  // It comes back: what the contacts hold is written off, and they fade in.
+  usb.servo_runs = true;
+  usb.run(milliseconds(50));
+  EXPECT_TRUE(usb.motors_rest());
+  EXPECT_GT(usb.last.trips, 0U);
+  usb.run(std::chrono::seconds(2));
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+TYPED_TEST(UsbLoopTest, AtTheEndOfTheProgramTheDeviceIsToldAZero) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  usb.loop.reset();
+  usb.model.pass(std::chrono::microseconds(500));  // the octets are on the line
+  EXPECT_TRUE(usb.motors_rest());
+}
+
+TYPED_TEST(UsbLoopTest, ATransferThatIsLateIsZeroWithin10Ms) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  usb.model.hang(milliseconds(40));
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.last.force.isZero(0)) << "the servo asks for none";
+  usb.run(milliseconds(40));
+  EXPECT_TRUE(usb.motors_rest());
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+  EXPECT_GE(usb.least_books, -1e-9);
+}
+
+TYPED_TEST(UsbLoopTest, AReportThatDoesNotComeIsAnsweredByAZero) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  usb.model.mute(milliseconds(30));
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.motors_rest()) << "the device takes commands still";
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+  EXPECT_THAT(usb.notices, ::testing::Each(Not(HasSubstr("unplugged"))));
+}
+
+TYPED_TEST(UsbLoopTest, ADeviceThatGoesMuteIsSetUpAgain) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  usb.model.mute(milliseconds(600));
+  usb.run(milliseconds(400));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("does not answer any more")));
+  EXPECT_TRUE(usb.motors_rest());
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+TYPED_TEST(UsbLoopTest, AStallIsSaidAndTheLineSetUpAgain) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  const nanoseconds fault = usb.model.now();
+  usb.model.stall();
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+  EXPECT_TRUE(usb.motors_rest());
+  EXPECT_LE(usb.pulled_at - fault, milliseconds(10));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("refuses transfers")));
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+TYPED_TEST(UsbLoopTest, AShortTransferIsSaidAndTheLineSetUpAgain) {
+  Plugged<TypeParam> usb;
+  usb.press();
+  const nanoseconds fault = usb.model.now();
+  usb.model.cut();
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+  EXPECT_TRUE(usb.motors_rest());
+  EXPECT_LE(usb.pulled_at - fault, milliseconds(10));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("cut short")));
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+TEST(UsbDevice, ReadsAndWritesAllocateNothing) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  const test::AllocationGuard guard;
+  for (int i = 1; i <= 1000; ++i) {
+    exchange.readings.push({Vector3d::Zero(), {}, i - 8, i - 7, 1, 0});
+    static_cast<void>(device.read(milliseconds(i)));
+    device.write(Vector3d::UnitX(), milliseconds(i));
+  }
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+TEST(UsbDevice, AForceThatIsNoNumberIsNone) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  device.write(Vector3d(std::nan(""), 0, 0), milliseconds(1));
+  exchange.force.update();
+  EXPECT_TRUE(exchange.force.read().force.isZero(0));
+}
+
+// Each way of the handle is shown in the step for which the ledger books the force that was held.
+TEST(UsbDevice, ShowsAReadingJustWhenItsForceIsDue) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  const int delay = device.limits().delay_samples;
+  // The force of write 10 is held until the place 0.1, and that of write 12 (11 was left out) from
+  // then on until 0.2.
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 10, 1, 0});
+  exchange.readings.push({Vector3d(0.1, 0, 0), {}, 10, 12, 1, 0});
+  exchange.readings.push({Vector3d(0.2, 0, 0), {}, 12, 40, 1, 0});
+  for (int write = 1; write <= 12 + delay + 1; ++write) {
+    const DeviceSample sample = device.read(milliseconds(write));
+    device.write(Vector3d::Zero(), milliseconds(write));
+    ASSERT_TRUE(sample.ok);
+    const int due = write - 1 - delay;  // the write whose sample ends here
+    EXPECT_EQ(sample.position.x(), due < 10 ? 0.0 : due < 12 ? 0.1 : 0.2) << due;
+    EXPECT_FALSE(sample.watchdog);
+  }
+}
+
+TEST(UsbDevice, AReadingThatIsLateFails) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 1, 1, 0});
+  const int delay = device.limits().delay_samples;
+  for (int write = 1; write <= 20; ++write) {
+    EXPECT_EQ(device.read(milliseconds(write)).ok, write - 1 - delay < 1) << write;
+    device.write(Vector3d::Zero(), milliseconds(write));
+  }
+}
+
+TEST(UsbDevice, TellsThatTheForceWasDropped) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_TRUE(device.read(milliseconds(1)).ok);
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 2, 0});
+  const DeviceSample sample = device.read(milliseconds(2));
+  EXPECT_TRUE(sample.ok && sample.watchdog);
+  EXPECT_FALSE(sample.released_at) << "nobody knows where";
+  EXPECT_FALSE(device.read(milliseconds(3)).watchdog);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
