@@ -10,7 +10,7 @@ import tempfile
 
 HOLDS = {  # package: some of its files, and what none of its files may match
     "reckon": (["usr/bin/reckon", "usr/bin/reckon-bench", "usr/share/man/man1/reckon.1.gz",
-                "usr/share/man/man1/reckon-bench.1.gz", "usr/share/reckon/scenes/two_hands.toml",
+                "usr/share/man/man1/reckon-bench.1.gz", "usr/share/reckon/scenes/two_hands.toml", "usr/share/reckon/devices/falcon.toml",
                 "usr/share/bash-completion/completions/reckon", "usr/lib/systemd/system/reckon-record.service",
                 "usr/share/doc/reckon/copyright"], r"\.hpp$|\.a$|/docs/"),
     "reckon-dev": (["usr/include/reckon/peer/federate.hpp", "usr/lib/libreckon_peer.a", "usr/lib/pkgconfig/reckon-pdu.pc",

@@ -26,6 +26,7 @@ SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript
       position_(config.start) {
   require_of_simulated(config.mass > 0, "mass must be above 0 kg", config.mass);
   require_of_simulated(config.damping >= 0, "damping must be 0 or more N s/m", config.damping);
+  require_of_simulated(config.friction >= 0, "dry friction must be 0 or more N", config.friction);
   require_of_simulated(config.hand_stiffness >= 0, "hand stiffness must be 0 or more N/m",
                        config.hand_stiffness);
   require_of_simulated(config.hand_damping >= 0, "hand damping must be 0 or more N s/m",
@@ -51,6 +52,8 @@ DeviceLimits SimulatedDevice::limits() const noexcept {
   limits.max_stiffness = config_.max_stiffness;
   limits.delay_samples = config_.delay_samples;
   limits.resolution = config_.resolution;
+  limits.workspace_min = config_.workspace.min();
+  limits.workspace_max = config_.workspace.max();
   if (turn_) {
     limits.axes = 6;
     limits.max_torque = turn_->config().max_torque;
@@ -180,6 +183,8 @@ void SimulatedDevice::substep(double h) noexcept {
   const Eigen::Vector3d hand =
       target.grip * (pull + config_.hand_damping * (target.velocity - velocity_)) + target.push;
   velocity_ += h / config_.mass * (hand + force_ - config_.damping * velocity_);
+  const double rubs = h / config_.mass * config_.friction, speed = velocity_.norm();
+  if (rubs > 0) velocity_ *= speed > rubs ? 1.0 - rubs / speed : 0.0;
   const Eigen::Vector3d dx = h * velocity_;
   position_ += dx;
   time_ += h;

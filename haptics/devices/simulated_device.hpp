@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,7 @@ using TurnScript = std::function<DeviceTurn(double)>;
 struct SimulatedDeviceConfig {
   double mass = 0.1;              ///< [kg], > 0; of the handle and what moves with it
   double damping = 1.0;           ///< [N s/m], >= 0; all of it counts as sure
+  double friction = 0.0;          ///< [N], >= 0; dry, of which nothing counts as sure
   double hand_stiffness = 200.0;  ///< [N/m], the hand's spring to its target; 0 = no hand
   double hand_damping = 3.0;      ///< [N s/m]
   double max_force = 10.0;        ///< [N], as the servo is given it
@@ -52,12 +54,14 @@ struct SimulatedDeviceConfig {
   std::chrono::nanoseconds hold = HapticDevice::kWatchdog;
   double resolution = 0.0;  ///< [m], encoder step; 0 = exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
-  std::optional<SimulatedTurnConfig> turn{};        ///< none: a device of three axes
+  /// [m], frame D, as the servo is given it; no wall holds the handle in it.
+  Eigen::AlignedBox3d workspace{Eigen::Vector3d::Constant(-0.05), Eigen::Vector3d::Constant(0.05)};
+  std::optional<SimulatedTurnConfig> turn{};  ///< none: a device of three axes
 };
 
-/// A point mass with viscous friction, which also turns if it has six axes, moved by a held force
-/// and by a hand: a spring and damper to a target that a script moves (scripted operator) or that
-/// stays where it is (passive operator). The plant runs at a tenth of a millisecond or finer,
+/// A point mass with viscous and dry friction, which also turns if it has six axes, moved by a held
+/// force and by a hand: a spring and damper to a target that a script moves (scripted operator) or
+/// that stays where it is (passive operator). The plant runs at a tenth of a millisecond or finer,
 /// semi-implicit, between two reads. Its books are exact for its own steps: port_work +
 /// damping_loss is what a passive environment keeps >= 0.
 class SimulatedDevice : public HapticDevice {
@@ -99,7 +103,7 @@ class SimulatedDevice : public HapticDevice {
   [[nodiscard]] double port_work() const noexcept {
     return turn_ ? port_work_ + turn_->port_work() : port_work_;
   }
-  /// Energy lost in the device's own friction [J].
+  /// Energy lost in the device's own viscous friction [J].
   [[nodiscard]] double damping_loss() const noexcept {
     return turn_ ? damping_loss_ + turn_->damping_loss() : damping_loss_;
   }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "reckon/haptics/usb/usb_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
@@ -61,6 +64,22 @@ void check_pointer(TomlReader& table, const std::vector<OperatorConfig>& operato
   }
 }
 
+// A page's pointer says where the hand is, and no handle is between.
+void check_mapping(TomlReader& table, const DeviceConfig& device) {
+  for (const char* key : {"scale", "left_handed", "clutch_button"}) {
+    if (device.source == DeviceSource::pointer && table.has(key))
+      table.problem(key, fmt::format("a pointer has no '{}': take it out", key));
+  }
+  if (device.clutch_button >= 0 && device.clutch_button == device.stop_button)
+    table.problem("clutch_button", fmt::format("button {} already stops all forces: name another",
+                                               device.stop_button));
+  const int grabs = static_cast<int>(device.grab_button);
+  if (table.has("grab_button") && (grabs == device.stop_button || grabs == device.clutch_button))
+    table.problem(
+        "grab_button",
+        fmt::format("button {} already stops all forces, or is the clutch: name another", grabs));
+}
+
 // What only one kind of device has.
 void check_kind(TomlReader& table, const DeviceConfig& device) {
   if (device.driver != DeviceDriver::falcon && table.has("firmware"))
@@ -97,12 +116,46 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
     table.problem("rate", "a " + name +
                               " is let go after 8 ms without a force, which one missed period "
                               "must not bring about: 400 Hz is enough");
-  use_driver(device, device.driver, table.has("damping"), table.has("delay"));
+  const bool described = !device.described.name.empty();
+  use_driver(device, device.driver, described || table.has("damping"),
+             described || table.has("delay"));
   if (device.upper_weight + device.fore_weight > 0 && !(device.damping > 0)) {
     table.problem("damping", fmt::format("to hold the links up costs {:.2g} N s/m of damping, and "
                                          "none is left for walls: state more, if you are sure of "
                                          "it, or less weight",
                                          usb_settings_of(device).spent_damping));
+  }
+}
+
+// Of what is not said a described device has what a simulated one has.
+void describe(DeviceConfig& device, const DeviceDescriptor& descriptor) {
+  device.axes = descriptor.axes;
+  device.max_force = descriptor.max_force;
+  device.damping = descriptor.damping;
+  device.resolution = descriptor.resolution;
+  device.max_stiffness = descriptor.max_stiffness;
+  device.max_speed = descriptor.max_speed;
+  device.max_torque = descriptor.max_torque;
+  device.turn_damping = descriptor.turn_damping;
+  device.turn_resolution = descriptor.turn_resolution;
+  device.described = {descriptor.name,    descriptor.delay,
+                      descriptor.mass,    descriptor.friction,
+                      descriptor.inertia, {descriptor.work_space.from, descriptor.work_space.to}};
+}
+
+// Before the keys of the table, which go before it.
+void read_descriptor(TomlReader& table, DeviceConfig& device) {
+  std::string name;
+  table.read("descriptor", name);
+  if (!table.has("descriptor")) return;
+  try {
+    const std::filesystem::path file = find_device_descriptor(name, table.folder());
+    describe(device, load_device_descriptor(file));
+    device.descriptor = file.string();
+  } catch (const std::runtime_error& error) {
+    table.problem("descriptor", fmt::format("'descriptor': {}", error.what()));
+  } catch (const std::invalid_argument& error) {
+    table.problem("descriptor", fmt::format("'descriptor': {}", error.what()));
   }
 }
 
@@ -129,6 +182,8 @@ std::optional<Attitude> read_attitude(TomlReader& table) {
 }
 
 void check_axes(TomlReader& table, const DeviceConfig& device) {
+  if (!device.described.name.empty() && table.has("axes"))
+    return table.problem("axes", "its descriptor says how many axes it has: take the key out");
   if (device.axes != 3 && device.axes != 6)
     return table.problem("axes", "a device has 3 axes, or 6 with torque: write one of them");
   if (device.axes == 6) {
@@ -166,9 +221,10 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   double rate = kStandardRate;
   table.read("rate", rate);
   device.period = to_nanoseconds(1.0 / rate);
-  std::chrono::nanoseconds delay{0};
+  std::chrono::nanoseconds delay = device.described.delay;
   table.read("delay", delay);
   device.delay_samples = samples_of(delay, rate);
+  check_mapping(table, device);
   check_driver(table, device);
 }
 
@@ -184,6 +240,7 @@ Section<ProbeConfig> probe_section() {
 Section<DeviceConfig> device_section() {
   using Device = DeviceConfig;
   const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
+  const auto no_descriptor = [](const Device&) { return std::string(); };
   const auto rate = [](const Device&) { return kStandardRate; };
   const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };
   Section<Device> section{
@@ -196,8 +253,11 @@ Section<DeviceConfig> device_section() {
            "holds "
            "it at first"},
           {"driver", &Device::driver,
-           "what it is: simulated; or a Novint Falcon or a Polhem on USB, which a person holds; in "
-           "simulated time its operator stands in"},
+           "what it is: simulated; a Novint Falcon or a Polhem on USB, which a person holds; or a "
+           "plugin, a driver of yours; in simulated time its operator stands in"},
+          {"descriptor", no_descriptor,
+           "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
+           "before it: docs/devices.md"},
           {"plugin", &Device::plugin,
            "of a plugin: the shared library of the driver; what the device can do, it says itself"},
           {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
@@ -249,6 +309,15 @@ Section<DeviceConfig> device_section() {
       {"stop_button", &Device::stop_button, declared("", 0, 31),
        "number of its button that takes all forces of the program off, until it is pressed again; "
        "absent: none does"},
+      {"scale", &Device::scale, within("", 0.01, 100),
+       "ways of the hand in S for one of the handle; its force and its stiffness in S are as much "
+       "smaller as keeps the power and the handle's own limits"},
+      {"left_handed", &Device::left_handed,
+       "its left and right change sides, as in a mirror along its y and z axes, forces and turns "
+       "with them"},
+      {"clutch_button", &Device::clutch_button, declared("", 0, 31),
+       "number of its button that lets the handle move without the hand, and without force, while "
+       "it is down; absent: none does"},
       {"rate", rate, within("Hz", kLeastRate, 10e3),
        "of its servo; a device lets go after 10 ms without a force, which one missed period must "
        "not bring about"},
@@ -263,6 +332,7 @@ void read_devices(TomlReader& file, SceneFile& out) {
   static const Section<DeviceConfig> section = device_section();
   for (TomlReader& table : file.tables("device")) {
     DeviceConfig& device = out.devices.emplace_back();
+    read_descriptor(table, device);
     section.read(table, device);
     check_operator_number(table, out.operators.size(), device);
     check_pointer(table, out.operators, device);

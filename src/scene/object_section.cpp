@@ -52,15 +52,23 @@ void check_shape(TomlReader& table, const haptics::Shape& shape) {
   }
 }
 
-// Whatever else an object is, a body is a box or a sphere, without patches.
+// Whatever else an object is, a body is a box, a sphere or a mesh, without patches.
 void check_body(TomlReader& table, const haptics::SceneObject& object) {
-  if (!(object.matter.mass > 0)) return;
+  const bool is_body = object.matter.mass > 0;
+  if (table.has("grab") && !is_body)
+    table.problem("grab", "only a body sticks to a hand: add a mass, or take it out");
+  if (table.has("grab") && !(object.grab.stiffness > 0))
+    table.problem("grab", "holds nothing without a stiffness: add stiffness = \"200 N/m\"");
+  if (!is_body) return;
   const bool can = std::holds_alternative<haptics::BoxShape>(object.shape) ||
-                   std::holds_alternative<haptics::SphereShape>(object.shape);
+                   std::holds_alternative<haptics::SphereShape>(object.shape) ||
+                   std::holds_alternative<haptics::MeshShape>(object.shape);
   if (!can)
-    table.problem(
-        "mass",
-        "only boxes and spheres move by their mass: give one of them, or take the mass out");
+    table.problem("mass",
+                  "only boxes, spheres and meshes move by their mass: give one of them, or take "
+                  "the mass out");
+  if (table.has("patch"))
+    table.problem("patch", "a body is the same all over: take patch out, or the mass");
 }
 
 void check_object(TomlReader& table, haptics::SceneObject& object) {

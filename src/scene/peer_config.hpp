@@ -142,12 +142,28 @@ struct ProbeConfig {
 };
 
 /// A haptic device of one peer, and the hand that it moves.
+/// What a descriptor alone says of a device.
+struct DescribedDevice {
+  std::string name;                   ///< of the product; empty: the device has no descriptor
+  std::chrono::nanoseconds delay{0};  ///< >= 0, until a force is at the handle
+  double mass = 0.1;                  ///< [kg] > 0
+  double friction = 0.0;              ///< [N] >= 0, dry
+  double inertia = 1e-4;              ///< [kg m^2] > 0, of six axes
+  Eigen::AlignedBox3d work_space{Eigen::Vector3d::Constant(-0.05),
+                                 Eigen::Vector3d::Constant(0.05)};  ///< [m], frame D
+};
+
 struct DeviceConfig {
   std::uint32_t peer = 1;             ///< number of its peer, from 1
   std::uint32_t operator_number = 1;  ///< number of the [[operator]] that holds it, from 1
   DeviceSource source = DeviceSource::simulated;
   DeviceDriver driver = DeviceDriver::simulated;
   std::filesystem::path firmware;  ///< of a Falcon; absolute once loaded; empty: none is loaded
+  std::string descriptor;          ///< file or name; absolute once loaded; empty: none
+  DescribedDevice described;       ///< what the descriptor says beside the members below
+  double scale = 1.0;              ///< > 0, ways of the hand in S for one of the handle
+  bool left_handed = false;        ///< its left and right change sides
+  int clutch_button = -1;          ///< while it is down the hand stands still; negative: none
   double upper_weight = 0.0;       ///< [N m] >= 0, of a Polhem's upper link while it is level
   double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link while that is level
   std::filesystem::path plugin;    ///< shared library of its driver; absolute once loaded

@@ -5,11 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <system_error>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -33,15 +31,6 @@ std::string join_problems(const std::string& file, const std::vector<SceneProble
   return text;
 }
 
-toml::table parse_toml(std::string_view text, const std::string& file) {
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    const auto& where = error.source().begin;
-    throw SceneFileError(file, {{where.line, where.column, std::string(error.description())}});
-  }
-}
-
 /// Sorted, so that a scene does not depend on the order in which a program names its effects.
 SceneVocabulary vocabulary_of(const haptics::CustomEffects& effects) {
   SceneVocabulary vocabulary{scene_keys(), effects};
@@ -58,13 +47,6 @@ void check_pool(const SceneFile& scene, std::vector<SceneProblem>& problems) {
   } catch (const std::invalid_argument& error) {
     problems.push_back({0, 0, error.what()});
   }
-}
-
-std::string read_bytes(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw SceneFileError(path.string(), {{0, 0, "cannot be read"}});
-  return bytes;
 }
 
 /// A rule and the quantities that it alone uses must appear together.
@@ -200,12 +182,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file,
   TomlReader reader(document, "", folder, vocabulary, problems);
   file_section().read(reader, scene);
   if (problems.empty()) check_pool(scene, problems);
-  if (!problems.empty()) {
-    std::ranges::stable_sort(problems, {}, [](const SceneProblem& problem) {
-      return std::tuple(problem.line, problem.column);
-    });
-    throw SceneFileError(file, std::move(problems));
-  }
+  throw_problems(file, std::move(problems));
   if (scene.name.empty()) scene.name = fs::path(file).stem().string();
   scene.scene.name = scene.name;
   scene.hash = scene_hash(scene);

@@ -162,12 +162,12 @@ std::string describe_kind(const SceneKey& key) {
   return "tables, any number";
 }
 
-std::string scene_keys_markdown() {
+std::string scene_keys_markdown() { return "### The file\n\n" + keys_markdown(scene_keys()); }
+
+std::string keys_markdown(const Keys& keys) {
   std::string text;
-  const Keys& keys = scene_keys();
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const SceneKey& key = keys[i];
-    if (i == 0) text += "### The file\n\n";
     if (i > 0 && keys[i - 1].section != key.section) {
       text += fmt::format("\n### `{}`\n\n", section_name(key.section));
     }

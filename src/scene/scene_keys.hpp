@@ -48,6 +48,8 @@ struct SceneKey {
 /// "number [m]", "text", "one of square, hexagonal"...
 [[nodiscard]] std::string describe_kind(const SceneKey& key);
 
+/// A list of keys as tables of Markdown, one a section; those of the file itself come first.
+[[nodiscard]] std::string keys_markdown(const std::vector<SceneKey>& keys);
 /// The list as the tables of docs/scene_files.md.
 [[nodiscard]] std::string scene_keys_markdown();
 

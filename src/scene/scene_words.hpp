@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/peer/scene/graph/graph_node.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
@@ -45,6 +46,12 @@ inline constexpr auto kWords<DeviceDriver> =
                                        {"falcon", DeviceDriver::falcon},
                                        {"polhem", DeviceDriver::polhem},
                                        {"plugin", DeviceDriver::plugin}});
+
+template <>
+inline constexpr auto kWords<haptics::DeviceKind> = std::to_array<Word<haptics::DeviceKind>>(
+    {{"impedance", haptics::DeviceKind::impedance},
+     {"admittance", haptics::DeviceKind::admittance},
+     {"coefficients", haptics::DeviceKind::coefficients}});
 
 template <>
 inline constexpr auto kWords<NodeKind> =

@@ -8,8 +8,10 @@
 #include <array>
 #include <cassert>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
@@ -62,6 +64,30 @@ std::vector<std::string> split_point(std::string_view text) {
 }
 
 }  // namespace
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const auto& where = error.source().begin;
+    throw SceneFileError(file, {{where.line, where.column, std::string(error.description())}});
+  }
+}
+
+void throw_problems(const std::string& file, std::vector<SceneProblem> problems) {
+  if (problems.empty()) return;
+  std::ranges::stable_sort(problems, {}, [](const SceneProblem& problem) {
+    return std::tuple(problem.line, problem.column);
+  });
+  throw SceneFileError(file, std::move(problems));
+}
+
+std::string read_bytes(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream) throw SceneFileError(path.string(), {{0, 0, "cannot be read"}});
+  return bytes;
+}
 
 TomlReader::TomlReader(const toml::table& table, std::string section, fs::path folder,
                        const SceneVocabulary& vocabulary, std::vector<SceneProblem>& problems)
@@ -117,8 +143,14 @@ void TomlReader::problem_at(std::string_view path, std::string sentence) {
 
 void TomlReader::require(std::string_view key) {
   if (has(key)) return;
+  const auto is_known = [&](std::string_view name) {
+    return std::ranges::any_of(vocabulary_->keys, [&](const SceneKey& row) {
+      return row.section == section_ && row.key == name;
+    });
+  };
   const bool misspelt = std::ranges::any_of(*table_, [&](const auto& entry) {
-    return !nearest_word(entry.first.str(), std::array{key}).empty();
+    return !is_known(entry.first.str()) &&
+           !nearest_word(entry.first.str(), std::array{key}).empty();
   });
   if (misspelt) return;  // already reported
   problem(key, fmt::format("{} needs '{}': {}", section_name(section_), key, spec(key).sentence));

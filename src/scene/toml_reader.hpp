@@ -31,6 +31,13 @@ struct SceneVocabulary {
   haptics::CustomEffects effects;  ///< of the program, in the order of their keys
 };
 
+/// @throws SceneFileError at the place where `text` is no TOML
+[[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& file);
+/// @throws SceneFileError with the problems in the order of their places, if there are any
+void throw_problems(const std::string& file, std::vector<SceneProblem> problems);
+/// @throws SceneFileError where the file cannot be read
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
+
 /// A view of one table of a file. The constructor refuses unknown and renamed keys. A read leaves
 /// its target as it is if the key is absent or invalid; an invalid one becomes a problem.
 class TomlReader {
@@ -43,6 +50,8 @@ class TomlReader {
     return vocabulary_->effects;
   }
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  /// From which relative names start.
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Whether there is a table under `key` that has `inner`.
   [[nodiscard]] bool has(std::string_view key, std::string_view inner) const {
     const toml::node* const node = table_->get(key);

@@ -277,7 +277,7 @@ def main(folder):
                                      "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/node_section.cpp",
                                      "src/scene/object_section.cpp",
                                      "src/scene/scene_words.hpp",
-                                     "src/scene/device_section.cpp", "src/scene/entity_section.cpp",
+                                     "src/scene/device_descriptor.cpp", "src/scene/device_section.cpp", "src/scene/entity_section.cpp",
                                      "deadreckon/sending/send_rules.hpp", "deadreckon/motion/convergence.hpp"])):
         lines = "".join(f'"{word}"\n' for word in words(sources))
         (folder / f"{name}.dict").write_text(lines)

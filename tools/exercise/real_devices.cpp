@@ -18,6 +18,7 @@
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -112,6 +113,13 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
   falcon->firmware = std::filesystem::absolute(choice.firmware);
 }
 
+haptics::HapticDevice* RealDevices::as_mapped(haptics::HapticDevice& device,
+                                              const DeviceConfig& config) {
+  const haptics::HandMapping mapping = mapping_of(config);
+  if (mapping.is_plain()) return &device;
+  return mapped_.emplace_back(std::make_unique<haptics::MappedDevice>(device, mapping)).get();
+}
+
 void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
                           std::vector<peer::PeerDevice>& wired) {
   const std::vector<DeviceConfig> devices = peer::devices_of(scene, number);
@@ -120,7 +128,7 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
     if (device.driver == DeviceDriver::plugin) {
       plugins_.push_back(
           std::make_unique<haptics::PluginDevice>(device.plugin, device.plugin_options));
-      wired[i].device = plugins_.back().get();
+      wired[i].device = as_mapped(*plugins_.back(), device);
       sentences_.push_back(fmt::format(
           "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
           plugins_.back()->name(), plugins_.back()->limits().damping, device.plugin.string()));
@@ -135,7 +143,7 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
     const haptics::DeviceLimits limits = haptics::usb_limits(*facts, peer::usb_settings_of(device));
     plugged_.push_back(
         {device.driver, std::make_unique<peer::UsbThread>(clock_, limits, driver_of(device))});
-    wired[i].device = &plugged_.back().thread->device();
+    wired[i].device = as_mapped(plugged_.back().thread->device(), device);
     sentences_.push_back(fmt::format(
         "{}: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
         "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "

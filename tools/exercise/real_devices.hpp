@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/devices/mapped_device.hpp"
 #include "reckon/haptics/plugin/plugin_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/peer.hpp"
@@ -48,12 +49,17 @@ class RealDevices {
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:
+  /// As the hand has it.
+  [[nodiscard]] haptics::HapticDevice* as_mapped(haptics::HapticDevice& device,
+                                                 const peer::DeviceConfig& config);
+
   peer::SteadyClock clock_;
   struct Plugged {
     peer::DeviceDriver driver;
     std::unique_ptr<peer::UsbThread> thread;
   };
   std::vector<Plugged> plugged_;
+  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped_;  // before the real ones
   std::vector<std::unique_ptr<haptics::PluginDevice>> plugins_;
   std::vector<std::string> sentences_;
 };

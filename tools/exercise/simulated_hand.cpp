@@ -67,8 +67,8 @@ haptics::HandScript sweep(const peer::OperatorConfig& config) {
   };
 }
 
-/// In axes of the device; as the sweep goes.
-haptics::TurnScript turns_of(const peer::DeviceConfig& device, const peer::OperatorConfig& config) {
+haptics::TurnScript straight_turns_of(const peer::DeviceConfig& device,
+                                      const peer::OperatorConfig& config) {
   const Eigen::Quaterniond from_S = device.orientation.conjugate();
   return [from_S, config](double time) {
     const double rate = 2.0 * std::numbers::pi / pdu::to_seconds(config.period);
@@ -79,6 +79,17 @@ haptics::TurnScript turns_of(const peer::DeviceConfig& device, const peer::Opera
     turn.orientation = from_S * Eigen::AngleAxisd(share * whole, config.turned / whole);
     turn.rate = from_S * (0.5 * rate * std::sin(phase) * config.turned);
     return turn;
+  };
+}
+
+/// In axes of the device; as the sweep goes.
+haptics::TurnScript turns_of(const peer::DeviceConfig& device, const peer::OperatorConfig& config) {
+  haptics::TurnScript turns = straight_turns_of(device, config);
+  if (!device.left_handed) return turns;
+  return [turns = std::move(turns)](double time) {
+    const haptics::DeviceTurn turn = turns(time);
+    return haptics::DeviceTurn{haptics::mirrored(turn.orientation),
+                               haptics::mirrored_turn(turn.rate)};
   };
 }
 
@@ -103,11 +114,13 @@ haptics::HandScript script_of(const peer::OperatorConfig& config) {
 
 /// A target in S as the device sees it.
 haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandScript in_scene) {
-  const Eigen::Matrix3d R_DS = device.orientation.conjugate().toRotationMatrix();
-  return [R_DS, origin = device.position, in_scene = std::move(in_scene)](double time) {
+  Eigen::Matrix3d R_DS = device.orientation.conjugate().toRotationMatrix();
+  if (device.left_handed) R_DS.row(0) *= -1.0;
+  return [R_DS, ways = 1.0 / device.scale, origin = device.position,
+          in_scene = std::move(in_scene)](double time) {
     HandTarget target = in_scene(time);
-    target.position = R_DS * (target.position - origin);
-    target.velocity = R_DS * target.velocity;
+    target.position = ways * (R_DS * (target.position - origin));
+    target.velocity = ways * (R_DS * target.velocity);
     target.push = R_DS * target.push;
     return target;
   };
@@ -139,10 +152,14 @@ Held hold(const peer::SceneFile& scene, const peer::DeviceConfig& device,
   made.max_speed = device.max_speed;
   made.delay_samples = device.delay_samples;
   made.resolution = device.resolution;
+  made.mass = device.described.mass;
+  made.friction = device.described.friction;
+  made.workspace = device.described.work_space;
   made.hold = hold_of(device.period);
   if (device.axes != 6) return held;
   haptics::SimulatedTurnConfig& turn = made.turn.emplace();
   turn.damping = device.turn_damping;
+  turn.inertia = device.described.inertia;
   turn.max_torque = device.max_torque;
   turn.resolution = device.turn_resolution;
   turn.hand_stiffness = config.turn_stiffness;
@@ -179,6 +196,12 @@ std::vector<Eigen::Vector3d> probes_of(const peer::DeviceConfig& device) {
   std::vector<Eigen::Vector3d> places;
   for (const peer::ProbeConfig& probe : device.probes) places.push_back(probe.position);
   return places;
+}
+
+haptics::HandMapping mapping_of(const peer::DeviceConfig& device) {
+  haptics::HandMapping mapping{device.scale, device.left_handed, {}};
+  if (device.clutch_button >= 0) mapping.clutch_button = device.clutch_button;
+  return mapping;
 }
 
 std::unique_ptr<haptics::PointerDevice> make_pointer_device(const peer::SceneFile& scene,
@@ -220,10 +243,13 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
     } else {
       hands.devices.push_back(make_simulated_device(scene, config, script));
     }
-    hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
-                           config.orientation, config.period, config.max_force_rate,
-                           config.received_power, config.grab_button, config.stop_button,
-                           probes_of(config)});
+    haptics::HapticDevice* wired = hands.devices.back().get();
+    if (const haptics::HandMapping mapping = mapping_of(config); !mapping.is_plain())
+      wired =
+          hands.mapped.emplace_back(std::make_unique<haptics::MappedDevice>(*wired, mapping)).get();
+    hands.wired.push_back({wired, config.marking, config.position, config.orientation,
+                           config.period, config.max_force_rate, config.received_power,
+                           config.grab_button, config.stop_button, probes_of(config)});
   }
   return hands;
 }

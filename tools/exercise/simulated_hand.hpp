@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "reckon/haptics/devices/mapped_device.hpp"
 #include "reckon/haptics/devices/pointer_device.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/peer.hpp"
@@ -31,10 +32,14 @@ namespace reckon::tools {
 /// Places of its tool [m], as haptics::ServoConfig has them.
 [[nodiscard]] std::vector<Eigen::Vector3d> probes_of(const peer::DeviceConfig& device);
 
+/// How its handle moves its hand.
+[[nodiscard]] haptics::HandMapping mapping_of(const peer::DeviceConfig& device);
+
 /// One device of a scene, with its limits and its delay, held by its operator as above (numbered
-/// from 1), who moves in S: the servo needs `device.position` and `device.orientation` too. A force
-/// is held for 1.5 servo periods, and 10 ms at most: a step that comes later finds it let go. A
-/// pointer's device follows its pointer, but for a script. @throws as above.
+/// from 1), who moves in S: the servo needs mapping_of(), `device.position` and
+/// `device.orientation` too. A force is held for 1.5 servo periods, and 10 ms at most: a step that
+/// comes later finds it let go. A pointer's device follows its pointer, but for a script. @throws
+/// as above.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
     const haptics::HandScript& script = nullptr);
@@ -69,8 +74,9 @@ struct PointerHand {
 /// The devices of one peer, and how they stand in the scene.
 struct SimulatedHands {
   std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
-  std::vector<peer::PeerDevice> wired;  ///< to `devices`
-  std::vector<PointerHand> pointers;    ///< those of `devices` that follow one
+  std::vector<std::unique_ptr<haptics::MappedDevice>> mapped;  ///< before those that have a mapping
+  std::vector<peer::PeerDevice> wired;                         ///< to `devices`, or to `mapped`
+  std::vector<PointerHand> pointers;  ///< those of `devices` that follow one
 };
 
 /// All devices that peer `peer` (from 1) has by devices_of(), maybe none, all moved by the script

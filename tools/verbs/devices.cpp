@@ -3,14 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/device_descriptor.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
+#include "reckon/tools/exercise/device_measuring.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -18,6 +30,7 @@ namespace reckon::tools {
 namespace {
 
 struct DevicesOptions {
+  std::string action, name, simulate;
   bool install_rule = false;
   std::string folder = kRuleFolder;
   bool json = false;
@@ -78,24 +91,188 @@ int list_devices(const DevicesOptions& options, const Console& console) {
   return exit_status(any ? ExitCode::findings : ExitCode::good);
 }
 
+/// What a servo of 1 kHz makes of it.
+peer::DeviceStiffness stiffness_of(const peer::DeviceDescriptor& device) {
+  haptics::SimulatedDevice simulated(free_device_of(device));
+  const haptics::ServoLoop servo(simulated, haptics::EffectPlan(), {});
+  return peer::stiffness_of(servo, peer::HandModel());
+}
+
+std::string ids_of(const peer::DeviceDescriptor& device) {
+  std::string text;
+  for (const peer::UsbId& id : device.usb)
+    text += fmt::format("{}{:04x}:{:04x}", text.empty() ? "" : ", ", id.vendor, id.product);
+  return text.empty() ? "no USB" : "USB " + text;
+}
+
+void print_descriptor(std::FILE* out, const std::filesystem::path& file,
+                      const peer::DeviceDescriptor& device) {
+  const auto say = [](double value, std::string_view unit) {
+    return peer::format_quantity(value, unit);
+  };
+  const auto line = [out](std::string_view what, const std::string& how) {
+    fmt::print(out, "  {:<14} {}\n", what, how);
+  };
+  const Eigen::Vector3d size = 1e3 * (device.work_space.to - device.work_space.from);
+  const peer::DeviceStiffness can = stiffness_of(device);
+  fmt::print(out, "{}  {}\n", device.name, file.string());
+  line("is", fmt::format("{} axes, {}", device.axes, ids_of(device)));
+  line("limits", fmt::format("{}, {}", say(device.max_force, "N"), say(device.max_speed, "m/s")));
+  line("feels like", fmt::format("{}, {} sure, dry friction {}", say(device.mass, "kg"),
+                                 say(device.damping, "N s/m"), say(device.friction, "N")));
+  if (device.axes == 6)
+    line("turns", fmt::format("{}, {}, {} sure", say(device.max_torque, "N m"),
+                              say(device.inertia, "kg m2"), say(device.turn_damping, "N m s/rad")));
+  line("sensors", fmt::format("steps of {}; a force is there after {}", say(device.resolution, "m"),
+                              say(pdu::to_seconds(device.delay), "s")));
+  line("work space", fmt::format("{:.4g} x {:.4g} x {:.4g} mm", size.x(), size.y(), size.z()));
+  line("so at 1 kHz",
+       fmt::format("walls up to {:.3g} N/m, hands up to {:.3g} N/m", can.walls, can.hands));
+}
+
+void print_descriptor_json(std::FILE* out, const std::filesystem::path& file,
+                           const peer::DeviceDescriptor& device) {
+  const peer::DeviceStiffness can = stiffness_of(device);
+  const auto number = [](double value) { return fmt::format("{:.9g}", value); };
+  std::string line;
+  JsonObject(line)
+      .text("name", device.name)
+      .text("file", file.string())
+      .value("axes", static_cast<std::uint64_t>(device.axes))
+      .value("max_force_n", number(device.max_force))
+      .value("damping_n_s_m", number(device.damping))
+      .value("friction_n", number(device.friction))
+      .value("resolution_m", number(device.resolution))
+      .value("delay_s", number(pdu::to_seconds(device.delay)))
+      .value("mass_kg", number(device.mass))
+      .value("walls_n_m", number(can.walls))
+      .value("hands_n_m", number(can.hands))
+      .end("\n");
+  std::fwrite(line.data(), 1, line.size(), out);
+}
+
+/// Those that come with Reckon, by their names.
+std::vector<std::string> shipped_descriptors() {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& folder : peer::device_folders()) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    if (!names.empty()) break;
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::filesystem::path file_of(const std::string& name) {
+  try {
+    return peer::find_device_descriptor(name, std::filesystem::current_path());
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+peer::DeviceDescriptor descriptor_of(const std::string& name) {
+  try {
+    return peer::load_device_descriptor(file_of(name));
+  } catch (const peer::SceneFileError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+int describe_devices(const DevicesOptions& options, const Console& console) {
+  const std::vector<std::string> names =
+      options.name.empty() ? shipped_descriptors() : std::vector{options.name};
+  for (const std::string& name : names) {
+    const auto file = file_of(name);
+    const peer::DeviceDescriptor device = descriptor_of(name);
+    options.json ? print_descriptor_json(console.out, file, device)
+                 : print_descriptor(console.out, file, device);
+  }
+  return exit_status(ExitCode::good);
+}
+
+int measure_device(const DevicesOptions& options, const Console& console) {
+  const peer::DeviceDescriptor known = descriptor_of(options.simulate);
+  haptics::MeasuredDevice found;
+  try {
+    found = measure_simulated(known);
+  } catch (const std::runtime_error& error) {
+    throw EnvironmentError(fmt::format("{}: {}", known.name, error.what()));
+  }
+  const std::string text = descriptor_text(options.name, known, found);
+  // What was written is a descriptor in every case.
+  static_cast<void>(peer::parse_device_descriptor(text, options.name));
+  std::fwrite(text.data(), 1, text.size(), console.out);
+  return exit_status(ExitCode::good);
+}
+
+void check_measure(const DevicesOptions& options) {
+  const bool measures = options.action == "measure";
+  if (!options.simulate.empty() && !measures)
+    throw UsageError(
+        "--simulate is what measure pushes: reckon devices measure mine --simulate "
+        "falcon");
+  if (!measures) return;
+  if (options.name.empty())
+    throw UsageError(
+        "measure names the device in what it prints: reckon devices measure mine "
+        "--simulate falcon");
+  if (options.simulate.empty())
+    throw UsageError("measure pushes no real device yet: add --simulate DESCRIPTOR");
+  if (options.json) throw UsageError("--json: measure prints a descriptor; leave it out");
+}
+
+void check_flags(const DevicesOptions& options) {
+  if (options.install_rule && options.json)
+    throw UsageError("--json: --install-rule lists nothing; leave one of them out");
+  if (!options.install_rule && options.folder != kRuleFolder)
+    throw UsageError("--folder is where --install-rule writes: add that, or leave it out");
+  check_measure(options);
+  if (options.action.empty()) return;
+  constexpr std::array<std::string_view, 3> kActions{"describe", "keys", "measure"};
+  if (std::ranges::find(kActions, options.action) == kActions.end())
+    throw UsageError(fmt::format("'{}': there is {}; as in reckon devices describe falcon",
+                                 options.action, fmt::join(kActions, ", ")));
+  if (options.action == "keys" && (options.json || !options.name.empty()))
+    throw UsageError("keys prints one table, of all descriptors: leave the rest out");
+  if (options.install_rule)
+    throw UsageError("--install-rule: such words write no rule; leave one of them out");
+}
+
 int run_devices(Arguments arguments, const Console& console) {
   DevicesOptions options;
   CommandLine line("devices",
                    "Lists real devices that are attached, how they would be used, and what keeps "
                    "one from being used, with the remedy.",
                    "reckon devices\n"
+                   "reckon devices describe\n"
+                   "reckon devices describe touch\n"
+                   "reckon devices measure mine --simulate falcon\n"
                    "sudo reckon devices --install-rule\n"
                    "reckon demo --device falcon");
+  line.word("ACTION", options.action, false,
+            "describe: what descriptors say, and the stiffness that follows; keys: what a "
+            "descriptor may say; measure: find damping, friction and delay by small pushes, and "
+            "print a descriptor; absent: look for devices");
+  line.word("NAME", options.name, false,
+            "of describe: a descriptor's file, or the name of one that comes with Reckon; absent: "
+            "all of these. Of measure: name of the device");
+  line.option("--simulate", options.simulate,
+              "of measure: push a simulated device of this descriptor, that nobody holds");
   line.flag("--install-rule", options.install_rule,
             "write the rule of udev by which the person at this host may open them");
   line.option("--folder", options.folder,
               fmt::format("of --install-rule: where rules are; default: {}", kRuleFolder));
   line.flag("--json", options.json, "one JSON object per device");
   if (const auto status = line.parse(arguments, console)) return *status;
-  if (options.install_rule && options.json)
-    throw UsageError("--json: --install-rule lists nothing; leave one of them out");
-  if (!options.install_rule && options.folder != kRuleFolder)
-    throw UsageError("--folder is where --install-rule writes: add that, or leave it out");
+  check_flags(options);
+  if (options.action == "keys") {
+    fmt::print(console.out, "{}", peer::device_descriptor_markdown());
+    return exit_status(ExitCode::good);
+  }
+  if (options.action == "measure") return measure_device(options, console);
+  if (!options.action.empty()) return describe_devices(options, console);
   return options.install_rule ? install_rule(options, console) : list_devices(options, console);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -101,7 +102,8 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
 /// Force rate limit of the device, and the shown share of the file's request.
 std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   const auto simulated = make_simulated_device(scene, device);
-  const haptics::ServoLoop servo(*simulated, haptics::EffectPlan(), servo_of(scene, device));
+  haptics::MappedDevice hand(*simulated, mapping_of(device));
+  const haptics::ServoLoop servo(hand, haptics::EffectPlan(), servo_of(scene, device));
   const std::string text = "up to " + about(servo.force_rate_limit(), "N/s");
   if (!(device.max_force_rate > servo.force_rate_limit())) return text;
   return text + fmt::format(" of {} asked: the stiffest wall that it holds gives no more at 1 m/s",
@@ -140,6 +142,30 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::ServoLoop&
   return text + as_asked(scene, can);
 }
 
+std::string described_text(const peer::DeviceConfig& device) {
+  const peer::DescribedDevice& described = device.described;
+  const Eigen::Vector3d size = 1e3 * described.work_space.sizes();
+  return fmt::format("{} ({}): {}, dry friction {}, work space {:.4g} x {:.4g} x {:.4g} mm",
+                     described.name, std::filesystem::path(device.descriptor).filename().string(),
+                     peer::format_quantity(described.mass, "kg"),
+                     peer::format_quantity(described.friction, "N"), size.x(), size.y(), size.z());
+}
+
+/// How the handle moves the hand; empty: one to one.
+std::string mapping_text(const peer::DeviceConfig& device) {
+  std::string text;
+  const auto add = [&](bool is, const std::string& what) {
+    if (is) text += (text.empty() ? "" : "; ") + what;
+  };
+  add(device.scale != 1.0,
+      fmt::format("{:.4g} times the way of the handle, so {} at most in the scene", device.scale,
+                  about(device.max_force / device.scale, "N")));
+  add(device.left_handed, "left and right change sides");
+  add(device.clutch_button >= 0,
+      fmt::format("stands still while button {} is down", device.clutch_button));
+  return text;
+}
+
 /// How its button holds bodies, if there are any.
 std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
                     const haptics::ServoLoop& servo) {
@@ -157,8 +183,9 @@ std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& devi
 Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                const peer::DeviceConfig& device) {
   const auto simulated = make_simulated_device(scene, device);
+  haptics::MappedDevice hand(*simulated, mapping_of(device));
   const haptics::ServoLoop servo(
-      *simulated, std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
+      hand, std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
       haptics::make_bodies(plan, scene.scene,
                            std::make_shared<peer::BodyMover>(plan, scene.nodes)));
   Facts facts = {{"held by", holder_of(scene, device)},
@@ -169,6 +196,9 @@ Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
   if (std::ranges::any_of(plan.objects(), &haptics::PlannedObject::is_body))
     facts.push_back({"holds bodies", hold_of(scene, device, servo)});
   if (device.axes == 6) facts.insert(facts.begin() + 3, {"turns", tool_of(device)});
+  if (const std::string text = mapping_text(device); !text.empty())
+    facts.insert(facts.begin() + 2, {"hand moves", text});
+  if (!device.described.name.empty()) facts.insert(facts.begin(), {"is", described_text(device)});
   return facts;
 }
 

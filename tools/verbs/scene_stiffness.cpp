@@ -85,8 +85,9 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
       config.period = device.period;
       config.probe_radius = scene.hand.radius;
       config.probes = probes_of(device);
+      haptics::MappedDevice hand(*simulated, mapping_of(device));
       const haptics::ServoLoop servo(
-          *simulated, shared, config,
+          hand, shared, config,
           haptics::make_bodies(plan, scene.scene,
                                std::make_shared<peer::BodyMover>(plan, scene.nodes)));
       std::string name = fmt::format("device {}", ++count);

@@ -56,6 +56,29 @@ TEST(SimulatedDevice, LosesAtLeastTheDampingThatTheGateCounts) {
   }
 }
 
+// 0.3 N of dry friction: 0.29 N move nothing, and from 0.5 m/s the handle of 0.1 kg slides for
+// v / (F / m) = 0.167 s and v^2 / (2 F / m) = 41.7 mm.
+TEST(SimulatedDevice, StopsByItsDryFriction) {
+  SimulatedDeviceConfig config;
+  config.damping = 0.0;
+  config.friction = 0.3;
+  config.hand_stiffness = config.hand_damping = 0.0;
+  SimulatedDevice device(config);
+  for (auto now = 0ms; now < 100ms; now += 1ms) {
+    (void)device.read(now);
+    device.write({0.29, 0, 0}, now);
+  }
+  EXPECT_TRUE(device.position().isZero(0.0));
+  device.restart(Vector3d::Zero(), {0.5, 0, 0}, 100ms);
+  double rests_at = 0.0;
+  for (auto now = 100ms; now < 400ms; now += 1ms) {
+    (void)device.read(now);
+    if (device.velocity().norm() > 0) rests_at = 1e-3 * static_cast<double>(now.count() - 100);
+  }
+  EXPECT_NEAR(rests_at, 0.5 / 3.0, 0.002);
+  EXPECT_NEAR(device.position().x(), 0.25 / 6.0, 1e-4);
+}
+
 TEST(SimulatedDevice, BeginsAnewElsewhereWithItsHandsPathGoingOn) {
   double asked = 0;
   SimulatedDeviceConfig config;

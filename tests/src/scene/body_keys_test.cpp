@@ -40,12 +40,32 @@ TEST(BodyKeys, GiveMassFrictionAndRestitution) {
 TEST(BodyKeys, RefuseWhatCannotMove) {
   EXPECT_THAT(refusal("[[object]]\nname = \"a\"\nplane = [0, 0, 1]\nmass = \"1 kg\"\n" +
                       std::string(kHand)),
-              HasSubstr("only boxes and spheres move by their mass"));
+              HasSubstr("only boxes, spheres and meshes move by their mass"));
   EXPECT_THAT(
       refusal("[[object]]\nname = \"a\"\ncylinder = {radius = \"1 cm\", height = \"4 cm\"}\n"
               "mass = \"1 kg\"\n" +
               std::string(kHand)),
-      HasSubstr("only boxes and spheres move by their mass"));
+      HasSubstr("only boxes, spheres and meshes move by their mass"));
+}
+
+TEST(BodyKeys, SayWhatHoldsABody) {
+  const SceneFile file =
+      parsed(cube("mass = \"50 g\"\ngrab = {stiffness = \"200 N/m\", most = \"2 N\"}\n") +
+             "[hand]\ngrab_stiffness = \"150 N/m\"\ngrab_viscosity = \"0.5 N s/m\"\n" +
+             "[[operator]]\nsweep = {from = \"0 0 0 m\", to = \"1 0 0 m\", grab = true}\n"
+             "[[device]]\npeer = 1\noperator = 1\ngrab_button = 3\n");
+  const haptics::GrabSpring& grab = file.scene.objects.at(0).grab;
+  EXPECT_EQ(grab.stiffness, 200.0);
+  EXPECT_EQ(grab.most, 2.0);
+  EXPECT_EQ(file.hand.grab.stiffness, 150.0);
+  EXPECT_EQ(file.hand.grab.viscosity, 0.5);
+  EXPECT_EQ(file.devices.at(0).grab_button, 3U);
+  EXPECT_TRUE(file.operators.at(0).grabs);
+  EXPECT_EQ(parsed(cube("mass = \"50 g\"\n") + kHand).hand.grab.stiffness, 0.0);
+  EXPECT_THAT(refusal(cube("grab = {stiffness = \"200 N/m\"}\n") + kHand),
+              HasSubstr("only a body sticks to a hand"));
+  EXPECT_THAT(refusal(cube("mass = \"50 g\"\ngrab = {most = \"2 N\"}\n") + kHand),
+              HasSubstr("holds nothing without a stiffness"));
 }
 
 TEST(BodyKeys, AreMovedByDevicesOfTheFirstPeerAtOneRate) {

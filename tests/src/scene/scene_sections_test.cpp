@@ -103,6 +103,8 @@ TEST(SceneSections, FillEveryMemberOfAnOperatorAndOfAnOutage) {
 TEST(SceneSections, FillEveryMemberOfADeviceANodeAndAnEntity) {
   const DeviceConfig device;
   EXPECT_THAT(without_key(device_section(), {place_of(device, device.orientation),
+                                             place_of(device, device.descriptor),
+                                             place_of(device, device.described),
                                              place_of(device, device.delay_samples),
                                              place_of(device, device.period)}),
               testing::IsEmpty());

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/measurement/axis_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reckon::haptics {
+namespace {
+
+using Parameters = Eigen::Vector4d;  // ln mass, damping, friction, delay
+
+constexpr int kSubsteps = 10;
+constexpr int kMostIterations = 40;
+constexpr std::size_t kDescents = 3;                    // from the best of the starts
+constexpr double kLeastMass = 1e-3, kMostMass = 100.0;  // [kg]
+
+AxisModel model_of(const Parameters& p) {
+  return {std::exp(p(0)), p(1), std::max(0.0, p(2)), std::max(0.0, p(3))};
+}
+
+// Integral of the forces from the first write to `time` [N s]; none was held before.
+double impulse(const std::vector<double>& sums, const std::vector<double>& forces, double time,
+               double period) {
+  if (!(time > 0)) return 0.0;
+  const double place = time / period;
+  const auto last = static_cast<double>(forces.size() - 1);
+  const auto k = static_cast<std::size_t>(std::min(place, last));
+  return sums[k] + forces[k] * (time - static_cast<double>(k) * period);
+}
+
+// Places that changed, or change next. The others are wrong by where in a step of its sensor the
+// handle stands, all in the same way.
+std::vector<std::size_t> telling(const AxisPush& push) {
+  const std::vector<double>& p = push.places;
+  std::vector<std::size_t> some;
+  for (std::size_t k = 1; k + 1 < p.size(); ++k)
+    if (p[k] != p[k - 1] || p[k] != p[k + 1]) some.push_back(k);
+  return some;
+}
+
+// Where in such a step it began is not known either: of each push the mean is left out.
+Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters& p, double period) {
+  std::vector<double> all;
+  const AxisModel model = model_of(p);
+  for (const AxisPush& push : pushes) {
+    const std::vector<double> said = places_of(model, push.forces, push.places.front(), period);
+    const std::size_t first = all.size();
+    for (const std::size_t k : telling(push)) all.push_back(said[k] - push.places[k]);
+    const auto count = static_cast<double>(all.size() - first);
+    double mean = 0.0;
+    for (std::size_t i = first; i < all.size(); ++i) mean += all[i] / count;
+    for (std::size_t i = first; i < all.size(); ++i) all[i] -= mean;
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+Eigen::MatrixXd slopes(const std::vector<AxisPush>& pushes, const Parameters& p,
+                       const Eigen::VectorXd& at, double period) {
+  const Parameters steps(1e-4, 1e-4, 1e-4, 1e-5);
+  Eigen::MatrixXd out(at.size(), 4);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    Parameters there = p;
+    there(i) += steps(i);
+    out.col(i) = (residuals(pushes, there, period) - at) / steps(i);
+  }
+  return out;
+}
+
+struct Descent {
+  Parameters place;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+Parameters bounded(Parameters p, double longest_delay) {
+  p(0) = std::clamp(p(0), std::log(kLeastMass), std::log(kMostMass));
+  p(2) = std::max(0.0, p(2));
+  p(3) = std::clamp(p(3), 0.0, longest_delay);
+  return p;
+}
+
+Descent descend(const std::vector<AxisPush>& pushes, Parameters p, double period,
+                double longest_delay) {
+  Eigen::VectorXd at = residuals(pushes, p, period);
+  Descent best{p, at.squaredNorm()};
+  double care = 1e-3;
+  for (int i = 0; i < kMostIterations && care < 1e8; ++i) {
+    const Eigen::MatrixXd J = slopes(pushes, best.place, at, period);
+    Eigen::Matrix4d H = J.transpose() * J;
+    H.diagonal() *= 1.0 + care;
+    H.diagonal().array() += 1e-18;
+    const Parameters step = H.ldlt().solve(J.transpose() * at);
+    const Parameters next = bounded(best.place - step, longest_delay);
+    const Eigen::VectorXd there = residuals(pushes, next, period);
+    const double cost = there.squaredNorm();
+    if (!(cost < best.cost)) {
+      care *= 10;
+      continue;
+    }
+    const bool settled = cost > best.cost * (1 - 1e-7) && care < 1e-6;
+    best = {next, cost};
+    at = there;
+    care = std::max(1e-9, care / 10);
+    if (settled) break;
+  }
+  return best;
+}
+
+// Where dry friction holds the handle the cost has corners, and a descent may end in one. A delay
+// is what they hide best: others about it are tried until none is better.
+Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double period,
+                     double longest_delay) {
+  constexpr int kMostRounds = 6;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double before = best.cost;
+    for (const double ways : {-2.0, -0.7, 0.7, 2.0}) {
+      Parameters there = best.place;
+      there(3) += ways * period;
+      const Descent one = descend(pushes, bounded(there, longest_delay), period, longest_delay);
+      if (one.cost < best.cost) best = one;
+    }
+    if (best.cost > 0.999 * before) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+// Semi-implicit steps, ten a period; the force is its mean over the step.
+std::vector<double> places_of(const AxisModel& model, const std::vector<double>& forces,
+                              double from, double period) {
+  std::vector<double> sums(forces.size(), 0.0);
+  for (std::size_t k = 1; k < forces.size(); ++k) sums[k] = sums[k - 1] + period * forces[k - 1];
+  std::vector<double> places;
+  places.reserve(forces.size());
+  const double h = period / kSubsteps;
+  double x = from, v = 0.0, before = impulse(sums, forces, -model.delay, period);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    places.push_back(x);
+    for (int i = 1; i <= kSubsteps; ++i) {
+      const double time = static_cast<double>(k) * period + i * h;
+      const double pushed = impulse(sums, forces, time - model.delay, period);
+      v += (pushed - before - h * model.damping * v) / model.mass;
+      before = pushed;
+      const double rubs = h * model.friction / model.mass;
+      v = std::abs(v) > rubs ? v - std::copysign(rubs, v) : 0.0;
+      x += h * v;
+    }
+  }
+  return places;
+}
+
+AxisFit fit_axis(const std::vector<AxisPush>& pushes, double period, double longest_delay) {
+  std::vector<Descent> starts;
+  for (const double delay : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 0.95}) {
+    for (const double mass : {0.03, 0.1, 0.3, 1.0}) {
+      const Parameters start(std::log(mass), 0.5, 0.1, delay * longest_delay);
+      starts.push_back({start, residuals(pushes, start, period).squaredNorm()});
+    }
+  }
+  std::ranges::sort(starts, {}, &Descent::cost);
+  Descent best;
+  for (std::size_t i = 0; i < kDescents; ++i) {
+    const Descent one = descend(pushes, starts[i].place, period, longest_delay);
+    if (one.cost < best.cost) best = one;
+  }
+  best = search_about(pushes, best, period, longest_delay);
+  const Eigen::VectorXd at = residuals(pushes, best.place, period);
+  const Eigen::MatrixXd J = slopes(pushes, best.place, at, period);
+  const Eigen::Matrix4d information = J.transpose() * J + 1e-18 * Eigen::Matrix4d::Identity();
+  AxisFit fit;
+  fit.model = model_of(best.place);
+  fit.residual = std::sqrt(at.squaredNorm() / static_cast<double>(at.size()));
+  fit.damping_error = fit.residual * std::sqrt(information.inverse()(1, 1));
+  return fit;
+}
+
+}  // namespace reckon::haptics

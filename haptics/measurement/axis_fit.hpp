@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Mass, friction and delay of one axis of a device, from how its handle went under known forces.
+#pragma once
+
+#include <vector>
+
+namespace reckon::haptics {
+
+/// One push: the handle rests, is pushed by forces that are held for a period each, and comes to
+/// rest. Both lists are as long.
+struct AxisPush {
+  std::vector<double> forces;  ///< [N], written at k T and held until the next
+  std::vector<double> places;  ///< [m], read at k T, before the write
+};
+
+/// m x'' + b x' + f sign(x') = F(t - delay), at rest at first.
+struct AxisModel {
+  double mass = 0.1;      ///< [kg] > 0
+  double damping = 0.0;   ///< [N s/m], below 0 where the handle gains energy by itself
+  double friction = 0.0;  ///< [N] >= 0
+  double delay = 0.0;     ///< [s] >= 0
+};
+
+/// The model that comes nearest, and how near.
+struct AxisFit {
+  AxisModel model;
+  double residual = 0.0;       ///< [m], root of the mean square
+  double damping_error = 0.0;  ///< [N s/m], one standard deviation, were the residuals independent
+};
+
+/// Places that the model says, one for each force [m]. @param period T [s] > 0  @param from [m]
+[[nodiscard]] std::vector<double> places_of(const AxisModel& model,
+                                            const std::vector<double>& forces, double from,
+                                            double period);
+
+/// Least squares over all places of all pushes, by Levenberg and Marquardt from several delays.
+/// Some milliseconds of work for each second of pushes; allocates. @param pushes not empty
+/// @param longest_delay [s], none beyond is looked for
+[[nodiscard]] AxisFit fit_axis(const std::vector<AxisPush>& pushes, double period,
+                               double longest_delay);
+
+}  // namespace reckon::haptics

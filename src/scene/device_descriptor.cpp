@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/scene/device_descriptor.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+#include "reckon/peer/scene/key_row.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/toml_reader.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using haptics::DeviceKind;
+
+std::uint16_t parse_hexadecimal(std::string_view text, std::string_view whole) {
+  std::uint16_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (text.size() != 4 || error != std::errc() || end != text.data() + text.size())
+    throw std::invalid_argument(fmt::format(
+        "'{}' is no vendor and product: write both with four digits, as \"0403:cb48\"", whole));
+  return value;
+}
+
+UsbId parse_usb_id(std::string_view text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  return {parse_hexadecimal(text.substr(0, colon), text),
+          parse_hexadecimal(text.substr(std::min(colon + 1, text.size())), text)};
+}
+
+void check_kind(TomlReader& file, const DeviceDescriptor& device) {
+  if (device.kind == DeviceKind::impedance) return;
+  file.problem("kind",
+               "the servo drives impedance devices alone: they tell their place and take a force; "
+               "there is no way to use this one");
+}
+
+void check_axes(TomlReader& file, const DeviceDescriptor& device) {
+  if (device.axes != 3 && device.axes != 6) {
+    return file.problem(
+        "axes", fmt::format("the servo has 3 axes, or 6 with torque, and none of {}: where three "
+                            "axes of the device carry its handle write 3, and the others are free",
+                            device.axes));
+  }
+  const char* const turning[] = {"max_torque", "turn_damping", "turn_resolution", "inertia"};
+  for (const char* key : turning) {
+    if (device.axes == 6 && std::string_view(key) != "inertia") file.require(key);
+    if (device.axes == 3 && file.has(key))
+      file.problem(key, fmt::format("only a device that turns has '{}': add axes = 6", key));
+  }
+}
+
+// What is not said cannot be relied on.
+void check_descriptor(TomlReader& file, DeviceDescriptor& device) {
+  for (const char* key : {"name", "max_force", "damping", "resolution", "delay"}) file.require(key);
+  file.each_text("usb", [&](const std::string& id) { device.usb.push_back(parse_usb_id(id)); });
+  if (file.has("name") && device.name.empty())
+    file.problem("name", "'name' is empty; it wants that of the product");
+  check_kind(file, device);
+  check_axes(file, device);
+  if (device.axes == 6 && !(device.damping > 0))
+    file.problem("damping", "a device of six axes needs damping in all of them");
+  if (!((device.work_space.to - device.work_space.from).minCoeff() > 0))
+    file.problem("work_space", "'to' must be beyond 'from' along each axis");
+}
+
+Section<WorkSpaceCorners> work_space_section() {
+  return {{{"from", &WorkSpaceCorners::from, within("m", -10, 10), "least place along each axis"},
+           {"to", &WorkSpaceCorners::to, within("m", -10, 10), "greatest place"}}};
+}
+
+const Section<DeviceDescriptor>& descriptor_section() {
+  using Device = DeviceDescriptor;
+  const auto no_ids = [](const Device&) { return std::vector<std::string>(); };
+  static const Section<Device> section{
+      {
+          {"name", &Device::name, "of the product"},
+          {"usb", no_ids,
+           "vendor and product under which it is attached, as \"0403:cb48\"; absent: by no USB"},
+          {"kind", &Device::kind,
+           "which way it works: it tells its place and takes a force, tells a force and takes a "
+           "place, or takes a force model; the servo drives the first alone"},
+          {"axes", &Device::axes, within("", 1, 8),
+           "3; or 6: it turns, and shows torque besides the force. Others are refused"},
+          {"max_force", &Device::max_force, declared("N", 0.01, 1e3), "it can show for long"},
+          {"damping", &Device::damping, declared("N s/m", 0, 1e3),
+           "its own viscous friction that one is sure of, wherever the handle is"},
+          {"resolution", &Device::resolution, declared("m", 0, 1e-3),
+           "step of its position sensors at the handle, along each axis; 0: exact"},
+          {"delay", &Device::delay, declared("s", 0, 0.1), "until a force is at the handle"},
+          {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
+           "it can show; 0: as much as damping, rate and delay allow"},
+          {"max_speed", &Device::max_speed, within("m/s", 0.01, 100),
+           "faster readings cut the force"},
+          {"mass", &Device::mass, within("kg", 1e-3, 100), "that one feels at the handle"},
+          {"friction", &Device::friction, within("N", 0, 100),
+           "dry friction at the handle; a simulated device has it, and no stiffness follows from "
+           "it"},
+          {"work_space", &Device::work_space, work_space_section(),
+           "a box of places in its own axes: x to the right, y away from the person, z up"},
+          {"max_torque", &Device::max_torque, declared("N m", 1e-4, 100),
+           "of six axes: it can show for long"},
+          {"turn_damping", &Device::turn_damping, declared("N m s/rad", 1e-6, 10),
+           "of six axes: its own viscous friction in turning that one is sure of, about each axis"},
+          {"turn_resolution", &Device::turn_resolution, declared("rad", 0, 0.1),
+           "of six axes: step of its angle sensors; 0: exact"},
+          {"inertia", &Device::inertia, within("kg m2", 1e-7, 1),
+           "of six axes: that one feels, about each axis"},
+      },
+      check_descriptor};
+  return section;
+}
+
+}  // namespace
+
+const std::vector<SceneKey>& device_descriptor_keys() {
+  static const std::vector<SceneKey> keys = descriptor_section().keys("");
+  return keys;
+}
+
+std::string device_descriptor_markdown() { return keys_markdown(device_descriptor_keys()); }
+
+DeviceDescriptor parse_device_descriptor(std::string_view text, const std::string& file) {
+  const toml::table document = parse_toml(text, file);
+  const SceneVocabulary vocabulary{device_descriptor_keys(), {}};
+  std::vector<SceneProblem> problems;
+  DeviceDescriptor device;
+  TomlReader reader(document, "", {}, vocabulary, problems);
+  descriptor_section().read(reader, device);
+  throw_problems(file, std::move(problems));
+  return device;
+}
+
+DeviceDescriptor load_device_descriptor(const std::filesystem::path& file) {
+  return parse_device_descriptor(read_bytes(file), file.string());
+}
+
+}  // namespace reckon::peer

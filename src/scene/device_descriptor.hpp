@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a device is and can do, in a file of its own.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/peer/scene/scene_keys.hpp"
+
+namespace reckon::peer {
+
+/// A device by vendor and product, as USB numbers them.
+struct UsbId {
+  std::uint16_t vendor = 0, product = 0;
+  friend constexpr bool operator==(const UsbId&, const UsbId&) = default;
+};
+
+/// The work space of a device [m], frame D.
+struct WorkSpaceCorners {
+  Eigen::Vector3d from = Eigen::Vector3d::Constant(-0.05);
+  Eigen::Vector3d to = Eigen::Vector3d::Constant(0.05);
+};
+
+/// A file of devices/. docs/devices.md lists its keys.
+struct DeviceDescriptor {
+  std::string name;        ///< of the product
+  std::vector<UsbId> usb;  ///< under which it is attached; none: by no USB
+  haptics::DeviceKind kind = haptics::DeviceKind::impedance;
+  int axes = 3;
+  double max_force = 10.0;            ///< [N]
+  double damping = 0.0;               ///< [N s/m], viscous friction that one is sure of
+  double resolution = 0.0;            ///< [m]
+  std::chrono::nanoseconds delay{0};  ///< until a force is at the handle
+  double max_stiffness = 0.0;         ///< [N/m], 0: no limit of its own
+  double max_speed = 2.0;             ///< [m/s]
+  double mass = 0.1;                  ///< [kg]
+  double friction = 0.0;              ///< [N], dry
+  WorkSpaceCorners work_space;        ///< [m]
+  double max_torque = 1.0;            ///< [N m], of 6 axes
+  double turn_damping = 0.01;         ///< [N m s/rad], of 6 axes
+  double turn_resolution = 0.0;       ///< [rad], of 6 axes
+  double inertia = 1e-4;              ///< [kg m^2], of 6 axes
+};
+
+/// @param file for messages @throws SceneFileError with the place and the remedy of each bad key
+[[nodiscard]] DeviceDescriptor parse_device_descriptor(std::string_view text,
+                                                       const std::string& file);
+/// @throws as above
+[[nodiscard]] DeviceDescriptor load_device_descriptor(const std::filesystem::path& file);
+
+/// Where descriptors without a folder are looked for: beside the program as installed, where
+/// Reckon is installed, in the sources.
+[[nodiscard]] std::vector<std::filesystem::path> device_folders();
+/// "falcon", "falcon.toml" or "folder/mine.toml": a file from `folder` on, else one of
+/// device_folders(). @throws std::invalid_argument that says where it looked
+[[nodiscard]] std::filesystem::path find_device_descriptor(const std::string& name,
+                                                           const std::filesystem::path& folder);
+
+/// THE list of its keys, and as the table of docs/devices.md.
+[[nodiscard]] const std::vector<SceneKey>& device_descriptor_keys();
+[[nodiscard]] std::string device_descriptor_markdown();
+
+}  // namespace reckon::peer

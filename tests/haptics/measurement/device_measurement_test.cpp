@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a device is like is found by small pushes, and a surprise ends them.
+#include "reckon/haptics/measurement/device_measurement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using namespace std::chrono_literals;
+
+struct Modelled {
+  const char* name;
+  double mass, damping, friction, resolution;
+  int delay;  // [ms]
+  double max_force;
+};
+
+SimulatedDeviceConfig config_of(const Modelled& one) {
+  SimulatedDeviceConfig config;
+  config.mass = one.mass;
+  config.damping = one.damping;
+  config.friction = one.friction;
+  config.resolution = one.resolution;
+  config.delay_samples = one.delay;
+  config.max_force = one.max_force;
+  config.hand_stiffness = config.hand_damping = 0.0;  // nobody holds it
+  return config;
+}
+
+using Spoil = std::function<void(int, DeviceSample&)>;
+
+// Runs to the end. @param spoil what becomes of a reading
+DeviceMeasurement measure(HapticDevice& device, const Spoil& spoil = nullptr) {
+  DeviceMeasurement run(device.limits(), 1ms);
+  Vector3d last = Vector3d::Zero();
+  for (int k = 0; k < 300'000 && !run.is_done(); ++k) {
+    const auto now = std::chrono::milliseconds(k);
+    DeviceSample sample = device.read(now);
+    if (spoil) spoil(k, sample);
+    last = run.step(sample);
+    device.write(last, now);
+  }
+  EXPECT_TRUE(run.is_done());
+  EXPECT_TRUE(last.isZero(0.0)) << "it ends without a force";
+  return run;
+}
+
+TEST(DeviceMeasurement, FindsDampingAndDelayOfSevenDevicesWithinTenPerCent) {
+  const Modelled devices[] = {
+      {"like a Falcon", 0.25, 0.3, 0.3, 90e-6, 6, 8.0},
+      {"like a Polhem", 0.28, 0.5, 0.5, 70e-6, 2, 5.0},
+      {"like a pen", 0.045, 0.2, 0.26, 55e-6, 2, 3.3},
+      {"like a pen on capstans", 0.045, 0.2, 0.06, 23e-6, 1, 7.9},
+      {"light and fine", 0.05, 1.0, 0.05, 10e-6, 1, 10.0},
+      {"heavy and late", 0.8, 3.0, 0.5, 30e-6, 20, 20.0},
+      {"exact, without dry friction", 0.1, 1.0, 0.0, 0.0, 4, 10.0},
+  };
+  for (const Modelled& one : devices) {
+    SimulatedDevice device(config_of(one));
+    const DeviceMeasurement run = measure(device);
+    ASSERT_EQ(run.problem(), MeasurementProblem::none) << one.name;
+    const MeasuredDevice& found = *run.result();
+    std::printf(
+        "%s: b %.3f of %.3f N s/m (+- %.3f), delay %.2f of %d ms, dry %.3f of %.3f N, "
+        "mass %.3f of %.3f kg, steps %.1f of %.1f um, at most %.2f N\n",
+        one.name, found.damping, one.damping, found.damping_error, 1e3 * found.delay, one.delay,
+        found.friction, one.friction, found.mass, one.mass, 1e6 * found.resolution,
+        1e6 * one.resolution, run.most_push());
+    EXPECT_NEAR(found.damping, one.damping, 0.1 * one.damping) << one.name;
+    EXPECT_NEAR(1e3 * found.delay, one.delay, 0.1 * one.delay + 1e-9) << one.name;
+    EXPECT_NEAR(found.friction, one.friction, 0.1 * one.friction + 0.01) << one.name;
+    EXPECT_NEAR(found.mass, one.mass, 0.1 * one.mass) << one.name;
+    EXPECT_NEAR(found.resolution, one.resolution, 0.01 * one.resolution) << one.name;
+    EXPECT_LE(run.most_push(), DeviceMeasurement::kMostPush + 1e-12);
+    EXPECT_LE(run.most_push(), 0.4 * one.max_force + 1e-12);
+  }
+}
+
+// Gives energy to whoever moves it.
+class ActiveDevice : public SimulatedDevice {
+ public:
+  ActiveDevice(const SimulatedDeviceConfig& config, double gives)
+      : SimulatedDevice(config), gives_(gives) {}
+  void write(const Vector3d& force, std::chrono::nanoseconds now) noexcept override {
+    SimulatedDevice::write(force + gives_ * velocity(), now);
+  }
+
+ private:
+  double gives_;  // [N s/m]
+};
+
+TEST(DeviceMeasurement, RefusesADeviceThatGainsEnergyByItself) {
+  for (const double gives : {1.3, 1.6, 3.0}) {
+    const Modelled one{"", 0.2, 1.0, 0.0, 20e-6, 0, 10.0};
+    ActiveDevice device(config_of(one), gives);
+    const DeviceMeasurement run = measure(device);
+    const bool seen = run.problem() == MeasurementProblem::active ||
+                      run.problem() == MeasurementProblem::restless ||
+                      run.problem() == MeasurementProblem::place ||
+                      run.problem() == MeasurementProblem::speed;
+    EXPECT_TRUE(seen) << gives << ": " << static_cast<int>(run.problem());
+    EXPECT_FALSE(run.result());
+  }
+}
+
+const Modelled kGood{"good", 0.2, 1.0, 0.1, 20e-6, 1, 10.0};
+
+TEST(DeviceMeasurement, RefusesADeviceWhoseReadingsFail) {
+  SimulatedDevice device(config_of(kGood));
+  const DeviceMeasurement run =
+      measure(device, [](int k, DeviceSample& sample) { sample.ok = k < 2000 || k > 2003; });
+  EXPECT_EQ(run.problem(), MeasurementProblem::readings);
+}
+
+TEST(DeviceMeasurement, AFewFailedReadingsCostTimeAndNoAccuracy) {
+  SimulatedDevice device(config_of(kGood));
+  const DeviceMeasurement run =
+      measure(device, [](int k, DeviceSample& sample) { sample.ok = k % 1700 != 1000; });
+  ASSERT_EQ(run.problem(), MeasurementProblem::none);
+  EXPECT_NEAR(run.result()->damping, 1.0, 0.1);
+}
+
+TEST(DeviceMeasurement, RefusesADelayThatIsTooLong) {
+  Modelled late = kGood;
+  for (const int delay : {60, 80, 100}) {
+    late.delay = delay;
+    SimulatedDevice device(config_of(late));
+    EXPECT_EQ(measure(device).problem(), MeasurementProblem::late) << delay;
+  }
+}
+
+TEST(DeviceMeasurement, RefusesAHandleThatIsHeldOrDoesNotMove) {
+  SimulatedDeviceConfig held = config_of(kGood);
+  held.hand_stiffness = 300;
+  held.hand_damping = 3;
+  SimulatedDevice in_hand(held);
+  const MeasurementProblem problem = measure(in_hand).problem();
+  EXPECT_TRUE(problem == MeasurementProblem::unlike || problem == MeasurementProblem::stuck ||
+              problem == MeasurementProblem::active)
+      << static_cast<int>(problem);
+  Modelled stiff = kGood;
+  stiff.friction = 5.0;
+  SimulatedDevice rusty(config_of(stiff));
+  EXPECT_EQ(measure(rusty).problem(), MeasurementProblem::stuck);
+}
+
+TEST(DeviceMeasurement, EndsAtOnceAtEachSurprise) {
+  SimulatedDevice device(config_of(kGood));
+  EXPECT_EQ(
+      measure(device, [](int k, DeviceSample& sample) { sample.enabled = k < 700; }).problem(),
+      MeasurementProblem::switch_off);
+  SimulatedDevice other(config_of(kGood));
+  EXPECT_EQ(measure(other,
+                    [](int k, DeviceSample& sample) {
+                      if (k > 900) sample.position.x() += 0.1;
+                    })
+                .problem(),
+            MeasurementProblem::speed);
+  SimulatedDevice drifts(config_of(kGood));
+  EXPECT_EQ(measure(drifts, [](int k, DeviceSample& sample) { sample.position.x() += 5e-6 * k; })
+                .problem(),
+            MeasurementProblem::restless);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
