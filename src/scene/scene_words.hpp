@@ -48,10 +48,10 @@ inline constexpr auto kWords<DeviceDriver> =
                                        {"plugin", DeviceDriver::plugin}});
 
 template <>
-inline constexpr auto kWords<haptics::DeviceKind> = std::to_array<Word<haptics::DeviceKind>>(
-    {{"impedance", haptics::DeviceKind::impedance},
-     {"admittance", haptics::DeviceKind::admittance},
-     {"coefficients", haptics::DeviceKind::coefficients}});
+inline constexpr auto kWords<haptics::DeviceKind> =
+    std::to_array<Word<haptics::DeviceKind>>({{"impedance", haptics::DeviceKind::impedance},
+                                              {"admittance", haptics::DeviceKind::admittance},
+                                              {"coefficients", haptics::DeviceKind::coefficients}});
 
 template <>
 inline constexpr auto kWords<NodeKind> =

@@ -102,12 +102,12 @@ TEST(SceneSections, FillEveryMemberOfAnOperatorAndOfAnOutage) {
 
 TEST(SceneSections, FillEveryMemberOfADeviceANodeAndAnEntity) {
   const DeviceConfig device;
-  EXPECT_THAT(without_key(device_section(), {place_of(device, device.orientation),
-                                             place_of(device, device.descriptor),
-                                             place_of(device, device.described),
-                                             place_of(device, device.delay_samples),
-                                             place_of(device, device.period)}),
-              testing::IsEmpty());
+  EXPECT_THAT(
+      without_key(device_section(),
+                  {place_of(device, device.orientation), place_of(device, device.descriptor),
+                   place_of(device, device.described), place_of(device, device.delay_samples),
+                   place_of(device, device.period)}),
+      testing::IsEmpty());
   const NodeConfig node;
   EXPECT_THAT(without_key(node_section(), {place_of(node, node.orientation)}), testing::IsEmpty());
   const EntityConfig entity;
