@@ -73,6 +73,8 @@ Section<HandModel> hand_section() {
           {"grab_stiffness", grab(&haptics::GrabSpring::stiffness), within("N/m", 0, 1e5),
            "of the spring by which it holds a body while its button is pressed, as far as device "
            "and body can take it; 0: it holds none"},
+          {"grab_most", grab(&haptics::GrabSpring::most), declared("N", 1e-3, 1e3),
+           "what pulls harder tears the body off; absent: nothing does"},
           {"grab_viscosity", grab(&haptics::GrabSpring::viscosity), within("N s/m", 0, 100),
            "of that spring"},
           {"k1", &HandModel::k1, within("N/m", 0, 1e6),

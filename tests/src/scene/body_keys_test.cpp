@@ -51,7 +51,8 @@ TEST(BodyKeys, RefuseWhatCannotMove) {
 TEST(BodyKeys, SayWhatHoldsABody) {
   const SceneFile file =
       parsed(cube("mass = \"50 g\"\ngrab = {stiffness = \"200 N/m\", most = \"2 N\"}\n") +
-             "[hand]\ngrab_stiffness = \"150 N/m\"\ngrab_viscosity = \"0.5 N s/m\"\n" +
+             "[hand]\ngrab_stiffness = \"150 N/m\"\ngrab_viscosity = \"0.5 N s/m\"\ngrab_most = "
+             "\"4 N\"\n" +
              "[[operator]]\nsweep = {from = \"0 0 0 m\", to = \"1 0 0 m\", grab = true}\n"
              "[[device]]\npeer = 1\noperator = 1\ngrab_button = 3\n");
   const haptics::GrabSpring& grab = file.scene.objects.at(0).grab;
@@ -59,6 +60,7 @@ TEST(BodyKeys, SayWhatHoldsABody) {
   EXPECT_EQ(grab.most, 2.0);
   EXPECT_EQ(file.hand.grab.stiffness, 150.0);
   EXPECT_EQ(file.hand.grab.viscosity, 0.5);
+  EXPECT_EQ(file.hand.grab.most, 4.0);
   EXPECT_EQ(file.devices.at(0).grab_button, 3U);
   EXPECT_TRUE(file.operators.at(0).grabs);
   EXPECT_EQ(parsed(cube("mass = \"50 g\"\n") + kHand).hand.grab.stiffness, 0.0);
