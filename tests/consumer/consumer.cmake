@@ -31,7 +31,7 @@ if(NOT beside STREQUAL reckon)
 endif()
 
 # Public headers and what they include, no more.
-file(GLOB_RECURSE headers RELATIVE ${stage}/include ${stage}/include/*.hpp)
+file(GLOB_RECURSE headers RELATIVE ${stage}/include ${stage}/include/*.hpp ${stage}/include/*.h)
 foreach(header IN LISTS headers)
   file(STRINGS ${stage}/include/${header} lines REGEX "^#include \"reckon/")
   foreach(line IN LISTS lines)
@@ -41,6 +41,9 @@ foreach(header IN LISTS headers)
     endif()
   endforeach()
 endforeach()
+# The example of a driver is built as its page says, in C.
+do(${CXX} -x c -shared -fPIC -Wall -Wextra -Werror -I${stage}/include -o ${work}/dummy_device.so
+  ${stage}/share/doc/reckon-dev/examples/dummy_device.c)
 foreach(header pdu/entity/entity_state.hpp peer/federate.hpp haptics/devices/simulated_device.hpp)
   if(NOT reckon/${header} IN_LIST headers)
     message(FATAL_ERROR "${header} is not installed")
