@@ -69,7 +69,8 @@ bool hears(UsbSetUp& desk, std::span<const std::uint8_t> wanted, nanoseconds lon
   const nanoseconds end = desk.now() + longest;
   while (desk.goes_on()) {
     const auto heard = desk.line().received();
-    if (!std::ranges::search(heard, wanted).empty()) return true;
+    const auto found = std::search(heard.begin(), heard.end(), wanted.begin(), wanted.end());
+    if (found != heard.end()) return true;
     if (desk.now() >= end) return false;
     desk.wait();
   }
