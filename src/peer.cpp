@@ -33,6 +33,8 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   config.patch_radius = scene.hand.patch_radius;
   config.grab = scene.hand.grab;
   config.grab_buttons = std::uint32_t{1} << device.grab_button % 32;
+  // What stops all forces holds nothing.
+  if (device.stop_button == static_cast<int>(device.grab_button)) config.grab_buttons = 0;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   if (device.received_power > 0) config.max_received_power = device.received_power;
   config.probes = device.probes;

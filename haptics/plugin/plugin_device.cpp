@@ -131,6 +131,8 @@ PluginDevice::~PluginDevice() {
 
 void PluginDevice::note_time(steady_clock::time_point begun) noexcept {
   const std::int64_t took = nanoseconds(steady_clock::now() - begun).count();
+  calls_.fetch_add(1, std::memory_order_relaxed);
+  if (took > nanoseconds(kSlow).count()) slow_.fetch_add(1, std::memory_order_relaxed);
   if (took > slowest_.load(std::memory_order_relaxed))
     slowest_.store(took, std::memory_order_relaxed);
 }
@@ -174,11 +176,13 @@ void PluginDevice::write_wrench(const Vector3d& force, const Vector3d& torque,
 
 std::vector<std::string> PluginDevice::take_notices() {
   std::vector<std::string> said;
-  const std::int64_t slowest = slowest_.load(std::memory_order_relaxed);
-  if (slowest > nanoseconds(kSlow).count() && slowest > 2 * told_slowest_) {
-    told_slowest_ = slowest;
-    said.push_back(name_ + ": its driver kept the servo waiting for " +
-                   std::to_string(slowest / 1000) +
+  const std::uint64_t calls = calls_.load(std::memory_order_relaxed);
+  const std::uint64_t slow = slow_.load(std::memory_order_relaxed);
+  if (!told_slow_ && slow >= 10 && 100 * slow >= calls) {
+    told_slow_ = true;
+    said.push_back(name_ + ": its driver kept the servo waiting in " + std::to_string(slow) +
+                   " of " + std::to_string(calls) + " calls, up to " +
+                   std::to_string(slowest_.load(std::memory_order_relaxed) / 1000) +
                    " us; it is to have a thread of its own, see device_plugin.h");
   }
   const std::uint64_t impossible = impossible_.load(std::memory_order_relaxed);

@@ -44,7 +44,8 @@ class PluginDevice final : public HapticDevice {
   /// thread, any.
   [[nodiscard]] std::vector<std::string> take_notices();
 
-  /// Longer in a call of the driver is told.
+  /// Where one call of the driver in a hundred takes longer, and ten did, it is told: a call that
+  /// the host interrupts is not the driver's.
   static constexpr std::chrono::microseconds kSlow{200};
 
  private:
@@ -57,9 +58,10 @@ class PluginDevice final : public HapticDevice {
   void* device_ = nullptr;
   DeviceLimits limits_;
   std::string name_;
+  std::atomic<std::uint64_t> calls_{0}, slow_{0};
   std::atomic<std::int64_t> slowest_{0};  // [ns]
   std::atomic<std::uint64_t> impossible_{0};
-  std::int64_t told_slowest_ = 0;
+  bool told_slow_ = false;
   std::uint64_t told_impossible_ = 0;
 };
 

@@ -153,6 +153,8 @@ TEST(PluginDevice, ReadingsThatAreNoneFailAndAreToldOnce) {
 TEST(PluginDevice, ADriverThatKeepsTheServoWaitingIsTold) {
   PluginDevice device(driver("faulty_device"), "slow");
   static_cast<void>(device.read(nanoseconds(1)));
+  EXPECT_TRUE(device.take_notices().empty()) << "once may be the host's doing";
+  for (int i = 2; i < 20; ++i) static_cast<void>(device.read(nanoseconds(i)));
   const std::vector<std::string> said = device.take_notices();
   ASSERT_EQ(said.size(), 1U);
   EXPECT_NE(said[0].find("kept the servo waiting"), std::string::npos) << said[0];
