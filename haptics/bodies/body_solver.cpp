@@ -290,6 +290,7 @@ BodySet BodySolver::island(BodySet some) const noexcept {
 
 void BodySolver::only(BodySet some) noexcept {
   some |= carried_;
+  if (some == only_) return;
   for (std::size_t i = 0; i < size(); ++i) {
     const BodySet one = BodySet{1} << i;
     const bool wanted = (some & one) != 0;

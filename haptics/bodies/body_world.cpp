@@ -36,7 +36,7 @@ class BodyWorld::Engine {
  public:
   Engine(const EffectPlan& plan, const Vector3d& gravity, std::shared_ptr<ObjectMover> mover,
          const WorkSpace& work_space)
-      : solver_(plan, gravity, work_space), mover_(std::move(mover)) {
+      : solver_(plan, gravity, work_space), mover_(std::move(mover)), near_(radii_of_moving(plan)) {
     for (std::size_t i = 0; i < solver_.size(); ++i) {
       if (solver_.is_carried(i)) carried_.push_back({i, plan.objects()[solver_.object(i)].origin});
     }
@@ -48,10 +48,11 @@ class BodyWorld::Engine {
     states_.resize(solver_.size());
     for (std::size_t i = 0; i < states_.size(); ++i) states_[i].object = solver_.object(i);
     for (const Carried& one : carried_) states_[one.body].carried = true;
-    read_states(0.0);
+    next_ = states_;
+    read_states(BodySolver::all(), 0.0);
   }
 
-  std::size_t add_hand() noexcept { return hands_++; }
+  std::size_t add_hand() { return near_.add_hand(); }
 
   bool advance_to(nanoseconds now, bool frozen) noexcept {
     const bool is_first = !std::exchange(started_, true);
@@ -69,11 +70,12 @@ class BodyWorld::Engine {
       begin_period();
       lead_ = 0.0;
       put_carried();
-      read_states(0.0);
+      read_states(BodySolver::all(), 0.0);
       return true;
     }
     works_.assign(pushes_.size(), 0.0);
     const double whole = std::min(gap, kLongestGap);
+    BodySet foreseen = ahead_ > 0 ? rest_ : 0;
     const BodySet rest = ahead_ > 0 ? rest_ : apart();
     double length = kLongestStep;
     if (rest != 0) {
@@ -90,6 +92,7 @@ class BodyWorld::Engine {
         solver_.only(rest);
         go_on(-lead_);
         lead_ = 0.0;
+        foreseen = 0;
       }
       solver_.only(BodySolver::all());
     } else {
@@ -97,7 +100,7 @@ class BodyWorld::Engine {
       length = push_for(whole, kLongestStep);
     }
     put_carried();
-    read_states(length, rest != 0 ? ~rest : BodySolver::all());
+    read_states(~foreseen, length, rest != 0 ? ~rest : BodySolver::all());
     for (BodyPush& push : pushes_) push.renew();
     std::swap(pushes_, last_);
     pushes_.clear();
@@ -105,10 +108,25 @@ class BodyWorld::Engine {
     return true;
   }
 
-  void written(std::size_t hand) noexcept {
+  [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
+                                                    double period) noexcept {
+    return near_.of(hand, reach, states_, period);
+  }
+  [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept {
+    return next_[body];
+  }
+  [[nodiscard]] bool has_hands() const noexcept { return near_.hands() > 0; }
+
+  // @return whether all hands have
+  bool written(std::size_t hand, const HandReach& reach) noexcept {
+    near_.watch(hand, reach);
     written_ |= std::uint64_t{1} << hand % 64;
-    if (static_cast<std::size_t>(std::popcount(written_)) < hands_ || ahead_ > 0) return;
-    if (frozen_ || !started_ || !(period_ > lead_)) return;
+    return static_cast<std::size_t>(std::popcount(written_)) >= near_.hands();
+  }
+
+  // What no hand touches, to the end of the period.
+  void go_ahead() noexcept {
+    if (frozen_ || !started_ || ahead_ > 0 || !(period_ > lead_)) return;
     rest_ = apart();
     if (rest_ == 0) return;
     ahead_ = period_;
@@ -118,6 +136,14 @@ class BodyWorld::Engine {
     solver_.keep();
     go_on(period_ - lead_);
     solver_.only(BodySolver::all());
+    for (std::size_t i = 0; i < next_.size(); ++i) {
+      if ((rest_ >> i & 1) == 0 || solver_.is_carried(i)) {
+        next_[i] = states_[i];
+      } else {
+        read_state(i, kLongestStep, next_[i]);
+      }
+    }
+    near_.foresee(next_, period_);
   }
 
   std::size_t push(std::size_t body, const Vector3d& point, const Vector3d& force) noexcept {
@@ -207,7 +233,7 @@ class BodyWorld::Engine {
   // Whether it is stepped fast enough, by each hand and once more.
   [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept {
     const double bodies = std::popcount(island);
-    const double times = static_cast<double>(steps * (hands_ + 1));
+    const double times = static_cast<double>(steps * (near_.hands() + 1));
     return kBodyTime * bodies * times <= kMostTime;
   }
   [[nodiscard]] static BodySet pushed_by(std::span<const BodyPush> pushes) noexcept {
@@ -309,18 +335,25 @@ class BodyWorld::Engine {
     for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
   }
 
+  // Into the next states, which then are those that hold: those of `some`, and of what is carried.
   // @param step [s], in which `fine` were moved last
-  void read_states(double step, BodySet fine = BodySolver::all()) noexcept {
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      static_cast<ObjectMotion&>(states_[i]) = solver_.motion(i);
-      states_[i].awake = solver_.awake(i);
-      if (frozen_ && !solver_.is_carried(i)) {
-        states_[i].velocity.setZero();
-        states_[i].turn_rate.setZero();
-      }
-      const double own = (fine >> i & 1) != 0 ? step : kLongestStep;
-      states_[i].step = solver_.is_carried(i) ? 0.0 : own;
+  void read_states(BodySet some, double step, BodySet fine = BodySolver::all()) noexcept {
+    for (std::size_t i = 0; i < next_.size(); ++i) {
+      if ((some >> i & 1) == 0 && !solver_.is_carried(i)) continue;
+      read_state(i, (fine >> i & 1) != 0 ? step : kLongestStep, next_[i]);
     }
+    std::swap(states_, next_);
+    if (some != 0) near_.forget();
+  }
+  void read_state(std::size_t body, double step, BodyState& out) const noexcept {
+    const bool is_carried = solver_.is_carried(body);
+    static_cast<ObjectMotion&>(out) = solver_.motion(body);
+    out.awake = solver_.awake(body);
+    if (frozen_ && !is_carried) {
+      out.velocity.setZero();
+      out.turn_rate.setZero();
+    }
+    out.step = is_carried ? 0.0 : step;
   }
 
   struct Carried {
@@ -333,11 +366,13 @@ class BodyWorld::Engine {
   std::shared_ptr<ObjectMover> mover_;
   std::vector<Carried> carried_;
   std::vector<BodyState> states_;
+  // Those of the period's end, as far as they are foreseen; until then those of the period before.
+  std::vector<BodyState> next_;
+  NearBodies near_;
   std::vector<BodyPush> pushes_;   // of this period
   std::vector<BodyPush> last_;     // of the one before
   std::vector<BodyForce> forces_;  // of a step
   std::vector<double> works_;
-  std::size_t hands_ = 0;
   std::uint64_t stepped_ = 0, written_ = 0;  // hands, in this period
   BodySet rest_ = 0;                         // that has gone on to the period's end
   double ahead_ = 0.0;                       // [s], of this period, in which it has
@@ -356,11 +391,16 @@ BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
 }
 BodyWorld::~BodyWorld() = default;
 
+// States wait for the forces, not the other way round.
 void BodyWorld::advance_to(nanoseconds now, bool frozen) noexcept {
-  if (engine_->advance_to(now, frozen)) publish();
+  if (is_due_ && now != engine_->time()) publish();
+  if (!engine_->advance_to(now, frozen)) return;
+  is_due_ = true;
+  if (!engine_->has_hands()) publish();
 }
 
 void BodyWorld::publish() noexcept {
+  is_due_ = false;
   const std::span<const BodyState> states = engine_->states();
   for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
     BodyStates& out = to->write_slot();
@@ -390,11 +430,22 @@ std::size_t BodyWorld::push(std::size_t body, const Vector3d& point,
                             const Vector3d& force) noexcept {
   return engine_->push(body, point, force);
 }
-std::size_t BodyWorld::add_hand() noexcept { return engine_->add_hand(); }
+std::size_t BodyWorld::add_hand() { return engine_->add_hand(); }
+std::span<const std::uint32_t> BodyWorld::near(std::size_t hand, const HandReach& reach,
+                                               double period) noexcept {
+  return engine_->near(hand, reach, period);
+}
+const ObjectMotion& BodyWorld::state_before(std::size_t body) const noexcept {
+  return engine_->state_before(body);
+}
 std::size_t BodyWorld::press(std::size_t hand, const BodySpring& spring) noexcept {
   return engine_->press(hand, spring);
 }
-void BodyWorld::written(std::size_t hand) noexcept { engine_->written(hand); }
+void BodyWorld::written(std::size_t hand, const HandReach& reach) noexcept {
+  if (!engine_->written(hand, reach)) return;
+  if (is_due_) publish();
+  engine_->go_ahead();
+}
 void BodyWorld::foresee(std::size_t hand, double period) noexcept {
   engine_->foresee(hand, period);
 }

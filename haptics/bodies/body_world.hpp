@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
@@ -102,8 +103,15 @@ class BodyWorld {
                    const Eigen::Vector3d& force) noexcept;
   static constexpr std::size_t kNoPush = static_cast<std::size_t>(-1);
 
-  /// A hand's number, for the following. Before the first advance.
-  [[nodiscard]] std::size_t add_hand() noexcept;
+  /// A hand's number, for the following. Before the first advance. Allocates.
+  [[nodiscard]] std::size_t add_hand();
+  /// Bodies that a hand there may meet before its next step, ascending, and perhaps others. Looks
+  /// at no body where the hand is as was to be expected and nothing came late.
+  /// @param period [s], until then
+  [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
+                                                    double period) noexcept;
+  /// How a body stood before the last advance. Until the last hand's written().
+  [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept;
   /// A hand is at a body from now until the next advance. Nothing is pushed before hold().
   /// @return as push()
   std::size_t press(std::size_t hand, const BodySpring& spring) noexcept;
@@ -117,14 +125,15 @@ class BodyWorld {
   [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
   /// The body gets this share of a push, [0, 1], and `rest` [N] besides.
   void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
-  /// The hand's force is written. After the last hand of a period the bodies that no hand touches
-  /// go on to its end, so that no force waits for them.
-  void written(std::size_t hand) noexcept;
+  /// The hand's force is written. After the last hand of a period the states are published, and the
+  /// bodies that no hand touches go on to its end, so that no force waits for them.
+  void written(std::size_t hand, const HandReach& reach) noexcept;
   /// Work that a push of the period before did on its body [J].
   [[nodiscard]] double work(std::size_t push) const noexcept;
 
   [[nodiscard]] std::span<const BodyState> states() const noexcept;
-  /// The same after each advance; one reader thread.
+  /// The same after each advance, once all hands have written or the next one begins; one reader
+  /// thread.
   [[nodiscard]] TripleBuffer<BodyStates>& published() noexcept { return published_; }
   /// The same for another reader, which sends them.
   [[nodiscard]] TripleBuffer<BodyStates>& outgoing() noexcept { return outgoing_; }
@@ -150,6 +159,7 @@ class BodyWorld {
   TripleBuffer<BodyStates> outgoing_;
   BodyRing* trace_ = nullptr;
   std::uint64_t were_awake_ = 0;  // in the last step
+  bool is_due_ = false;           // to be published
 };
 
 /// The world of the objects that move in the plan of a scene; null if there are none. @throws as

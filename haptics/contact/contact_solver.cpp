@@ -79,9 +79,12 @@ ContactSolver::ContactSolver(const EffectPlan& plan, double radius, double patch
   states_.reserve(count);
   moving_.reserve(
       static_cast<std::size_t>(std::ranges::count_if(plan.objects(), &PlannedObject::moves)));
+  placed_.reserve(moving_.capacity());
+  moving_of_.assign(count, kNobody);
   for (const PlannedObject& object : plan.objects()) {
     objects_.push_back(&object);
     if (object.moves()) {
+      moving_of_[objects_.size() - 1] = static_cast<std::uint32_t>(moving_.size());
       const ObjectMotion start{object.position, Eigen::Quaterniond(object.orientation)};
       moving_.push_back({static_cast<std::uint32_t>(objects_.size() - 1), object, start, start});
       objects_.back() = &moving_.back().now;
@@ -110,27 +113,40 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   return sum(device);
 }
 
-void ContactSolver::place(std::uint32_t body, const ObjectMotion& motion) noexcept {
+void ContactSolver::place(std::uint32_t body, const ObjectMotion& motion,
+                          const ObjectMotion& before) noexcept {
   MovingObject& moving = moving_[body];
+  if (moving.placed == round_) return;
+  forget_placed(round_);
+  placed_.push_back(body);
+  const bool was_met = moving.placed + 1 == round_;
+  moving.placed = round_;
   moving.pushed = contacts_[moving.object].force;
-  moving.before = moving.motion;
+  moving.before = was_met ? moving.motion : before;
   moving.motion = motion;
   // It stands where it stood.
-  if (!moving.is_moved()) return;
+  if (was_met && !moving.is_moved()) return;
   moving.now.place(motion.position, motion.orientation.toRotationMatrix());
+}
+
+// Those of rounds before.
+void ContactSolver::forget_placed(std::uint64_t round) noexcept {
+  if (!placed_.empty() && moving_[placed_.front()].placed != round) placed_.clear();
 }
 
 // The contact point goes on with the body that holds it most. A body that comes from elsewhere
 // pushes it.
 void ContactSolver::carry() noexcept {
   const MovingObject* holder = nullptr;
-  for (const MovingObject& moving : moving_) {
+  for (const std::uint32_t body : placed_) {
+    const MovingObject& moving = moving_[body];
     const ObjectContact& contact = contacts_[moving.object];
     if (!contact.in_contact) continue;
     if (holder == nullptr || contact.depth > contacts_[holder->object].depth) holder = &moving;
   }
   if (holder != nullptr) scp_ = holder->now.to_scene(holder->before_of(scp_));
-  for (const MovingObject& moving : moving_) {
+  for (const std::uint32_t body : placed_) {
+    const MovingObject& moving = moving_[body];
     if (&moving == holder || !moving.is_moved()) continue;
     SurfaceContactPoint point(radius_);
     point.set_free(moving.before_of(scp_));
@@ -142,10 +158,11 @@ void ContactSolver::carry() noexcept {
 }
 
 ContactResult ContactSolver::step(const Vector3d& device, double dt) noexcept {
+  forget_placed(round_++);
   if (!usable(device)) return nothing();
   if (!started_) return reset(device);
   if (any_follows_) follow_place(dt);
-  if (!moving_.empty()) carry();
+  if (!placed_.empty()) carry();
   find_near(device);
   settle(device);
   for (const std::uint32_t i : near_) states_[i].started_inside &= contacts_[i].in_contact;
@@ -182,6 +199,7 @@ void ContactSolver::find_near(const Vector3d& device) noexcept {
   };
   const Vector3d reach = Vector3d::Constant((device - scp_).norm() + radius_);
   plan_.visit_near({device - reach, device + reach}, note);
+  for (const std::uint32_t body : placed_) note(moving_[body].object);
   for (const std::uint32_t index : touched_) note(index);
   std::sort(near_.begin(), near_.end());
 }
@@ -196,11 +214,13 @@ bool ContactSolver::within_reach(std::uint32_t index, const Vector3d& device) co
 std::uint32_t ContactSolver::overlapped(const Vector3d& p) const noexcept {
   std::uint32_t found = kNobody;
   const Vector3d room = Vector3d::Constant(radius_);
-  plan_.visit_near({p - room, p + room}, [&](std::uint32_t index) {
+  const auto see = [&](std::uint32_t index) {
     if (found != kNobody) return;
     const PlannedObject& object = *objects_[index];
     if (states_[index].point.overlaps(object.shape, object.to_object(p))) found = index;
-  });
+  };
+  plan_.visit_near({p - room, p + room}, see);
+  for (const MovingObject& moving : moving_) see(moving.object);
   return found;
 }
 
@@ -405,8 +425,7 @@ void ContactSolver::stroke(std::uint32_t index, EffectContact& seen,
 
 // Of what is at this point of a body.
 const ContactSolver::MovingObject* ContactSolver::moving_as(std::uint32_t index) const noexcept {
-  const auto found = std::ranges::find(moving_, index, &MovingObject::object);
-  return found != moving_.end() ? &*found : nullptr;
+  return moving_of_[index] != kNobody ? &moving_[moving_of_[index]] : nullptr;
 }
 
 Vector3d ContactSolver::velocity_of(std::uint32_t index, const Vector3d& point) const noexcept {
@@ -418,7 +437,8 @@ Vector3d ContactSolver::velocity_of(std::uint32_t index, const Vector3d& point) 
 // than what is there then, and gives nothing when it is left.
 double ContactSolver::carried_work() const noexcept {
   double sum = 0.0;
-  for (const MovingObject& moving : moving_) {
+  for (const std::uint32_t body : placed_) {
+    const MovingObject& moving = moving_[body];
     if (!moving.now.carried) continue;
     const ObjectContact& contact = contacts_[moving.object];
     const bool was = !moving.pushed.isZero(0.0);
@@ -441,10 +461,10 @@ double ContactSolver::ahead_of(std::uint32_t index) const noexcept {
   return moving != nullptr ? 0.5 * moving->motion.step : 0.0;
 }
 
-std::optional<NearBody> ContactSolver::near_body(std::size_t& body, const Vector3d& velocity,
+std::optional<NearBody> ContactSolver::near_body(std::size_t& next, const Vector3d& velocity,
                                                  double time) const noexcept {
-  while (body < moving_.size()) {
-    const MovingObject& moving = moving_[body++];
+  while (next < placed_.size()) {
+    const MovingObject& moving = moving_[placed_[next++]];
     if (contacts_[moving.object].in_contact) continue;
     const PlannedObject& object = moving.now;
     const Vector3d at = object.to_object(last_device_);

@@ -89,9 +89,11 @@ class ContactSolver {
 
   /// The objects of the plan that move, in its order.
   [[nodiscard]] std::size_t moving() const noexcept { return moving_.size(); }
-  /// Moves one of them, before a step. The SCP goes on with the body that holds it; one that comes
-  /// from elsewhere pushes it.
-  void place(std::uint32_t body, const ObjectMotion& motion) noexcept;
+  /// Puts one of them where it is, before a step, which meets only those that were placed since the
+  /// last one. The SCP goes on with the body that holds it; one that comes from elsewhere pushes
+  /// it.
+  /// @param before where it was a step ago, if the last step did not meet it
+  void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept;
   /// Of what is at `point` [m, S] of an object [m/s]; zero of one that stands still.
   [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
                                             const Eigen::Vector3d& point) const noexcept;
@@ -100,9 +102,9 @@ class ContactSolver {
   [[nodiscard]] double carried_work() const noexcept;
   /// By how much its speed is ahead of its place [s]; see ObjectMotion::step.
   [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept;
-  /// Of those that move, the next one from number `body` on that the probe may touch within `time`
+  /// Of those that were placed, the next one from `next` on that the probe may touch within `time`
   /// [s] at this velocity [m/s], and does not touch yet. @return none if there is none
-  [[nodiscard]] std::optional<NearBody> near_body(std::size_t& body,
+  [[nodiscard]] std::optional<NearBody> near_body(std::size_t& next,
                                                   const Eigen::Vector3d& velocity,
                                                   double time) const noexcept;
   /// Of an object: greatest force along its surface over that across it; 0 if it is smooth.
@@ -160,6 +162,7 @@ class ContactSolver {
     std::uint32_t object = 0;  // its number in the plan
     PlannedObject now;
     ObjectMotion motion{}, before{};
+    std::uint64_t placed = 0;                          // the round in which it was placed last
     Eigen::Vector3d pushed = Eigen::Vector3d::Zero();  // force on the device before the move [N]
 
     // Of a point that stayed where it was, a step ago. Its axes are those of the object: a body's
@@ -173,6 +176,7 @@ class ContactSolver {
     }
   };
 
+  void forget_placed(std::uint64_t round) noexcept;
   void carry() noexcept;
   [[nodiscard]] const MovingObject* moving_as(std::uint32_t index) const noexcept;
   [[nodiscard]] bool within_reach(std::uint32_t index,
@@ -198,6 +202,8 @@ class ContactSolver {
 
   const EffectPlan& plan_;
   std::vector<MovingObject> moving_;
+  std::vector<std::uint32_t> placed_;          // of these, those that were placed for the last step
+  std::vector<std::uint32_t> moving_of_;       // per object, its number in moving_, or kNobody
   std::vector<const PlannedObject*> objects_;  // of the plan, where they are now
   std::vector<ObjectState> states_;
   std::vector<ObjectContact> contacts_;
@@ -210,6 +216,7 @@ class ContactSolver {
   std::vector<std::uint32_t> touched_;  // of these, objects in contact
   std::vector<std::uint64_t> noted_;    // per object, the step at which it was put into near_
   std::uint64_t step_ = 1;
+  std::uint64_t round_ = 1;  // of place() and step(): a step that cannot be made ends one too
   bool any_follows_ = false;
   std::uint32_t alone_ = kNobody;                          // object whose own SCP is the newest
   Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();          // S

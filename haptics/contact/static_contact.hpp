@@ -37,9 +37,9 @@ class StaticContactOf {
                   std::size_t probes = 1);
 
   /// One of the objects that move goes on, before settle(); see ContactSolver.
-  void place(std::uint32_t body, const ObjectMotion& motion) noexcept {
+  void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     for (std::size_t i = 0; i < size(); ++i) {
-      walls_[i]->place(body, motion);
+      walls_[i]->place(body, motion, before);
       if (grabs_[i].holds() && grabs_[i].body() == body) grabs_[i].place(motion);
     }
   }

@@ -30,8 +30,8 @@ class WallContact {
   WallContact(const EffectPlan& plan, double stiffness_cap, double radius = 0.0);
 
   /// One of the objects that move goes on, before move(); see ContactSolver.
-  void place(std::uint32_t body, const ObjectMotion& motion) noexcept {
-    solver_.place(body, motion);
+  void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
+    solver_.place(body, motion, before);
   }
   /// Restarts at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
@@ -72,10 +72,10 @@ class WallContact {
     return std::min(gain_ * solver_.stiffness_of(index), cap_);
   }
   /// See ContactSolver.
-  [[nodiscard]] std::optional<NearBody> near_body(std::size_t& body,
+  [[nodiscard]] std::optional<NearBody> near_body(std::size_t& next,
                                                   const Eigen::Vector3d& velocity,
                                                   double time) const noexcept {
-    return solver_.near_body(body, velocity, time);
+    return solver_.near_body(next, velocity, time);
   }
   [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
     return solver_.friction_of(index);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -224,15 +223,6 @@ PlannedRegion plan_region(const SceneRegion& region) {
   return planned;
 }
 
-bool acts_from_afar(const PlannedEffects& effects) {
-  bool acts = false;
-  effects.for_each([&](const auto& effect) {
-    const EffectHookSet hooks = hooks_of(effect);
-    acts |= hooks.gives && !hooks.in_contact_only;
-  });
-  return acts;
-}
-
 bool acts_outside(const PlannedRegionEffects& effects) {
   bool acts = effects.find<BorderSpring>() != nullptr;
   effects.for_each([&]<class Effect>(const Effect& effect) {
@@ -248,6 +238,15 @@ bool is_bounded(const Eigen::AlignedBox3d& box) {
 }
 
 }  // namespace
+
+bool PlannedObject::acts_from_afar() const noexcept {
+  bool acts = false;
+  effects.for_each([&](const auto& effect) {
+    const EffectHookSet hooks = hooks_of(effect);
+    acts |= hooks.gives && !hooks.in_contact_only;
+  });
+  return acts;
+}
 
 void PlannedObject::place(const Vector3d& at, const Eigen::Matrix3d& turned) noexcept {
   position = at;
@@ -280,7 +279,8 @@ void EffectPlan::plant_tree() {
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const PlannedObject& object = objects_[i];
     has_moving_ |= object.moves();
-    if (acts_from_afar(object.effects) || !is_bounded(object.bounds) || object.moves()) {
+    if (object.moves()) continue;
+    if (object.acts_from_afar() || !is_bounded(object.bounds)) {
       always_.push_back(i);
     } else {
       in_tree_.push_back(i);
@@ -291,20 +291,21 @@ void EffectPlan::plant_tree() {
     tree_ = BoundingVolumeTree(boxes, 0.0);
     return;
   }
-  always_.resize(objects_.size());
-  std::iota(always_.begin(), always_.end(), 0u);
+  always_.insert(always_.end(), in_tree_.begin(), in_tree_.end());
+  std::ranges::sort(always_);
   in_tree_.clear();
 }
 
 bool EffectPlan::has_within(const Eigen::Vector3d& at, double reach) const noexcept {
-  bool found = std::ranges::any_of(regions_, [&](const PlannedRegion& region) {
+  const auto is_near = [&](const PlannedRegion& region) {
     const Eigen::Vector3d place = region.orientation.transpose() * (at - region.position);
     return region.beyond(place).norm() <= reach || acts_outside(region.effects);
-  });
+  };
+  bool found = has_moving_ || std::ranges::any_of(regions_, is_near);
   const Eigen::Vector3d room = Eigen::Vector3d::Constant(reach);
   visit_near({at - room, at + room}, [&](std::uint32_t index) {
     const PlannedObject& object = objects_[index];
-    found = found || acts_from_afar(object.effects) || object.moves() ||
+    found = found || object.acts_from_afar() ||
             distance_below(object.shape, object.to_object(at)) <= reach;
   });
   return found;

@@ -71,6 +71,8 @@ struct PlannedObject {
   [[nodiscard]] Eigen::Vector3d place_of(const Eigen::Vector3d& p_S) const noexcept {
     return to_object(p_S) + origin;
   }
+  /// Whether one of its effects gives a force where it is not touched.
+  [[nodiscard]] bool acts_from_afar() const noexcept;
   [[nodiscard]] bool is_mesh() const noexcept {
     return std::holds_alternative<std::shared_ptr<const SurfaceMesh>>(shape);
   }
@@ -118,9 +120,9 @@ class EffectPlan {
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
   [[nodiscard]] const std::vector<PlannedRegion>& regions() const noexcept { return regions_; }
   [[nodiscard]] bool has_moving() const noexcept { return has_moving_; }
-  /// Calls visit(index) once for each object whose bounds meet `box` [m, S]. It also visits objects
-  /// that have no bounds, or an effect that acts at a distance. Any order, no allocation;
-  /// logarithmic in the objects with bounds.
+  /// Calls visit(index) once for each object that stands still and whose bounds meet `box` [m, S].
+  /// It also visits those that have no bounds, or an effect that acts at a distance. Any order, no
+  /// allocation; logarithmic in the objects with bounds.
   template <class Visit>
   void visit_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
     for (const std::uint32_t index : always_) visit(index);

@@ -38,12 +38,14 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const E
                                        const ServoConfig& config, std::size_t probes,
                                        double stiffness_cap)
     : world_(std::move(world)),
+      radius_(config.contact_radius),
       patch_(config.patch_radius),
       pad_(std::max(config.patch_radius, config.probe_radius)),
       buttons_(config.grab_buttons) {
   if (!world_) return;
   hand_ = world_->add_hand();
   pushes_.reserve(probes * (world_->states().size() + 1));
+  body_of_.resize(plan.objects().size());
   const double period = pdu::to_seconds(config.period);
   for (const BodyState& body : world_->states()) {
     const PlannedObject& object = plan.objects()[body.object];
@@ -51,6 +53,7 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const E
       return body.carried ? GrabSpring{}
                           : held_by(spring, object.matter.mass, period, stiffness_cap);
     };
+    body_of_[body.object] = static_cast<std::uint32_t>(holds_.size());
     holds_.push_back({held(config.grab), held(object.grab)});
   }
 }
@@ -79,10 +82,37 @@ void PressedBodiesOf<axes>::settle(std::chrono::nanoseconds now, bool frozen,
 }
 
 template <int axes>
-void PressedBodiesOf<axes>::place(StaticContactOf<axes>& contacts) const noexcept {
+HandReach PressedBodiesOf<axes>::reach_of(const ToolOf<axes>& tool,
+                                          const StaticContactOf<axes>& contacts) const noexcept {
+  HandReach reach{tool.place(), 0.0, 0.0};
+  for (std::size_t probe = 0; probe < tool.size(); ++probe) {
+    const Vector3d at = tool.place(probe);
+    const ContactResult& walls = contacts.walls(probe).result();
+    const double depth = walls.in_contact ? (walls.scp - at).norm() : 0.0;
+    reach.radius = std::max(reach.radius, (at - reach.middle).norm() + depth + radius_);
+    reach.speed = std::max(reach.speed, tool.velocity(probe).norm());
+  }
+  return reach;
+}
+
+template <int axes>
+void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
+                                  double period) noexcept {
+  if (!world_) return;
+  const auto put = [&](std::size_t body) {
+    contacts.place(static_cast<std::uint32_t>(body), world_->states()[body],
+                   world_->state_before(body));
+  };
+  for (const std::uint32_t body : world_->near(hand_, reach_of(tool, contacts), period)) put(body);
+  for (std::size_t probe = 0; probe < tool.size(); ++probe)
+    if (contacts.grab(probe).holds()) put(contacts.grab(probe).body());
+}
+
+template <int axes>
+void PressedBodiesOf<axes>::place_all(StaticContactOf<axes>& contacts) const noexcept {
   if (!world_) return;
   const std::span<const BodyState> states = world_->states();
-  for (std::uint32_t i = 0; i < states.size(); ++i) contacts.place(i, states[i]);
+  for (std::uint32_t i = 0; i < states.size(); ++i) contacts.place(i, states[i], states[i]);
 }
 
 template <int axes>
@@ -104,9 +134,9 @@ void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>
   const ContactResult& touched = contacts.walls(probe).result();
   const std::span<const BodyState> states = world_->states();
   double most = 0.0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const std::uint32_t object = states[i].object;
-    if (std::ranges::find(touched.touched, object) == touched.touched.end()) continue;
+  for (const std::uint32_t object : touched.touched) {
+    const std::uint32_t i = body_of_[object];
+    if (states[i].object != object) continue;  // it is no body
     const double force = touched.objects[object].force.norm();
     const Hold& hold = holds_[i];
     const bool by_button = pressed && hold.by_button.stiffness > 0;
@@ -182,9 +212,9 @@ template <int axes>
 void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, std::uint32_t object,
                                   BodySpring spring) noexcept {
   const std::span<const BodyState> states = world_->states();
-  const auto body = std::ranges::find(states, object, &BodyState::object);
-  if (body == states.end() || body->carried) return;
-  spring.body = static_cast<std::size_t>(body - states.begin());
+  const std::uint32_t body = body_of_[object];
+  if (states[body].object != object || states[body].carried) return;  // or no body
+  spring.body = body;
   spring.stiffness = walls.stiffness_of(object);
   spring.friction = walls.friction_of(object);
   spring.probe = probe;
@@ -194,14 +224,14 @@ void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, s
 }
 
 template <int axes>
-void PressedBodiesOf<axes>::hold(const StaticContactOf<axes>& contacts, double springs,
-                                 double effects) noexcept {
+void PressedBodiesOf<axes>::hold(const ToolOf<axes>& tool, const StaticContactOf<axes>& contacts,
+                                 double springs, double effects) noexcept {
   for (const Push& push : pushes_) {
     Vector3d rest = Vector3d::Zero();
     if (!push.grips) rest = -effects * contacts.walls(push.probe).effects_of(push.object);
     world_->hold(push.number, springs, rest);
   }
-  if (world_) world_->written(hand_);
+  if (world_) world_->written(hand_, reach_of(tool, contacts));
 }
 
 template class PressedBodiesOf<3>;

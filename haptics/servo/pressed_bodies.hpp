@@ -36,8 +36,11 @@ class PressedBodiesOf {
   /// can be read.
   /// @param frozen they stand still
   void settle(std::chrono::nanoseconds now, bool frozen, EnergyLedger& ledger) noexcept;
-  /// Tells the contacts where the bodies are.
-  void place(StaticContactOf<axes>& contacts) const noexcept;
+  /// Tells the contacts where the bodies are that the tool may meet.
+  /// @param period [s], until the next step
+  void place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
+  /// Where all of them are: before the contacts restart.
+  void place_all(StaticContactOf<axes>& contacts) const noexcept;
   /// Takes hold of bodies that are touched, where the hand is told to or they stick to it, and lets
   /// them go. @param pressed the buttons of the device
   void grab(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, std::uint32_t pressed,
@@ -47,7 +50,8 @@ class PressedBodiesOf {
   /// The hand gets `springs` of the springs as they were foreseen, and `effects` of the effects
   /// that the contacts show, and so do the bodies. Where energy is short for a change within the
   /// period the hand does without it, the bodies do not: their springs are conservative.
-  void hold(const StaticContactOf<axes>& contacts, double springs, double effects) noexcept;
+  void hold(const ToolOf<axes>& tool, const StaticContactOf<axes>& contacts, double springs,
+            double effects) noexcept;
   /// [J], since the start, less what they gave back.
   [[nodiscard]] double work() const noexcept { return work_; }
 
@@ -63,6 +67,8 @@ class PressedBodiesOf {
     GrabSpring by_button, by_touch;
   };
 
+  [[nodiscard]] HandReach reach_of(const ToolOf<axes>& tool,
+                                   const StaticContactOf<axes>& contacts) const noexcept;
   void press(const WallContact& walls, std::size_t probe, std::uint32_t object,
              BodySpring spring) noexcept;
   void press_held(const Grab& grab, std::size_t probe, const Eigen::Vector3d& velocity) noexcept;
@@ -71,10 +77,12 @@ class PressedBodiesOf {
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;
+  double radius_ = 0.0;  // [m], of a probe
   double patch_ = 0.0;
   double pad_ = 0.0;  // [m], radius by which a grip resists turning
   std::uint32_t buttons_ = 0;
   std::vector<Hold> holds_;             // of the bodies
+  std::vector<std::uint32_t> body_of_;  // of the plan's objects, those that have one
   std::array<bool, kMostProbes> by_{};  // a probe holds its body by the button
   std::vector<Push> pushes_;
   double work_ = 0.0;

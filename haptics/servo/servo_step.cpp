@@ -249,6 +249,7 @@ void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
   ToolOf<axes> there = tool_;
   there.reset(pose);
   port_.clear();
+  pressed_.place_all(static_);
   static_.reset(there);
   for (RemoteContact* remote : hands_.all()) remote->forfeit(there.place());
 }
@@ -258,7 +259,7 @@ void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
   port_.settle(dx, elapsed_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
-  pressed_.place(static_);
+  pressed_.place(tool_, static_, period_);
   static_.settle(tool_, step_.dt, port_);
   Vector3d change = Vector3d::Zero();
   const bool in_steps = port_.reads_in_steps();
@@ -276,7 +277,7 @@ void ServoStepOf<axes>::push_bodies(double scale) noexcept {
   const double whole = held_.force.squaredNorm();
   const double all = scale > 0.0 ? 1.0 : 0.0;
   const double share = whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : all;
-  pressed_.hold(static_, share * held_.walls, share);
+  pressed_.hold(tool_, static_, share * held_.walls, share);
 }
 
 // All springs are one force to the hand: opposite forces cancel and cost nothing.

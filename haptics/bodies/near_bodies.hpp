@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which bodies a hand may meet in the period that begins, so that its step looks at no others.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+namespace reckon::haptics {
+
+struct BodyState;
+
+/// What a hand may touch: a ball about its probes, and the points that they are held at.
+struct HandReach {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m], S
+  double radius = 0.0;                               ///< [m]
+  double speed = 0.0;                                ///< [m/s], of the fastest probe
+};
+
+/// One list a hand, of bodies by their numbers, ascending. It is foreseen while nobody waits, and
+/// holds for as long as the hand stays where it was expected. Servo thread.
+class NearBodies {
+ public:
+  /// A body on its way is listed so many periods before it is there.
+  static constexpr double kAhead = 4.0;
+
+  /// @param radius of the ball about each body's origin that it is in [m]; infinite: always listed
+  explicit NearBodies(std::vector<double> radius) : radius_(std::move(radius)) {}
+
+  /// The next hand's number. Allocates.
+  std::size_t add_hand();
+  [[nodiscard]] std::size_t hands() const noexcept { return hands_.size(); }
+  /// A hand's own, at the end of its step.
+  void watch(std::size_t hand, const HandReach& reach) noexcept { hands_[hand].at = reach; }
+  /// Makes the lists of all hands. @param states as they will be  @param period [s]
+  void foresee(std::span<const BodyState> states, double period) noexcept;
+  /// The states are others than those that were foreseen.
+  void forget() noexcept { is_foreseen_ = false; }
+  /// As foreseen, or else made of `states` now: some ns a body.
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t hand, const HandReach& reach,
+                                                  std::span<const BodyState> states,
+                                                  double period) noexcept;
+
+ private:
+  struct Hand {
+    HandReach at;
+    double covers = 0.0;  // [m], radius about the middle within which all bodies are listed
+    std::vector<std::uint32_t> bodies;
+  };
+  void list(Hand& hand, std::span<const BodyState> states, double period) const noexcept;
+
+  std::vector<double> radius_;
+  std::vector<Hand> hands_;
+  bool is_foreseen_ = false;
+};
+
+/// Of the ball about the origin of each object of the plan that moves, for NearBodies [m].
+[[nodiscard]] std::vector<double> radii_of_moving(const EffectPlan& plan);
+
+}  // namespace reckon::haptics
