@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <string>
 
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -64,6 +66,13 @@ std::shared_ptr<BodyMover> mover_of(const haptics::Scene& scene, const SceneNode
 std::shared_ptr<haptics::BodyWorld> bodies_of(const haptics::Scene& scene,
                                               std::span<const PeerDevice> devices,
                                               std::shared_ptr<BodyMover> mover) {
+  const auto moving = std::ranges::count_if(
+      scene.objects, [](const auto& object) { return object.carried || object.matter.mass > 0; });
+  if (moving > static_cast<long>(kMostSharedBodies)) {
+    throw std::invalid_argument("the scene moves " + std::to_string(moving) +
+                                " objects, and peers share at most " +
+                                std::to_string(kMostSharedBodies) + ": take the mass of some out");
+  }
   if (devices.empty()) return nullptr;
   return haptics::make_bodies(haptics::EffectPlan(scene), scene, std::move(mover));
 }

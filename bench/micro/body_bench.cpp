@@ -206,6 +206,65 @@ void pile_falls(benchmark::State& state) {
   state.counters["asleep_after_s"] = asleep;
   state.counters["deepest_um"] = 1e6 * deepest;
 }
+
+/// A hand that presses a cube, or the floor beside it, and cubes that sleep where it does not come.
+struct Sleeping {
+  Sleeping(std::size_t cubes, std::size_t asleep, bool at_cube) {
+    Scene scene = row_of(cubes, 0.05);
+    for (std::size_t i = 0; i < asleep; ++i) {
+      SceneObject cube = row_of(1, 0.05).objects.back();
+      cube.name = "sleeper " + std::to_string(i);
+      cube.pose.position += Vector3d(1 + 2 * kEdge * static_cast<double>(i % 100),
+                                     2 * kEdge * static_cast<double>(i / 100), 0);
+      scene.objects.push_back(cube);
+    }
+    SimulatedDeviceConfig config;
+    config.damping = 1.0;
+    config.hand_stiffness = kGrip;
+    config.start = {at_cube ? 0 : -0.1, 0, 1.5 * kEdge};
+    const double goal = (at_cube ? kEdge : 0.0) - kWanted;
+    device.emplace(config, [x = config.start.x(), goal](double t) {
+      return HandTarget{{x, 0, std::max(goal, 1.5 * kEdge - 0.1 * t)}};
+    });
+    plan = std::make_shared<const EffectPlan>(scene);
+    servo.emplace(*device, plan, ServoConfig{}, make_bodies(*plan, scene));
+    for (int i = 0; i < 3000; ++i) step();
+  }
+  double step() {  // [us]
+    const auto begin = std::chrono::steady_clock::now();
+    servo->step(now += kPeriod);
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
+        .count();
+  }
+  double force() {
+    (void)servo->snapshots().update();
+    return servo->snapshots().read().force.z();
+  }
+  std::optional<SimulatedDevice> device;
+  std::shared_ptr<const EffectPlan> plan;
+  std::optional<ServoLoop> servo;
+  nanoseconds now{1'000'000'000};
+};
+
+// A whole step of the servo beside the same without those that sleep. Arguments: how many of them,
+// whether the hand presses a cube of its own.
+void beside_those_asleep(benchmark::State& state) {
+  const bool at_cube = state.range(1) != 0;
+  const std::size_t own = at_cube ? 1 : 0;
+  Sleeping with(own, static_cast<std::size_t>(state.range(0)), at_cube);
+  Sleeping without(own, 0, at_cube);
+  std::vector<double> times, bare;
+  for (auto _ : state) times.push_back(with.step()), bare.push_back(without.step());
+  state.counters["median_us"] = share_of(times, 0.5);
+  state.counters["bare_median_us"] = share_of(bare, 0.5);
+  state.counters["median_ratio"] = share_of(times, 0.5) / share_of(bare, 0.5);
+  state.counters["p999_ratio"] = share_of(times, 0.999) / share_of(bare, 0.999);
+  state.counters["force_off_n"] = std::abs(with.force() - without.force());
+}
+BENCHMARK(beside_those_asleep)
+    ->ArgNames({"asleep", "at_cube"})
+    ->ArgsProduct({{0, 60, 1000, 10'000}, {0, 1}});
+
 BENCHMARK(pile_falls)->ArgName("boxes")->Arg(10)->Arg(30)->Arg(60)->Iterations(1);
 
 BENCHMARK(until_force_is_written)->ArgName("balls")->Arg(0)->Arg(8)->Arg(27)->Arg(60);

@@ -38,10 +38,6 @@ constexpr double kSlipSpeed = 1e-4;   // [m/s]; faster ones rub along their way
 constexpr double kStillSpeed = 1e-3;  // [m/s]
 constexpr double kStillTurn = 0.02;   // [rad/s]
 
-constexpr double kNear = 5e-4;  // [m], between the boxes of bodies that may touch
-
-Vector3d vector(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
-
 // The exact solver says so where it found no answer, as in a pile of many contacts at once.
 thread_local bool lost = false;
 void note_lost(int, const char*, va_list) { lost = true; }
@@ -60,42 +56,23 @@ void know_thread() {
   static_cast<void>(known);
 }
 
-double turning_energy(dBodyID body) noexcept {
-  const dReal* q = dBodyGetQuaternion(body);
-  const Vector3d rate =
-      Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * vector(dBodyGetAngularVel(body));
-  dMass mass;
-  dBodyGetMass(body, &mass);
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) sum += rate[i] * mass.I[4 * i + k] * rate[k];
-  return 0.5 * sum;
-}
-
 // No body, or one that goes its way whatever it meets.
 bool stands(dBodyID body) noexcept { return body == nullptr || dBodyIsKinematic(body); }
 
-void slow(dBodyID body, double factor) noexcept {
-  const Vector3d v = factor * vector(dBodyGetLinearVel(body));
-  const Vector3d w = factor * vector(dBodyGetAngularVel(body));
-  dBodySetLinearVel(body, v.x(), v.y(), v.z());
-  dBodySetAngularVel(body, w.x(), w.y(), w.z());
-}
-
 // Of the first body against the second one, at a contact of both [m/s].
 Vector3d velocity_at(const dContact& contact, dBodyID first, dBodyID second) noexcept {
-  const Vector3d at = vector(contact.geom.pos);
+  const Vector3d at = vector_of(contact.geom.pos);
   const auto velocity = [&](dBodyID body) -> Vector3d {
     if (body == nullptr) return Vector3d::Zero();
-    return vector(dBodyGetLinearVel(body)) +
-           vector(dBodyGetAngularVel(body)).cross(at - vector(dBodyGetPosition(body)));
+    return vector_of(dBodyGetLinearVel(body)) +
+           vector_of(dBodyGetAngularVel(body)).cross(at - vector_of(dBodyGetPosition(body)));
   };
   return velocity(first) - velocity(second);
 }
 
 // Friction is bounded along two axes: where a contact slips, one of them is its way.
 void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
-  const Vector3d normal = vector(contact.geom.normal);
+  const Vector3d normal = vector_of(contact.geom.normal);
   const Vector3d slip = velocity - normal.dot(velocity) * normal;
   const double speed = slip.norm();
   if (!(speed > kSlipSpeed)) return;
@@ -104,36 +81,6 @@ void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
 }
 
 }  // namespace
-
-BodySolver::State BodySolver::Body::state() const noexcept {
-  State out;
-  std::copy_n(dBodyGetPosition(id), 3, out.at.begin());
-  std::copy_n(dBodyGetQuaternion(id), 4, out.turned.begin());
-  std::copy_n(dBodyGetLinearVel(id), 3, out.velocity.begin());
-  std::copy_n(dBodyGetAngularVel(id), 3, out.turn_rate.begin());
-  std::copy_n(dBodyGetForce(id), 3, out.force.begin());
-  std::copy_n(dBodyGetTorque(id), 3, out.torque.begin());
-  out.awake = dBodyIsEnabled(id) != 0;
-  out.still = still;
-  return out;
-}
-
-void BodySolver::Body::set(const State& state) noexcept {
-  const auto& q = state.turned;
-  const dQuaternion turned{q[0], q[1], q[2], q[3]};
-  dBodySetPosition(id, state.at[0], state.at[1], state.at[2]);
-  dBodySetQuaternion(id, turned);
-  dBodySetLinearVel(id, state.velocity[0], state.velocity[1], state.velocity[2]);
-  dBodySetAngularVel(id, state.turn_rate[0], state.turn_rate[1], state.turn_rate[2]);
-  dBodySetForce(id, state.force[0], state.force[1], state.force[2]);
-  dBodySetTorque(id, state.torque[0], state.torque[1], state.torque[2]);
-  if (state.awake) {
-    dBodyEnable(id);
-  } else {
-    dBodyDisable(id);
-  }
-  still = state.still;
-}
 
 BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const WorkSpace& work_space)
     : gravity_(gravity), work_space_(work_space) {
@@ -152,7 +99,13 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   dWorldSetContactSurfaceLayer(world_, kRestDepth);
   dWorldSetContactMaxCorrectingVel(world_, kParting);
   try {
-    for (std::uint32_t i = 0; i < plan.objects().size(); ++i) add(plan.objects()[i], i);
+    slots_.emplace(world_, geoms_->space(), gravity);
+    for (std::uint32_t i = 0; i < plan.objects().size(); ++i) {
+      const PlannedObject& object = plan.objects()[i];
+      const dGeomID geom = geoms_->add(object);
+      if (object.moves()) slots_->add(object, i, geom);
+    }
+    slots_->fill();
   } catch (...) {
     destroy();
     throw;
@@ -163,55 +116,15 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
 BodySolver::~BodySolver() { destroy(); }
 
 void BodySolver::destroy() noexcept {
+  slots_.reset();
   dGeomDestroy(ray_);
   dJointGroupDestroy(joints_);
   geoms_.reset();
   dWorldDestroy(world_);
 }
 
-void BodySolver::add(const PlannedObject& object, std::uint32_t number) {
-  const bool moves = object.moves();
-  if (moves && bodies_.size() >= kMostBodies) {
-    refuse_body(object, "moves, and a scene moves at most " + std::to_string(kMostBodies) +
-                            " objects: take the mass of some out");
-  }
-  const dGeomID geom = geoms_->add(object);
-  if (!moves) return;
-  Body& body = bodies_.emplace_back();
-  body.id = dBodyCreate(world_);
-  dBodySetData(body.id, reinterpret_cast<void*>(bodies_.size() - 1));
-  body.geom = geom;
-  body.object = number;
-  if (object.carried) {
-    carried_ |= BodySet{1} << (bodies_.size() - 1);
-    dBodySetKinematic(body.id);
-    dBodyDisable(body.id);
-  } else {
-    give_mass(body, object);
-  }
-  const Vector3d& m = body.middle;
-  if (geom != nullptr) dGeomSetBody(geom, body.id);
-  if (!m.isZero(0.0)) dGeomSetOffsetPosition(geom, -m.x(), -m.y(), -m.z());
-  const Quaterniond q(object.orientation);
-  const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-  body.start = object.position + object.orientation * body.middle;
-  dBodySetPosition(body.id, body.start.x(), body.start.y(), body.start.z());
-  dBodySetQuaternion(body.id, turned);
-  dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
-}
-
-void BodySolver::give_mass(Body& body, const PlannedObject& object) {
-  const BodyMass given = mass_of(object);
-  body.mass = object.matter.mass;
-  body.drag = object.matter.drag;
-  body.inner = given.inner;
-  body.least_inertia = given.least_inertia;
-  body.middle = given.middle;
-  dBodySetMass(body.id, &given.mass);
-}
-
-void BodySolver::carry(std::size_t body, const ObjectMotion& motion) noexcept {
-  const dBodyID id = bodies_[body].id;
+void BodySolver::carry(std::size_t slot, const ObjectMotion& motion) noexcept {
+  const dBodyID id = body_at(slot).id;
   const Quaterniond& q = motion.orientation;
   const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
   dBodySetPosition(id, motion.position.x(), motion.position.y(), motion.position.z());
@@ -226,47 +139,22 @@ void BodySolver::carry(std::size_t body, const ObjectMotion& motion) noexcept {
   }
 }
 
-Quaterniond BodySolver::orientation(std::size_t body) const noexcept {
-  const dReal* q = dBodyGetQuaternion(bodies_[body].id);
-  return {q[0], q[1], q[2], q[3]};
-}
-
-ObjectMotion BodySolver::motion(std::size_t body) const noexcept {
-  const dBodyID id = bodies_[body].id;
-  const Quaterniond turned = orientation(body);
-  const Vector3d to_middle = turned * bodies_[body].middle;
-  const Vector3d rate = vector(dBodyGetAngularVel(id));
-  return {vector(dBodyGetPosition(id)) - to_middle, turned,
-          vector(dBodyGetLinearVel(id)) - rate.cross(to_middle), rate};
-}
-
-bool BodySolver::awake(std::size_t body) const noexcept {
-  return acts(body) ? dBodyIsEnabled(bodies_[body].id) != 0 : (parked_awake_ >> body & 1) != 0;
-}
-
-Vector3d BodySolver::velocity(std::size_t body, const Vector3d& place) const noexcept {
-  const dBodyID id = bodies_[body].id;
-  return vector(dBodyGetLinearVel(id)) +
-         vector(dBodyGetAngularVel(id)).cross(orientation(body) * (place - bodies_[body].middle));
+bool BodySolver::awake(std::size_t slot) const noexcept {
+  return acts(slot) ? body_at(slot).is_awake() : (parked_awake_ >> slot & 1) != 0;
 }
 
 double BodySolver::energy() const noexcept {
-  double sum = 0.0;
-  for (const Body& body : bodies_) {
-    if (!(body.mass > 0)) continue;
-    const Vector3d v = vector(dBodyGetLinearVel(body.id));
-    sum += 0.5 * body.mass * v.squaredNorm() + turning_energy(body.id) -
-           body.mass * gravity_.dot(vector(dBodyGetPosition(body.id)) - body.start);
-  }
+  double sum = slots_->asleep_energy() + parked_energy_;
+  each_acting([&](std::size_t i) { sum += body_at(i).energy(gravity_); });
   return sum;
 }
 
 BodySet BodySolver::island(BodySet some) const noexcept {
   // What is carried joins nothing: it goes its way whatever lies on it.
-  some &= ~carried_;
-  std::array<std::array<dReal, 6>, kMostBodies> boxes;
+  some &= ~slots_->carried();
+  std::array<std::array<dReal, 6>, BodySlots::kMost> boxes;
   for (std::size_t i = 0; i < size(); ++i)
-    if (!is_carried(i)) dGeomGetAABB(bodies_[i].geom, boxes[i].data());
+    if (!is_carried(i)) dGeomGetAABB(body_at(i).geom, boxes[i].data());
   const auto near = [&](std::size_t a, std::size_t b) {
     for (std::size_t k = 0; k < 6; k += 2) {
       if (boxes[a][k] > boxes[b][k + 1] + kNear || boxes[b][k] > boxes[a][k + 1] + kNear)
@@ -289,19 +177,21 @@ BodySet BodySolver::island(BodySet some) const noexcept {
 }
 
 void BodySolver::only(BodySet some) noexcept {
-  some |= carried_;
+  some |= slots_->carried();
   if (some == only_) return;
+  parked_energy_ = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
     const BodySet one = BodySet{1} << i;
     const bool wanted = (some & one) != 0;
+    const RigidBody& body = body_at(i);
+    if (!wanted) parked_energy_ += body.energy(gravity_);
     if (wanted == acts(i)) continue;
-    const Body& body = bodies_[i];
     if (wanted) {
       dGeomEnable(body.geom);
       if ((parked_awake_ & one) != 0) dBodyEnable(body.id);
       parked_awake_ &= ~one;
     } else {
-      if (dBodyIsEnabled(body.id)) parked_awake_ |= one;
+      if (body.is_awake()) parked_awake_ |= one;
       dBodyDisable(body.id);
       dGeomDisable(body.geom);
     }
@@ -310,22 +200,21 @@ void BodySolver::only(BodySet some) noexcept {
 }
 
 void BodySolver::keep() noexcept {
-  for (std::size_t i = 0; i < size(); ++i)
-    if (acts(i)) bodies_[i].kept = bodies_[i].state();
+  each_acting([&](std::size_t i) { body_at(i).kept = body_at(i).state(); });
   kept_ = ledger_;
 }
 
 void BodySolver::restore() noexcept {
-  for (std::size_t i = 0; i < size(); ++i)
-    if (acts(i)) bodies_[i].set(bodies_[i].kept);
+  each_acting([&](std::size_t i) { body_at(i).set(body_at(i).kept); });
   ledger_ = kept_;
 }
 
 // Without bodies nobody sees what is carried.
 bool BodySolver::rests() const noexcept {
-  const bool has_bodies = std::popcount(carried_) < static_cast<int>(size());
-  return !has_bodies ||
-         std::ranges::none_of(bodies_, [](const Body& body) { return dBodyIsEnabled(body.id); });
+  if (std::popcount(slots_->carried()) == static_cast<int>(size())) return true;
+  bool any = false;
+  each_acting([&](std::size_t i) { any |= body_at(i).is_awake(); });
+  return !any;
 }
 
 void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
@@ -333,21 +222,24 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   know_thread();
   apply(forces);
   is_driven_ = false;
-  for (Body& body : bodies_) body.flies = vector(dBodyGetForce(body.id)).isZero(0.0);
+  each_acting([&](std::size_t i) {
+    body_at(i).flies = vector_of(dBodyGetForce(body_at(i).id)).isZero(0.0);
+  });
   for (BodyForce& force : forces)
-    force.work = 0.5 * dt * force.force.dot(velocity(force.body, force.place));
+    force.work = 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
   islands_.clear();
   dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
     static_cast<BodySolver*>(self)->collide(a, b);
   });
+  meet_sleeping();
   solve(dt);
   double given = lifted_ahead(dt);
   fly_exactly(dt);
   catch_fast();
   dJointGroupEmpty(joints_);
   for (BodyForce& force : forces) {
-    force.work += 0.5 * dt * force.force.dot(velocity(force.body, force.place));
-    const Vector3d turned = vector(dBodyGetAngularVel(bodies_[force.body].id));
+    force.work += 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
+    const Vector3d turned = vector_of(dBodyGetAngularVel(body_at(force.slot).id));
     given += force.work + dt * std::max(0.0, force.torque.dot(turned));
   }
   // What carried objects did to them is not known.
@@ -362,26 +254,27 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
 // change of its speed more than the pushes did work for. It is as much less when it slows down.
 double BodySolver::lifted_ahead(double dt) const noexcept {
   double sum = 0.0;
-  for (const Body& body : bodies_) {
+  each_acting([&](std::size_t i) {
+    const RigidBody& body = body_at(i);
     const bool is_pushed =
-        body.mass > 0 && !body.flies && dBodyIsEnabled(body.id) && dBodyGetNumJoints(body.id) == 0;
-    if (!is_pushed) continue;
+        body.mass > 0 && !body.flies && body.is_awake() && dBodyGetNumJoints(body.id) == 0;
+    if (!is_pushed) return;
     const Vector3d before(body.before.velocity[0], body.before.velocity[1],
                           body.before.velocity[2]);
-    sum -= 0.5 * dt * body.mass * gravity_.dot(vector(dBodyGetLinearVel(body.id)) - before);
-  }
+    sum -= 0.5 * dt * body.mass * gravity_.dot(vector_of(dBodyGetLinearVel(body.id)) - before);
+  });
   return sum;
 }
 
 // Where the exact solver would take too long or is lost, the step is taken by one that always ends
 // near the answer.
 void BodySolver::solve(double dt) noexcept {
-  for (Body& body : bodies_) body.before = body.state();
+  each_acting([&](std::size_t i) { body_at(i).before = body_at(i).state(); });
   lost = islands_.largest() > kMostExact;
   if (!lost) dWorldStep(world_, dt);
   if (!lost) return;
   ++ledger_.lost;
-  for (Body& body : bodies_) body.set(body.before);
+  each_acting([&](std::size_t i) { body_at(i).set(body_at(i).before); });
   dWorldSetQuickStepNumIterations(
       world_, std::clamp(kIterations / std::max(1, islands_.all()), kFewest, kMostIterations));
   dRandSetSeed(1);  // so that it is the same twice
@@ -390,13 +283,13 @@ void BodySolver::solve(double dt) noexcept {
 
 void BodySolver::apply(std::span<BodyForce> forces) noexcept {
   for (const BodyForce& force : forces) {
-    Body& body = bodies_[force.body];
-    if (force.force.squaredNorm() > 0 && !dBodyIsEnabled(body.id)) {
+    RigidBody& body = body_at(force.slot);
+    if (force.force.squaredNorm() > 0 && !body.is_awake()) {
       dBodyEnable(body.id);
       body.still = 0.0;
     }
-    const Vector3d at =
-        vector(dBodyGetPosition(body.id)) + orientation(force.body) * (force.place - body.middle);
+    const Vector3d at = vector_of(dBodyGetPosition(body.id)) +
+                        body_at(force.slot).turned() * (force.place - body.middle);
     const Vector3d& f = force.force;
     dBodyAddForceAtPos(body.id, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
     dBodyAddTorque(body.id, force.torque.x(), force.torque.y(), force.torque.z());
@@ -426,12 +319,24 @@ void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
     rub_along(contact, velocity);
     // What bounces is a hit: it is over within the step.
     if (contact.surface.bounce > 0 &&
-        velocity.dot(vector(contact.geom.normal)) < -contact.surface.bounce_vel) {
+        velocity.dot(vector_of(contact.geom.normal)) < -contact.surface.bounce_vel) {
       contact.surface.mode |= dContactSoftCFM;
       contact.surface.soft_cfm = kHitSoftness;
     }
     dJointAttach(dJointCreateContact(world_, joints_, &contact), first, second);
   }
+}
+
+// What sleeps without a slot does not give way; it gets one as soon as something comes near.
+void BodySolver::meet_sleeping() noexcept {
+  if (slots_->asleep().size() == 0) return;
+  each_acting([&](std::size_t i) {
+    const RigidBody& body = body_at(i);
+    if (body.geom == nullptr || !body.is_awake()) return;
+    slots_->asleep().visit(box_of(body.geom), [&](std::uint32_t number) {
+      collide(body.geom, slots_->kinds()[number].geom);
+    });
+  });
 }
 
 void BodySolver::note_contacts(dBodyID first, dBodyID second, int count) noexcept {
@@ -448,7 +353,7 @@ void BodySolver::note_contacts(dBodyID first, dBodyID second, int count) noexcep
 }
 
 // Of its middle, along an axis of S.
-Walls BodySolver::walls_of(const Body& body, int axis) const noexcept {
+Walls BodySolver::walls_of(const RigidBody& body, int axis) const noexcept {
   dReal box[6];
   dGeomGetAABB(body.geom, box);
   const double at = dBodyGetPosition(body.id)[axis];
@@ -460,15 +365,15 @@ Walls BodySolver::walls_of(const Body& body, int axis) const noexcept {
 // The solver moves a body by its new speed for all of the step, which keeps the energy of springs.
 // One that nothing touches flies in closed form.
 void BodySolver::fly_exactly(double dt) noexcept {
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Body& body = bodies_[i];
-    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
+  each_acting([&](std::size_t i) {
+    const RigidBody& body = body_at(i);
+    if (!(body.mass > 0) || !body.is_awake()) return;
     const bool flies = body.flies && dBodyGetNumJoints(body.id) == 0;
     const double drag = body.drag / body.mass;
-    if (!flies && !work_space_.is_set() && !(drag > 0)) continue;
+    if (!flies && !work_space_.is_set() && !(drag > 0)) return;
     const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
     const Vector3d speed(body.before.velocity[0], body.before.velocity[1], body.before.velocity[2]);
-    Vector3d at = vector(dBodyGetPosition(body.id)), v = vector(dBodyGetLinearVel(body.id));
+    Vector3d at = vector_of(dBodyGetPosition(body.id)), v = vector_of(dBodyGetLinearVel(body.id));
     if (!flies) v *= std::exp(-drag * dt);
     for (int k = 0; k < 3; ++k) {
       Flight end{at[k], v[k]};
@@ -483,37 +388,42 @@ void BodySolver::fly_exactly(double dt) noexcept {
     }
     dBodySetPosition(body.id, at.x(), at.y(), at.z());
     dBodySetLinearVel(body.id, v.x(), v.y(), v.z());
-  }
+  });
 }
 
 // A body that would be behind what it hits is put where its middle meets it, and the next step
 // finds both in touch.
 void BodySolver::catch_fast() noexcept {
-  for (const Body& body : bodies_) {
-    if (!(body.mass > 0)) continue;
+  each_acting([&](std::size_t i) {
+    const RigidBody& body = body_at(i);
+    if (!(body.mass > 0)) return;
     const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
-    const Vector3d way = vector(dBodyGetPosition(body.id)) - from;
+    const Vector3d way = vector_of(dBodyGetPosition(body.id)) - from;
     const double length = way.norm();
-    if (!(length > 0.5 * body.inner)) continue;
+    if (!(length > 0.5 * body.inner)) return;
     const double free = length_free(body, from, way / length, length);
-    if (!(free < length)) continue;
+    if (!(free < length)) return;
     const Vector3d at = from + std::max(0.0, free - 0.9 * body.inner) / length * way;
     dBodySetPosition(body.id, at.x(), at.y(), at.z());
-  }
+  });
 }
 
 // How far the middle of a body gets before it meets anything else.
-double BodySolver::length_free(const Body& body, const Vector3d& from, const Vector3d& way,
+double BodySolver::length_free(const RigidBody& body, const Vector3d& from, const Vector3d& way,
                                double length) noexcept {
   dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());
   dGeomRaySetLength(ray_, length);
   double free = length;
-  for (int i = 0; i < dSpaceGetNumGeoms(geoms_->space()); ++i) {
-    const dGeomID geom = dSpaceGetGeom(geoms_->space(), i);
-    if (dGeomGetBody(geom) == body.id) continue;
+  const auto meet = [&](dGeomID geom) {
     dContactGeom hit;
     if (dCollide(ray_, geom, 1, &hit, sizeof hit) > 0) free = std::min(free, hit.depth);
+  };
+  for (int i = 0; i < dSpaceGetNumGeoms(geoms_->space()); ++i) {
+    const dGeomID geom = dSpaceGetGeom(geoms_->space(), i);
+    if (dGeomGetBody(geom) != body.id) meet(geom);
   }
+  slots_->asleep().visit(box_of(ray_),
+                         [&](std::uint32_t number) { meet(slots_->kinds()[number].geom); });
   return free;
 }
 
@@ -523,15 +433,15 @@ void BodySolver::take_out(double given) noexcept {
   const double excess = energy() - most;
   if (excess > 0) {
     double moving = 0.0;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (!acts(i) || is_carried(i)) continue;
-      const Body& body = bodies_[i];
-      moving += 0.5 * body.mass * vector(dBodyGetLinearVel(body.id)).squaredNorm() +
-                turning_energy(body.id);
-    }
+    each_acting([&](std::size_t i) {
+      if (is_carried(i)) return;
+      const RigidBody& body = body_at(i);
+      moving += body.kinetic_energy();
+    });
     const double left = moving > excess ? std::sqrt(1.0 - excess / moving) : 0.0;
-    for (std::size_t i = 0; i < size(); ++i)
-      if (acts(i) && !is_carried(i)) slow(bodies_[i].id, left);
+    each_acting([&](std::size_t i) {
+      if (!is_carried(i)) body_at(i).slow(left);
+    });
     ledger_.taken_out += std::min(excess, moving);
   }
   // What slow bodies were lifted by, out of one another, is due from the next motion.
@@ -541,25 +451,26 @@ void BodySolver::take_out(double given) noexcept {
 // Bodies that touch one another fall asleep together: one that does so alone would be woken by the
 // others, and disturb them.
 void BodySolver::rest(double dt) noexcept {
-  std::array<double, kMostBodies> still;  // [s], of islands
+  std::array<double, BodySlots::kMost> still;  // [s], of islands
   still.fill(std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < size(); ++i) {
-    Body& body = bodies_[i];
-    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
-    const double speed = vector(dBodyGetLinearVel(body.id)).norm();
-    if (speed > BodyWorld::kFastest) slow(body.id, BodyWorld::kFastest / speed);
-    const bool is = speed < kStillSpeed && vector(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
+  each_acting([&](std::size_t i) {
+    RigidBody& body = body_at(i);
+    if (!(body.mass > 0) || !body.is_awake()) return;
+    const double speed = vector_of(dBodyGetLinearVel(body.id)).norm();
+    if (speed > BodyWorld::kFastest) body.slow(BodyWorld::kFastest / speed);
+    const bool is =
+        speed < kStillSpeed && vector_of(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
     body.still = is ? body.still + dt : 0.0;
     double& least = still[islands_.island_of(i)];
     least = std::min(least, body.still);
-  }
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Body& body = bodies_[i];
-    if (!(body.mass > 0) || !dBodyIsEnabled(body.id)) continue;
-    if (still[islands_.island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) continue;
-    slow(body.id, 0.0);
+  });
+  each_acting([&](std::size_t i) {
+    RigidBody& body = body_at(i);
+    if (!(body.mass > 0) || !body.is_awake()) return;
+    if (still[islands_.island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) return;
+    body.slow(0.0);
     dBodyDisable(body.id);
-  }
+  });
 }
 
 }  // namespace reckon::haptics

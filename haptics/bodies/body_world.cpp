@@ -23,9 +23,10 @@ constexpr double kLongestStep = 1e-3;     // [s]
 constexpr double kLongestSubstep = 5e-4;  // [s], of what is foreseen
 constexpr double kLongestGap = 0.1;       // [s]
 constexpr double kJitter = 5e-5;          // [s], of a servo that is on time
-constexpr std::size_t kMostPushes = 256;  // 8 hands of 8 probes, each held by 3 bodies at most
 constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
 constexpr double kBodyTime = 3.5e-6;      // [s], of a step, for each body
+constexpr double kMetAhead = 2.0;         // periods, in which one that moves may meet what sleeps
+constexpr std::size_t kMostLeft = 256;    // since a copy of the states was brought up to date
 constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
 constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
 
@@ -37,18 +38,30 @@ class BodyWorld::Engine {
   Engine(const EffectPlan& plan, const Vector3d& gravity, std::shared_ptr<ObjectMover> mover,
          const WorkSpace& work_space)
       : solver_(plan, gravity, work_space), mover_(std::move(mover)), near_(radii_of_moving(plan)) {
-    for (std::size_t i = 0; i < solver_.size(); ++i) {
-      if (solver_.is_carried(i)) carried_.push_back({i, plan.objects()[solver_.object(i)].origin});
+    const std::vector<BodyKind>& kinds = solver_.slots().kinds();
+    for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+      const std::uint32_t object = kinds[solver_.body(slot)].object;
+      if (solver_.is_carried(slot))
+        carried_.push_back({slot, object, plan.objects()[object].origin});
     }
     if (!carried_.empty() && mover_ == nullptr)
       throw std::invalid_argument("the scene has objects that are carried, which need a mover");
     for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(kMostPushes);
     works_.reserve(kMostPushes);
     forces_.reserve(2 * kMostPushes);
-    states_.resize(solver_.size());
-    for (std::size_t i = 0; i < states_.size(); ++i) states_[i].object = solver_.object(i);
-    for (const Carried& one : carried_) states_[one.body].carried = true;
+    left_.reserve(kMostLeft);
+    met_.reserve(BodySlots::kMost);
+    states_.resize(kinds.size());
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      states_[i].object = kinds[i].object;
+      if (solver_.slots().slot_of(i) != BodySlots::kNone) continue;
+      static_cast<ObjectMotion&>(states_[i]) = kinds[i].lying();
+      states_[i].awake = false;
+    }
+    for (const Carried& one : carried_) states_[solver_.body(one.slot)].carried = true;
     next_ = states_;
+    for (std::size_t slot = 0; slot < solver_.size(); ++slot)
+      in_slot_[slot] = static_cast<std::uint32_t>(solver_.body(slot));
     read_states(BodySolver::all(), 0.0);
   }
 
@@ -60,6 +73,10 @@ class BodyWorld::Engine {
     const double gap = pdu::to_seconds(now - time_);
     if (!is_first && !(gap > 0)) return false;
     time_ = now;
+    if (is_quiet() && !is_first && !frozen && !frozen_) {
+      begin_period();
+      return true;
+    }
     see_carried(now);
     frozen_ = frozen;
     if (is_first || frozen) {
@@ -74,6 +91,7 @@ class BodyWorld::Engine {
       return true;
     }
     works_.assign(pushes_.size(), 0.0);
+    if (!(ahead_ > 0)) take_in_met();
     const double whole = std::min(gap, kLongestGap);
     BodySet foreseen = ahead_ > 0 ? rest_ : 0;
     const BodySet rest = ahead_ > 0 ? rest_ : apart();
@@ -110,7 +128,7 @@ class BodyWorld::Engine {
 
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
                                                     double period) noexcept {
-    return near_.of(hand, reach, states_, period);
+    return near_.of(hand, reach, about(states_), period);
   }
   [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept {
     return next_[body];
@@ -127,6 +145,11 @@ class BodyWorld::Engine {
   // What no hand touches, to the end of the period.
   void go_ahead() noexcept {
     if (frozen_ || !started_ || ahead_ > 0 || !(period_ > lead_)) return;
+    if (is_quiet()) {
+      near_.foresee_moved(about(states_), period_);
+      return;
+    }
+    take_in_met();
     rest_ = apart();
     if (rest_ == 0) return;
     ahead_ = period_;
@@ -136,21 +159,24 @@ class BodyWorld::Engine {
     solver_.keep();
     go_on(period_ - lead_);
     solver_.only(BodySolver::all());
-    for (std::size_t i = 0; i < next_.size(); ++i) {
-      if ((rest_ >> i & 1) == 0 || solver_.is_carried(i)) {
-        next_[i] = states_[i];
+    for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+      const std::size_t body = solver_.body(slot);
+      if ((rest_ >> slot & 1) == 0 || solver_.is_carried(slot)) {
+        next_[body] = states_[body];
       } else {
-        read_state(i, kLongestStep, next_[i]);
+        read_state(slot, kLongestStep, next_[body]);
       }
     }
-    near_.foresee(next_, period_);
+    near_.foresee(about(next_), period_);
   }
 
   std::size_t push(std::size_t body, const Vector3d& point, const Vector3d& force) noexcept {
     if (body >= states_.size() || pushes_.size() >= kMostPushes || !force.allFinite())
       return kNoPush;
     go_back();
-    const ObjectMotion at = solver_.motion(body);
+    const std::size_t slot = slot_for(body);
+    if (slot == BodySlots::kNone) return kNoPush;
+    const ObjectMotion at = solver_.motion(slot);
     pushes_.emplace_back(body, at.orientation.conjugate() * (point - at.position), force);
     return pushes_.size() - 1;
   }
@@ -159,7 +185,9 @@ class BodyWorld::Engine {
     if (spring.body >= states_.size() || pushes_.size() >= kMostPushes ||
         !spring.force.allFinite() || !spring.velocity.allFinite())
       return kNoPush;
-    const ObjectMotion at = solver_.motion(spring.body);
+    const std::size_t slot = slot_for(spring.body);
+    if (slot == BodySlots::kNone) return kNoPush;
+    const ObjectMotion at = solver_.motion(slot);
     BodyPush& push = pushes_.emplace_back(hand, spring, at.position, at.orientation);
     for (const BodyPush& before : last_) push.take_twist(before);
     return pushes_.size() - 1;
@@ -204,8 +232,64 @@ class BodyWorld::Engine {
   [[nodiscard]] nanoseconds time() const noexcept { return time_; }
   [[nodiscard]] const BodySolver& solver() const noexcept { return solver_; }
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
+  [[nodiscard]] std::uint64_t crowded() const noexcept { return crowded_; }
+  /// Bodies with a slot.
+  [[nodiscard]] std::span<const std::uint32_t> with_slot() const noexcept {
+    return {in_slot_.data(), solver_.size()};
+  }
+  /// Number of changes of the states, from 1 on.
+  [[nodiscard]] std::uint64_t version() const noexcept { return version_; }
+  /// How many have lost their slot, and the last of them.
+  [[nodiscard]] std::uint64_t left() const noexcept { return left_count_; }
+  [[nodiscard]] std::span<const std::uint32_t> last_left() const noexcept { return left_; }
 
  private:
+  // Nothing moves, and has not since both sets of states were read.
+  [[nodiscard]] bool is_quiet() const noexcept {
+    return quiet_ >= 2 && pushes_.empty() && last_.empty() && carried_.empty();
+  }
+  [[nodiscard]] BodiesAbout about(std::span<const BodyState> states) const noexcept {
+    return {states, with_slot(), solver_.slots().asleep()};
+  }
+  // One that sleeps gets one, and another that sleeps may lose it.
+  [[nodiscard]] std::size_t slot_for(std::size_t body) noexcept {
+    const std::size_t had = solver_.slots().slot_of(body);
+    if (had != BodySlots::kNone) return had;
+    const std::size_t slot = solver_.take_in(body, pushed_by(pushes_) | pushed_by(last_));
+    if (slot == BodySlots::kNone) {
+      ++crowded_;
+      return slot;
+    }
+    const std::uint32_t lost = in_slot_[slot];
+    in_slot_[slot] = static_cast<std::uint32_t>(body);
+    if (lost != kNobody) {
+      static_cast<ObjectMotion&>(states_[lost]) = solver_.slots().kinds()[lost].lying();
+      next_[lost] = states_[lost];
+      if (left_.size() == kMostLeft) left_.erase(left_.begin());
+      left_.push_back(lost);
+      ++left_count_;
+    }
+    near_.forget();
+    return slot;
+  }
+  // What sleeps and is in the way of one that is awake.
+  void take_in_met() noexcept {
+    if (solver_.slots().asleep().size() == 0) return;
+    met_.clear();
+    for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+      if (!solver_.awake(slot)) continue;
+      const ObjectMotion motion = solver_.motion(slot);
+      const double way = BodySolver::kNear + kMetAhead * period_ * motion.velocity.norm();
+      Eigen::AlignedBox3d box = solver_.box(slot);
+      box.extend(Vector3d(box.min().array() - way)).extend(Vector3d(box.max().array() + way));
+      solver_.slots().asleep().visit(box, [&](std::uint32_t body) {
+        if (met_.size() < met_.capacity()) met_.push_back(body);
+      });
+    }
+    std::ranges::sort(met_);  // so that it is the same whatever the grid's order
+    for (const std::uint32_t body : met_) static_cast<void>(slot_for(body));
+  }
+
   // To the period's begin, where all others are.
   void go_back() noexcept {
     if (!(std::exchange(ahead_, 0.0) > 0)) return;
@@ -236,9 +320,12 @@ class BodyWorld::Engine {
     const double times = static_cast<double>(steps * (near_.hands() + 1));
     return kBodyTime * bodies * times <= kMostTime;
   }
-  [[nodiscard]] static BodySet pushed_by(std::span<const BodyPush> pushes) noexcept {
+  [[nodiscard]] std::size_t slot_of(const BodyPush& push) const noexcept {
+    return solver_.slots().slot_of(push.body());
+  }
+  [[nodiscard]] BodySet pushed_by(std::span<const BodyPush> pushes) const noexcept {
     BodySet out = 0;
-    for (const BodyPush& push : pushes) out |= BodySet{1} << push.body();
+    for (const BodyPush& push : pushes) out |= BodySet{1} << slot_of(push);
     return out;
   }
   // A hand that has not stepped yet in this period still pushes as in the last one.
@@ -248,14 +335,14 @@ class BodyWorld::Engine {
   [[nodiscard]] BodySet still_pushed() const noexcept {
     BodySet out = 0;
     for (const BodyPush& push : last_)
-      if (is_due(push)) out |= BodySet{1} << push.body();
+      if (is_due(push)) out |= BodySet{1} << slot_of(push);
     return out;
   }
 
   void see_carried(nanoseconds now) noexcept {
     for (Carried& one : carried_) {
       one.before = one.now;
-      one.now = mover_->motion_of(solver_.object(one.body), now);
+      one.now = mover_->motion_of(one.object, now);
       const Vector3d arm = one.now.orientation * one.origin;
       one.now.position += arm;
       one.now.velocity += one.now.turn_rate.cross(arm);
@@ -268,21 +355,21 @@ class BodyWorld::Engine {
       way.velocity = (one.now.position - one.before.position) / gap;
       const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
       way.turn_rate = turn.angle() / gap * turn.axis();
-      solver_.carry(one.body, way);
+      solver_.carry(one.slot, way);
     }
   }
   void put_carried() noexcept {
-    for (const Carried& one : carried_) solver_.carry(one.body, one.now);
+    for (const Carried& one : carried_) solver_.carry(one.slot, one.now);
   }
 
   // So many that the lightest body that is pushed is stepped right.
   [[nodiscard]] std::size_t steps_for(double period) const noexcept {
-    std::array<double, kMostBodies> stiffness{};
-    for (const BodyPush& push : pushes_) stiffness[push.body()] += push.stiffness();
+    std::array<double, BodySlots::kMost> stiffness{};
+    for (const BodyPush& push : pushes_) stiffness[slot_of(push)] += push.stiffness();
     for (const BodyPush& push : last_)
-      if (is_due(push)) stiffness[push.body()] += push.stiffness();
+      if (is_due(push)) stiffness[slot_of(push)] += push.stiffness();
     double most = 0.0;
-    for (std::size_t i = 0; i < states_.size(); ++i)
+    for (std::size_t i = 0; i < solver_.size(); ++i)
       if (!solver_.is_carried(i))
         most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
     const double wanted = std::ceil(period * std::sqrt(most) / kRight);
@@ -304,14 +391,15 @@ class BodyWorld::Engine {
   }
 
   void add_force(BodyPush& push, const Vector3d& force, double share) noexcept {
-    const std::size_t body = push.body();
+    const std::size_t slot = slot_of(push);
     const Vector3d torque =
-        push.torque(solver_.motion(body).turn_rate, solver_.least_inertia(body), share);
-    forces_.push_back({body, push.place(), force, torque});
+        push.torque(solver_.motion(slot).turn_rate, solver_.least_inertia(slot), share);
+    forces_.push_back({slot, push.place(), force, torque});
   }
   void follow(BodyPush& push, double dt) noexcept {
-    const ObjectMotion at = solver_.motion(push.body());
-    push.follow(solver_.velocity(push.body(), push.place()), at.turn_rate, at.orientation, dt);
+    const std::size_t slot = slot_of(push);
+    const ObjectMotion at = solver_.motion(slot);
+    push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
   }
 
   // All that acts, for `whole` [s], in steps of dt [s] or less. @return their length [s]
@@ -338,17 +426,20 @@ class BodyWorld::Engine {
   // Into the next states, which then are those that hold: those of `some`, and of what is carried.
   // @param step [s], in which `fine` were moved last
   void read_states(BodySet some, double step, BodySet fine = BodySolver::all()) noexcept {
-    for (std::size_t i = 0; i < next_.size(); ++i) {
-      if ((some >> i & 1) == 0 && !solver_.is_carried(i)) continue;
-      read_state(i, (fine >> i & 1) != 0 ? step : kLongestStep, next_[i]);
+    for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+      if ((some >> slot & 1) == 0 && !solver_.is_carried(slot)) continue;
+      read_state(slot, (fine >> slot & 1) != 0 ? step : kLongestStep, next_[solver_.body(slot)]);
     }
     std::swap(states_, next_);
     if (some != 0) near_.forget();
+    ++version_;
+    const auto is_awake = [this](std::uint32_t body) { return states_[body].awake; };
+    quiet_ = std::ranges::any_of(with_slot(), is_awake) ? 0 : quiet_ + 1;
   }
-  void read_state(std::size_t body, double step, BodyState& out) const noexcept {
-    const bool is_carried = solver_.is_carried(body);
-    static_cast<ObjectMotion&>(out) = solver_.motion(body);
-    out.awake = solver_.awake(body);
+  void read_state(std::size_t slot, double step, BodyState& out) const noexcept {
+    const bool is_carried = solver_.is_carried(slot);
+    static_cast<ObjectMotion&>(out) = solver_.motion(slot);
+    out.awake = solver_.awake(slot);
     if (frozen_ && !is_carried) {
       out.velocity.setZero();
       out.turn_rate.setZero();
@@ -357,10 +448,18 @@ class BodyWorld::Engine {
   }
 
   struct Carried {
-    std::size_t body = 0;
+    std::size_t slot = 0;
+    std::uint32_t object = 0;
     Vector3d origin = Vector3d::Zero();  // of its shape's axes in its own [m]
     ObjectMotion before{}, now{};
   };
+
+  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+  static constexpr std::array<std::uint32_t, BodySlots::kMost> all_nobody() noexcept {
+    std::array<std::uint32_t, BodySlots::kMost> out{};
+    out.fill(kNobody);
+    return out;
+  }
 
   BodySolver solver_;
   std::shared_ptr<ObjectMover> mover_;
@@ -369,6 +468,12 @@ class BodyWorld::Engine {
   // Those of the period's end, as far as they are foreseen; until then those of the period before.
   std::vector<BodyState> next_;
   NearBodies near_;
+  std::array<std::uint32_t, BodySlots::kMost> in_slot_ = all_nobody();  // bodies, by their slots
+  std::vector<std::uint32_t> met_;
+  std::vector<std::uint32_t> left_;  // the last that lost their slots
+  std::uint64_t left_count_ = 0, crowded_ = 0;
+  std::uint64_t version_ = 1;      // of the states
+  std::uint64_t quiet_ = 0;        // reads of them since one was awake
   std::vector<BodyPush> pushes_;   // of this period
   std::vector<BodyPush> last_;     // of the one before
   std::vector<BodyForce> forces_;  // of a step
@@ -386,7 +491,16 @@ class BodyWorld::Engine {
 
 BodyWorld::BodyWorld(const EffectPlan& plan, const Vector3d& gravity,
                      std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
-    : engine_(std::make_unique<Engine>(plan, gravity, std::move(mover), work_space)) {
+    : engine_(std::make_unique<Engine>(plan, gravity, std::move(mover), work_space)),
+      was_awake_(engine_->states().size(), 0) {
+  // Each slot of the buffers gets its room.
+  for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
+    for (int i = 0; i < 3; ++i) {
+      to->write_slot().bodies.reserve(engine_->states().size());
+      to->publish();
+      static_cast<void>(to->update());
+    }
+  }
   publish();
 }
 BodyWorld::~BodyWorld() = default;
@@ -401,23 +515,36 @@ void BodyWorld::advance_to(nanoseconds now, bool frozen) noexcept {
 
 void BodyWorld::publish() noexcept {
   is_due_ = false;
-  const std::span<const BodyState> states = engine_->states();
+  if (std::exchange(published_version_, engine_->version()) == engine_->version()) return;
   for (TripleBuffer<BodyStates>* to : {&published_, &outgoing_}) {
-    BodyStates& out = to->write_slot();
-    out.count = states.size();
-    out.time = engine_->time();
-    std::ranges::copy(states, out.bodies.begin());
+    bring_up_to_date(to->write_slot());
     to->publish();
   }
-  if (trace_ == nullptr) return;
-  std::uint64_t awake = 0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const std::uint64_t one = std::uint64_t{1} << i;
-    if (states[i].awake) awake |= one;
-    if (((awake | were_awake_) & one) != 0)
-      static_cast<void>(trace_->push({engine_->time(), states[i]}));
+  if (trace_ != nullptr) trace_steps();
+}
+
+// Those without a slot have not moved since they lost it.
+void BodyWorld::bring_up_to_date(BodyStates& out) const noexcept {
+  const std::span<const BodyState> states = engine_->states();
+  const std::uint64_t missed = engine_->left() - out.left;
+  const std::span<const std::uint32_t> left = engine_->last_left();
+  if (out.bodies.size() != states.size() || missed > left.size()) {
+    out.bodies.assign(states.begin(), states.end());
+  } else {
+    for (const std::uint32_t body : engine_->with_slot()) out.bodies[body] = states[body];
+    for (const std::uint32_t body : left.last(static_cast<std::size_t>(missed)))
+      out.bodies[body] = states[body];
   }
-  were_awake_ = awake;
+  out.time = engine_->time();
+  out.left = engine_->left();
+}
+
+void BodyWorld::trace_steps() noexcept {
+  for (const std::uint32_t body : engine_->with_slot()) {
+    const BodyState& state = engine_->states()[body];
+    const bool was_awake = std::exchange(was_awake_[body], state.awake ? 1 : 0) != 0;
+    if (state.awake || was_awake) static_cast<void>(trace_->push({engine_->time(), state}));
+  }
 }
 
 std::shared_ptr<BodyWorld> make_bodies(const EffectPlan& plan, const Scene& scene,
@@ -459,5 +586,6 @@ double BodyWorld::energy() const noexcept { return engine_->solver().energy(); }
 double BodyWorld::taken_out() const noexcept { return engine_->solver().taken_out(); }
 std::uint64_t BodyWorld::approximated() const noexcept { return engine_->solver().approximated(); }
 std::uint64_t BodyWorld::coarse() const noexcept { return engine_->coarse(); }
+std::uint64_t BodyWorld::crowded() const noexcept { return engine_->crowded(); }
 
 }  // namespace reckon::haptics

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -32,24 +30,11 @@ struct BodyState : ObjectMotion {
 
 struct BodySpring;
 
-/// Bodies of a scene, at most.
-inline constexpr std::size_t kMostBodies = 64;
-
-/// All bodies at one time. A copy takes only those that there are.
+/// All bodies at one time.
 struct BodyStates {
-  std::size_t count = 0;
   std::chrono::nanoseconds time{0};
-  std::array<BodyState, kMostBodies> bodies{};
-
-  BodyStates() = default;
-  BodyStates(const BodyStates& other) noexcept { *this = other; }
-  BodyStates& operator=(const BodyStates& other) noexcept {
-    count = other.count;
-    time = other.time;
-    if (this != &other) std::copy_n(other.bodies.begin(), count, bodies.begin());
-    return *this;
-  }
-  [[nodiscard]] std::span<const BodyState> all() const noexcept { return {bodies.data(), count}; }
+  std::vector<BodyState> bodies;
+  std::uint64_t left = 0;  ///< bodies that had lost their slots when this was written
 };
 
 /// One body after a step.
@@ -70,6 +55,10 @@ using BodyRing = SpscRing<BodyStep>;
 /// bodies' speeds in the same step, so that a pile never gains any. A body that has been still for
 /// kSleep sleeps until it is pushed or hit.
 ///
+/// 64 take part at one time. A world of more begins asleep, as it stands: what is pushed or comes
+/// near one that moves wakes, and the others cost nothing. While 64 are awake the rest does not
+/// give way (crowded()).
+///
 /// Allocates at construction, and within the first steps until as many contacts were met as there
 /// will be; then nothing. 3 us for a body that is awake, 20 us for ten in a pile; body_bench has
 /// hands.
@@ -79,6 +68,8 @@ class BodyWorld {
   /// Greatest speed [m/s] and turn rate [rad/s]; a body that is pushed faster keeps to them.
   static constexpr double kFastest = 200.0;
   static constexpr double kFastestTurn = 200.0;
+  /// Of a period: 8 hands of 8 probes, each held by 3 bodies and holding one.
+  static constexpr std::size_t kMostPushes = 256;
 
   /// Bodies are the objects of the plan that have a Matter with a mass; what is carried goes its
   /// way and takes along what lies on it; all others stand still.
@@ -132,8 +123,8 @@ class BodyWorld {
   [[nodiscard]] double work(std::size_t push) const noexcept;
 
   [[nodiscard]] std::span<const BodyState> states() const noexcept;
-  /// The same after each advance, once all hands have written or the next one begins; one reader
-  /// thread.
+  /// The same after each advance in which one was awake, once all hands have written or the next
+  /// one begins; one reader thread.
   [[nodiscard]] TripleBuffer<BodyStates>& published() noexcept { return published_; }
   /// The same for another reader, which sends them.
   [[nodiscard]] TripleBuffer<BodyStates>& outgoing() noexcept { return outgoing_; }
@@ -149,17 +140,22 @@ class BodyWorld {
   [[nodiscard]] std::uint64_t approximated() const noexcept;
   /// Periods of a hand whose island was too large to be foreseen as a whole, since the start.
   [[nodiscard]] std::uint64_t coarse() const noexcept;
+  /// Times that a body was to wake and did not, since as many as can be were awake.
+  [[nodiscard]] std::uint64_t crowded() const noexcept;
 
  private:
   void publish() noexcept;
+  void bring_up_to_date(BodyStates& out) const noexcept;
+  void trace_steps() noexcept;
 
   class Engine;
   std::unique_ptr<Engine> engine_;
   TripleBuffer<BodyStates> published_;
   TripleBuffer<BodyStates> outgoing_;
   BodyRing* trace_ = nullptr;
-  std::uint64_t were_awake_ = 0;  // in the last step
-  bool is_due_ = false;           // to be published
+  std::vector<char> was_awake_;  // in the last step
+  bool is_due_ = false;          // to be published
+  std::uint64_t published_version_ = 0;
 };
 
 /// The world of the objects that move in the plan of a scene; null if there are none. @throws as

@@ -2,48 +2,76 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/bodies/near_bodies.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "reckon/haptics/bodies/body_world.hpp"
 
 namespace reckon::haptics {
 namespace {
 
+using Eigen::Vector3d;
+
 constexpr double kMargin = 0.005;  // [m], of a hand that starts from rest
+constexpr double kLeft = 0.5;      // of the margin, up to which a list is not made anew
 
 }  // namespace
+
+NearBodies::NearBodies(std::vector<double> radius) : radius_(std::move(radius)) {
+  for (std::uint32_t i = 0; i < radius_.size(); ++i)
+    if (std::isinf(radius_[i])) always_.push_back(i);
+}
 
 std::size_t NearBodies::add_hand() {
   hands_.emplace_back().bodies.reserve(radius_.size());
   return hands_.size() - 1;
 }
 
-void NearBodies::foresee(std::span<const BodyState> states, double period) noexcept {
-  for (Hand& hand : hands_) list(hand, states, period);
+void NearBodies::foresee(const BodiesAbout& bodies, double period) noexcept {
+  for (Hand& hand : hands_) list(hand, hand.watched, bodies, period);
   is_foreseen_ = true;
 }
 
-void NearBodies::list(Hand& hand, std::span<const BodyState> states, double period) const noexcept {
-  const double time = kAhead * period;
-  hand.covers = hand.at.radius + kMargin + hand.at.speed * time;
-  hand.bodies.clear();
-  for (std::uint32_t i = 0; i < states.size(); ++i) {
-    const double reach = hand.covers + radius_[i] + states[i].velocity.norm() * time;
-    if ((states[i].position - hand.at.middle).squaredNorm() <= reach * reach)
-      hand.bodies.push_back(i);
+void NearBodies::foresee_moved(const BodiesAbout& bodies, double period) noexcept {
+  if (!is_foreseen_) return foresee(bodies, period);
+  for (Hand& hand : hands_) {
+    const bool is_due = needed(hand, hand.watched, period) + kLeft * kMargin > hand.covers;
+    if (is_due) list(hand, hand.watched, bodies, period);
   }
 }
 
-std::span<const std::uint32_t> NearBodies::of(std::size_t hand, const HandReach& reach,
-                                              std::span<const BodyState> states,
-                                              double period) noexcept {
-  Hand& own = hands_[hand];
-  const double moved = (reach.middle - own.at.middle).norm();
-  const double needed = moved + reach.radius + reach.speed * (kAhead - 1.0) * period;
-  if (!is_foreseen_ || !(needed <= own.covers)) {
-    own.at = reach;
-    list(own, states, period);
+double NearBodies::needed(const Hand& hand, const HandReach& reach, double period) noexcept {
+  const double moved = (reach.middle - hand.at.middle).norm();
+  return moved + reach.radius + reach.speed * (kAhead - 1.0) * period;
+}
+
+void NearBodies::list(Hand& hand, const HandReach& at, const BodiesAbout& bodies,
+                      double period) const noexcept {
+  hand.at = at;
+  const double time = kAhead * period;
+  hand.covers = hand.at.radius + kMargin + hand.at.speed * time;
+  std::vector<std::uint32_t>& out = hand.bodies;
+  out.assign(always_.begin(), always_.end());
+  for (const std::uint32_t i : bodies.awake) {
+    const BodyState& state = bodies.states[i];
+    const double reach = hand.covers + radius_[i] + state.velocity.norm() * time;
+    const bool is_near = (state.position - hand.at.middle).squaredNorm() <= reach * reach;
+    if (is_near && !std::isinf(radius_[i])) out.push_back(i);
   }
+  const Vector3d about = Vector3d::Constant(hand.covers);
+  bodies.asleep.visit({hand.at.middle - about, hand.at.middle + about}, [&](std::uint32_t i) {
+    if (!std::isinf(radius_[i])) out.push_back(i);
+  });
+  std::ranges::sort(out);
+}
+
+std::span<const std::uint32_t> NearBodies::of(std::size_t hand, const HandReach& reach,
+                                              const BodiesAbout& bodies, double period) noexcept {
+  Hand& own = hands_[hand];
+  if (!is_foreseen_ || !(needed(own, reach, period) <= own.covers))
+    list(own, reach, bodies, period);
   return own.bodies;
 }
 
@@ -51,8 +79,8 @@ std::vector<double> radii_of_moving(const EffectPlan& plan) {
   std::vector<double> out;
   for (const PlannedObject& object : plan.objects()) {
     if (!object.moves()) continue;
-    const Eigen::Vector3d least = object.bounds.min() - object.position;
-    const Eigen::Vector3d most = object.bounds.max() - object.position;
+    const Vector3d least = object.bounds.min() - object.position;
+    const Vector3d most = object.bounds.max() - object.position;
     const double radius = least.cwiseAbs().cwiseMax(most.cwiseAbs()).norm();
     const bool is_always = object.carried || object.acts_from_afar();
     out.push_back(is_always ? std::numeric_limits<double>::infinity() : radius);

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "reckon/haptics/queries/cell_grid.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::haptics {
@@ -23,6 +23,13 @@ struct HandReach {
   double speed = 0.0;                                ///< [m/s], of the fastest probe
 };
 
+/// Where to look for bodies.
+struct BodiesAbout {
+  std::span<const BodyState> states;     ///< of all
+  std::span<const std::uint32_t> awake;  ///< that may move; one that does not may be among them
+  const CellGrid& asleep;                ///< boxes of all others [m], S
+};
+
 /// One list a hand, of bodies by their numbers, ascending. It is foreseen while nobody waits, and
 /// holds for as long as the hand stays where it was expected. Servo thread.
 class NearBodies {
@@ -31,31 +38,37 @@ class NearBodies {
   static constexpr double kAhead = 4.0;
 
   /// @param radius of the ball about each body's origin that it is in [m]; infinite: always listed
-  explicit NearBodies(std::vector<double> radius) : radius_(std::move(radius)) {}
+  explicit NearBodies(std::vector<double> radius);
 
   /// The next hand's number. Allocates.
   std::size_t add_hand();
   [[nodiscard]] std::size_t hands() const noexcept { return hands_.size(); }
   /// A hand's own, at the end of its step.
-  void watch(std::size_t hand, const HandReach& reach) noexcept { hands_[hand].at = reach; }
-  /// Makes the lists of all hands. @param states as they will be  @param period [s]
-  void foresee(std::span<const BodyState> states, double period) noexcept;
+  void watch(std::size_t hand, const HandReach& reach) noexcept { hands_[hand].watched = reach; }
+  /// Makes the lists of all hands. @param bodies as they will be  @param period [s]
+  void foresee(const BodiesAbout& bodies, double period) noexcept;
+  /// The same where no body has moved: of the hands that will soon be out of their lists.
+  void foresee_moved(const BodiesAbout& bodies, double period) noexcept;
   /// The states are others than those that were foreseen.
   void forget() noexcept { is_foreseen_ = false; }
-  /// As foreseen, or else made of `states` now: some ns a body.
+  /// As foreseen, or else made now: some ns a body that is awake.
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t hand, const HandReach& reach,
-                                                  std::span<const BodyState> states,
+                                                  const BodiesAbout& bodies,
                                                   double period) noexcept;
 
  private:
   struct Hand {
-    HandReach at;
-    double covers = 0.0;  // [m], radius about the middle within which all bodies are listed
+    HandReach watched, at;  // at the end of its last step; where its list was made for
+    double covers = 0.0;    // [m], radius about the middle within which all bodies are listed
     std::vector<std::uint32_t> bodies;
   };
-  void list(Hand& hand, std::span<const BodyState> states, double period) const noexcept;
+  [[nodiscard]] static double needed(const Hand& hand, const HandReach& reach,
+                                     double period) noexcept;
+  void list(Hand& hand, const HandReach& at, const BodiesAbout& bodies,
+            double period) const noexcept;
 
   std::vector<double> radius_;
+  std::vector<std::uint32_t> always_;  // bodies
   std::vector<Hand> hands_;
   bool is_foreseen_ = false;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace reckon::haptics {
 namespace {
@@ -19,10 +20,6 @@ std::uint64_t mixed(std::uint64_t x) {
   x ^= x >> 32;
   x *= 0x9E3779B97F4A7C15u;
   return x ^ (x >> 29);
-}
-
-bool meet(const AlignedBox3d& a, const AlignedBox3d& b) {
-  return (a.min().array() <= b.max().array()).all() && (b.min().array() <= a.max().array()).all();
 }
 
 bool is_box(const AlignedBox3d& box) { return (box.min().array() <= box.max().array()).all(); }
@@ -50,13 +47,15 @@ CellGrid::Cell CellGrid::cell_of(const AlignedBox3d& box) noexcept {
           static_cast<std::int64_t>(at.z()), level};
 }
 
-std::uint32_t& CellGrid::bucket_of(const Cell& cell) noexcept {
+std::size_t CellGrid::place_of(const Cell& cell) const noexcept {
   const auto part = [](std::int64_t x) { return static_cast<std::uint64_t>(x); };
   const std::uint64_t hash =
       mixed(part(cell.x) * 73856093u + part(cell.y) * 19349663u + part(cell.z) * 83492791u +
             static_cast<std::uint64_t>(cell.level) * 2654435761u);
-  return buckets_[hash & (buckets_.size() - 1)];
+  return hash & (buckets_.size() - 1);
 }
+
+std::uint32_t& CellGrid::bucket_of(const Cell& cell) noexcept { return buckets_[place_of(cell)]; }
 
 void CellGrid::grow_to(std::size_t numbers) {
   if (numbers <= entries_.size()) return;
@@ -129,11 +128,20 @@ void CellGrid::find_pairs_of(std::uint32_t number) {
 }
 
 // The lower corner of a box that meets this one lies within one cell below, and not above it.
+CellGrid::CellRange CellGrid::range_of(const AlignedBox3d& box, int level) noexcept {
+  const double scale = std::ldexp(1.0, -(level + kLeastPower));
+  return {(box.min() * scale).array().floor() - 1.0, (box.max() * scale).array().floor()};
+}
+
+double CellGrid::CellRange::cells() const noexcept {
+  if (!(low.cwiseAbs().maxCoeff() < kMostCells) || !(high.cwiseAbs().maxCoeff() < kMostCells))
+    return std::numeric_limits<double>::infinity();
+  return ((high - low).array() + 1.0).prod();
+}
+
 void CellGrid::find_in_level(std::uint32_t number, int level) {
   const Entry& entry = entries_[number];
-  const double scale = std::ldexp(1.0, -(level + kLeastPower));
-  const Vector3d low = (entry.box.min() * scale).array().floor() - 1.0;
-  const Vector3d high = (entry.box.max() * scale).array().floor();
+  const auto [low, high] = range_of(entry.box, level);
   const auto index = [](double x) { return static_cast<std::int64_t>(x); };
   const bool same = level == entry.cell.level;
   Cell cell;

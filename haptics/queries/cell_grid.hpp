@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -46,6 +47,13 @@ class CellGrid {
 
   /// All pairs of boxes that overlap or touch, each once. Valid until the next call of it.
   [[nodiscard]] std::span<const BoxPair> overlaps();
+  /// Calls visit(number) for each box that overlaps or touches `box` [m], in any order. Looks into
+  /// the cells about it, or at all boxes where these are fewer. It must not change the grid.
+  template <class Visit>
+  void visit(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+    for (std::uint64_t left = levels_; left != 0; left &= left - 1)
+      visit_level(box, std::countr_zero(left), visit);
+  }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
@@ -65,6 +73,38 @@ class CellGrid {
     std::uint32_t before = kNone, after = kNone;  // in its bucket
   };
 
+  /// Cells of a level that may hold a box which meets this one.
+  struct CellRange {
+    Eigen::Vector3d low, high;
+    [[nodiscard]] double cells() const noexcept;
+  };
+  [[nodiscard]] static CellRange range_of(const Eigen::AlignedBox3d& box, int level) noexcept;
+  [[nodiscard]] static bool meet(const Eigen::AlignedBox3d& a,
+                                 const Eigen::AlignedBox3d& b) noexcept {
+    return (a.min().array() <= b.max().array()).all() && (b.min().array() <= a.max().array()).all();
+  }
+  template <class Visit>
+  void visit_level(const Eigen::AlignedBox3d& box, int level, Visit&& visit) const {
+    const auto visit_cell = [&](const Cell& cell) {
+      for (std::uint32_t i = buckets_[place_of(cell)]; i != kNone; i = entries_[i].after)
+        if (entries_[i].cell == cell && meet(box, entries_[i].box)) visit(i);
+    };
+    if (level == kEverywhere) return visit_cell({0, 0, 0, kEverywhere});
+    const CellRange range = range_of(box, level);
+    if (!(range.cells() < static_cast<double>(size_))) {
+      for (std::uint32_t i = 0; i < entries_.size(); ++i)
+        if (entries_[i].cell.level == level && meet(box, entries_[i].box)) visit(i);
+      return;
+    }
+    const auto index = [](double x) { return static_cast<std::int64_t>(x); };
+    Cell cell;
+    cell.level = level;
+    for (cell.x = index(range.low.x()); cell.x <= index(range.high.x()); ++cell.x)
+      for (cell.y = index(range.low.y()); cell.y <= index(range.high.y()); ++cell.y)
+        for (cell.z = index(range.low.z()); cell.z <= index(range.high.z()); ++cell.z)
+          visit_cell(cell);
+  }
+  [[nodiscard]] std::size_t place_of(const Cell& cell) const noexcept;
   [[nodiscard]] static Cell cell_of(const Eigen::AlignedBox3d& box) noexcept;
   [[nodiscard]] std::uint32_t& bucket_of(const Cell& cell) noexcept;
   void grow_to(std::size_t numbers);

@@ -44,7 +44,7 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const E
       buttons_(config.grab_buttons) {
   if (!world_) return;
   hand_ = world_->add_hand();
-  pushes_.reserve(probes * (world_->states().size() + 1));
+  pushes_.reserve(std::min(probes * (world_->states().size() + 1), BodyWorld::kMostPushes));
   body_of_.resize(plan.objects().size());
   const double period = pdu::to_seconds(config.period);
   for (const BodyState& body : world_->states()) {

@@ -194,7 +194,7 @@ void ModelLoop::add_bodies(EntityNumber first) {
 void ModelLoop::move_bodies() noexcept {
   if (!own_bodies_->update()) return;
   const haptics::BodyStates& states = own_bodies_->read();
-  for (std::size_t i = 0; i < states.count; ++i) {
+  for (std::size_t i = 0; i < states.bodies.size(); ++i) {
     const auto number = static_cast<EntityNumber>(first_body_ + i);
     const OwnedEntity* entity = owned_.find(number);
     if (entity == nullptr) continue;

@@ -29,7 +29,7 @@ pdu::EntityType body_type(std::size_t body) noexcept {
 
 std::optional<std::size_t> body_of(const pdu::EntityType& type) noexcept {
   const std::size_t body = type.extra;
-  if (body >= haptics::kMostBodies || type != body_type(body)) return std::nullopt;
+  if (body >= kMostSharedBodies || type != body_type(body)) return std::nullopt;
   return body;
 }
 

@@ -24,6 +24,9 @@
 
 namespace reckon::peer {
 
+/// Bodies that peers share, at most: their numbers have one octet.
+inline constexpr std::size_t kMostSharedBodies = 256;
+
 /// Kind other, category 66 (0x42); `extra` is the number of the body among the scene's objects that
 /// move.
 [[nodiscard]] pdu::EntityType body_type(std::size_t body) noexcept;
@@ -40,8 +43,8 @@ struct ShownBodies {
     here,
     gone,  ///< it stays where it was shown last
   };
-  std::array<RemoteCopy, haptics::kMostBodies> rows{};
-  std::array<Known, haptics::kMostBodies> known{};
+  std::array<RemoteCopy, kMostSharedBodies> rows{};
+  std::array<Known, kMostSharedBodies> known{};
 };
 
 /// The servos' side: a body is where the table of remote entities shows it, and what hangs below a
@@ -96,7 +99,7 @@ class RemoteBodies {
   };
   haptics::TripleBuffer<ShownBodies>& shown_;
   ShownBodies newest_;
-  std::array<Place, haptics::kMostBodies> places_{};
+  std::array<Place, kMostSharedBodies> places_{};
 };
 
 }  // namespace reckon::peer

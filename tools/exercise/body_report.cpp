@@ -27,14 +27,19 @@ void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
         "                             {} steps by the iterative solver; {} periods of a hand "
         "at more bodies than could be foreseen\n",
         bodies->approximated(), bodies->coarse());
+  if (bodies->crowded() > 0)
+    fmt::print(out,
+               "                             {} times one did not wake, since as many moved as can "
+               "(64): it did not give way\n",
+               bodies->crowded());
 }
 
 std::string bodies_json(const haptics::BodyWorld* bodies) {
   if (bodies == nullptr) return R"(,"bodies":null)";
   return fmt::format(
-      R"(,"bodies":{{"moving":{},"awake":{},"taken_out_j":{:.6g},"approximated_steps":{},"coarse_periods":{}}})",
+      R"(,"bodies":{{"moving":{},"awake":{},"taken_out_j":{:.6g},"approximated_steps":{},"coarse_periods":{},"not_woken":{}}})",
       bodies->states().size(), awake_of(*bodies), bodies->taken_out(), bodies->approximated(),
-      bodies->coarse());
+      bodies->coarse(), bodies->crowded());
 }
 
 }  // namespace reckon::tools

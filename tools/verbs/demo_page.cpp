@@ -70,7 +70,7 @@ DemoPage::DemoPage(const ViewFlags& flags, const peer::SceneFile& scene,
 void DemoPage::show(Exercise& exercise) {
   if (haptics::BodyWorld* bodies = exercise.peer(0).bodies(); bodies != nullptr) {
     (void)bodies->published().update();
-    view_.hands().take_bodies(bodies->published().read().all());
+    view_.hands().take_bodies(bodies->published().read().bodies);
   }
   for (std::size_t i = 0; i < exercise.size(); ++i)
     for (std::size_t k = 0; k < exercise.view(i).hand_count; ++k)

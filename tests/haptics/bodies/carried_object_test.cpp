@@ -103,7 +103,7 @@ void press_on(test::MeshData data, double size, unsigned seed) {
     ObjectMotion motion = swing(Vector3d::Zero(), Vector3d(0.02, 0.01, 0.015), 9.3, time);
     const Vector3d axis = Vector3d(1, 0.3, -0.5).normalized();
     motion.orientation = Eigen::AngleAxisd(0.25 / (0.5 * size) * time, axis);
-    solver.place(0, motion);
+    solver.place(0, motion, motion);
     const ContactResult result = solver.step(hand, dt);
     touched += result.in_contact ? 1 : 0;
     if (!result.in_contact || i % (soaks ? 1 : 25) != 0) continue;

@@ -165,6 +165,43 @@ TEST(CellGrid, ForgetsWhatIsRemovedAndWhatIsNoBox) {
   EXPECT_EQ(grid.size(), 1u);
 }
 
+// As a search of all boxes finds them, for boxes small and large, near and far.
+TEST(CellGrid, VisitsTheBoxesThatABoxMeets) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const auto drawn = [&](double room) {
+    const Vector3d at = room * Vector3d(any(random), any(random), any(random));
+    const double half = std::pow(10.0, -2.0 + 2.0 * any(random));
+    return AlignedBox3d(at - Vector3d::Constant(half), at + Vector3d::Constant(half));
+  };
+  CellGrid grid;
+  std::vector<AlignedBox3d> boxes;
+  for (int i = 0; i < 2000; ++i) {
+    boxes.push_back(i % 500 == 0
+                        ? AlignedBox3d(Vector3d::Constant(-1e300), Vector3d::Constant(1e15))
+                        : drawn(i % 10 == 0 ? 1e6 : 2.0));
+    grid.place(static_cast<std::uint32_t>(i), boxes.back());
+  }
+  for (int i = 0; i < 2000; i += 7) {
+    grid.remove(static_cast<std::uint32_t>(i));
+    boxes[static_cast<std::size_t>(i)].setEmpty();
+  }
+  std::size_t met = 0;
+  for (int i = 0; i < 500; ++i) {
+    const AlignedBox3d box = i == 0
+                                 ? AlignedBox3d(Vector3d::Constant(-1e15), Vector3d::Constant(1e15))
+                                 : drawn(i % 10 == 0 ? 1e6 : 2.0);
+    std::vector<std::uint32_t> found, wanted;
+    grid.visit(box, [&](std::uint32_t number) { found.push_back(number); });
+    std::ranges::sort(found);
+    for (std::uint32_t k = 0; k < boxes.size(); ++k)
+      if (!boxes[k].isEmpty() && boxes[k].intersects(box)) wanted.push_back(k);
+    ASSERT_EQ(found, wanted) << i;
+    met += found.size();
+  }
+  EXPECT_GT(met, 5000U);
+}
+
 TEST(CellGrid, AllocatesNothingOnceItHasGrown) {
   std::mt19937_64 random(5);
   std::vector<AlignedBox3d> boxes = drawn_boxes(random, 2'000, 3.0, 0.02, 0.3);

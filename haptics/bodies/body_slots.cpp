@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/bodies/body_slots.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "reckon/haptics/bodies/body_mass.hpp"
+#include "reckon/haptics/bodies/body_world.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kTooManyCarried =
+    "the scene has more than 64 objects that move below time functions, and bodies beside them: "
+    "take the mass of the bodies out, or time functions";
+
+}  // namespace
+
+BodySlots::~BodySlots() {
+  for (const BodyKind& kind : kinds_)
+    if (kind.geom != nullptr && dGeomGetSpace(kind.geom) == nullptr) dGeomDestroy(kind.geom);
+}
+
+void BodySlots::add(const PlannedObject& object, std::uint32_t number, dGeomID geom) {
+  BodyKind& kind = kinds_.emplace_back();
+  kind.geom = geom;
+  kind.number = kinds_.size() - 1;
+  kind.object = number;
+  kind.is_carried = object.carried;
+  if (!kind.is_carried) {
+    const BodyMass given = mass_of(object);
+    kind.mass = object.matter.mass;
+    kind.drag = object.matter.drag;
+    kind.inner = given.inner;
+    kind.least_inertia = given.least_inertia;
+    kind.middle = given.middle;
+    kind.inertia = given.mass;
+  }
+  kind.orientation = object.orientation;
+  kind.at = kind.start = object.position + object.orientation * kind.middle;
+}
+
+void BodySlots::fill() {
+  const bool all_fit = kinds_.size() <= kMost;
+  slot_of_.assign(kinds_.size(), kNone);
+  bodies_.reserve(kMost);
+  asleep_ = CellGrid(all_fit ? 0 : kinds_.size());
+  for (const BodyKind& kind : kinds_) {
+    if (all_fit || kind.is_carried) {
+      if (bodies_.size() == kMost) throw std::invalid_argument(kTooManyCarried);
+      take_in(kind.number, 0);
+    } else {
+      dSpaceRemove(space_, kind.geom);
+      lie_down(kind);
+    }
+  }
+}
+
+std::size_t BodySlots::take_in(std::size_t body, BodySet pinned) noexcept {
+  if (slot_of_[body] != kNone) return slot_of_[body];
+  std::size_t slot = bodies_.size();
+  if (slot < kMost) {
+    bodies_.emplace_back().id = dBodyCreate(world_);
+    dBodySetData(bodies_.back().id, reinterpret_cast<void*>(slot));
+  } else {
+    const auto stays = [&](std::size_t i) {
+      return ((pinned | carried_) >> i & 1) != 0 || bodies_[i].is_awake();
+    };
+    std::size_t tried = 0;
+    for (; tried < kMost && stays(next_out_); ++tried) next_out_ = (next_out_ + 1) % kMost;
+    if (tried == kMost) return kNone;
+    slot = next_out_;
+    next_out_ = (next_out_ + 1) % kMost;
+    leave(slot);
+  }
+  sit(slot, kinds_[body]);
+  return slot;
+}
+
+void BodySlots::sit(std::size_t slot, const BodyKind& kind) noexcept {
+  RigidBody& body = bodies_[slot];
+  static_cast<BodyKind&>(body) = kind;
+  slot_of_[kind.number] = slot;
+  const bool was_asleep = kind.geom != nullptr && dGeomGetSpace(kind.geom) == nullptr;
+  if (was_asleep) {
+    asleep_.remove(static_cast<std::uint32_t>(kind.number));
+    asleep_energy_ -= kind.height_energy(kind.at, gravity_);
+    dSpaceAdd(space_, kind.geom);
+  }
+  if (kind.is_carried) {
+    carried_ |= BodySet{1} << slot;
+    dBodySetKinematic(body.id);
+  } else {
+    dBodySetMass(body.id, &kind.inertia);
+  }
+  if (kind.geom != nullptr) dGeomSetBody(kind.geom, body.id);
+  const Vector3d& m = kind.middle;
+  if (!m.isZero(0.0)) dGeomSetOffsetPosition(kind.geom, -m.x(), -m.y(), -m.z());
+  RigidBody::State state;
+  std::ranges::copy(kind.at, state.at.begin());
+  state.turned = {kind.orientation.w(), kind.orientation.x(), kind.orientation.y(),
+                  kind.orientation.z()};
+  state.awake = !kind.is_carried && !was_asleep;
+  body.set(state);
+  dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
+}
+
+void BodySlots::leave(std::size_t slot) noexcept {
+  BodyKind& kind = kinds_[bodies_[slot].number];
+  kind.at = vector_of(dBodyGetPosition(bodies_[slot].id));
+  kind.orientation = bodies_[slot].turned();
+  slot_of_[kind.number] = kNone;
+  dGeomSetBody(kind.geom, nullptr);  // it stays where it is
+  dSpaceRemove(space_, kind.geom);
+  lie_down(kind);
+}
+
+void BodySlots::lie_down(const BodyKind& kind) noexcept {
+  const Vector3d origin = kind.lying().position;
+  const dQuaternion turned{kind.orientation.w(), kind.orientation.x(), kind.orientation.y(),
+                           kind.orientation.z()};
+  dGeomSetPosition(kind.geom, origin.x(), origin.y(), origin.z());
+  dGeomSetQuaternion(kind.geom, turned);
+  asleep_.place(static_cast<std::uint32_t>(kind.number), box_of(kind.geom));
+  asleep_energy_ += kind.height_energy(kind.at, gravity_);
+}
+
+}  // namespace reckon::haptics
