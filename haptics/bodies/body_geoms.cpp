@@ -4,9 +4,10 @@
 
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
+#include <string>
 #include <variant>
 
+#include "reckon/haptics/geometry/solid_mesh.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
 namespace reckon::haptics {
@@ -15,8 +16,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr const char* kYet =
-    "has a mass, but only boxes, spheres and closed meshes move by theirs: give one of them";
+constexpr int kCells = 20;  // along a solid
 constexpr std::size_t kMostTriangles = 20'000;
 
 dGeomID placed(const PlannedObject& object, dGeomID geom) {
@@ -27,6 +27,8 @@ dGeomID placed(const PlannedObject& object, dGeomID geom) {
   dGeomSetQuaternion(geom, turned);
   return geom;
 }
+
+bool is_mesh(dGeomID geom) { return dGeomGetClass(geom) == dTriMeshClass; }
 
 void check_body(const PlannedObject& object, const SurfaceMesh& mesh) {
   if (!mesh.report().closed)
@@ -42,12 +44,22 @@ void check_body(const PlannedObject& object, const SurfaceMesh& mesh) {
 
 }  // namespace
 
+const CylinderShape* cylinder_of(const PlannedObject& object) {
+  const auto* solid = std::get_if<std::shared_ptr<const ImplicitSolid>>(&object.shape);
+  return solid != nullptr && (*solid)->cylinder() ? &*(*solid)->cylinder() : nullptr;
+}
+
 void refuse_body(const PlannedObject& object, const std::string& why) {
   throw std::invalid_argument("object '" + object.name + "' " + why);
 }
 
-BodyGeoms::BodyGeoms(bool meshes_meet)
-    : space_(dSimpleSpaceCreate(nullptr)), meshes_meet_(meshes_meet) {}
+BodyGeoms::BodyGeoms(std::span<const PlannedObject> objects) : space_(dSimpleSpaceCreate(nullptr)) {
+  for (const PlannedObject& object : objects) {
+    has_bodies_ |= object.is_body();
+    meshes_meet_ |= object.is_body() && !std::holds_alternative<Block>(object.shape) &&
+                    !std::holds_alternative<Ball>(object.shape);
+  }
+}
 
 BodyGeoms::~BodyGeoms() {
   dSpaceDestroy(space_);
@@ -55,17 +67,38 @@ BodyGeoms::~BodyGeoms() {
 }
 
 dGeomID BodyGeoms::add(const PlannedObject& object) {
-  const dGeomID geom = make(object);
+  const std::shared_ptr<const SurfaceMesh> mesh = mesh_for(object);
+  if (mesh && object.is_body()) check_body(object, *mesh);
+  const dGeomID geom = make(object, mesh.get());
   if (geom == nullptr) return nullptr;
   GeomMatter& matter = matters_.emplace_back(GeomMatter{object.matter});
-  const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape);
-  if (mesh != nullptr && meshes_meet_) {
-    auto& probed = probed_[mesh->get()];
-    if (!probed) probed = std::make_unique<const ProbedMesh>(*mesh);
+  if (mesh && meshes_meet_) {
+    auto& probed = probed_[mesh.get()];
+    if (!probed) probed = std::make_unique<const ProbedMesh>(mesh);
     matter.mesh = probed.get();
   }
   dGeomSetData(geom, &matter);
   return geom;
+}
+
+// Of a mesh, or a solid that has an end.
+std::shared_ptr<const SurfaceMesh> BodyGeoms::mesh_for(const PlannedObject& object) {
+  if (const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape))
+    return *mesh;
+  const auto* solid = std::get_if<std::shared_ptr<const ImplicitSolid>>(&object.shape);
+  if (solid == nullptr || !has_bodies_) return nullptr;
+  if (!(*solid)->bounds().sizes().allFinite()) {
+    if (object.is_body()) refuse_body(object, "has a mass, and no end: cut it");
+    return nullptr;
+  }
+  std::shared_ptr<const SurfaceMesh>& mesh = solids_[solid->get()];
+  try {
+    if (!mesh) mesh = std::make_shared<const SurfaceMesh>(mesh_of(**solid, kCells));
+  } catch (const std::invalid_argument&) {
+    refuse_body(object, "has walls that bodies would pass through: make them thicker than 1/" +
+                            std::to_string(kCells) + " of its length");
+  }
+  return mesh;
 }
 
 std::span<dContactGeom> BodyGeoms::meet(dGeomID a, dGeomID b,
@@ -73,6 +106,10 @@ std::span<dContactGeom> BodyGeoms::meet(dGeomID a, dGeomID b,
   const ProbedMesh *one = matter_of(a).mesh, *other = matter_of(b).mesh;
   if (one != nullptr && other != nullptr) {
     room = room.first(haptics::meet(*one, a, *other, b, room));
+  } else if (is_mesh(a) && one != nullptr && dGeomGetClass(b) == dPlaneClass) {
+    room = room.first(meet_plane(*one, a, b, true, room));
+  } else if (is_mesh(b) && other != nullptr && dGeomGetClass(a) == dPlaneClass) {
+    room = room.first(meet_plane(*other, b, a, false, room));
   } else {
     const int most = one != nullptr || other != nullptr ? static_cast<int>(room.size()) : 4;
     const int count = dCollide(a, b, most, room.data(), sizeof(dContactGeom));
@@ -81,33 +118,26 @@ std::span<dContactGeom> BodyGeoms::meet(dGeomID a, dGeomID b,
   return room.first(keep_widest(room));
 }
 
-dGeomID BodyGeoms::make(const PlannedObject& object) {
-  return std::visit(
-      [&](const auto& shape) -> dGeomID {
-        using S = std::decay_t<decltype(shape)>;
-        if constexpr (std::is_same_v<S, HalfSpace>) {
-          if (object.moves()) refuse_body(object, "is a plane, which cannot move: give a box");
-          const Vector3d normal = object.orientation * shape.normal();
-          return dCreatePlane(space_, normal.x(), normal.y(), normal.z(),
-                              normal.dot(object.position));
-        } else if constexpr (std::is_same_v<S, Ball>) {
-          return placed(object, dCreateSphere(space_, 0.5 * shape.bounds().sizes().x()));
-        } else if constexpr (std::is_same_v<S, Block>) {
-          const Vector3d size = shape.bounds().sizes();
-          return placed(object, dCreateBox(space_, size.x(), size.y(), size.z()));
-        } else if constexpr (std::is_same_v<S, std::shared_ptr<const SurfaceMesh>>) {
-          if (object.is_body()) check_body(object, *shape);
-          return placed(object, make_mesh(shape));
-        } else {
-          if (object.is_body()) refuse_body(object, kYet);
-          return nullptr;
-        }
-      },
-      object.shape);
+dGeomID BodyGeoms::make(const PlannedObject& object, const SurfaceMesh* mesh) {
+  // On a mesh it would roll over its pieces.
+  if (const CylinderShape* cylinder = cylinder_of(object); mesh != nullptr && cylinder != nullptr)
+    return placed(object, dCreateCylinder(space_, cylinder->radius, cylinder->height));
+  if (mesh != nullptr) return placed(object, make_mesh(*mesh));
+  if (const auto* plane = std::get_if<HalfSpace>(&object.shape)) {
+    if (object.moves()) refuse_body(object, "is a plane, which cannot move: give a box");
+    const Vector3d normal = object.orientation * plane->normal();
+    return dCreatePlane(space_, normal.x(), normal.y(), normal.z(), normal.dot(object.position));
+  }
+  if (const auto* ball = std::get_if<Ball>(&object.shape))
+    return placed(object, dCreateSphere(space_, 0.5 * ball->bounds().sizes().x()));
+  if (const auto* block = std::get_if<Block>(&object.shape)) {
+    const Vector3d size = block->bounds().sizes();
+    return placed(object, dCreateBox(space_, size.x(), size.y(), size.z()));
+  }
+  return nullptr;
 }
 
-dGeomID BodyGeoms::make_mesh(const std::shared_ptr<const SurfaceMesh>& shape) {
-  const SurfaceMesh& mesh = *shape;
+dGeomID BodyGeoms::make_mesh(const SurfaceMesh& mesh) {
   std::vector<double>& corners = corners_.emplace_back();
   std::vector<dTriIndex>& indices = indices_.emplace_back();
   for (const Triangle& triangle : mesh.triangles()) {

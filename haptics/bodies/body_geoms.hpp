@@ -19,24 +19,27 @@ namespace reckon::haptics {
 /// @throws std::invalid_argument "object '..' {why}"
 [[noreturn]] void refuse_body(const PlannedObject& object, const std::string& why);
 
+/// Its dimensions, or null if it is none.
+[[nodiscard]] const CylinderShape* cylinder_of(const PlannedObject& object);
+
 /// What a geom is made of; its data.
 struct GeomMatter {
   Matter matter;
   const ProbedMesh* mesh = nullptr;  ///< of a mesh, where one with a mass moves
 };
 
-/// A space of shapes: boxes, spheres, planes, meshes. One thread at a time.
+/// A space of shapes: boxes, spheres, planes, meshes, and solids as meshes. One thread at a time.
 class BodyGeoms {
  public:
-  /// @param meshes_meet whether one with a mass is a mesh, which others are to meet
-  explicit BodyGeoms(bool meshes_meet);
+  /// @param objects that are to be added
+  explicit BodyGeoms(std::span<const PlannedObject> objects);
   ~BodyGeoms();
   BodyGeoms(const BodyGeoms&) = delete;
   BodyGeoms& operator=(const BodyGeoms&) = delete;
 
   /// A shape for the object, at its place if it stands still; one that moves is placed by its body.
-  /// @return null for a solid that bodies pass through  @throws std::invalid_argument for one that
-  /// cannot move
+  /// @return null for a solid without end, which bodies pass through, or without bodies  @throws
+  /// std::invalid_argument for one that cannot move, or is too thin to be met
   dGeomID add(const PlannedObject& object);
   /// Contacts of two of them as dCollide finds them, those that hold best; 4 at most.
   [[nodiscard]] static std::span<dContactGeom> meet(dGeomID a, dGeomID b,
@@ -47,16 +50,19 @@ class BodyGeoms {
   [[nodiscard]] dSpaceID space() const noexcept { return space_; }
 
  private:
-  [[nodiscard]] dGeomID make(const PlannedObject& object);
-  [[nodiscard]] dGeomID make_mesh(const std::shared_ptr<const SurfaceMesh>& mesh);
+  [[nodiscard]] std::shared_ptr<const SurfaceMesh> mesh_for(const PlannedObject& object);
+  [[nodiscard]] dGeomID make(const PlannedObject& object, const SurfaceMesh* mesh);
+  [[nodiscard]] dGeomID make_mesh(const SurfaceMesh& mesh);
 
   dSpaceID space_;
-  bool meshes_meet_;
+  bool has_bodies_ = false;   // one of them has a mass
+  bool meshes_meet_ = false;  // one with a mass is a mesh, or a solid, which others are to meet
   std::vector<dTriMeshDataID> meshes_;
   std::deque<std::vector<double>> corners_;  // ODE points to them
   std::deque<std::vector<dTriIndex>> indices_;
   std::deque<GeomMatter> matters_;
   std::map<const SurfaceMesh*, std::unique_ptr<const ProbedMesh>> probed_;  // shared by copies
+  std::map<const ImplicitSolid*, std::shared_ptr<const SurfaceMesh>> solids_;
 };
 
 }  // namespace reckon::haptics

@@ -4,9 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <memory>
 #include <variant>
 
+#include "reckon/haptics/bodies/body_geoms.hpp"
 #include "reckon/haptics/geometry/solid_moments.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
@@ -33,12 +33,16 @@ BodyMass of_mesh(const SurfaceMesh& mesh, double mass) {
 
 }  // namespace
 
-BodyMass mass_of(const PlannedObject& object) {
+BodyMass mass_of(const PlannedObject& object, const SurfaceMesh* mesh) {
   const double mass = object.matter.mass;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const SurfaceMesh>>(&object.shape))
-    return of_mesh(**mesh, mass);
   BodyMass out;
-  if (const auto* ball = std::get_if<Ball>(&object.shape)) {
+  if (const CylinderShape* cylinder = cylinder_of(object); cylinder != nullptr) {
+    constexpr int kAlongZ = 3;
+    out.inner = std::min(cylinder->radius, 0.5 * cylinder->height);
+    dMassSetCylinderTotal(&out.mass, mass, kAlongZ, cylinder->radius, cylinder->height);
+  } else if (mesh != nullptr) {
+    return of_mesh(*mesh, mass);
+  } else if (const auto* ball = std::get_if<Ball>(&object.shape)) {
     out.inner = 0.5 * ball->bounds().sizes().x();
     dMassSetSphereTotal(&out.mass, mass, out.inner);
   } else {

@@ -18,7 +18,7 @@ struct BodyMass {
   double least_inertia = 0.0;                        ///< [kg m^2], of its principal ones
 };
 
-/// @param object a ball, a box or a closed mesh, with a mass
-[[nodiscard]] BodyMass mass_of(const PlannedObject& object);
+/// @param object a ball, a box, or with a mesh; it has a mass  @param mesh closed, or null
+[[nodiscard]] BodyMass mass_of(const PlannedObject& object, const SurfaceMesh* mesh);
 
 }  // namespace reckon::haptics

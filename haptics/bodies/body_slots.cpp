@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "reckon/haptics/bodies/body_geoms.hpp"
 #include "reckon/haptics/bodies/body_mass.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
 
@@ -31,7 +32,8 @@ void BodySlots::add(const PlannedObject& object, std::uint32_t number, dGeomID g
   kind.object = number;
   kind.is_carried = object.carried;
   if (!kind.is_carried) {
-    const BodyMass given = mass_of(object);
+    const ProbedMesh* mesh = BodyGeoms::matter_of(geom).mesh;
+    const BodyMass given = mass_of(object, mesh != nullptr ? &mesh->mesh() : nullptr);
     kind.mass = object.matter.mass;
     kind.drag = object.matter.drag;
     kind.inner = given.inner;

@@ -87,9 +87,7 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   start_ode();
   know_thread();
   world_ = dWorldCreate();
-  geoms_.emplace(std::ranges::any_of(plan.objects(), [](const PlannedObject& object) {
-    return object.is_body() && object.is_mesh();
-  }));
+  geoms_.emplace(plan.objects());
   joints_ = dJointGroupCreate(0);
   ray_ = dCreateRay(nullptr, 1.0);
   keep_within_thread(world_);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace reckon::haptics {
@@ -66,10 +67,13 @@ ProbedMesh::ProbedMesh(std::shared_ptr<const SurfaceMesh> mesh) : mesh_(std::mov
   std::vector<std::array<Vector3d, 2>> edges;
   for (const Triangle& t : mesh_->triangles()) {
     for (const auto& [from, to] : {std::pair(&t.a, &t.b), {&t.b, &t.c}, {&t.c, &t.a}}) {
-      points_.push_back(*from);
+      corners_.push_back(*from);
       edges.push_back(before(*from, *to) ? std::array{*from, *to} : std::array{*to, *from});
     }
   }
+  std::ranges::sort(corners_, before);
+  corners_.erase(std::ranges::unique(corners_).begin(), corners_.end());
+  points_ = corners_;
   std::ranges::sort(edges, [](const auto& a, const auto& b) {
     return before(a[0], b[0]) || (a[0] == b[0] && before(a[1], b[1]));
   });
@@ -92,6 +96,54 @@ std::size_t meet(const ProbedMesh& a, dGeomID a_at, const ProbedMesh& b, dGeomID
   std::size_t count = 0;
   find(a, a_place, b, b_place, 1.0, out, count);
   find(b, b_place, a, a_place, -1.0, out, count);
+  return count;
+}
+
+std::size_t meet_plane(const ProbedMesh& mesh, dGeomID at, dGeomID plane, bool is_first,
+                       std::span<dContactGeom> out) noexcept {
+  constexpr std::size_t kWays = 8;
+  const Place place = place_of(at);
+  dVector4 given;
+  dGeomPlaneGetParams(plane, given);
+  const Vector3d normal(given[0], given[1], given[2]);
+  const Vector3d up = place.turned.conjugate() * normal;
+  const double height = given[3] - normal.dot(place.at);  // of the plane, in the mesh's axes
+  const Eigen::AlignedBox3d& box = mesh.mesh().bounds();
+  if (up.dot(box.center()) - 0.5 * up.cwiseAbs().dot(box.sizes()) > height) return 0;
+  const Vector3d along = up.unitOrthogonal(), across = up.cross(along);
+  // The deepest, then the farthest along each way.
+  std::array<const Vector3d*, kWays + 1> found{};
+  std::array<double, kWays + 1> most;
+  most.fill(-std::numeric_limits<double>::infinity());
+  const auto note = [&](std::size_t i, double size, const Vector3d& corner) {
+    if (!(size > most[i])) return;
+    most[i] = size;
+    found[i] = &corner;
+  };
+  for (const Vector3d& corner : mesh.corners()) {
+    const double depth = height - up.dot(corner);
+    if (!(depth > 0)) continue;
+    note(0, depth, corner);
+    const double a = along.dot(corner), b = across.dot(corner);
+    const std::array<double, 4> sizes{a, b, a + b, a - b};
+    for (std::size_t i = 0; i < 4; ++i) {
+      note(1 + i, sizes[i], corner);
+      note(5 + i, -sizes[i], corner);
+    }
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < found.size() && count < out.size(); ++i) {
+    if (found[i] == nullptr ||
+        std::find(found.begin(), found.begin() + i, found[i]) != found.begin() + i)
+      continue;
+    const Vector3d point = place.turned * *found[i] + place.at;
+    dContactGeom& contact = out[count++];
+    for (int k = 0; k < 3; ++k) {
+      contact.pos[k] = point[k];
+      contact.normal[k] = is_first ? normal[k] : -normal[k];
+    }
+    contact.depth = height - up.dot(*found[i]);
+  }
   return count;
 }
 

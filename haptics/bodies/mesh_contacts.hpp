@@ -25,10 +25,11 @@ class ProbedMesh {
 
   [[nodiscard]] const SurfaceMesh& mesh() const noexcept { return *mesh_; }
   [[nodiscard]] std::span<const Eigen::Vector3d> points() const noexcept { return points_; }
+  [[nodiscard]] std::span<const Eigen::Vector3d> corners() const noexcept { return corners_; }
 
  private:
   std::shared_ptr<const SurfaceMesh> mesh_;
-  std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::Vector3d> points_, corners_;
 };
 
 /// Contacts of two meshes at the places of their geoms, as dCollide: points of each that are inside
@@ -36,6 +37,11 @@ class ProbedMesh {
 /// inside. 1 us for each point that is near. @return how many of `out` are set
 [[nodiscard]] std::size_t meet(const ProbedMesh& a, dGeomID a_at, const ProbedMesh& b, dGeomID b_at,
                                std::span<dContactGeom> out) noexcept;
+
+/// Contacts with a plane: the deepest corner, and those farthest out each way. 2 ns a corner; none
+/// of them where the mesh is beyond it. @param is_first whether the mesh is the first geom
+[[nodiscard]] std::size_t meet_plane(const ProbedMesh& mesh, dGeomID at, dGeomID plane,
+                                     bool is_first, std::span<dContactGeom> out) noexcept;
 
 /// Brings the deepest contact and three that span most with it to the front.
 /// @return how many there are, 4 at most

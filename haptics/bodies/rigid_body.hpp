@@ -22,7 +22,7 @@ namespace reckon::haptics {
 
 /// What a body is, and how it lies while it takes no part.
 struct BodyKind {
-  dGeomID geom = nullptr;    ///< null for a carried solid, which nothing meets
+  dGeomID geom = nullptr;    ///< null of a carried solid that nothing meets
   std::size_t number = 0;    ///< of the body
   std::uint32_t object = 0;  ///< its number in the plan
   bool is_carried = false;

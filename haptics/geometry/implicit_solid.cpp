@@ -127,7 +127,9 @@ ImplicitSolid::ImplicitSolid(SignedFunction function, std::string what)
 }
 
 ImplicitSolid::ImplicitSolid(const CylinderShape& shape)
-    : ImplicitSolid(SignedFunction(function_of(shape)), "cylinder") {}
+    : ImplicitSolid(SignedFunction(function_of(shape)), "cylinder") {
+  cylinder_ = shape;
+}
 ImplicitSolid::ImplicitSolid(const ConeShape& shape)
     : ImplicitSolid(SignedFunction(function_of(shape)), "cone") {}
 ImplicitSolid::ImplicitSolid(const TorusShape& shape)

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "reckon/haptics/geometry/shape.hpp"
@@ -55,6 +56,8 @@ class ImplicitSolid {
   [[nodiscard]] const SignedFunction& function() const noexcept { return function_; }
   /// "torus", "solid of 5 parts".
   [[nodiscard]] const std::string& what() const noexcept { return what_; }
+  /// Its dimensions, if it is a cylinder.
+  [[nodiscard]] const std::optional<CylinderShape>& cylinder() const noexcept { return cylinder_; }
 
   /// Most evaluations of f in one sweep.
   static constexpr int kMostSamples = 64;
@@ -68,6 +71,7 @@ class ImplicitSolid {
 
   SignedFunction function_;
   std::string what_;
+  std::optional<CylinderShape> cylinder_;
   double size_ = 1.0;
   double clearance_ = 0.0;
   Eigen::AlignedBox3d cut_;  // contains the solid, and its mitres except for the radius

@@ -20,6 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kHalvings = 40;   // of an edge, to its crossing
+constexpr int kSteps = 3;       // of Newton's, onto the surface
 constexpr double kFlat = 0.02;  // of the greatest spread of normals: less is no edge
 // Others are tried where two sheets of the surface share a cell.
 constexpr std::array<int, 4> kMoreCells = {0, 3, 7, 12};
@@ -64,7 +65,7 @@ class Contour {
                                     (counts_.x() + 1) * (at.y() + (counts_.y() + 1) * at.z()));
   }
   [[nodiscard]] bool is_inside(const Array3i& at) const { return values_[index(at)] < 0.0; }
-  [[nodiscard]] static Array3i along(int axis) { return Array3i::Unit(axis); }
+  [[nodiscard]] static Array3i along(int axis) { return Eigen::Vector3i::Unit(axis).array(); }
 
   // The edge from a place along an axis, if it crosses the surface: a square of the corners in the
   // four cells about it.
@@ -93,7 +94,8 @@ class Contour {
     return number;
   }
 
-  // Where the planes of a cell's crossings meet; along an edge or a face, next to their middle.
+  // Where the planes of a cell's crossings meet, and the surface next to it; along an edge or a
+  // face, next to their middle.
   [[nodiscard]] Vector3d corner_place(const Array3i& cell) const {
     std::array<Vector3d, 12> points, normals;
     std::size_t count = 0;
@@ -122,8 +124,16 @@ class Contour {
       const Vector3d axis = solver.eigenvectors().col(k);
       if (value > kFlat * solver.eigenvalues()[2]) way += axis.dot(right) / value * axis;
     }
-    const Vector3d low = place(cell);
-    return (middle + way).cwiseMax(low).cwiseMin(low + Vector3d::Constant(edge_));
+    const Vector3d low = place(cell), high = low + Vector3d::Constant(edge_);
+    Vector3d at = (middle + way).cwiseMax(low).cwiseMin(high);
+    for (int i = 0; i < kSteps; ++i) {
+      const SignedSample here = solid_.sample(at);
+      const double steep = here.gradient.squaredNorm();
+      if (steep > 0.0) at -= here.value / steep * here.gradient;
+    }
+    // On a curve it may be in the next cell.
+    const Vector3d room = Vector3d::Constant(0.5 * edge_);
+    return at.cwiseMax(low - room).cwiseMin(high + room);
   }
 
   [[nodiscard]] Vector3d crossing(Vector3d a, Vector3d b) const {

@@ -42,7 +42,7 @@ bool is_plane(pdu::ForceModelKind kind) noexcept {
   return kind == pdu::ForceModelKind::plane || kind == pdu::ForceModelKind::spring_damper_region;
 }
 
-bool within(double value, double most) noexcept { return value >= 0 && value <= most; }
+bool is_within(double value, double most) noexcept { return value >= 0 && value <= most; }
 
 bool near(const Eigen::Vector3d& point) noexcept {
   return std::abs(point.x()) <= kFarthest && std::abs(point.y()) <= kFarthest &&
@@ -121,11 +121,11 @@ SpringLoad normal_load(const ContactParameters& theta, double depth) noexcept {
 }
 
 bool is_usable(const ContactParameters& theta) noexcept {
-  return near(theta.point) && within(theta.normal.squaredNorm(), 1.0 + 1e-9) &&
-         within(theta.reach, kFarthest) && within(theta.patch, kFarthest) &&
-         within(theta.k1, kStiffest) && within(theta.k3, kStiffest) &&
-         within(theta.static_friction, 100.0) &&
-         within(theta.kinetic_friction, theta.static_friction);
+  return near(theta.point) && is_within(theta.normal.squaredNorm(), 1.0 + 1e-9) &&
+         is_within(theta.reach, kFarthest) && is_within(theta.patch, kFarthest) &&
+         is_within(theta.k1, kStiffest) && is_within(theta.k3, kStiffest) &&
+         is_within(theta.static_friction, 100.0) &&
+         is_within(theta.kinetic_friction, theta.static_friction);
 }
 
 }  // namespace reckon::haptics

@@ -150,7 +150,7 @@ Section<haptics::SceneObject> object_section() {
        "turned about x, then y, then z axis of S or of its node"},
       {"node", no_node, "the [[node]] that it hangs on; absent: none, it stands in S"},
       {"mass", in(&Object::matter, &haptics::Matter::mass), declared("kg", 1e-3, 1e3),
-       "of a box, sphere or closed mesh: it is a body, and moves when it is pushed; absent: it "
+       "of a box, sphere, solid or closed mesh: it is a body, and moves when it is pushed; absent: it "
        "stands "
        "still"},
       {"body_friction", in(&Object::matter, &haptics::Matter::friction), within("", 0, 10),

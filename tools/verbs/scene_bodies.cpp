@@ -35,8 +35,10 @@ std::string length_text(double length) {
   return fmt::format("{:.6g} mm", std::ceil(length / kRoundedUp - 1e-3) * 1e3 * kRoundedUp);
 }
 
-bool is_solid(const PlannedObject& object) {
-  return std::holds_alternative<std::shared_ptr<const haptics::ImplicitSolid>>(object.shape);
+// A solid without end.
+bool is_passed_through(const PlannedObject& object) {
+  const auto* solid = std::get_if<std::shared_ptr<const haptics::ImplicitSolid>>(&object.shape);
+  return solid != nullptr && !(*solid)->bounds().sizes().allFinite();
 }
 
 std::optional<peer::SceneProblem> problem_of(const PlannedObject& body,
@@ -59,7 +61,7 @@ std::vector<peer::SceneProblem> crowded_bodies(const haptics::EffectPlan& plan) 
   const std::vector<PlannedObject>& objects = plan.objects();
   haptics::CellGrid grid(objects.size());
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
-    if (!is_solid(objects[i])) grid.place(i, objects[i].bounds);
+    if (!is_passed_through(objects[i])) grid.place(i, objects[i].bounds);
   }
   const auto pairs = grid.overlaps();
   std::vector<haptics::BoxPair> near(pairs.begin(), pairs.end());

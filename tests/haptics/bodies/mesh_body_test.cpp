@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that move when they are pushed: their inertia against formulas, at rest on all that bodies
-// meet, and in a hand as a box of the same size and mass is.
+// Meshes and solids that move when they are pushed: their inertia against formulas, at rest on all
+// that bodies meet, and in a hand as a box of the same size and mass is.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/bodies/body_world.hpp"
@@ -150,6 +153,68 @@ TEST(MeshBody, RestsOnAPlaneABoxAMeshAndAnother) {
     EXPECT_FALSE(bench.state(i).awake) << i;
   }
   EXPECT_EQ(world.states().size(), 5U);
+}
+
+TEST(SolidBody, RestsWhereItsFormulaSays) {
+  Bench bench;
+  bench.floor();
+  const CylinderShape can{0.02, 0.06};
+  bench.add("table", BoxShape{{0.2, 0.2, 0.1}}, {0.5, 0, 0.05}, 0.0);
+  bench.add("drum", CylinderShape{0.1, 0.1}, {1, 0, 0.05}, 0.0);
+  bench.add("standing", can, {0, 0, 0.0305}, 0.1);
+  bench.add("on it", can, {0.002, 0.001, 0.0912}, 0.1);
+  bench.add("lying", can, {0.2, 0, 0.0205}, 0.1).pose.orientation =
+      Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX());
+  bench.add("ring", TorusShape{0.03, 0.01}, {0.5, 0, 0.1105}, 0.1);
+  bench.add("cone", ConeShape{0.03, 0.0, 0.05}, {1, 0, 0.1255}, 0.1);
+  const BodyWorld& world = bench.begin();
+  bench.run(3.0);
+  const std::vector<double> heights{0.03, 0.09, 0.02, 0.11, 0.125};
+  ASSERT_EQ(world.states().size(), heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    EXPECT_NEAR(bench.state(i).position.z(), heights[i], 1e-4) << i;
+    EXPECT_FALSE(bench.state(i).awake) << i;
+  }
+}
+
+// Down a slope without slipping: two thirds of the acceleration of what slides.
+TEST(SolidBody, ACylinderRollsAsItsInertiaSays) {
+  const double angle = 0.15;
+  Bench bench(9.81 * Vector3d(std::sin(angle), 0, -std::cos(angle)));
+  bench.floor();
+  SceneObject& can = bench.add("can", CylinderShape{0.03, 0.06}, {0, 0, 0.03}, 0.2);
+  can.pose.orientation = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX());
+  can.matter.friction = bench.scene.objects[0].matter.friction = 0.8;
+  bench.begin();
+  bench.run(1.0);
+  const double right = 2.0 / 3.0 * 9.81 * std::sin(angle);
+  EXPECT_NEAR(bench.state().velocity.x(), right, 0.03 * right);
+  EXPECT_NEAR(bench.state().turn_rate.norm() * 0.03, right, 0.03 * right);
+  EXPECT_NEAR(bench.state().position.x(), 0.5 * right, 0.03 * right);
+}
+
+TEST(SolidBody, IsRefusedByNameWhereItHasNoEndOrNoWalls) {
+  for (const auto& [size, word] :
+       {std::pair{Vector3d(0.5, 0.5, 1e-4), "thicker"}, {Vector3d::Constant(0.05), ""}}) {
+    Bench bench;
+    CsgShape shape;
+    shape.parts.emplace_back().shape = BoxShape{size};
+    bench.add("plate", shape, Vector3d::Zero(), 0.1);
+    std::string told;
+    try {
+      bench.begin();
+    } catch (const std::invalid_argument& error) {
+      told = error.what();
+    }
+    EXPECT_EQ(told.empty(), *word == 0) << told;
+    EXPECT_NE(told.find(word), std::string::npos) << told;
+    EXPECT_EQ(told.find("'plate'") == std::string::npos, told.empty()) << told;
+  }
+  Bench bench;
+  CsgShape half;
+  half.parts.emplace_back().shape = PlaneShape{Vector3d::UnitX()};
+  bench.add("half", half, Vector3d::Zero(), 0.1);
+  EXPECT_THROW(bench.begin(), std::invalid_argument);
 }
 
 // Its origin is not its middle of mass: it turns about that, and falls with it.
