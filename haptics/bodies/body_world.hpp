@@ -29,12 +29,14 @@ struct BodyState : ObjectMotion {
 };
 
 struct BodySpring;
+class BodyEngine;
 
 /// All bodies at one time.
 struct BodyStates {
   std::chrono::nanoseconds time{0};
   std::vector<BodyState> bodies;
-  std::uint64_t left = 0;  ///< bodies that had lost their slots when this was written
+  std::uint64_t crowded = 0;  ///< see BodyWorld
+  std::uint64_t left = 0;     ///< bodies that had lost their slots when this was written
 };
 
 /// One body after a step.
@@ -140,7 +142,7 @@ class BodyWorld {
   [[nodiscard]] std::uint64_t approximated() const noexcept;
   /// Periods of a hand whose island was too large to be foreseen as a whole, since the start.
   [[nodiscard]] std::uint64_t coarse() const noexcept;
-  /// Times that a body was to wake and did not, since as many as can be were awake.
+  /// Periods in which one was to wake and did not, since as many as can be were awake.
   [[nodiscard]] std::uint64_t crowded() const noexcept;
 
  private:
@@ -148,8 +150,7 @@ class BodyWorld {
   void bring_up_to_date(BodyStates& out) const noexcept;
   void trace_steps() noexcept;
 
-  class Engine;
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<BodyEngine> engine_;
   TripleBuffer<BodyStates> published_;
   TripleBuffer<BodyStates> outgoing_;
   BodyRing* trace_ = nullptr;

@@ -37,14 +37,15 @@ void NearBodies::foresee(const BodiesAbout& bodies, double period) noexcept {
 void NearBodies::foresee_moved(const BodiesAbout& bodies, double period) noexcept {
   if (!is_foreseen_) return foresee(bodies, period);
   for (Hand& hand : hands_) {
-    const bool is_due = needed(hand, hand.watched, period) + kLeft * kMargin > hand.covers;
-    if (is_due) list(hand, hand.watched, bodies, period);
+    if (!holds(hand, hand.watched, period, kLeft * kMargin))
+      list(hand, hand.watched, bodies, period);
   }
 }
 
-double NearBodies::needed(const Hand& hand, const HandReach& reach, double period) noexcept {
-  const double moved = (reach.middle - hand.at.middle).norm();
-  return moved + reach.radius + reach.speed * (kAhead - 1.0) * period;
+bool NearBodies::holds(const Hand& hand, const HandReach& reach, double period,
+                       double spare) noexcept {
+  const double left = hand.covers - reach.radius - reach.speed * (kAhead - 1.0) * period - spare;
+  return left >= 0.0 && (reach.middle - hand.at.middle).squaredNorm() <= left * left;
 }
 
 void NearBodies::list(Hand& hand, const HandReach& at, const BodiesAbout& bodies,
@@ -70,8 +71,7 @@ void NearBodies::list(Hand& hand, const HandReach& at, const BodiesAbout& bodies
 std::span<const std::uint32_t> NearBodies::of(std::size_t hand, const HandReach& reach,
                                               const BodiesAbout& bodies, double period) noexcept {
   Hand& own = hands_[hand];
-  if (!is_foreseen_ || !(needed(own, reach, period) <= own.covers))
-    list(own, reach, bodies, period);
+  if (!is_foreseen_ || !holds(own, reach, period, 0.0)) list(own, reach, bodies, period);
   return own.bodies;
 }
 

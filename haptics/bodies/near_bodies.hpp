@@ -62,8 +62,9 @@ class NearBodies {
     double covers = 0.0;    // [m], radius about the middle within which all bodies are listed
     std::vector<std::uint32_t> bodies;
   };
-  [[nodiscard]] static double needed(const Hand& hand, const HandReach& reach,
-                                     double period) noexcept;
+  // Whether its list holds for a hand there, with room to spare [m].
+  [[nodiscard]] static bool holds(const Hand& hand, const HandReach& reach, double period,
+                                  double spare) noexcept;
   void list(Hand& hand, const HandReach& at, const BodiesAbout& bodies,
             double period) const noexcept;
 

@@ -89,7 +89,8 @@ HandReach PressedBodiesOf<axes>::reach_of(const ToolOf<axes>& tool,
     const Vector3d at = tool.place(probe);
     const ContactResult& walls = contacts.walls(probe).result();
     const double depth = walls.in_contact ? (walls.scp - at).norm() : 0.0;
-    reach.radius = std::max(reach.radius, (at - reach.middle).norm() + depth + radius_);
+    const double away = probe > 0 ? (at - reach.middle).norm() : 0.0;
+    reach.radius = std::max(reach.radius, away + depth + radius_);
     reach.speed = std::max(reach.speed, tool.velocity(probe).norm());
   }
   return reach;
@@ -103,7 +104,8 @@ void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes
     contacts.place(static_cast<std::uint32_t>(body), world_->states()[body],
                    world_->state_before(body));
   };
-  for (const std::uint32_t body : world_->near(hand_, reach_of(tool, contacts), period)) put(body);
+  reach_ = reach_of(tool, contacts);
+  for (const std::uint32_t body : world_->near(hand_, reach_, period)) put(body);
   for (std::size_t probe = 0; probe < tool.size(); ++probe)
     if (contacts.grab(probe).holds()) put(contacts.grab(probe).body());
 }
@@ -224,14 +226,14 @@ void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, s
 }
 
 template <int axes>
-void PressedBodiesOf<axes>::hold(const ToolOf<axes>& tool, const StaticContactOf<axes>& contacts,
-                                 double springs, double effects) noexcept {
+void PressedBodiesOf<axes>::hold(const StaticContactOf<axes>& contacts, double springs,
+                                 double effects) noexcept {
   for (const Push& push : pushes_) {
     Vector3d rest = Vector3d::Zero();
     if (!push.grips) rest = -effects * contacts.walls(push.probe).effects_of(push.object);
     world_->hold(push.number, springs, rest);
   }
-  if (world_) world_->written(hand_, reach_of(tool, contacts));
+  if (world_) world_->written(hand_, reach_);
 }
 
 template class PressedBodiesOf<3>;

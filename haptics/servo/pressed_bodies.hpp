@@ -50,8 +50,7 @@ class PressedBodiesOf {
   /// The hand gets `springs` of the springs as they were foreseen, and `effects` of the effects
   /// that the contacts show, and so do the bodies. Where energy is short for a change within the
   /// period the hand does without it, the bodies do not: their springs are conservative.
-  void hold(const ToolOf<axes>& tool, const StaticContactOf<axes>& contacts, double springs,
-            double effects) noexcept;
+  void hold(const StaticContactOf<axes>& contacts, double springs, double effects) noexcept;
   /// [J], since the start, less what they gave back.
   [[nodiscard]] double work() const noexcept { return work_; }
 
@@ -77,6 +76,7 @@ class PressedBodiesOf {
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;
+  HandReach reach_;      // when the bodies were placed last
   double radius_ = 0.0;  // [m], of a probe
   double patch_ = 0.0;
   double pad_ = 0.0;  // [m], radius by which a grip resists turning

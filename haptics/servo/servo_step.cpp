@@ -277,7 +277,7 @@ void ServoStepOf<axes>::push_bodies(double scale) noexcept {
   const double whole = held_.force.squaredNorm();
   const double all = scale > 0.0 ? 1.0 : 0.0;
   const double share = whole > 0 ? std::max(0.0, written_.dot(held_.force) / whole) : all;
-  pressed_.hold(tool_, static_, share * held_.walls, share);
+  pressed_.hold(static_, share * held_.walls, share);
 }
 
 // All springs are one force to the hand: opposite forces cancel and cost nothing.

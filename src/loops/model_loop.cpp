@@ -302,6 +302,13 @@ void ModelLoop::publish_view() noexcept {
   view.leaders = subscriber_.leaders();
   const OwnedEntity* first = owned_.find(view.own.entity);
   view.frozen = first != nullptr && first->is_frozen();
+  if (own_bodies_ != nullptr) {
+    const haptics::BodyStates& states = own_bodies_->read();
+    view.bodies = states.bodies.size();
+    view.bodies_awake =
+        static_cast<std::size_t>(std::ranges::count_if(states.bodies, &haptics::BodyState::awake));
+    view.bodies_not_woken = states.crowded;
+  }
   view.set_out = tracked_.begun();
   view.middle = middle_of_interest();
   view_.publish(view, remote_, pass_.now);

@@ -89,9 +89,11 @@ struct PeerView {
   double power_given = 0;  ///< [J] given to hands by entities without a device
   std::array<HandView, kMaxDevices> hands{};
   std::size_t hand_count = 0;
-  std::size_t entities = 0;  ///< remote ones known
-  std::size_t peers = 0;     ///< other Reckon peers known
-  std::size_t groups = 0;    ///< cell groups joined
+  std::size_t entities = 0;                  ///< remote ones known
+  std::size_t peers = 0;                     ///< other Reckon peers known
+  std::size_t groups = 0;                    ///< cell groups joined
+  std::size_t bodies = 0, bodies_awake = 0;  ///< that this peer moves and sends
+  std::uint64_t bodies_not_woken = 0;        ///< see BodyWorld::crowded()
   LeadersView leaders;
   bool frozen = false;
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown

@@ -28,10 +28,11 @@ void print_bodies(std::FILE* out, const haptics::BodyWorld* bodies) {
         "at more bodies than could be foreseen\n",
         bodies->approximated(), bodies->coarse());
   if (bodies->crowded() > 0)
-    fmt::print(out,
-               "                             {} times one did not wake, since as many moved as can "
-               "(64): it did not give way\n",
-               bodies->crowded());
+    fmt::print(
+        out,
+        "                             in {} steps one did not wake, since as many moved as can "
+        "(64): it did not give way\n",
+        bodies->crowded());
 }
 
 std::string bodies_json(const haptics::BodyWorld* bodies) {

@@ -304,6 +304,19 @@ std::string softer_text(const LivePicture& picture) {
   return text.empty() ? text : "softer than asked: " + text;
 }
 
+// Of the peer that moves them; empty without bodies.
+std::string bodies_text(const LivePicture& picture) {
+  for (const TablePeer& peer : picture.peers) {
+    const PeerView& view = *peer.view;
+    if (view.bodies == 0) continue;
+    std::string text = fmt::format("bodies: {} of {} move", view.bodies_awake, view.bodies);
+    if (view.bodies_not_woken > 0)
+      text += fmt::format(", in {} steps one did not wake, as 64 moved", view.bodies_not_woken);
+    return text;
+  }
+  return {};
+}
+
 // What the keys do now.
 std::string keys_text(const LivePicture& picture) {
   bool has_hands = false, stopped = false;
@@ -347,6 +360,9 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
   const std::string leaders = leaders_text(views);
   if (size.rows >= kRowsForNotices && !leaders.empty())
     out.push_back({"leaders: " + leaders, LineStyle::faint});
+
+  const std::string bodies = bodies_text(picture);
+  if (size.rows >= kRowsForNotices && !bodies.empty()) out.push_back({bodies, LineStyle::faint});
 
   const Table table(picture, size);
   if (size.rows >= kRowsForTitles)

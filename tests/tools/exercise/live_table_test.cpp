@@ -246,6 +246,17 @@ TEST(LiveTable, SaysWhoLeadsWhereTheSceneHasLeaders) {
   EXPECT_EQ(lines_with(peers.shown(24, 80), "leaders: scene by 1:2; cells by 1:2: 1"), 1U);
 }
 
+TEST(LiveTable, SaysHowManyBodiesMoveAndWhichCouldNot) {
+  Peers peers(2, 2);
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "bodies"), 0U);
+  peers.view(1).bodies = 150;
+  peers.view(1).bodies_awake = 12;
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "bodies: 12 of 150 move"), 1U);
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "did not wake"), 0U);
+  peers.view(1).bodies_not_woken = 7;
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "12 of 150 move, in 7 steps one did not wake"), 1U);
+}
+
 TEST(LiveTable, LetsNoOctetOfOthersMoveTheCursor) {
   Peers peers(1, 1);
   peers.view(0).rows[0].marking = {'\033', '[', '2', 'J'};

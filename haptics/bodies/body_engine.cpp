@@ -1,0 +1,447 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/bodies/body_engine.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr double kLongestStep = 1e-3;     // [s]
+constexpr double kLongestSubstep = 5e-4;  // [s], of what is foreseen
+constexpr double kLongestGap = 0.1;       // [s]
+constexpr double kJitter = 5e-5;          // [s], of a servo that is on time
+constexpr double kMostTime = 3e-4;        // [s], of a period, to foresee and step what is touched
+constexpr double kBodyTime = 3.5e-6;      // [s], of a step, for each body
+constexpr double kMetAhead = 2.0;         // periods, in which one that moves may meet what sleeps
+constexpr std::size_t kMostLeft = 256;    // since a copy of the states was brought up to date
+constexpr double kRight = 0.15;           // of dt sqrt(K / m), at most
+constexpr double kLeverage = 0.4;         // lightest resistance of a body that turns, of its mass
+
+}  // namespace
+
+BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
+                       std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
+    : solver_(plan, gravity, work_space), mover_(std::move(mover)), near_(radii_of_moving(plan)) {
+  const std::vector<BodyKind>& kinds = solver_.slots().kinds();
+  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+    const std::uint32_t object = kinds[solver_.body(slot)].object;
+    if (solver_.is_carried(slot)) carried_.push_back({slot, object, plan.objects()[object].origin});
+  }
+  if (!carried_.empty() && mover_ == nullptr)
+    throw std::invalid_argument("the scene has objects that are carried, which need a mover");
+  for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(BodyWorld::kMostPushes);
+  works_.reserve(BodyWorld::kMostPushes);
+  forces_.reserve(2 * BodyWorld::kMostPushes);
+  left_.reserve(kMostLeft);
+  met_.reserve(BodySlots::kMost);
+  states_.resize(kinds.size());
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    states_[i].object = kinds[i].object;
+    if (solver_.slots().slot_of(i) != BodySlots::kNone) continue;
+    static_cast<ObjectMotion&>(states_[i]) = kinds[i].lying();
+    states_[i].awake = false;
+  }
+  for (const Carried& one : carried_) states_[solver_.body(one.slot)].carried = true;
+  next_ = states_;
+  for (std::size_t slot = 0; slot < solver_.size(); ++slot)
+    in_slot_[slot] = static_cast<std::uint32_t>(solver_.body(slot));
+  read_states(BodySolver::all(), 0.0);
+}
+
+bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
+  const bool is_first = !std::exchange(started_, true);
+  if (is_first) time_ = now;
+  const double gap = pdu::to_seconds(now - time_);
+  if (!is_first && !(gap > 0)) return false;
+  time_ = now;
+  if (is_quiet() && !is_first && !frozen && !frozen_) {
+    begin_period();
+    return true;
+  }
+  see_carried(now);
+  frozen_ = frozen;
+  if (is_first || frozen) {
+    go_back();
+    works_.assign(pushes_.size(), 0.0);
+    last_.clear();
+    pushes_.clear();
+    begin_period();
+    lead_ = 0.0;
+    put_carried();
+    read_states(BodySolver::all(), 0.0);
+    return true;
+  }
+  works_.assign(pushes_.size(), 0.0);
+  if (!(ahead_ > 0)) take_in_met();
+  const double whole = std::min(gap, kLongestGap);
+  BodySet foreseen = ahead_ > 0 ? rest_ : 0;
+  const BodySet rest = ahead_ > 0 ? rest_ : apart();
+  double length = kLongestStep;
+  if (rest != 0) {
+    // What is pushed goes on in small steps, all else as if nothing were.
+    const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps()));
+    if (rest != BodySolver::all()) {
+      drive_carried(gap);
+      solver_.only(~rest);
+      length = push_for(whole, dt);
+    }
+    lead_ = ahead_ - whole;
+    if (lead_ < -kJitter) {
+      drive_carried(gap);
+      solver_.only(rest);
+      go_on(-lead_);
+      lead_ = 0.0;
+      foreseen = 0;
+    }
+    solver_.only(BodySolver::all());
+  } else {
+    drive_carried(gap);
+    length = push_for(whole, kLongestStep);
+  }
+  put_carried();
+  read_states(~foreseen, length, rest != 0 ? ~rest : BodySolver::all());
+  for (BodyPush& push : pushes_) push.renew();
+  std::swap(pushes_, last_);
+  pushes_.clear();
+  begin_period();
+  return true;
+}
+
+std::span<const std::uint32_t> BodyEngine::near(std::size_t hand, const HandReach& reach,
+                                                double period) noexcept {
+  return near_.of(hand, reach, about(states_), period);
+}
+
+const ObjectMotion& BodyEngine::state_before(std::size_t body) const noexcept {
+  return next_[body];
+}
+
+bool BodyEngine::written(std::size_t hand, const HandReach& reach) noexcept {
+  near_.watch(hand, reach);
+  written_ |= std::uint64_t{1} << hand % 64;
+  return static_cast<std::size_t>(std::popcount(written_)) >= near_.hands();
+}
+
+void BodyEngine::go_ahead() noexcept {
+  if (frozen_ || !started_ || ahead_ > 0 || !(period_ > lead_)) return;
+  if (is_quiet()) {
+    near_.foresee_moved(about(states_), period_);
+    return;
+  }
+  take_in_met();
+  rest_ = apart();
+  if (rest_ == 0) return;
+  ahead_ = period_;
+  // What is carried goes on as it does now.
+  put_carried();
+  solver_.only(rest_);
+  solver_.keep();
+  go_on(period_ - lead_);
+  solver_.only(BodySolver::all());
+  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+    const std::size_t body = solver_.body(slot);
+    if ((rest_ >> slot & 1) == 0 || solver_.is_carried(slot)) {
+      next_[body] = states_[body];
+    } else {
+      read_state(slot, kLongestStep, next_[body]);
+    }
+  }
+  near_.foresee(about(next_), period_);
+}
+
+std::size_t BodyEngine::push(std::size_t body, const Vector3d& point,
+                             const Vector3d& force) noexcept {
+  if (body >= states_.size() || pushes_.size() >= BodyWorld::kMostPushes || !force.allFinite())
+    return BodyWorld::kNoPush;
+  go_back();
+  const std::size_t slot = slot_for(body);
+  if (slot == BodySlots::kNone) return BodyWorld::kNoPush;
+  const ObjectMotion at = solver_.motion(slot);
+  pushes_.emplace_back(body, at.orientation.conjugate() * (point - at.position), force);
+  return pushes_.size() - 1;
+}
+
+std::size_t BodyEngine::press(std::size_t hand, const BodySpring& spring) noexcept {
+  if (spring.body >= states_.size() || pushes_.size() >= BodyWorld::kMostPushes ||
+      !spring.force.allFinite() || !spring.velocity.allFinite())
+    return BodyWorld::kNoPush;
+  const std::size_t slot = slot_for(spring.body);
+  if (slot == BodySlots::kNone) return BodyWorld::kNoPush;
+  const ObjectMotion at = solver_.motion(slot);
+  BodyPush& push = pushes_.emplace_back(hand, spring, at.position, at.orientation);
+  for (const BodyPush& before : last_) push.take_twist(before);
+  return pushes_.size() - 1;
+}
+
+void BodyEngine::foresee(std::size_t hand, double period) noexcept {
+  period_ = period;
+  stepped_ |= std::uint64_t{1} << hand % 64;
+  const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
+  // What is frozen gives way to nobody.
+  if (frozen_ || std::ranges::none_of(pushes_, own)) return;
+  const BodySet pushed = pushed_by(pushes_) | still_pushed();
+  const std::size_t steps = steps_for(period);
+  BodySet island = solver_.island(pushed);
+  if (!is_small(island, steps)) {
+    island = pushed;
+    ++coarse_;
+  }
+  for (BodyPush& push : pushes_)
+    if (own(push)) push.begin(period, steps);
+  solver_.only(island);
+  solver_.keep();
+  const double dt = period / static_cast<double>(steps);
+  for (std::size_t i = 0; i < steps; ++i) foresee_step(hand, dt * static_cast<double>(i), dt);
+  solver_.restore();
+  solver_.only(BodySolver::all());
+  for (BodyPush& push : pushes_)
+    if (own(push)) push.rewind();
+  for (BodyPush& push : last_) push.rewind();
+}
+
+Vector3d BodyEngine::change(std::size_t push) const noexcept {
+  return push < pushes_.size() ? pushes_[push].change() : Vector3d::Zero();
+}
+
+void BodyEngine::hold(std::size_t push, double share, const Vector3d& rest) noexcept {
+  if (push < pushes_.size()) pushes_[push].hold(share, rest);
+}
+
+double BodyEngine::work(std::size_t push) const noexcept {
+  return push < works_.size() ? works_[push] : 0.0;
+}
+
+std::span<const std::uint32_t> BodyEngine::with_slot() const noexcept {
+  return {in_slot_.data(), solver_.size()};
+}
+
+// Nothing moves, and has not since both sets of states were read.
+bool BodyEngine::is_quiet() const noexcept {
+  return quiet_ >= 2 && pushes_.empty() && last_.empty() && carried_.empty();
+}
+
+BodiesAbout BodyEngine::about(std::span<const BodyState> states) const noexcept {
+  return {states, with_slot(), solver_.slots().asleep()};
+}
+
+// One that sleeps gets one, and another that sleeps may lose it.
+std::size_t BodyEngine::slot_for(std::size_t body) noexcept {
+  const std::size_t had = solver_.slots().slot_of(body);
+  if (had != BodySlots::kNone) return had;
+  go_back();
+  const std::size_t slot = solver_.take_in(body, pushed_by(pushes_) | pushed_by(last_));
+  if (slot == BodySlots::kNone) {
+    if (!std::exchange(is_crowded_, true)) ++crowded_;
+    return slot;
+  }
+  const std::uint32_t lost = in_slot_[slot];
+  in_slot_[slot] = static_cast<std::uint32_t>(body);
+  if (lost != kNobody) {
+    static_cast<ObjectMotion&>(states_[lost]) = solver_.slots().kinds()[lost].lying();
+    next_[lost] = states_[lost];
+    if (left_.size() == kMostLeft) left_.erase(left_.begin());
+    left_.push_back(lost);
+    ++left_count_;
+  }
+  near_.forget();
+  return slot;
+}
+
+// What sleeps and is in the way of one that is awake.
+void BodyEngine::take_in_met() noexcept {
+  if (solver_.slots().asleep().size() == 0) return;
+  met_.clear();
+  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+    if (!solver_.awake(slot)) continue;
+    const ObjectMotion motion = solver_.motion(slot);
+    const double way = BodySolver::kNear + kMetAhead * period_ * motion.velocity.norm();
+    Eigen::AlignedBox3d box = solver_.box(slot);
+    box.extend(Vector3d(box.min().array() - way)).extend(Vector3d(box.max().array() + way));
+    solver_.slots().asleep().visit(box, [&](std::uint32_t body) {
+      if (met_.size() < met_.capacity()) met_.push_back(body);
+    });
+  }
+  std::ranges::sort(met_);  // so that it is the same whatever the grid's order
+  for (const std::uint32_t body : met_) static_cast<void>(slot_for(body));
+}
+
+// To the period's begin, where all others are.
+void BodyEngine::go_back() noexcept {
+  if (!(std::exchange(ahead_, 0.0) > 0)) return;
+  solver_.only(rest_);
+  solver_.restore();
+  solver_.only(BodySolver::all());
+}
+
+void BodyEngine::begin_period() noexcept {
+  stepped_ = written_ = 0;
+  is_crowded_ = false;
+  ahead_ = 0.0;
+}
+
+std::size_t BodyEngine::most_steps() const noexcept {
+  std::size_t steps = 1;
+  for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
+  return steps;
+}
+
+// What is stepped apart from the islands that hands push; none where these take one step.
+BodySet BodyEngine::apart() const noexcept {
+  if (pushes_.empty()) return BodySolver::all();
+  const std::size_t steps = most_steps();
+  const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
+  return pushed != 0 && is_small(pushed, steps) ? ~pushed : 0;
+}
+
+// Whether it is stepped fast enough, by each hand and once more.
+bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
+  const double bodies = std::popcount(island);
+  const double times = static_cast<double>(steps * (near_.hands() + 1));
+  return kBodyTime * bodies * times <= kMostTime;
+}
+
+std::size_t BodyEngine::slot_of(const BodyPush& push) const noexcept {
+  return solver_.slots().slot_of(push.body());
+}
+
+BodySet BodyEngine::pushed_by(std::span<const BodyPush> pushes) const noexcept {
+  BodySet out = 0;
+  for (const BodyPush& push : pushes) out |= BodySet{1} << slot_of(push);
+  return out;
+}
+
+// A hand that has not stepped yet in this period still pushes as in the last one.
+bool BodyEngine::is_due(const BodyPush& push) const noexcept {
+  return push.stiffness() > 0 && (stepped_ >> push.hand() % 64 & 1) == 0;
+}
+
+BodySet BodyEngine::still_pushed() const noexcept {
+  BodySet out = 0;
+  for (const BodyPush& push : last_)
+    if (is_due(push)) out |= BodySet{1} << slot_of(push);
+  return out;
+}
+
+void BodyEngine::see_carried(nanoseconds now) noexcept {
+  for (Carried& one : carried_) {
+    one.before = one.now;
+    one.now = mover_->motion_of(one.object, now);
+    const Vector3d arm = one.now.orientation * one.origin;
+    one.now.position += arm;
+    one.now.velocity += one.now.turn_rate.cross(arm);
+  }
+}
+
+// From where they were they get to where they are, at one speed.
+void BodyEngine::drive_carried(double gap) noexcept {
+  for (const Carried& one : carried_) {
+    ObjectMotion way = one.before;
+    way.velocity = (one.now.position - one.before.position) / gap;
+    const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
+    way.turn_rate = turn.angle() / gap * turn.axis();
+    solver_.carry(one.slot, way);
+  }
+}
+
+void BodyEngine::put_carried() noexcept {
+  for (const Carried& one : carried_) solver_.carry(one.slot, one.now);
+}
+
+// So many that the lightest body that is pushed is stepped right.
+std::size_t BodyEngine::steps_for(double period) const noexcept {
+  std::array<double, BodySlots::kMost> stiffness{};
+  for (const BodyPush& push : pushes_) stiffness[slot_of(push)] += push.stiffness();
+  for (const BodyPush& push : last_)
+    if (is_due(push)) stiffness[slot_of(push)] += push.stiffness();
+  double most = 0.0;
+  for (std::size_t i = 0; i < solver_.size(); ++i)
+    if (!solver_.is_carried(i)) most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
+  const double wanted = std::ceil(period * std::sqrt(most) / kRight);
+  return static_cast<std::size_t>(std::clamp(std::max(wanted, std::ceil(period / kLongestSubstep)),
+                                             2.0, double{kMostSubsteps}));
+}
+
+void BodyEngine::foresee_step(std::size_t hand, double time, double dt) noexcept {
+  forces_.clear();
+  for (BodyPush& push : pushes_)
+    add_force(push, push.hand() == hand ? push.next() : push.mean(time, time + dt), 1.0);
+  for (BodyPush& push : last_)
+    if (is_due(push)) add_force(push, push.next(), 1.0);
+  solver_.step(dt, forces_);
+  for (BodyPush& push : pushes_)
+    if (push.hand() == hand) follow(push, dt);
+  for (BodyPush& push : last_)
+    if (is_due(push)) follow(push, dt);
+}
+
+void BodyEngine::add_force(BodyPush& push, const Vector3d& force, double share) noexcept {
+  const std::size_t slot = slot_of(push);
+  const Vector3d torque =
+      push.torque(solver_.motion(slot).turn_rate, solver_.least_inertia(slot), share);
+  forces_.push_back({slot, push.place(), force, torque});
+}
+
+void BodyEngine::follow(BodyPush& push, double dt) noexcept {
+  const std::size_t slot = slot_of(push);
+  const ObjectMotion at = solver_.motion(slot);
+  push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
+}
+
+// All that acts, for `whole` [s], in steps of dt [s] or less. @return their length [s]
+double BodyEngine::push_for(double whole, double dt) noexcept {
+  const double steps = std::ceil(whole / dt - 1e-9);
+  const double length = whole / steps;
+  for (double i = 0; i < steps; ++i) {
+    const double time = i * length, next = time + length;
+    forces_.clear();
+    for (BodyPush& push : pushes_) add_force(push, push.mean(time, next), push.share());
+    solver_.step(length, forces_);
+    for (std::size_t k = 0; k < pushes_.size(); ++k) {
+      works_[k] += forces_[k].work;
+      follow(pushes_[k], length);
+    }
+  }
+  return length;
+}
+
+void BodyEngine::go_on(double whole) noexcept {
+  const double steps = std::max(1.0, std::ceil((whole - kJitter) / kLongestStep - 1e-9));
+  for (int i = 0; i < static_cast<int>(steps); ++i) solver_.step(whole / steps, {});
+}
+
+// Into the next states, which then are those that hold: those of `some`, and of what is carried.
+// @param step [s], in which `fine` were moved last
+void BodyEngine::read_states(BodySet some, double step, BodySet fine) noexcept {
+  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
+    if ((some >> slot & 1) == 0 && !solver_.is_carried(slot)) continue;
+    read_state(slot, (fine >> slot & 1) != 0 ? step : kLongestStep, next_[solver_.body(slot)]);
+  }
+  std::swap(states_, next_);
+  if (some != 0) near_.forget();
+  ++version_;
+  const auto is_awake = [this](std::uint32_t body) { return states_[body].awake; };
+  quiet_ = std::ranges::any_of(with_slot(), is_awake) ? 0 : quiet_ + 1;
+}
+
+void BodyEngine::read_state(std::size_t slot, double step, BodyState& out) const noexcept {
+  const bool is_carried = solver_.is_carried(slot);
+  static_cast<ObjectMotion&>(out) = solver_.motion(slot);
+  out.awake = solver_.awake(slot);
+  if (frozen_ && !is_carried) {
+    out.velocity.setZero();
+    out.turn_rate.setZero();
+  }
+  out.step = is_carried ? 0.0 : step;
+}
+
+}  // namespace reckon::haptics
