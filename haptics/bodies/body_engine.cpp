@@ -66,6 +66,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   time_ = now;
   if (is_quiet() && !is_first && !frozen && !frozen_) {
     begin_period();
+    lead_ = 0.0;
     return true;
   }
   see_carried(now);
@@ -305,7 +306,8 @@ BodySet BodyEngine::apart() const noexcept {
 
 // Whether it is stepped fast enough, by each hand and once more.
 bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
-  const double bodies = std::popcount(island);
+  double bodies = 0.0;
+  solver_.slots().each(island, [&](std::size_t slot) { bodies += solver_.effort(slot); });
   const double times = static_cast<double>(steps * (near_.hands() + 1));
   return kBodyTime * bodies * times <= kMostTime;
 }

@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kEffort = 6e-4;  // of a corner of a mesh
 constexpr const char* kTooManyCarried =
     "the scene has more than 64 objects that move below time functions, and bodies beside them: "
     "take the mass of the bodies out, or time functions";
@@ -33,6 +34,7 @@ void BodySlots::add(const PlannedObject& object, std::uint32_t number, dGeomID g
   kind.is_carried = object.carried;
   if (!kind.is_carried) {
     const ProbedMesh* mesh = BodyGeoms::matter_of(geom).mesh;
+    if (mesh != nullptr) kind.effort += kEffort * static_cast<double>(mesh->corners().size());
     const BodyMass given = mass_of(object, mesh != nullptr ? &mesh->mesh() : nullptr);
     kind.mass = object.matter.mass;
     kind.drag = object.matter.drag;

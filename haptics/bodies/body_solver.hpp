@@ -52,6 +52,8 @@ class BodySolver {
   [[nodiscard]] std::size_t size() const noexcept { return slots_->size(); }
   [[nodiscard]] std::size_t body(std::size_t slot) const noexcept { return body_at(slot).number; }
   [[nodiscard]] double mass(std::size_t slot) const noexcept { return body_at(slot).mass; }
+  /// See BodyKind.
+  [[nodiscard]] double effort(std::size_t slot) const noexcept { return body_at(slot).effort; }
   /// Moved by carry() alone.
   [[nodiscard]] bool is_carried(std::size_t slot) const noexcept {
     return body_at(slot).is_carried;

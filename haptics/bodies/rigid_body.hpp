@@ -26,6 +26,7 @@ struct BodyKind {
   std::size_t number = 0;    ///< of the body
   std::uint32_t object = 0;  ///< its number in the plan
   bool is_carried = false;
+  double effort = 1.0;         ///< of a step, over that of a box
   double mass = 0.0;           ///< [kg]; 0 of what is carried
   double drag = 0.0;           ///< [N s/m]
   double inner = 0.0;          ///< [m], radius of the ball about its middle within it
