@@ -52,7 +52,7 @@ void check_shape(TomlReader& table, const haptics::Shape& shape) {
   }
 }
 
-// Whatever else an object is, a body is a box, a sphere or a mesh, without patches.
+// Whatever else an object is, a body has an end, and no patches.
 void check_body(TomlReader& table, const haptics::SceneObject& object) {
   const bool is_body = object.matter.mass > 0;
   if (table.has("grab") && !is_body)
@@ -60,13 +60,8 @@ void check_body(TomlReader& table, const haptics::SceneObject& object) {
   if (table.has("grab") && !(object.grab.stiffness > 0))
     table.problem("grab", "holds nothing without a stiffness: add stiffness = \"200 N/m\"");
   if (!is_body) return;
-  const bool can = std::holds_alternative<haptics::BoxShape>(object.shape) ||
-                   std::holds_alternative<haptics::SphereShape>(object.shape) ||
-                   std::holds_alternative<haptics::MeshShape>(object.shape);
-  if (!can)
-    table.problem("mass",
-                  "only boxes, spheres and meshes move by their mass: give one of them, or take "
-                  "the mass out");
+  if (std::holds_alternative<haptics::PlaneShape>(object.shape))
+    table.problem("mass", "a plane has no end, and cannot move: give a box, or take the mass out");
   if (table.has("patch"))
     table.problem("patch", "a body is the same all over: take patch out, or the mass");
 }
@@ -150,7 +145,8 @@ Section<haptics::SceneObject> object_section() {
        "turned about x, then y, then z axis of S or of its node"},
       {"node", no_node, "the [[node]] that it hangs on; absent: none, it stands in S"},
       {"mass", in(&Object::matter, &haptics::Matter::mass), declared("kg", 1e-3, 1e3),
-       "of a box, sphere, solid or closed mesh: it is a body, and moves when it is pushed; absent: it "
+       "of a box, sphere, solid or closed mesh: it is a body, and moves when it is pushed; absent: "
+       "it "
        "stands "
        "still"},
       {"body_friction", in(&Object::matter, &haptics::Matter::friction), within("", 0, 10),

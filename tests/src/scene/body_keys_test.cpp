@@ -40,12 +40,15 @@ TEST(BodyKeys, GiveMassFrictionAndRestitution) {
 TEST(BodyKeys, RefuseWhatCannotMove) {
   EXPECT_THAT(refusal("[[object]]\nname = \"a\"\nplane = [0, 0, 1]\nmass = \"1 kg\"\n" +
                       std::string(kHand)),
-              HasSubstr("only boxes, spheres and meshes move by their mass"));
-  EXPECT_THAT(
-      refusal("[[object]]\nname = \"a\"\ncylinder = {radius = \"1 cm\", height = \"4 cm\"}\n"
-              "mass = \"1 kg\"\n" +
-              std::string(kHand)),
-      HasSubstr("only boxes, spheres and meshes move by their mass"));
+              HasSubstr("a plane has no end, and cannot move"));
+}
+
+TEST(BodyKeys, GiveSolidsAMass) {
+  const SceneFile file = parsed(
+      "[[object]]\nname = \"a\"\ncylinder = {radius = \"1 cm\", height = \"4 cm\"}\n"
+      "mass = \"1 kg\"\n" +
+      std::string(kHand));
+  EXPECT_EQ(file.scene.objects.at(0).matter.mass, 1.0);
 }
 
 TEST(BodyKeys, SayWhatHoldsABody) {
