@@ -8,18 +8,18 @@
 const int kChannelA = 2, kChannelB = 3, kForward = 7, kBackward = 8, kPulse = 9;
 const float kMetresPerCount = 14.7e-6;  // at the handle
 const float kNewtonsAtFullPulse = 3.0;  // at the handle, of the whole supply
-const unsigned long kPeriod = 1000;     // [us]
+const uint16_t kPeriod = 1000;          // [us]
 
 volatile long count = 0;
 reckon_board board;
-unsigned long next_tick;
+uint32_t next_tick;
 
 void on_edge() {
   static uint8_t before = 0;
   const uint8_t now = (uint8_t)(digitalRead(kChannelA) << 1 | digitalRead(kChannelB));
   // Both change, or none: an edge was missed, and which way is not known.
   static const int8_t kSteps[16] = {0, 1, -1, 0, -1, 0, 0, 1, 1, 0, 0, -1, 0, -1, 1, 0};
-  count += kSteps[before << 2 | now];
+  count = count + kSteps[before << 2 | now];
   before = now;
 }
 
@@ -55,7 +55,7 @@ void setup() {
 // The handle is in the middle when the board is switched on: counts begin at 0.
 void loop() {
   while (Serial.available() > 0) reckon_board_take(&board, (uint8_t)Serial.read());
-  if ((long)(micros() - next_tick) < 0) return;
+  if ((int32_t)((uint32_t)micros() - next_tick) < 0) return;
   next_tick += kPeriod;
   noInterrupts();
   const int32_t counts[1] = {(int32_t)count};

@@ -54,11 +54,14 @@ typedef struct {
 
 static inline uint16_t reckon_crc(const uint8_t* octets, uint8_t length) {
   uint16_t crc = 0xFFFF;
-  uint8_t i, bit;
+  uint8_t i, bit, top;
   for (i = 0; i < length; ++i) {
     crc = (uint16_t)(crc ^ (uint16_t)((uint16_t)octets[i] << 8));
-    for (bit = 0; bit < 8; ++bit)
-      crc = (uint16_t)((crc & 0x8000u) ? (crc << 1) ^ 0x1021u : crc << 1);
+    for (bit = 0; bit < 8; ++bit) {
+      top = (uint8_t)(crc >> 15);
+      crc = (uint16_t)(crc << 1);
+      if (top) crc = (uint16_t)(crc ^ 0x1021u);
+    }
   }
   return crc;
 }
@@ -68,7 +71,9 @@ static inline uint8_t* reckon_put(uint8_t* at, uint32_t number, uint8_t octets) 
   return at;
 }
 
-static inline uint16_t reckon_word(const uint8_t* at) { return (uint16_t)(at[0] | at[1] << 8); }
+static inline uint16_t reckon_word(const uint8_t* at) {
+  return (uint16_t)(at[0] | (uint16_t)((uint16_t)at[1] << 8));
+}
 
 /* COBS: a zero, then before each run of octets that are not zero how far the next zero would be,
  * then a zero. `carried` has room for the CRC. */

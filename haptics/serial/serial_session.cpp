@@ -16,7 +16,7 @@ constexpr int kMostLost = 1'000;                    // reports; more have come i
 }  // namespace
 
 const UsbFacts& serial_facts() noexcept {
-  static constexpr UsbFacts kFacts{.name = "Serial board",
+  static constexpr UsbFacts kFacts{.name = "serial board",
                                    .most_force = 1e3,
                                    .sure_share = 0.9,
                                    .assumed_damping = 0.1,
@@ -88,11 +88,11 @@ bool SerialSession::keeps_time(nanoseconds now) {
   const nanoseconds ours = now - first_heard_;
   if (is_timed_ || ours < kTrial) return true;
   is_timed_ = true;
-  if (clock_ > ours - ours / 10 && clock_ < ours + ours / 10) return true;
+  if (clock_ > ours - ours / 20 && clock_ < ours + ours / 20) return true;
   leave();
   stage_ = SerialStage::refused;
   refusal_ =
-      "its clock is off by more than a tenth: the stamps of its reports are to be microseconds";
+      "its clock is off by more than a twentieth: the stamps of its reports are to be microseconds";
   return false;
 }
 

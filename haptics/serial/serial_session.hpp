@@ -57,7 +57,7 @@ class SerialSession {
   /// A frame goes out for each report, and where none comes after this time.
   static constexpr std::chrono::milliseconds kKeep{2};
   /// After so long its clock is held against ours.
-  static constexpr std::chrono::seconds kTrial{2};
+  static constexpr std::chrono::seconds kTrial{4};
 
   /// @param exchange outlives it  @param limits that the servo relies on  @param run of the first
   /// readings  @param question number of the first question  @param now of its begin

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -99,6 +100,123 @@ TEST(SerialSession, PositionsAndForcesHaveTheSignsOfTheAxes) {
     EXPECT_LT((sample.position - wired.board.position()).norm(), 2e-5);
     EXPECT_EQ(sample.position.z() == 0.0, axes < 3) << "an axis that it lacks";
   }
+}
+
+// What the board did in truth on each way between two readings that join: it held forces of just
+// those writes that they name, in their order, and nothing else. The handle goes steadily along x,
+// so that its count tells the tick.
+class Witness {
+ public:
+  explicit Witness(unsigned seed)
+      : random_(seed), often_(seed % 2 == 0), board_(options(seed), hand) {
+    board_.servo_runs = false;
+  }
+
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      disturb(i);
+      board_.run(milliseconds(1));
+      if (silent_-- <= 0) write();
+      UsbReading reading;
+      while (board_.exchange.readings.pop(reading)) see(reading);
+    }
+  }
+  [[nodiscard]] int ways() const { return ways_; }
+  [[nodiscard]] int runs() const { return runs_; }
+  [[nodiscard]] int with_gaps() const { return with_gaps_; }
+
+ private:
+  static SerialBoardOptions options(unsigned seed) {
+    SerialBoardOptions options;
+    options.seed = seed;
+    options.is_led = true;
+    options.period = seed % 3 == 0 ? 500 : seed % 3 == 1 ? 1'700 : 1'000;
+    options.jitter = static_cast<int>(40 * seed);
+    return options;
+  }
+  static Vector3d hand(double t) { return {0.5 * t, 0.05 * std::sin(t), 0}; }
+  [[nodiscard]] bool happens(unsigned of_thousand) { return random_() % 1'000 < of_thousand; }
+
+  // Frames go wrong all the time, and whole directions or the servo now and then.
+  void disturb(int step) {
+    board_.in.latency = board_.out.latency = microseconds(random_() % 1'500);
+    board_.faults = {often_ ? 450U : 30U, 30, 30, 30, false, 30};
+    board_.in_is_cut = step % 500 > 485;
+    board_.out_is_cut = step % 700 > 680;
+    if (happens(often_ ? 60 : 3)) silent_ = static_cast<int>(random_() % 11);
+    board_.board.lose_place(step % 1'100 > 1'090);
+  }
+
+  void write() {
+    UsbForce& force = board_.exchange.force.write_slot();
+    const auto newtons = [&] { return 1e-3 * (static_cast<int>(random_() % 8'001) - 4'000); };
+    force.force = {newtons(), newtons(), newtons()};
+    force.number = static_cast<std::int64_t>(written_.size()) + 1;
+    force.at = board_.board.now();
+    written_.push_back(force.force);
+    board_.exchange.force.publish();
+  }
+
+  void see(const UsbReading& reading) {
+    const auto count = static_cast<std::int32_t>(std::lround(reading.position.x() / 20e-6));
+    std::size_t tick = last_tick_;
+    while (tick < board_.board.ticks().size() && board_.board.ticks()[tick].counts[0] != count)
+      ++tick;
+    ASSERT_LT(tick, board_.board.ticks().size()) << "a place where it never was";
+    const auto& ticks = board_.board.ticks();
+    EXPECT_EQ(std::lround(reading.position.y() / -20e-6), ticks[tick].counts[1]);
+    if (last_ && last_->run == reading.run) {
+      check_way(*last_, reading, last_tick_, tick);
+      EXPECT_EQ(*reading.at - *last_->at,
+                microseconds(ticks[tick].stamp - ticks[last_tick_].stamp));
+      ++ways_;
+    } else {
+      ++runs_;
+    }
+    EXPECT_LT((ticks[tick].force - written(reading.after)).norm(), 1e-9);
+    last_ = reading;
+    last_tick_ = tick;
+  }
+
+  void check_way(const UsbReading& from, const UsbReading& to, std::size_t first, std::size_t end) {
+    with_gaps_ += from.after < to.before ? 1 : 0;
+    std::int64_t number = from.after;
+    for (std::size_t i = first; i < end; ++i) {
+      const Vector3d& held = board_.board.ticks()[i].force;
+      while (number <= to.before && (written(number) - held).norm() > 1e-9) ++number;
+      ASSERT_LE(number, to.before) << "the board held a force that is not told";
+    }
+    EXPECT_EQ(number, to.before) << "it did not hold one that is told";
+  }
+
+  [[nodiscard]] Vector3d written(std::int64_t number) const {
+    return number == 0 ? Vector3d(Vector3d::Zero())
+                       : written_[static_cast<std::size_t>(number) - 1];
+  }
+
+  std::mt19937 random_;
+  const bool often_;  // half of the reports are lost, and the servo is often silent
+  Wired board_;
+  std::vector<Vector3d> written_;
+  std::optional<UsbReading> last_;
+  std::size_t last_tick_ = 0;
+  int silent_ = 0, ways_ = 0, runs_ = 0, with_gaps_ = 0;
+};
+
+TEST(SerialSession, ReadingsTellJustTheForcesThatTheBoardHeldBetweenThem) {
+  int ways = 0, runs = 0, with_gaps = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Witness witness(seed);
+    witness.run(6'000);
+    ways += witness.ways();
+    runs += witness.runs();
+    with_gaps += witness.with_gaps();
+    if (::testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(ways, 50'000);
+  EXPECT_GT(runs, 500);
+  EXPECT_GT(with_gaps, 2'000);
 }
 
 // The board's own books, over phases, latencies, rates of reports, hands and walls; also those that
@@ -323,7 +441,7 @@ TEST(SerialSession, WithoutPlacesThereIsNoForce) {
 TEST(SerialSession, ABoardWhoseClockIsOffIsRefused) {
   Wired wired;
   wired.board.run_clock_at(0.5);  // its damping would count twice
-  wired.run(seconds(3));
+  wired.run(seconds(5));
   EXPECT_EQ(wired.session->stage(), SerialStage::refused);
   EXPECT_THAT(wired.session->refusal(), HasSubstr("microseconds"));
   EXPECT_TRUE(wired.board.force().isZero(0));

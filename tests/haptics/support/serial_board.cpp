@@ -67,6 +67,10 @@ std::vector<std::vector<std::uint8_t>> SerialBoard::pass() {
 void SerialBoard::move(double h) {
   const double t = pdu::to_seconds(now_);
   const Vector3d speed = (hand_(t + 1e-4) - hand_(t)) / 1e-4;
+  if (options_.is_led) {
+    position_ = hand_(t);
+    return;
+  }
   Vector3d pushed = options_.hand_stiffness * (hand_(t) - position_) +
                     options_.hand_damping * (speed - velocity_) + force_ -
                     options_.damping * velocity_;
@@ -92,6 +96,7 @@ void SerialBoard::tick() {
     const double sign = program.axis[i].nm_per_count < 0 ? -1e-3 : 1e-3;
     force_[i] = sign * held[static_cast<std::size_t>(i)];
   }
+  ticks_.push_back({stamp, counts, force_});
 }
 
 }  // namespace reckon::test

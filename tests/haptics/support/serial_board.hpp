@@ -28,6 +28,7 @@ struct SerialBoardOptions {
   int most_force = 5'000;       ///< [mN]
   int watchdog = 10;            ///< [ms]
   int period = 1'000;           ///< [us]
+  bool is_led = false;          ///< its handle is where the hand wants it, whatever the force
   int jitter = 50;              ///< [us], of its ticks
 };
 
@@ -51,6 +52,14 @@ class SerialBoard {
   [[nodiscard]] const Vector3d& position() const { return position_; }  ///< [m, D]
   [[nodiscard]] const Vector3d& force() const { return force_; }        ///< [N, D] that is held
 
+  /// What it did in a tick.
+  struct Tick {
+    std::uint32_t stamp;  // [us]
+    std::array<std::int32_t, 3> counts;
+    Vector3d force;  // [N, D] from then on
+  };
+  [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
+
   void forget();  ///< as after its reset: counters, force, what it was told
   void hold_button(bool on) { buttons_ = on ? 1 : 0; }
   void lose_place(bool on) { homed_ = !on; }  ///< its counts are no places
@@ -73,6 +82,7 @@ class SerialBoard {
   std::uint8_t buttons_ = 0;
   bool homed_ = true, hangs_ = false;
   std::vector<std::vector<std::uint8_t>> sent_;
+  std::vector<Tick> ticks_;
 };
 
 }  // namespace reckon::test
