@@ -146,6 +146,33 @@ TEST(SerialPackets, AForceAndAQuestionAreWhatTheirFramesSay) {
 const Octets kPaddle{0x81, 1, 0x34, 0x12, 1,   10,  0xE8, 0x03, 0,   0x6C, 0x39,
                      0,    0, 0xB8, 0x0B, 'H', 'a', 'p',  'k',  'i', 't'};
 
+// The frames of docs/devices.md, made by a script of Python from its words alone.
+TEST(SerialPackets, TheFramesOfThePageAreThese) {
+  const auto octets = [](const SerialFrame& frame) {
+    return Octets(frame.span().begin(), frame.span().end());
+  };
+  EXPECT_EQ(octets(ask_frame(0x1234)), (Octets{0, 7, 1, 1, 0x34, 0x12, 0x66, 0x3e, 0}));
+  EXPECT_EQ(octets(frame_of({5, {-250, 0, 0}}, 1)),
+            (Octets{0, 3, 2, 5, 5, 6, 0xff, 0x9c, 0x5d, 0}));
+  SerialFrameParser parser;
+  const auto carried =
+      frames_in(parser, {0,    9, 0x81, 1,    0x34, 0x12, 1,    0x0a, 0xe8, 3,    3,   0x6c,
+                         0x39, 1, 0x0b, 0xb8, 0x0b, 'P',  'a',  'd',  'd',  'l',  'e', 0xb2,
+                         0x58, 0, 0,    3,    0x82, 7,    4,    0x40, 0x42, 0x0f, 2,   4,
+                         2,    5, 2,    3,    7,    0xf9, 0xff, 0xff, 0xff, 0xc8, 3,   0});
+  ASSERT_EQ(carried.size(), 2U);
+  const auto greeting = serial_greeting(carried[0]);
+  ASSERT_TRUE(greeting);
+  EXPECT_EQ(greeting->axis[0], (SerialAxis{0, 14'700, 3'000}));
+  const auto report = serial_report(carried[1], 1);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->sequence, 7);
+  EXPECT_EQ(report->stamp, 1'000'000U);
+  EXPECT_EQ(report->until, 4);
+  EXPECT_EQ(report->from, 5);
+  EXPECT_EQ(report->counts[0], -7);
+}
+
 TEST(SerialPackets, AGreetingIsWhatItsOctetsSay) {
   const auto greeting = serial_greeting(kPaddle);
   ASSERT_TRUE(greeting);
