@@ -68,4 +68,4 @@ endif()
 # What the docs tell programmers to copy.
 set(examples CMakeLists.txt decoder.cpp honey.cpp honey.hpp honey_module.cpp peer.cpp truck.cpp truck.hpp)
 list(TRANSFORM examples PREPEND tests/consumer/)
-install(FILES ${examples} haptics/plugin/dummy_device.c DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/reckon-dev/examples COMPONENT dev)
+install(FILES ${examples} haptics/plugin/dummy_device.c haptics/serial/paddle.ino haptics/serial/reckon_board.h DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/reckon-dev/examples COMPONENT dev)

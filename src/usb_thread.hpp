@@ -3,10 +3,8 @@
 // A device on USB as a device of a peer: the device, and the thread that talks with it.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "reckon/haptics/usb/usb_device.hpp"
@@ -14,12 +12,11 @@
 #include "reckon/haptics/usb/usb_exchange.hpp"
 #include "reckon/haptics/usb/usb_loop.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/real_time_priority.hpp"
+#include "reckon/peer/device_thread.hpp"
 
 namespace reckon::peer {
 
-/// The thread has SCHED_FIFO where the host grants it, below the servo: a report waits for it. It
-/// sleeps until the device has sent something, 1 ms at most.
+/// The thread sleeps until the device has sent something, 1 ms at most.
 ///
 ///     SteadyClock clock;
 ///     auto driver = std::make_unique<FalconDriver>(FalconFirmware::load("falcon.bin"));
@@ -27,14 +24,12 @@ namespace reckon::peer {
 ///     options.devices = {{&falcon.device()}};
 class UsbThread {
  public:
-  static constexpr int kPriority = 45;  ///< of SCHED_FIFO
-
   /// @param clock that of the servo; outlives this  @param limits see haptics::usb_limits()
   /// @throws std::runtime_error where the host has no USB, std::system_error if no thread can be
   /// made
   UsbThread(const Clock& clock, const haptics::DeviceLimits& limits,
             std::unique_ptr<haptics::UsbDriver> driver);
-  ~UsbThread();
+  ~UsbThread() { loop_.stop(); }
   UsbThread(const UsbThread&) = delete;
   UsbThread& operator=(const UsbThread&) = delete;
 
@@ -44,15 +39,10 @@ class UsbThread {
   [[nodiscard]] std::vector<std::string> take_notices() { return loop_.take_notices(); }
 
  private:
-  void run() noexcept;
-
-  const Clock& clock_;
   haptics::UsbExchange exchange_;
   haptics::UsbDevice device_;
   haptics::UsbLoop loop_;
-  OrdinaryPulse pulse_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
+  DeviceThread thread_;  // uses all of them
 };
 
 }  // namespace reckon::peer

@@ -51,16 +51,17 @@ void EnergyPortOf<axes>::note_late(const Force& dx, double dt) noexcept {
 }
 
 template <int axes>
-void EnergyPortOf<axes>::settle(const Force& dx, double dt) noexcept {
+void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took) noexcept {
   pass();
   note_late(dx, dt);
   if (missed_) {
     keep_in_mind(dt);
-    settle_missed(dx);
+    settle_missed(dx, took);
     return;
   }
   const double work = -held_.at_handle().dot(dx);
-  const double sure = (doubtful_ > 0 ? std::min(0.0, work) : work) + damping_.move(dx, dt);
+  const double lost = took > 0 ? damping_.move(dx, took) : 0.0;
+  const double sure = (doubtful_ > 0 ? std::min(0.0, work) : work) + lost;
   absorb(sure);
   take_back(sure);
 }
@@ -69,12 +70,12 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt) noexcept {
 // in which the hand moved by D. The least of sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D
 // - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces.
 template <int axes>
-void EnergyPortOf<axes>::settle_missed(const Force& dx) noexcept {
+void EnergyPortOf<axes>::settle_missed(const Force& dx, double took) noexcept {
   const double spread = squares_ - impulse_.squaredNorm() / time_;
   const double work =
       -impulse_.dot(dx) / time_ - (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
   damping_.begin();
-  const double sure = std::min(0.0, work) + damping_.move(dx, time_);
+  const double sure = std::min(0.0, work) + damping_.move(dx, std::max(time_, took));
   absorb(sure);
   take_back(sure);
   time_ = squares_ = 0.0;

@@ -74,7 +74,9 @@ class EnergyPortOf : public EnergyLedger {
   /// Books the sample that ended, in which the hand moved by dx [m] in dt [s] > 0, and the missed
   /// samples before it. In missed samples it is unknown how far the hand moved under which force.
   /// So the worst case is booked, and no work of the hand is credited.
-  void settle(const Force& dx, double dt) noexcept;
+  void settle(const Force& dx, double dt) noexcept { settle(dx, dt, dt); }
+  /// @param took [s] >= 0, of the way dx, where the device tells; 0 where there was none
+  void settle(const Force& dx, double dt, double took) noexcept;
   /// A sample of dt [s] > 0 ended without a reading of the handle.
   void miss(double dt) noexcept;
   /// Whether the handle is read in encoder steps; otherwise follow() does nothing.
@@ -123,7 +125,7 @@ class EnergyPortOf : public EnergyLedger {
   void pass() noexcept;
   void note_late(const Force& dx, double dt) noexcept;
   void keep_in_mind(double dt) noexcept;
-  void settle_missed(const Force& dx) noexcept;
+  void settle_missed(const Force& dx, double took) noexcept;
   void commit() noexcept;
 
   SureDampingOf<axes> damping_;

@@ -186,6 +186,7 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
     tool_.reset(pose);
     forfeit(pose);
   }
+  took_ = reading.took ? pdu::to_seconds(*reading.took) : elapsed_;
   if (reading.watchdog) let_go(reading, pose);
   tool_.move(pose);
   step_.probe = tool_.place();
@@ -257,7 +258,7 @@ void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
 template <int axes>
 void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
-  port_.settle(dx, elapsed_);
+  port_.settle(dx, elapsed_, took_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
   pressed_.place(tool_, static_, period_);
   static_.settle(tool_, step_.dt, port_);

@@ -73,6 +73,7 @@ class ServoStepOf final : public ServoCore {
   Softening softening_;
   double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
   PortHoldOf<axes> held_;     // shares of the load that the port held
+  double took_ = 0.0;         // [s], the handle for its last way
   double limit_share_ = 1.0;  // share of that within the greatest force
   double port_rate_;          // max_rate_ in the port's coordinates
   Safety safety_;

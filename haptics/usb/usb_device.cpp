@@ -17,6 +17,7 @@ void UsbDevice::take_readings() noexcept {
       dropped_ = dropped_ || has_shown_;
       run_ = reading.run;
       has_shown_ = false;
+      told_at_.reset();
       count_ = 0;
     }
     if (count_ == waiting_.size()) return;
@@ -39,6 +40,8 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds) noexcept {
   if (!sample.ok) return sample;
   sample.position = shown_.position;
   if (shown_.orientation) sample.turn = DeviceTurn{*shown_.orientation};
+  if (told_at_ && shown_.at) sample.took = *shown_.at - *told_at_;
+  told_at_ = shown_.at;
   sample.buttons = shown_.buttons;
   sample.watchdog = dropped_;
   dropped_ = false;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/usb/usb_exchange.hpp"
@@ -40,6 +41,8 @@ class UsbDevice final : public HapticDevice {
   std::array<UsbReading, 2 * UsbExchange::kReadings> waiting_{};
   std::size_t first_ = 0, count_ = 0;
   UsbReading shown_;
+  std::optional<std::chrono::nanoseconds>
+      told_at_;  // of the last sample of this run, if it has one
   std::uint32_t run_ = 0;
   bool has_shown_ = false;  // a reading of this run
   bool dropped_ = false;    // the force was, and the servo does not know

@@ -33,6 +33,8 @@ struct UsbReading {
   /// Changes where the force was dropped, whatever for: readings of two runs do not join.
   std::uint32_t run = 0;
   std::uint8_t buttons = 0;
+  /// By the device's own clock, where its reports have one.
+  std::optional<std::chrono::nanoseconds> at = {};
 };
 
 /// Neither side waits for the other. Allocates once, here.

@@ -26,6 +26,7 @@ DeviceLimits usb_limits(const UsbFacts& facts, const UsbSettings& settings) {
   check(settings.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
         settings.max_stiffness);
   check(settings.max_speed > 0, "largest speed must be above 0 m/s", settings.max_speed);
+  check(settings.resolution >= 0, "steps of the encoders must be 0 or more m", settings.resolution);
   check(settings.period > nanoseconds(0), "the servo's period must be above 0 ns",
         static_cast<double>(settings.period.count()));
   check(settings.chain > nanoseconds(0), "delay must be above 0 ns",
@@ -37,7 +38,7 @@ DeviceLimits usb_limits(const UsbFacts& facts, const UsbSettings& settings) {
   limits.max_speed = settings.max_speed;
   limits.workspace_min = Eigen::Vector3d::Constant(-facts.reach);
   limits.workspace_max = Eigen::Vector3d::Constant(facts.reach);
-  limits.resolution = facts.resolution;
+  limits.resolution = settings.resolution > 0 ? settings.resolution : facts.resolution;
   limits.delay_samples =
       static_cast<int>((settings.chain + settings.period - nanoseconds(1)) / settings.period);
   return limits;

@@ -40,6 +40,7 @@ struct UsbSettings {
   double spent_damping = 0.0;  ///< [N s/m], >= 0, of its share, that the driver needs for itself
   double max_stiffness = 0.0;  ///< [N/m], 0 = as much as damping, period and delay allow
   double max_speed = 2.0;      ///< [m/s]
+  double resolution = 0.0;     ///< [m], >= 0, of its encoders at the handle; 0 = as its kind has
   std::chrono::nanoseconds period{1'000'000};  ///< of the servo
   /// Of the whole chain, > 0, rounded up to periods. Where it is too short readings fail, more
   /// often the shorter it is, and no energy is made.

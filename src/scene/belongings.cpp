@@ -7,6 +7,7 @@
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/haptics/serial/serial_session.hpp"
 
 namespace reckon::peer {
 
@@ -66,6 +67,8 @@ const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
       return &haptics::falcon_facts();
     case DeviceDriver::polhem:
       return &haptics::polhem_facts();
+    case DeviceDriver::serial:
+      return &haptics::serial_facts();
     case DeviceDriver::plugin:
     case DeviceDriver::simulated:
       break;
@@ -77,18 +80,22 @@ haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device) {
   return {device.upper_weight, device.fore_weight};
 }
 
-void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay) {
+void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said) {
   device.driver = driver;
   const haptics::UsbFacts* const facts = usb_facts_of(device);
   if (facts == nullptr) return;
   haptics::UsbSettings settings;
+  // Of a board its maker alone knows more.
+  if (driver == DeviceDriver::serial && !said.max_force)
+    device.max_force = std::min(device.max_force, haptics::kSerialAssumedForce);
+  if (driver == DeviceDriver::serial && said.resolution) settings.resolution = device.resolution;
   settings.max_force = device.max_force;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.period = device.period;
-  settings.damping = says_damping ? device.damping : facts->assumed_damping;
+  settings.damping = said.damping ? device.damping : facts->assumed_damping;
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
-  if (says_delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
+  if (said.delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
   const haptics::DeviceLimits limits = haptics::usb_limits(*facts, settings);
   device.max_force = limits.max_force;
   device.damping = limits.damping;
@@ -104,6 +111,7 @@ haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
   settings.damping = (device.damping + settings.spent_damping) / usb_facts_of(device)->sure_share;
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
+  settings.resolution = device.resolution;
   settings.period = device.period;
   settings.chain = device.delay_samples * device.period;
   return settings;

@@ -36,10 +36,17 @@ inline constexpr std::uint32_t kMostPeers = 64;
 /// @throws CsvError "file:line:column: what" if a track cannot be read.
 [[nodiscard]] std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities);
 
+/// Which numbers of a device are those of the real one, not of what is simulated.
+struct SaidOfDevice {
+  bool damping = false;
+  bool delay = false;
+  bool max_force = false;
+  bool resolution = false;
+};
+
 /// The device gets this driver, and with it the limits of what the driver drives, as far as they
-/// are not its own: `says_damping` and `says_delay` tell that the device's damping and delay are
-/// those of the real device, not of what is simulated.
-void use_driver(DeviceConfig& device, DeviceDriver driver, bool says_damping, bool says_delay);
+/// are not its own.
+void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said);
 /// What is known of the real device that a driver drives; null: it is simulated.
 [[nodiscard]] const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device);
 /// What the motors of a Polhem hold up.

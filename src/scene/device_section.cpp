@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -14,6 +15,7 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/haptics/usb/usb_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -93,6 +95,14 @@ void check_kind(TomlReader& table, const DeviceConfig& device) {
   }
   if (device.driver == DeviceDriver::plugin && device.plugin.empty())
     table.problem("driver", "a plugin is a shared library: name it with plugin = \"driver.so\"");
+  for (const char* key : {"port", "baud"}) {
+    if (device.driver != DeviceDriver::serial && table.has(key)) {
+      table.problem(
+          key, "only a board on a serial line has it: add driver = \"serial\", or take it out");
+    }
+  }
+  if (device.driver == DeviceDriver::serial && device.port.empty())
+    table.problem("driver", "a board is on a serial line: name that with port = \"/dev/ttyACM0\"");
   for (const char* key : {"upper_weight", "fore_weight"}) {
     if (device.driver != DeviceDriver::polhem && table.has(key)) {
       table.problem(key,
@@ -110,15 +120,19 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
   const std::string name = facts->name;
   if (device.source == DeviceSource::pointer)
     table.problem("kind", "a person holds a " + name + ", and no pointer moves it: take kind out");
-  if (table.has("resolution"))
+  const bool is_serial = device.driver == DeviceDriver::serial;
+  if (table.has("resolution") && !is_serial)
     table.problem("resolution", "the driver knows the steps of a " + name + ": take it out");
-  if (5 * device.period > 2 * haptics::UsbSession::kSilence)
-    table.problem("rate", "a " + name +
-                              " is let go after 8 ms without a force, which one missed period "
-                              "must not bring about: 400 Hz is enough");
+  const std::chrono::milliseconds silence =
+      is_serial ? haptics::SerialSession::kSilence : haptics::UsbSession::kSilence;
+  if (5 * device.period > 2 * silence)
+    table.problem("rate", fmt::format("a {} is let go after {} ms without a force, which one "
+                                      "missed period must not bring about: 400 Hz is enough",
+                                      name, silence.count()));
   const bool described = !device.described.name.empty();
-  use_driver(device, device.driver, described || table.has("damping"),
-             described || table.has("delay"));
+  const auto said = [&](const char* key) { return described || table.has(key); };
+  use_driver(device, device.driver,
+             {said("damping"), said("delay"), said("max_force"), said("resolution")});
   if (device.upper_weight + device.fore_weight > 0 && !(device.damping > 0)) {
     table.problem("damping", fmt::format("to hold the links up costs {:.2g} N s/m of damping, and "
                                          "none is left for walls: state more, if you are sure of "
@@ -253,8 +267,9 @@ Section<DeviceConfig> device_section() {
            "holds "
            "it at first"},
           {"driver", &Device::driver,
-           "what it is: simulated; a Novint Falcon or a Polhem on USB, which a person holds; or a "
-           "plugin, a driver of yours; in simulated time its operator stands in"},
+           "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
+           "which a person holds; or a plugin, a driver of yours; in simulated time its operator "
+           "stands in"},
           {"descriptor", no_descriptor,
            "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
            "before it: docs/devices.md"},
@@ -263,6 +278,11 @@ Section<DeviceConfig> device_section() {
           {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
           {"firmware", &Device::firmware,
            "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
+          {"port", &Device::port,
+           "of a serial board: its line, such as \"/dev/ttyACM0\", or better one of "
+           "/dev/serial/by-id"},
+          {"baud", &Device::baud, within("", 1'200, 12e6),
+           "of that line; a board that is on USB itself goes by none"},
           {"upper_weight", &Device::upper_weight, within("N m", 0, 2),
            "of a Polhem: torque that pulls its upper link down while that is level; held up by its "
            "motors while forces are shown, which costs damping"},

@@ -133,6 +133,7 @@ enum class DeviceDriver : std::uint8_t {
   simulated,  ///< a mass that its operator holds
   falcon,     ///< a Novint Falcon on USB, that a person holds
   polhem,     ///< a Polhem on USB, that a person holds
+  serial,     ///< a board on a serial line, that a person holds
   plugin,     ///< whatever a shared library drives
 };
 
@@ -166,6 +167,8 @@ struct DeviceConfig {
   int clutch_button = -1;          ///< while it is down the hand stands still; negative: none
   double upper_weight = 0.0;       ///< [N m] >= 0, of a Polhem's upper link while it is level
   double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link while that is level
+  std::string port;                ///< of a serial board: its line, such as /dev/ttyACM0
+  std::uint32_t baud = 1'000'000;  ///< of that line
   std::filesystem::path plugin;    ///< shared library of its driver; absolute once loaded
   std::string plugin_options;      ///< for that driver
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes

@@ -44,6 +44,9 @@ endforeach()
 # The example of a driver is built as its page says, in C.
 do(${CXX} -x c -shared -fPIC -Wall -Wextra -Werror -I${stage}/include -o ${work}/dummy_device.so
   ${stage}/share/doc/reckon-dev/examples/dummy_device.c)
+# What a board includes is C of its own.
+do(${CXX} -x c -std=c99 -fsyntax-only -Wall -Wextra -Wconversion -Wno-unused-function -pedantic -Werror
+  ${stage}/share/doc/reckon-dev/examples/reckon_board.h)
 foreach(header pdu/entity/entity_state.hpp peer/federate.hpp haptics/devices/simulated_device.hpp)
   if(NOT reckon/${header} IN_LIST headers)
     message(FATAL_ERROR "${header} is not installed")

@@ -263,6 +263,9 @@ def main(folder):
     counts = b"\x00\x00\x00\x00\x78\xec" + bytes(6)
     write(seeds / "polhem", [counts + b"\x00\x00", counts + b"\x01\x00", counts[:6] + b"\x07\x00",
                              b"\xff\x7f\x00\x80\x01\xf0\x88\x13\x10\x27\x00\x01\x00\x00" * 3])
+    reports = [b"\xd9" + struct.pack("<BHIHHBBiii", 0x82, i, 1000 * i, max(0, i - 2), max(0, i - 1), 3, 0, 5 * i, -7, i) for i in range(12)]
+    write(seeds / "serial", [b"".join(reports), b"".join(reports[:5] + reports[7:]), b"".join(reports[:4]) + b"\x60" + b"".join(reports[4:]),
+                             b"\x00\x03\x07\x01\x09\x00", b"\x05\x11\x22\x00\x33\x00", bytes(9)])
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
                                b"\nepoch 2 from 2026-12-01T06:00:00Z secret " + digits + b"\n"])

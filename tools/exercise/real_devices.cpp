@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
@@ -30,14 +32,38 @@ using peer::DeviceDriver;
 std::vector<std::string_view> driver_words() {
   std::vector<std::string_view> words;
   for (const auto& word : peer::kWords<DeviceDriver>) {
-    if (word.value != DeviceDriver::simulated && word.value != DeviceDriver::plugin)
+    if (word.value == DeviceDriver::falcon || word.value == DeviceDriver::polhem)
       words.push_back(word.name);
   }
   return words;
 }
 
+bool is_serial(const std::string& device) { return device.starts_with("/dev/"); }
+
 bool is_plugin(const std::string& device) {
-  return device.find('/') != std::string::npos || device.ends_with(".so");
+  return !is_serial(device) && (device.find('/') != std::string::npos || device.ends_with(".so"));
+}
+
+// Of LINE or LINE@BAUD.
+haptics::SerialPlace place_of(const std::string& device) {
+  const std::size_t at = device.rfind('@');
+  if (at == std::string::npos) return {device};
+  unsigned baud = 0;
+  const char* const end = device.data() + device.size();
+  const auto read = std::from_chars(device.data() + at + 1, end, baud);
+  if (read.ec != std::errc() || read.ptr != end || baud < 1'200 || baud > 12'000'000) {
+    throw UsageError(
+        fmt::format("--device: '{}' is no baud from 1200 to 12000000: write "
+                    "/dev/ttyACM0@115200, or leave it out",
+                    device.substr(at + 1)));
+  }
+  return {device.substr(0, at), baud};
+}
+
+DeviceDriver driver_of(const std::string& device) {
+  if (is_serial(device)) return DeviceDriver::serial;
+  if (is_plugin(device)) return DeviceDriver::plugin;
+  return *peer::value_of<DeviceDriver>(device);
 }
 
 // All devices by name, where the file has none.
@@ -49,7 +75,7 @@ void say_devices(peer::SceneFile& scene, std::size_t peers) {
   scene.devices = std::move(devices);
 }
 
-std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
+std::unique_ptr<haptics::UsbDriver> usb_driver_of(const DeviceConfig& device) {
   if (device.driver == DeviceDriver::polhem)
     return std::make_unique<haptics::PolhemDriver>(peer::polhem_weights_of(device));
   haptics::FalconFirmware firmware;
@@ -62,7 +88,8 @@ std::unique_ptr<haptics::UsbDriver> driver_of(const DeviceConfig& device) {
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
   line.option("--device", choice.device,
               fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
-                          "reckon devices), or the file of a driver (DRIVER.so)",
+                          "reckon devices), the line of a serial board (/dev/ttyACM0, or "
+                          "/dev/ttyUSB0@115200), or the file of a driver (DRIVER.so)",
                           fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
@@ -71,13 +98,17 @@ void add_device_flags(CommandLine& line, DeviceChoice& choice) {
 void check_device_choice(const DeviceChoice& choice) {
   const std::string& name = choice.device;
   const std::vector<std::string_view> words = driver_words();
-  if (!name.empty() && !is_plugin(name) && std::ranges::find(words, name) == words.end()) {
+  if (name == "serial")
+    throw UsageError("--device: a serial board goes by its line: --device /dev/ttyACM0");
+  if (is_serial(name)) static_cast<void>(place_of(name));
+  if (!name.empty() && !is_plugin(name) && !is_serial(name) &&
+      std::ranges::find(words, name) == words.end()) {
     const std::string_view nearest = peer::nearest_word(name, words);
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
     throw UsageError(
-        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), and "
-                    "files of drivers: ./DRIVER.so",
+        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), "
+                    "lines of serial boards: /dev/ttyACM0, and files of drivers: ./DRIVER.so",
                     name, meant, fmt::join(words, ", ")));
   }
   if (choice.firmware.empty()) return;
@@ -98,11 +129,14 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
     // What the scene says of a simulated device's friction and delay is not said of this one.
-    const bool by_file = is_plugin(choice.device);
-    const DeviceDriver chosen =
-        by_file ? DeviceDriver::plugin : *peer::value_of<DeviceDriver>(choice.device);
-    if (by_file) first->plugin = std::filesystem::absolute(choice.device);
-    if (first->driver != chosen) peer::use_driver(*first, chosen, false, false);
+    const DeviceDriver chosen = driver_of(choice.device);
+    if (chosen == DeviceDriver::plugin) first->plugin = std::filesystem::absolute(choice.device);
+    if (chosen == DeviceDriver::serial) {
+      const haptics::SerialPlace place = place_of(choice.device);
+      first->port = place.port;
+      first->baud = place.baud;
+    }
+    if (first->driver != chosen) peer::use_driver(*first, chosen, {});
   }
   if (choice.firmware.empty()) return;
   const auto falcon = std::ranges::find_if(scene.devices, [&](const DeviceConfig& device) {
@@ -136,26 +170,48 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
     }
     const haptics::UsbFacts* const facts = peer::usb_facts_of(device);
     if (facts == nullptr) continue;
-    if (std::ranges::find(plugged_, device.driver, &Plugged::driver) != plugged_.end()) {
-      throw std::runtime_error(
-          fmt::format("one program drives one {}: start another peer for the second", facts->name));
-    }
     const haptics::DeviceLimits limits = haptics::usb_limits(*facts, peer::usb_settings_of(device));
-    plugged_.push_back(
-        {device.driver, std::make_unique<peer::UsbThread>(clock_, limits, driver_of(device))});
-    wired[i].device = as_mapped(plugged_.back().thread->device(), device);
+    const bool is_on_line = device.driver == DeviceDriver::serial;
+    wired[i].device = as_mapped(
+        is_on_line ? plug_in_serial(device, limits) : plug_in_usb(device, limits), device);
     sentences_.push_back(fmt::format(
         "{}: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
         "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
         "stiffer walls",
-        facts->name, limits.damping, 1e3 * limits.delay_samples * pdu::to_seconds(device.period)));
+        is_on_line ? device.port : facts->name, limits.damping,
+        1e3 * limits.delay_samples * pdu::to_seconds(device.period)));
   }
+}
+
+haptics::HapticDevice& RealDevices::plug_in_usb(const DeviceConfig& config,
+                                                const haptics::DeviceLimits& limits) {
+  if (std::ranges::find(plugged_, config.driver, &Plugged::driver) != plugged_.end()) {
+    throw std::runtime_error(
+        fmt::format("one program drives one {}: start another peer for the second",
+                    peer::usb_facts_of(config)->name));
+  }
+  plugged_.push_back(
+      {config.driver, std::make_unique<peer::UsbThread>(clock_, limits, usb_driver_of(config))});
+  return plugged_.back().thread->device();
+}
+
+haptics::HapticDevice& RealDevices::plug_in_serial(const DeviceConfig& config,
+                                                   const haptics::DeviceLimits& limits) {
+  if (std::ranges::find(wired_, config.port, &Wired::port) != wired_.end())
+    throw std::runtime_error(fmt::format("two devices are on {}: a line has one", config.port));
+  wired_.push_back(
+      {config.port, std::make_unique<peer::SerialThread>(
+                        clock_, limits, haptics::SerialPlace{config.port, config.baud})});
+  return wired_.back().thread->device();
 }
 
 std::vector<std::string> RealDevices::take_notices() {
   std::vector<std::string> all = std::exchange(sentences_, {});
   for (const Plugged& plugged : plugged_) {
     for (std::string& sentence : plugged.thread->take_notices()) all.push_back(std::move(sentence));
+  }
+  for (const Wired& wired : wired_) {
+    for (std::string& sentence : wired.thread->take_notices()) all.push_back(std::move(sentence));
   }
   for (const auto& plugin : plugins_)
     for (std::string& sentence : plugin->take_notices()) all.push_back(std::move(sentence));

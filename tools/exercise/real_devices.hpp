@@ -13,6 +13,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/serial_thread.hpp"
 #include "reckon/peer/usb_thread.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
@@ -20,7 +21,8 @@ namespace reckon::tools {
 
 /// --device and --firmware of a demo or a peer.
 struct DeviceChoice {
-  std::string device;    ///< name of a driver, or file of one; empty: as the scene says
+  std::string device;    ///< name of a driver, file of one, or line of a board, with @BAUD where
+                         ///< it is not the usual; empty: as the scene says
   std::string firmware;  ///< file; empty: as the scene says
 };
 
@@ -42,13 +44,17 @@ class RealDevices {
   /// Puts real devices in the place of the simulated ones of peer `number` that have a driver.
   /// @param wired that of make_simulated_hands() for that peer @throws std::runtime_error with the
   /// remedy where a plugin is refused, the host has no USB, a firmware cannot be read, or a second
-  /// device of a kind is asked for
+  /// device of a kind, or on a line, is asked for
   void plug_in(const peer::SceneFile& scene, std::uint32_t number,
                std::vector<peer::PeerDevice>& wired);
   /// Sentences since the last call.
   [[nodiscard]] std::vector<std::string> take_notices();
 
  private:
+  [[nodiscard]] haptics::HapticDevice& plug_in_usb(const peer::DeviceConfig& config,
+                                                   const haptics::DeviceLimits& limits);
+  [[nodiscard]] haptics::HapticDevice& plug_in_serial(const peer::DeviceConfig& config,
+                                                      const haptics::DeviceLimits& limits);
   /// As the hand has it.
   [[nodiscard]] haptics::HapticDevice* as_mapped(haptics::HapticDevice& device,
                                                  const peer::DeviceConfig& config);
@@ -59,6 +65,11 @@ class RealDevices {
     std::unique_ptr<peer::UsbThread> thread;
   };
   std::vector<Plugged> plugged_;
+  struct Wired {
+    std::string port;
+    std::unique_ptr<peer::SerialThread> thread;
+  };
+  std::vector<Wired> wired_;
   std::vector<std::unique_ptr<haptics::MappedDevice>> mapped_;  // before the real ones
   std::vector<std::unique_ptr<haptics::PluginDevice>> plugins_;
   std::vector<std::string> sentences_;

@@ -23,6 +23,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
+#include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -72,15 +73,18 @@ void print_device(std::FILE* out, const AttachedDevice& device) {
 
 int list_devices(const DevicesOptions& options, const Console& console) {
   const UsbLook look = look_at_usb(true);
-  if (!look.problem.empty()) throw EnvironmentError(look.problem + "; see reckon doctor");
-  for (const AttachedDevice& device : look.devices) {
-    if (options.json)
-      print_json(console.out, device);
-    else
-      print_device(console.out, device);
-  }
-  fmt::print(console.err, "{} that can be held, {} on USB; drivers: {}\n",
-             counted(look.devices.size(), "device"), counted(look.others, "other"), driver_names());
+  const std::vector<AttachedDevice> lines = look_at_serial_lines();
+  if (!look.problem.empty() && lines.empty())
+    throw EnvironmentError(look.problem + "; see reckon doctor");
+  const auto print = [&](const AttachedDevice& device) {
+    options.json ? print_json(console.out, device) : print_device(console.out, device);
+  };
+  std::ranges::for_each(look.devices, print);
+  std::ranges::for_each(lines, print);
+  fmt::print(console.err,
+             "{} that can be held, {} on USB, {} that a board may be on; drivers: {}, serial\n",
+             counted(look.devices.size(), "device"), counted(look.others, "other"),
+             counted(lines.size(), "serial line"), driver_names());
   const auto has_problem = [](const AttachedDevice& device) { return !device.problem.empty(); };
   const bool any = std::ranges::any_of(look.devices, has_problem);
   const bool needs_rule = std::ranges::any_of(look.devices, [](const AttachedDevice& device) {

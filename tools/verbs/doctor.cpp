@@ -17,6 +17,7 @@
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
+#include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -136,6 +137,16 @@ void examine_usb(std::vector<peer::Finding>& findings) {
                         "USB can be used; no device that a hand could hold is attached", ""});
 }
 
+// What is on a serial line may be a board that a hand could hold, or anything.
+void examine_serial_lines(std::vector<peer::Finding>& findings) {
+  for (const AttachedDevice& line : look_at_serial_lines()) {
+    findings.push_back({line.problem.empty() ? peer::FindingLevel::ok : peer::FindingLevel::note,
+                        "serial line " + line.name + ": " +
+                            (line.problem.empty() ? "it can be opened" : line.problem),
+                        line.remedy});
+  }
+}
+
 peer::SceneFile scene_of(const DoctorOptions& options) {
   if (options.scene.empty()) return {};
   if (options.ipv6) throw UsageError("--ipv6: the scene sets the address family; leave --ipv6 out");
@@ -182,6 +193,7 @@ int run_doctor(Arguments arguments, const Console& console) {
   std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
   findings.push_back(examine_waking());
   examine_usb(findings);
+  examine_serial_lines(findings);
 
   for (const peer::Finding& finding : findings) {
     if (options.json)

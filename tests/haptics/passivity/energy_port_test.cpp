@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -369,6 +370,21 @@ TEST(EnergyPort, WhatTheHandTakesBackFromOthersIsNoWorkOfItsOwn) {
   swing(1.0, -2e-4, 100);
   port.hold({}, kT);
   EXPECT_GT(port.level(), 2 * EnergyPort::kReceivedAtOnce) << "pushed of its own";
+}
+
+// A handle of 1 N s/m that goes 1 mm in 2 ms loses half a millijoule, in however many samples that
+// is told.
+TEST(EnergyPort, DampingTakesWhatTheDevicesOwnTimeSays) {
+  const auto absorbed = [](double resolution, std::initializer_list<std::array<double, 2>> ways) {
+    EnergyPort port(1.0, 0, resolution);
+    for (const auto& [way, took] : ways) port.settle(Vector3d(way, 0, 0), kT, took);
+    return port.absorbed();
+  };
+  EXPECT_NEAR(absorbed(0, {{1e-3, 2e-3}}), 0.5e-3, 1e-15);
+  EXPECT_NEAR(absorbed(0, {{0, 0}, {1e-3, 2e-3}}), 0.5e-3, 1e-15);
+  EXPECT_NEAR(absorbed(0, {{0.5e-3, 1e-3}, {0, 0}, {0.5e-3, 1e-3}}), 0.5e-3, 1e-15);
+  EXPECT_LE(absorbed(1e-6, {{0, 0}, {1e-3, 2e-3}}), 0.5e-3);
+  EXPECT_GT(absorbed(1e-6, {{0, 0}, {1e-3, 2e-3}}), 0.49e-3);
 }
 
 TEST(EnergyPort, AllocatesNothing) {

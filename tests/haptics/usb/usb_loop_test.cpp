@@ -11,9 +11,11 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
@@ -296,6 +298,33 @@ TEST(UsbDevice, AReadingThatIsLateFails) {
     EXPECT_EQ(device.read(milliseconds(write)).ok, write - 1 - delay < 1) << write;
     device.write(Vector3d::Zero(), milliseconds(write));
   }
+}
+
+// Also over readings that failed, and not over a force that was dropped.
+TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  const int delay = device.limits().delay_samples;
+  const auto push = [&](std::int64_t before, std::int64_t after, std::uint32_t run,
+                        nanoseconds at) {
+    exchange.readings.push({Vector3d::Zero(), {}, before, after, run, 0, at});
+  };
+  push(0, 1, 1, milliseconds(100));
+  push(1, 2, 1, milliseconds(103));
+  push(4, 5, 1, milliseconds(107));  // 2 to 4 are not told
+  push(5, 9, 1, milliseconds(108));
+  std::vector<std::optional<nanoseconds>> took;
+  for (int write = 1; write <= delay + 8; ++write) {
+    if (write == delay + 8) push(0, 99, 2, milliseconds(200));
+    const DeviceSample sample = device.read(milliseconds(write));
+    device.write(Vector3d::Zero(), milliseconds(write));
+    if (write > delay && sample.ok) took.push_back(sample.took);
+  }
+  using ::testing::ElementsAre;
+  using ::testing::Optional;
+  EXPECT_THAT(took, ElementsAre(Optional(nanoseconds(0)), Optional(milliseconds(3)),
+                                Optional(milliseconds(4)), Optional(milliseconds(1)),
+                                Optional(nanoseconds(0)), std::nullopt));
 }
 
 TEST(UsbDevice, TellsThatTheForceWasDropped) {

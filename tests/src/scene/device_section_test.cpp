@@ -12,6 +12,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
@@ -198,6 +199,47 @@ TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
   for (const std::string key : {"upper_weight", "fore_weight"}) {
     EXPECT_THAT(refusal("[[device]]\n" + key + " = \"0.1 N m\"\n" + kOperator),
                 HasSubstr("only a Polhem has links"));
+  }
+}
+
+TEST(DeviceSection, NamesASerialBoardAndWhatIsKnownOfIt) {
+  const DeviceConfig plain = device_of("driver = \"serial\"\nport = \"/dev/ttyACM0\"\n");
+  EXPECT_EQ(plain.driver, DeviceDriver::serial);
+  EXPECT_EQ(plain.port, "/dev/ttyACM0");
+  EXPECT_EQ(plain.baud, 1'000'000U);
+  EXPECT_EQ(plain.max_force, 1.0) << "assumed";
+  EXPECT_NEAR(plain.damping, 0.9 * 0.1, 1e-12) << "assumed, less a tenth";
+  EXPECT_EQ(plain.resolution, 100e-6) << "assumed";
+  EXPECT_EQ(plain.delay_samples, 6);
+
+  const DeviceConfig known = device_of(
+      "driver = \"serial\"\nport = \"/dev/ttyUSB0\"\nbaud = 115200\nmax_force = \"3 N\"\n"
+      "resolution = \"14.7 um\"\ndamping = \"2 N s/m\"\ndelay = \"3.5 ms\"\n");
+  EXPECT_EQ(known.baud, 115'200U);
+  EXPECT_EQ(known.max_force, 3.0);
+  EXPECT_NEAR(known.resolution, 14.7e-6, 1e-18);
+  EXPECT_NEAR(known.damping, 1.8, 1e-12);
+  EXPECT_EQ(known.delay_samples, 4);
+  // And its device has the same.
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::serial_facts(), usb_settings_of(known));
+  EXPECT_EQ(limits.max_force, known.max_force);
+  EXPECT_EQ(limits.resolution, known.resolution);
+  EXPECT_NEAR(limits.damping, 1.8, 1e-12);
+  EXPECT_EQ(limits.delay_samples, 4);
+}
+
+TEST(DeviceSection, RefusesWhatASerialBoardIsNot) {
+  const std::string serial = "[[device]]\ndriver = \"serial\"\n";
+  EXPECT_THAT(refusal(serial + kOperator), HasSubstr("name that with port = \"/dev/ttyACM0\""));
+  const std::string wired = serial + "port = \"/dev/ttyACM0\"\n";
+  EXPECT_THAT(refusal(wired + "axes = 6\n" + kOperator), HasSubstr("take out axes = 6"));
+  EXPECT_THAT(refusal(wired + "rate = \"300 Hz\"\n" + kOperator), HasSubstr("after 7 ms"));
+  EXPECT_THAT(refusal(wired + "kind = \"pointer\"\n" + kOperator),
+              HasSubstr("a person holds a serial board"));
+  for (const std::string key : {"port = \"/dev/ttyACM0\"", "baud = 9600"}) {
+    EXPECT_THAT(refusal("[[device]]\n" + key + "\n" + kOperator),
+                HasSubstr("only a board on a serial line has it"));
   }
 }
 

@@ -3,8 +3,13 @@
 // What is said of devices on USB, of ours and of others.
 #include "reckon/tools/exercise/attached_devices.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <array>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -12,6 +17,7 @@
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/exercise/serial_lines.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -125,14 +131,53 @@ TEST(AttachedDevices, ARuleThatCannotBeWrittenSaysWhy) {
   EXPECT_EQ(run_reckon({"devices", "--install-rule", "--json"}).status, 2);
 }
 
+// A line that is open in this program, one that is free, and what was pulled out.
+TEST(AttachedDevices, SerialLinesAreListedWithWhatIsInTheWay) {
+  const test::ScratchFolder folder;
+  const int used = posix_openpt(O_RDWR | O_NOCTTY), free = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(used >= 0 && grantpt(used) == 0 && unlockpt(used) == 0);
+  ASSERT_TRUE(free >= 0 && grantpt(free) == 0 && unlockpt(free) == 0);
+  const auto name = [](int far) {
+    std::array<char, 64> text{};
+    return ptsname_r(far, text.data(), text.size()) == 0 ? std::string(text.data()) : "";
+  };
+  const int near = open(name(used).c_str(), O_RDWR | O_NOCTTY);
+  ASSERT_GE(near, 0);
+  std::filesystem::create_symlink(name(used), folder.file("a_used"));
+  std::filesystem::create_symlink(name(free), folder.file("b_free"));
+  std::filesystem::create_symlink(folder.file("nothing"), folder.file("c_gone"));
+  const auto lines = look_at_serial_lines(folder.file("."));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].driver, "serial");
+  EXPECT_THAT(lines[0].problem, HasSubstr("another program has it: tools_tests, process " +
+                                          std::to_string(getpid())));
+  EXPECT_EQ(lines[1].name, "b_free, " + name(free));
+  EXPECT_THAT(lines[1].use, HasSubstr("reckon demo --device " + folder.file("./b_free")));
+  EXPECT_THAT(lines[1].problem, IsEmpty());
+  EXPECT_THAT(lines[2].problem, HasSubstr("nothing behind it"));
+  EXPECT_THAT(look_at_serial_lines(folder.file("none")), IsEmpty());
+  for (const int descriptor : {near, used, free}) close(descriptor);
+}
+
+TEST(AttachedDevices, ASerialLineThatThisUserMayNotOpenSaysOfWhichGroupItIs) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may open everything";
+  const test::ScratchFolder folder;
+  std::ofstream(folder.file("tty")) << "x";
+  std::filesystem::permissions(folder.file("tty"), std::filesystem::perms::none);
+  const auto lines = look_at_serial_lines(folder.file("."));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].problem, "this user may not open it");
+  EXPECT_THAT(lines[0].remedy, HasSubstr("usermod -aG dialout"));
+}
+
 TEST(AttachedDevices, TheVerbTellsOfThisHost) {
   const UsbLook look = look_at_usb(false);
   const auto result = run_reckon({"devices"});
-  if (!look.problem.empty()) {
+  if (!look.problem.empty() && look_at_serial_lines().empty()) {
     EXPECT_NE(result.status, 0);
     EXPECT_THAT(result.err, HasSubstr(look.problem));
   } else {
-    EXPECT_THAT(result.err, HasSubstr("drivers: falcon, polhem"));
+    EXPECT_THAT(result.err, HasSubstr("drivers: falcon, polhem, serial"));
   }
   EXPECT_THAT(run_reckon({"doctor", "--iface", "lo"}).out, HasSubstr("USB"));
 }

@@ -158,6 +158,64 @@ TEST(RealDevices, APolhemIsTakenInTheSameWayWithItsOwnLimits) {
               HasSubstr("add --device falcon"));
 }
 
+TEST(RealDevices, ASerialBoardGoesByItsLine) {
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({"/dev/ttyUSB7@115200", ""}, scene, 2, 2);
+  ASSERT_EQ(scene.devices.size(), 2U);
+  EXPECT_EQ(scene.devices[0].driver, DeviceDriver::simulated);
+  EXPECT_EQ(scene.devices[1].driver, DeviceDriver::serial);
+  EXPECT_EQ(scene.devices[1].port, "/dev/ttyUSB7");
+  EXPECT_EQ(scene.devices[1].baud, 115'200U);
+  EXPECT_EQ(scene.devices[1].max_force, 1.0) << "what was said is of a simulated one";
+  choose_device({"/dev/ttyACM0", ""}, scene, 2, 2);
+  EXPECT_EQ(scene.devices[1].baud, 1'000'000U);
+
+  const auto refused = [](const std::string& device) {
+    return usage_error([&] { check_device_choice({device, ""}); });
+  };
+  EXPECT_EQ(refused("/dev/ttyACM0"), "");
+  EXPECT_EQ(refused("/dev/serial/by-id/usb-Board-if00"), "");
+  EXPECT_THAT(refused("serial"), HasSubstr("--device /dev/ttyACM0"));
+  for (const char* baud : {"", "fast", "12e6", "1199", "12000001", "99999999999"})
+    EXPECT_THAT(refused(std::string("/dev/ttyACM0@") + baud), HasSubstr("is no baud")) << baud;
+}
+
+TEST(RealDevices, WhatTheFileSaysOfItsBoardStays) {
+  peer::SceneFile scene = peer::parse_scene_file(
+      std::string("[[device]]\ndriver = \"serial\"\nport = \"/dev/ttyACM0\"\n"
+                  "damping = \"2 N s/m\"\nmax_force = \"3 N\"\n") +
+          kTwoHands,
+      "x.toml");
+  choose_device({"/dev/ttyACM1", ""}, scene, 1, 2);
+  EXPECT_EQ(scene.devices.at(0).port, "/dev/ttyACM1");
+  EXPECT_EQ(scene.devices[0].max_force, 3.0);
+  EXPECT_NEAR(scene.devices[0].damping, 1.8, 1e-12);
+}
+
+TEST(RealDevices, ALineHasOneBoard) {
+  peer::SceneFile scene = peer::parse_scene_file(
+      std::string("[[device]]\ndriver = \"serial\"\nport = \"/dev/none\"\n"
+                  "[[device]]\ndriver = \"serial\"\nport = \"/dev/none\"\n") +
+          kTwoHands,
+      "x.toml");
+  SimulatedHands hands = make_simulated_hands(scene, 1);
+  RealDevices real;
+  try {
+    real.plug_in(scene, 1, hands.wired);
+    FAIL() << "two on a line";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("two devices are on /dev/none"));
+  }
+}
+
+TEST(RealDevices, ADemoGoesOnWithoutTheBoardAndSaysSoOnce) {
+  const test::ProgramResult result =
+      test::run_reckon({"demo", "--device", "/dev/none", "--for", "700ms", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("/dev/none: there is no /dev/none: plug it in"));
+  EXPECT_THAT(result.err, HasSubstr("/dev/none: 0.09 N s/m of damping are relied on"));
+}
+
 TEST(RealDevices, ADemoGoesOnWithoutTheDeviceAndSaysSoOnce) {
   try {
     const haptics::UsbContext usb;

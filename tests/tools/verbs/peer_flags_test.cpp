@@ -105,7 +105,8 @@ class PeerFlags : public testing::Test {
     if (result.err.find("metrics: http://127.0.0.1:") != std::string::npos)
       facts.insert("serves metrics");
     if (result.err.find("Falcon: ") != std::string::npos ||
-        result.err.find("Polhem: ") != std::string::npos)
+        result.err.find("Polhem: ") != std::string::npos ||
+        result.err.find("/dev/none: ") != std::string::npos)
       facts.insert("speaks of its device");
     for (const std::string& line : result.lines()) {
       const auto row = nlohmann::json::parse(line, nullptr, false);
@@ -163,6 +164,7 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
       {"--key", key_, host, false},
       {"--device", "falcon", "speaks of its device"},
       {"--device", "polhem", "speaks of its device"},
+      {"--device", "/dev/none", "speaks of its device"},
   };
   for (const Change& change : changes) {
     const Facts facts = facts_of(scene_, with(mode_, change.flag, change.value));

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A board that runs the example's program, the handle that it moves and the hand that holds it,
+// with books of its own: the work of the force that was held, on the way of the handle under it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "reckon/haptics/serial/reckon_board.h"
+
+namespace reckon::test {
+
+struct SerialBoardOptions {
+  unsigned seed = 1;
+  int axes = 3;
+  double mass = 0.1;            ///< [kg]
+  double damping = 2.0;         ///< [N s/m]
+  double hand_stiffness = 200;  ///< [N/m]
+  double hand_damping = 3;      ///< [N s/m]
+  int nm_per_count = 20'000;    ///< of each axis; of the second negative
+  int most_force = 5'000;       ///< [mN]
+  int watchdog = 10;            ///< [ms]
+  int period = 1'000;           ///< [us]
+  bool is_led = false;          ///< its handle is where the hand wants it, whatever the force
+  int jitter = 50;              ///< [us], of its ticks
+};
+
+class SerialBoard {
+ public:
+  using Vector3d = Eigen::Vector3d;
+
+  /// @param hand where the hand wants it [m, frame D] at a time [s]
+  SerialBoard(const SerialBoardOptions& options, std::function<Vector3d(double)> hand);
+  SerialBoard(const SerialBoard&) = delete;
+  SerialBoard& operator=(const SerialBoard&) = delete;
+
+  /// An octet from the host.
+  void take(std::uint8_t octet);
+  /// Lets 50 us pass. @return what it sent meanwhile
+  [[nodiscard]] std::vector<std::vector<std::uint8_t>> pass();
+
+  [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
+  /// [J] that the hand put in: through the motors, and what its damping took.
+  [[nodiscard]] double books() const { return port_work_ + damping_loss_; }
+  [[nodiscard]] const Vector3d& position() const { return position_; }  ///< [m, D]
+  [[nodiscard]] const Vector3d& force() const { return force_; }        ///< [N, D] that is held
+
+  /// What it did in a tick.
+  struct Tick {
+    std::uint32_t stamp;  // [us]
+    std::array<std::int32_t, 3> counts;
+    Vector3d force;  // [N, D] from then on
+  };
+  [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
+
+  void forget();  ///< as after its reset: counters, force, what it was told
+  void hold_button(bool on) { buttons_ = on ? 1 : 0; }
+  void lose_place(bool on) { homed_ = !on; }  ///< its counts are no places
+  void run_clock_at(double rate) { clock_rate_ = rate; }
+  void hang(bool on) { hangs_ = on; }  ///< its program stands still, and holds its force
+  reckon_board program;                ///< as the example's
+
+ private:
+  void move(double h);
+  void tick();
+
+  SerialBoardOptions options_;
+  std::function<Vector3d(double)> hand_;
+  std::mt19937 random_;
+  std::chrono::nanoseconds now_{0}, next_tick_{0}, late_{0};
+  Vector3d position_, velocity_ = Vector3d::Zero(), force_ = Vector3d::Zero();
+  double port_work_ = 0, damping_loss_ = 0;
+  std::uint32_t first_stamp_;
+  double clock_rate_ = 1;
+  std::uint8_t buttons_ = 0;
+  bool homed_ = true, hangs_ = false;
+  std::vector<std::vector<std::uint8_t>> sent_;
+  std::vector<Tick> ticks_;
+};
+
+}  // namespace reckon::test

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A serial board, its line, the talk with it and the servo that uses it, all on the board's clock.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/serial/serial_session.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/haptics/usb/usb_device.hpp"
+#include "reckon/tests/haptics/support/serial_board.hpp"
+
+namespace reckon::test {
+
+/// One way of a line: each octet takes its time, and comes so much later.
+class LineWay {
+ public:
+  std::chrono::nanoseconds latency{100'000};
+  std::chrono::nanoseconds octet{10'000};  // 1 Mbaud
+
+  void send(std::span<const std::uint8_t> octets, std::chrono::nanoseconds now) {
+    for (const std::uint8_t one : octets) {
+      free_at_ = std::max(free_at_, now) + octet;
+      under_way_.emplace_back(free_at_ + latency, one);
+    }
+  }
+  [[nodiscard]] bool is_sending(std::chrono::nanoseconds now) const { return free_at_ > now; }
+  [[nodiscard]] std::vector<std::uint8_t> take(std::chrono::nanoseconds now) {
+    std::vector<std::uint8_t> octets;
+    for (; !under_way_.empty() && under_way_.front().first <= now; under_way_.pop_front())
+      octets.push_back(under_way_.front().second);
+    return octets;
+  }
+
+ private:
+  std::deque<std::pair<std::chrono::nanoseconds, std::uint8_t>> under_way_;
+  std::chrono::nanoseconds free_at_{0};
+};
+
+/// How often frames of the board go wrong, each of a thousand.
+struct LineFaults {
+  unsigned lost = 0, changed = 0, doubled = 0, swapped = 0;
+  bool next_lost = false;    ///< the next of the board's, once
+  unsigned changed_out = 0;  ///< of those to the board
+};
+
+/// The servo steps every millisecond.
+class WiredBoard {
+ public:
+  using Vector3d = Eigen::Vector3d;
+
+  WiredBoard(const SerialBoardOptions& options, std::function<Vector3d(double)> hand,
+             const haptics::DeviceLimits& limits, const haptics::Scene& scene)
+      : board(options, std::move(hand)),
+        device(exchange, limits),
+        servo(device, haptics::EffectPlan(scene), servo_config()),
+        session(std::in_place, exchange, limits, 1U, static_cast<std::uint16_t>(65'530),
+                board.now()),
+        random_(options.seed),
+        next_step_(std::chrono::microseconds(50 * (options.seed % 20))) {}
+
+  void run(std::chrono::nanoseconds time) {
+    for (const auto end = board.now() + time; board.now() < end;) step();
+  }
+
+  SerialBoard board;
+  haptics::UsbExchange exchange;
+  haptics::UsbDevice device;
+  haptics::ServoLoop servo;
+  std::optional<haptics::SerialSession> session;
+  LineWay in, out;
+  LineFaults faults;
+  bool servo_runs = true;
+  bool in_is_cut = false, out_is_cut = false;  // no octets
+  double least_books = 0;  // [J], of the board's own books with loan and allowance
+  double least_own = 0;    // [J], with loan alone
+  haptics::ServoSnapshot last;
+
+ private:
+  static haptics::ServoConfig servo_config() {
+    haptics::ServoConfig config;
+    config.probe_radius = 0;
+    return config;
+  }
+
+  [[nodiscard]] bool happens(unsigned of_thousand) { return random_() % 1'000 < of_thousand; }
+
+  void flip(std::vector<std::uint8_t>& octets) {
+    std::uint8_t& octet = octets[random_() % octets.size()];
+    octet = static_cast<std::uint8_t>(octet ^ (1U << random_() % 8));
+  }
+
+  void step() {
+    for (std::vector<std::uint8_t>& frame : board.pass()) bring(std::move(frame));
+    const auto now = board.now();
+    for (const std::uint8_t octet : out.take(now)) board.take(octet);
+    if (now >= next_step_) {
+      next_step_ += std::chrono::milliseconds(1);
+      if (servo_runs) step_servo(now);
+    }
+    const std::vector<std::uint8_t> octets = in.take(now);
+    if (octets.empty() && now < next_wake_) return;
+    next_wake_ = now + std::chrono::milliseconds(1);
+    session->take(octets, now);
+    if (out.is_sending(now)) return;
+    if (const auto frame = session->next(now)) {
+      std::vector<std::uint8_t> told(frame->span().begin(), frame->span().end());
+      if (happens(faults.changed_out)) flip(told);
+      if (!out_is_cut) out.send(told, now);
+    }
+  }
+
+  void bring(std::vector<std::uint8_t> frame) {
+    if (std::exchange(faults.next_lost, false) || in_is_cut || happens(faults.lost)) return;
+    if (happens(faults.changed)) flip(frame);
+    if (!kept_.empty()) {
+      in.send(frame, board.now());
+      in.send(std::exchange(kept_, {}), board.now());
+      return;
+    }
+    if (happens(faults.swapped)) {
+      kept_ = std::move(frame);
+      return;
+    }
+    in.send(frame, board.now());
+    if (happens(faults.doubled)) in.send(frame, board.now());
+  }
+
+  void step_servo(std::chrono::nanoseconds now) {
+    servo.step(now);
+    servo.snapshots().update();
+    last = servo.snapshots().read();
+    least_own = std::min(least_own, board.books() + last.loan);
+    least_books = std::min(least_books, board.books() + last.loan + last.encoder_allowance);
+  }
+
+  std::mt19937 random_;
+  std::vector<std::uint8_t> kept_;
+  std::chrono::nanoseconds next_step_, next_wake_{0};
+};
+
+}  // namespace reckon::test
