@@ -232,13 +232,16 @@ std::string EvdevLoop::set_up() {
 
 // What is in the way, as a sentence; empty: it is set up, and file_ is its own.
 std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
+  const auto is_named = [&](const std::string& name) {
+    return by_path || (!name.empty() && name.find(settings_.event) != std::string::npos);
+  };
   const int file = calls_->open(path);
+  if (file < 0 && !is_named(calls_->closed_name(path))) return "none";
   if (file == -EACCES || file == -EPERM)
-    return "this user may not open " + path + ": sudo usermod -aG input $USER, and log in again";
+    return "this user may not open " + path + ": " + kEventRemedy;
   if (file < 0) return path + " cannot be opened: " + std::strerror(-file);
   auto facts = event_facts(*calls_, file);
-  const bool is_meant =
-      by_path || (facts && facts->name.find(settings_.event) != std::string::npos);
+  const bool is_meant = is_named(facts ? facts->name : std::string());
   std::string fault;
   if (!is_meant || !facts) {
     fault = is_meant ? path + " gives no force feedback" : "none";

@@ -13,13 +13,13 @@
 #include <cstddef>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
 namespace reckon::haptics {
 namespace {
 
-constexpr const char* kFolder = "/dev/input";
 constexpr std::string_view kEvent = "event";
 
 // A call again where a signal interrupted it. @return its result, or -errno
@@ -32,12 +32,21 @@ auto made(Call call) noexcept {
   }
 }
 
+std::string first_line(const std::filesystem::path& file) {
+  std::string line;
+  std::getline(std::ifstream(file) >> std::ws, line);
+  return line;
+}
+
 class KernelCalls final : public EventCalls {
  public:
+  KernelCalls(std::string devices, std::string facts)
+      : devices_(std::move(devices)), facts_(std::move(facts)) {}
+
   std::vector<std::string> paths() override {
     std::vector<std::pair<int, std::string>> found;
     std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(kFolder, none)) {
+    for (const auto& entry : std::filesystem::directory_iterator(devices_, none)) {
       const std::string name = entry.path().filename().string();
       if (!name.starts_with(kEvent)) continue;
       int number = 0;
@@ -49,6 +58,13 @@ class KernelCalls final : public EventCalls {
     std::vector<std::string> out;
     for (auto& [number, path] : found) out.push_back(std::move(path));
     return out;
+  }
+  // The bits of its effects are words of hexadecimal digits.
+  std::string closed_name(const std::string& path) override {
+    const auto of =
+        std::filesystem::path(facts_) / std::filesystem::path(path).filename() / "device";
+    const std::string effects = first_line(of / "capabilities" / "ff");
+    return effects.find_first_not_of("0 ") == std::string::npos ? "" : first_line(of / "name");
   }
   int open(const std::string& path) override {
     return made([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
@@ -76,10 +92,16 @@ class KernelCalls final : public EventCalls {
     const timespec most{time / 1'000'000'000, time % 1'000'000'000};
     ::ppoll(&one, 1, &most, nullptr);
   }
+
+ private:
+  std::string devices_, facts_;
 };
 
 }  // namespace
 
-std::unique_ptr<EventCalls> kernel_event_calls() { return std::make_unique<KernelCalls>(); }
+std::unique_ptr<EventCalls> kernel_event_calls(const std::string& devices,
+                                               const std::string& facts) {
+  return std::make_unique<KernelCalls>(devices, facts);
+}
 
 }  // namespace reckon::haptics

@@ -13,13 +13,16 @@
 
 namespace reckon::haptics {
 
-/// What fails returns -errno; an interrupted call is made again. Nothing throws but paths().
+/// What fails returns -errno; an interrupted call is made again. Nothing throws but where strings
+/// do.
 class EventCalls {
  public:
   virtual ~EventCalls() = default;
 
   /// Event devices of this host, by their numbers.
   [[nodiscard]] virtual std::vector<std::string> paths() = 0;
+  /// Name of a device that gives force feedback, without opening it; empty: another, or unknown.
+  [[nodiscard]] virtual std::string closed_name(const std::string& path) = 0;
   /// For reading and writing, without waiting. @return a descriptor
   [[nodiscard]] virtual int open(const std::string& path) = 0;
   virtual void close(int file) noexcept = 0;
@@ -38,7 +41,9 @@ class EventCalls {
   EventCalls& operator=(const EventCalls&) = default;
 };
 
-/// Those of the kernel.
-[[nodiscard]] std::unique_ptr<EventCalls> kernel_event_calls();
+/// Those of the kernel. @param devices folder of event devices @param facts folder that tells of
+/// each what it is
+[[nodiscard]] std::unique_ptr<EventCalls> kernel_event_calls(
+    const std::string& devices = "/dev/input", const std::string& facts = "/sys/class/input");
 
 }  // namespace reckon::haptics

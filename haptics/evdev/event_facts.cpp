@@ -112,7 +112,11 @@ std::vector<EventDeviceSeen> event_devices(EventCalls& calls) {
     const int file = calls.open(path);
     if (file < 0) {
       const bool is_denied = file == -EACCES || file == -EPERM;
-      all.push_back({std::move(path), {}, is_denied, is_denied ? "" : std::strerror(-file)});
+      EventFacts facts;
+      facts.name = calls.closed_name(path);
+      if (facts.name.empty()) continue;
+      all.push_back({std::move(path), std::move(facts), is_denied,
+                     is_denied ? std::string() : std::strerror(-file)});
       continue;
     }
     auto facts = event_facts(calls, file);

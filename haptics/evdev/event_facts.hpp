@@ -35,13 +35,19 @@ struct EventFacts {
 /// Where all axes and buttons are now. @return whether it answers
 [[nodiscard]] bool ask_state(EventCalls& calls, int file, EventState& state) noexcept;
 
-/// A device of this host with force feedback, or one that this user may not open.
+/// A device of this host with force feedback.
 struct EventDeviceSeen {
   std::string path;
-  EventFacts facts;        ///< where it was opened
-  bool is_denied = false;  ///< this user may not open it, so that nobody knows what it is
+  EventFacts facts;        ///< where it does not open, of its name alone
+  bool is_denied = false;  ///< this user may not open it
   std::string problem;     ///< another reason why it does not open
 };
+
+/// For a user who may not open one.
+inline constexpr const char* kEventRemedy =
+    "sudo reckon devices --install-rule, and plug it in again; or sudo usermod -aG input $USER, "
+    "and "
+    "log in again";
 
 /// Opens each event device of this host, and closes it again. No force is asked for.
 [[nodiscard]] std::vector<EventDeviceSeen> event_devices(EventCalls& calls);

@@ -117,7 +117,6 @@ void CoefficientStep::publish(bool enabled) noexcept {
   out.mesh_ledger = shown.energy;
   out.trips = safety_.trips();
   out.tally = tally_;
-  out.left_out = contacts_.read().count;
   out.port_energy = shown.energy + now.stored;
   port_min_ = std::min(port_min_, out.port_energy);
   out.port_energy_min = port_min_;

@@ -17,7 +17,7 @@ namespace reckon::haptics {
 
 /// The servo of a device of kind `coefficients`. It states the walls around the hand before the
 /// hand is in them, and the device shows what its books pay for. Others see its hand, and it feels
-/// none of theirs: they are counted as left out.
+/// none of theirs.
 class CoefficientStep final : public ServoCore {
  public:
   /// As ServoLoop; @throws also for what SpringScene refuses

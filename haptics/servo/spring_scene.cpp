@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr double kAlong = 1e-6;  // [rad], of a face against an axis
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
-  throw std::invalid_argument("servo: '" + name + "' " + what);
+  throw std::invalid_argument("'" + name + "' " + what);
 }
 
 // The axis along which a unit vector stands; none: along no axis.

@@ -45,6 +45,7 @@ inline constexpr auto kWords<DeviceDriver> =
     std::to_array<Word<DeviceDriver>>({{"simulated", DeviceDriver::simulated},
                                        {"falcon", DeviceDriver::falcon},
                                        {"polhem", DeviceDriver::polhem},
+                                       {"evdev", DeviceDriver::evdev},
                                        {"plugin", DeviceDriver::plugin}});
 
 template <>

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
+#include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -47,7 +49,7 @@ int install_rule(const DevicesOptions& options, const Console& console) {
   }
   fmt::print(console.out,
              "{} is written; plug the device in again, or: sudo udevadm control --reload && sudo "
-             "udevadm trigger --subsystem-match=usb\n",
+             "udevadm trigger --subsystem-match=usb --subsystem-match=input\n",
              file.string());
   return exit_status(ExitCode::good);
 }
@@ -71,8 +73,10 @@ void print_device(std::FILE* out, const AttachedDevice& device) {
 }
 
 int list_devices(const DevicesOptions& options, const Console& console) {
-  const UsbLook look = look_at_usb(true);
-  if (!look.problem.empty()) throw EnvironmentError(look.problem + "; see reckon doctor");
+  UsbLook look = look_at_usb(true);
+  std::ranges::move(look_at_events(), std::back_inserter(look.devices));
+  if (!look.problem.empty() && look.devices.empty())
+    throw EnvironmentError(look.problem + "; see reckon doctor");
   for (const AttachedDevice& device : look.devices) {
     if (options.json)
       print_json(console.out, device);

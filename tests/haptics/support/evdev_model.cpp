@@ -152,6 +152,10 @@ std::vector<std::string> EvdevModel::paths() {
   return all;
 }
 
+std::string EvdevModel::closed_name(const std::string& path) {
+  return path == kPath ? "Model wheel" : "";
+}
+
 int EvdevModel::open(const std::string& path) {
   if (path != kPath || !plugged_) return -ENOENT;
   if (opening < 0) return opening;

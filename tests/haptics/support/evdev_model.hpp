@@ -73,6 +73,7 @@ class EvdevModel final : public haptics::EventCalls {
   [[nodiscard]] int open_files() const { return open_; }
 
   std::vector<std::string> paths() override;
+  std::string closed_name(const std::string& path) override;
   int open(const std::string& path) override;
   void close(int file) noexcept override;
   int control(int file, unsigned long request, void* argument) noexcept override;
