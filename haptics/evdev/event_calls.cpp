@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace reckon::haptics {
@@ -51,7 +52,8 @@ class KernelCalls final : public EventCalls {
       if (!name.starts_with(kEvent)) continue;
       int number = 0;
       const char* const end = name.data() + name.size();
-      if (std::from_chars(name.data() + kEvent.size(), end, number).ptr == end)
+      const auto read = std::from_chars(name.data() + kEvent.size(), end, number);
+      if (read.ec == std::errc() && read.ptr == end)
         found.emplace_back(number, entry.path().string());
     }
     std::ranges::sort(found);
