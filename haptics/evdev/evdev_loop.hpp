@@ -32,7 +32,7 @@ class EvdevLoop {
   static constexpr std::chrono::milliseconds kRetry{500};  ///< between attempts
   /// After which the device ends an effect that is not played again, as it is a third of it later.
   static constexpr std::chrono::milliseconds kLength{60};
-  static constexpr std::chrono::milliseconds kBetween{2};  ///< changes of an effect
+  static constexpr std::chrono::milliseconds kBetween{4};  ///< changes of an effect
 
   /// @param exchange outlives it  @param clock steady, that of the servo
   /// @throws std::invalid_argument as evdev_limits()

@@ -50,6 +50,7 @@ CoefficientStep::CoefficientStep(CoefficientDevice& device, std::shared_ptr<cons
     : ServoCore(device, std::move(plan), config, std::move(bodies)),
       springs_(device),
       scene_(*plan_, config_, limits_.axes, limits_.max_stiffness),
+      others_(config_.max_contacts),
       safety_(step_.force_limit, config_.max_power, limits_.max_speed, kHoldSteps) {
   static_cap_ = step_.stiffness_limit = step_.body_stiffness_limit = limits_.max_stiffness;
 }
@@ -60,13 +61,15 @@ void CoefficientStep::step(nanoseconds now) noexcept {
   note_time();
   obey_stop(reading);
   sample(reading);
-  contacts_.update();
+  others_.advance(contacts_.update() ? &contacts_.read() : nullptr, step_, count_);
   const bool enabled = safety_.admit(reading, step_.velocity) == Admission::shown;
   // Two axes at once show no more than the limit.
   const double most = step_.force_limit / std::sqrt(limits_.axes);
   const double share = safety_.scale(Vector3d(step_.force_limit, 0, 0), Vector3d::Zero());
   const double risen = std::floor(kRises * share + 1e-9) / kRises;
-  springs_.state(enabled ? scene_.walls_at(place_, risen * most) : SpringModel(), now);
+  const SpringModel wanted = enabled ? walls(risen * most) : SpringModel();
+  asked_ = rendered(wanted, place_).force;
+  springs_.state(wanted, now);
   publish(enabled);
   ++count_;
 }
@@ -87,8 +90,14 @@ bool CoefficientStep::sample(const DeviceSample& reading) noexcept {
   return true;
 }
 
+SpringModel CoefficientStep::walls(double most_force) noexcept {
+  SpringModel model = scene_.walls_at(place_, most_force);
+  others_.add(config_, place_, static_cast<std::size_t>(limits_.axes), most_force, model);
+  return model;
+}
+
 bool CoefficientStep::has_near() noexcept {
-  return plan_->has_within(step_.probe, kSoonFelt + config_.probe_radius);
+  return !others_.empty() || plan_->has_within(step_.probe, kSoonFelt + config_.probe_radius);
 }
 
 void CoefficientStep::publish(bool enabled) noexcept {
@@ -104,14 +113,23 @@ void CoefficientStep::publish(bool enabled) noexcept {
   out.device = step_.probe;
   out.scp = config_.device_origin + to_scene(now.surface);
   scp_motion_.add(out.scp, pdu::to_seconds(step_.now));
-  out.in_mesh_contact = now.surface != place_;
+  const bool touches = now.surface != place_;
+  const bool of_others = touches && others_.touching();
+  out.in_mesh_contact = touches && !of_others;
   if (out.in_mesh_contact) tally_.scene += step_.dt;
-  out.velocity = out.in_mesh_contact ? scp_motion_.velocity() : step_.velocity;
+  if (of_others) tally_.hands += step_.dt;
+  out.velocity = touches ? scp_motion_.velocity() : step_.velocity;
   out.acceleration = scp_motion_.acceleration();
   out.device_velocity = step_.velocity;
   out.device_acceleration = motion_.acceleration();
-  out.force = out.mesh_force = to_scene(now.force);
-  if (out.in_mesh_contact) out.mesh_normal = to_scene((now.surface - place_).normalized());
+  out.force = to_scene(now.force);
+  if (out.in_mesh_contact) {
+    out.mesh_force = out.force;
+    out.mesh_normal = to_scene((now.surface - place_).normalized());
+  }
+  const double asked = asked_.norm();
+  others_.publish(step_, asked > 0 ? std::min(1.0, now.force.norm() / asked) : 0.0, out);
+  out.left_out = others_.left_out();
   out.enabled = enabled;
   out.stopped = stopped_;
   out.mesh_ledger = shown.energy;

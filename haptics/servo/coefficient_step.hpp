@@ -9,6 +9,7 @@
 
 #include "reckon/haptics/devices/coefficient_device.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
+#include "reckon/haptics/servo/remote_walls.hpp"
 #include "reckon/haptics/servo/safety.hpp"
 #include "reckon/haptics/servo/servo_core.hpp"
 #include "reckon/haptics/servo/spring_scene.hpp"
@@ -16,8 +17,8 @@
 namespace reckon::haptics {
 
 /// The servo of a device of kind `coefficients`. It states the walls around the hand before the
-/// hand is in them, and the device shows what its books pay for. Others see its hand, and it feels
-/// none of theirs.
+/// hand is in them, and the device shows what its books pay for. What others have is felt as
+/// RemoteWalls says.
 class CoefficientStep final : public ServoCore {
  public:
   /// As ServoLoop; @throws also for what SpringScene refuses
@@ -30,13 +31,16 @@ class CoefficientStep final : public ServoCore {
 
  private:
   bool sample(const DeviceSample& reading) noexcept;
+  [[nodiscard]] SpringModel walls(double most_force) noexcept;
   void publish(bool enabled) noexcept;
 
   CoefficientDevice& springs_;
   SpringScene scene_;
+  RemoteWalls others_;
   Safety safety_;
   MotionFilter motion_, scp_motion_;
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();  // [m], frame D
+  Eigen::Vector3d asked_ = Eigen::Vector3d::Zero();  // [N], of the walls stated, frame D
   std::chrono::nanoseconds sampled_at_{0};
   bool started_ = false;
   double port_min_ = 0.0;

@@ -140,10 +140,11 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
       const haptics::EvdevSettings settings = peer::evdev_settings_of(device);
       evdev_.push_back(std::make_unique<peer::EvdevThread>(clock_, settings));
       wired[i].device = &evdev_.back()->device();
-      sentences_.push_back(fmt::format(
-          "evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms later; hands and "
-          "entities of others are not felt with it",
-          settings.max_speed, 1e3 * pdu::to_seconds(settings.chain)));
+      sentences_.push_back(
+          fmt::format("evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms "
+                      "later; what others "
+                      "have is felt along its axes, and pushes no hand that does not press",
+                      settings.max_speed, 1e3 * pdu::to_seconds(settings.chain)));
       continue;
     }
     const haptics::UsbFacts* const facts = peer::usb_facts_of(device);

@@ -141,7 +141,7 @@ std::string stiffness_of(const peer::SceneFile& scene, const peer::DeviceConfig&
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
   if (device.driver == peer::DeviceDriver::evdev) {
     return fmt::format(
-        "walls up to {}, which it renders by itself; hands and entities are not felt",
+        "walls, hands and entities up to {}, which it renders by itself along its axes",
         about(can.walls, "N/m"));
   }
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),

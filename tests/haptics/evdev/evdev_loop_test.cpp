@@ -19,6 +19,7 @@
 
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/evdev_model.hpp"
+#include "reckon/tests/haptics/support/servo_bench.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::haptics {
@@ -199,6 +200,47 @@ TEST(EvdevLoop, NoForceIsAboveTheLimit) {
   EXPECT_LE(plugged.model->greatest_force(), 3 / std::numbers::sqrt2 + 1e-9);
 }
 
+// 30 mm from the centre of a hand of 20 mm, for a probe of 10 mm: the touch.
+ContactSet hand_at(const Vector3d& centre, std::uint32_t version = 1) {
+  return bench::only(bench::sphere(centre, 500, version));
+}
+
+TEST(EvdevLoop, AHandOfAnotherIsFeltAlongBothAxesAtOnce) {
+  const Hand oblique = [](double t) {
+    const double way = std::min(1.0, 0.5 * t);
+    return EvdevModel::Places{-0.03 * way, -0.04 * way};
+  };
+  Plugged plugged({}, oblique);
+  // 50 mm from the middle, where the hand wants to be.
+  plugged.servo.contacts().write(hand_at({-0.03, -0.04, 0}));
+  plugged.run(milliseconds(4000));
+  const EvdevModel& model = *plugged.model;
+  const Vector3d away = Vector3d(model.place()[0], model.place()[1], 0) - Vector3d(-0.03, -0.04, 0);
+  const double depth = 0.03 - away.norm();
+  EXPECT_GT(depth, 0.005);
+  const Vector3d force(model.force(0), model.force(1), 0);
+  EXPECT_NEAR(force.norm(), 500 * depth, 0.02 * 500 * depth);
+  EXPECT_LT((force.normalized() - away.normalized()).norm(), 0.02);
+  // 300 N/m of the hand over 30 mm against 500 N/m.
+  EXPECT_NEAR(depth, 0.03 * 300 / 800, 2e-4);
+  ASSERT_EQ(plugged.last().count, 1U);
+  EXPECT_NEAR(plugged.last().contacts[0].depth, depth, 1e-4);
+  EXPECT_NEAR(plugged.last().contacts[0].force.norm(), force.norm(), 0.05 * force.norm());
+  EXPECT_GE(model.least_absorbed(), -1e-9);
+}
+
+TEST(EvdevLoop, AHandOfAnotherDoesNotPushAHandThatNeverPressed) {
+  const Hand rests = [](double) { return EvdevModel::Places{0, 0}; };
+  Plugged plugged({}, rests);
+  plugged.run(milliseconds(500));
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    plugged.servo.contacts().write(hand_at({-0.05 + 0.0005 * i, 0, 0}, i + 1));
+    plugged.run(milliseconds(10));
+  }
+  EXPECT_LT(plugged.model->greatest_force(), 0.05);
+  EXPECT_GE(plugged.model->least_absorbed(), -1e-9);
+}
+
 // Strokes that press every wall, stops at random instants, and a hand that may begin in a wall.
 struct Roaming {
   explicit Roaming(unsigned seed) : random(seed) {
@@ -236,7 +278,9 @@ Told roam(unsigned seed, microseconds report, microseconds latency, double stiff
   options.ends_effects = seed % 3 != 0;
   Roaming hand(seed);
   Plugged plugged(room(), hand, options);
-  for (int i = 0; i < 20; ++i) {
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const Vector3d other(hand.within(-0.06, 0.06), hand.within(-0.06, 0.06), 0);
+    plugged.servo.contacts().write(i < 17 ? hand_at(other, i + 1) : ContactSet());
     plugged.run(microseconds(static_cast<int>(hand.within(50e3, 350e3))));
     if (i % 3 == 0) plugged.stop.press(StopCause::program);
     if (i % 3 == 1) plugged.stop.release(StopCause::program);

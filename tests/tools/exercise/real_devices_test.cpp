@@ -131,7 +131,8 @@ TEST(RealDevices, AnEventDeviceIsChosenWhereTheSceneSaysWhatItsNumbersMean) {
   EXPECT_EQ(limits.kind, haptics::DeviceKind::coefficients);
   EXPECT_EQ(limits.axes, 2);
   EXPECT_EQ(limits.max_stiffness, 1500);
-  EXPECT_THAT(real.take_notices(), ::testing::Contains(HasSubstr("are not felt with it")));
+  EXPECT_THAT(real.take_notices(),
+              ::testing::Contains(HasSubstr("pushes no hand that does not press")));
 }
 
 TEST(RealDevices, WhatIsExplainedOfAnEventDeviceIsWhatItsServoRefuses) {
@@ -146,7 +147,8 @@ TEST(RealDevices, WhatIsExplainedOfAnEventDeviceIsWhatItsServoRefuses) {
   };
   const auto good = explained("plane = [1, 0, 0]\nposition = [-0.02, 0, 0]\n");
   EXPECT_EQ(good.status, 0) << good.err;
-  EXPECT_THAT(good.out, HasSubstr("walls up to 1.5 kN/m, which it renders by itself"));
+  EXPECT_THAT(good.out,
+              HasSubstr("walls, hands and entities up to 1.5 kN/m, which it renders by itself"));
   const auto bad = explained("sphere = \"10 mm\"\n");
   EXPECT_NE(bad.status, 0);
   EXPECT_THAT(bad.err, HasSubstr("'thing' is no plane and no box"));
