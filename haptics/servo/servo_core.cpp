@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "reckon/haptics/servo/coefficient_step.hpp"
 #include "reckon/haptics/servo/servo_limits.hpp"
 #include "reckon/haptics/servo/servo_step.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -76,6 +77,10 @@ bool ServoCore::take_news(double moved) noexcept {
 std::unique_ptr<ServoCore> make_servo(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
                                       const ServoConfig& config,
                                       std::shared_ptr<BodyWorld> bodies) {
+  if (device.limits().kind == DeviceKind::coefficients) {
+    return std::make_unique<CoefficientStep>(dynamic_cast<CoefficientDevice&>(device),
+                                             std::move(plan), config, std::move(bodies));
+  }
   if (device.limits().axes == 6)
     return std::make_unique<ServoStepOf<6>>(device, std::move(plan), config, std::move(bodies));
   return std::make_unique<ServoStepOf<3>>(device, std::move(plan), config, std::move(bodies));

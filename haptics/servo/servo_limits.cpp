@@ -54,13 +54,20 @@ ServoConfig checked_config(const ServoConfig& c, const DeviceLimits& limits) {
 }
 
 DeviceLimits checked_limits(const DeviceLimits& limits) {
-  require(limits.kind == DeviceKind::impedance, "only impedance devices are driven by forces");
+  require(limits.kind != DeviceKind::admittance, "devices that take a motion are not driven");
   require(limits.max_force > 0 && std::isfinite(limits.max_force),
           "the device tells no largest force");
   require(limits.damping >= 0 && std::isfinite(limits.damping),
           "the device's damping must be 0 or more N s/m");
   require(limits.max_speed > 0, "the device's largest speed must be above 0 m/s");
-  require(limits.axes == 3 || limits.axes == 6, "a device has 3 or 6 axes");
+  if (limits.kind == DeviceKind::coefficients) {
+    require(limits.axes == 1 || limits.axes == 2,
+            "a device that renders springs by itself has 1 or 2 axes");
+    require(limits.max_stiffness > 0 && std::isfinite(limits.max_stiffness),
+            "a device that renders springs by itself tells its greatest stiffness");
+  } else {
+    require(limits.axes == 3 || limits.axes == 6, "a device has 3 or 6 axes");
+  }
   if (limits.axes == 6) {
     require(limits.max_torque > 0 && std::isfinite(limits.max_torque),
             "the device tells no largest torque");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
@@ -69,6 +70,7 @@ const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
       return &haptics::polhem_facts();
     case DeviceDriver::serial:
       return &haptics::serial_facts();
+    case DeviceDriver::evdev:
     case DeviceDriver::plugin:
     case DeviceDriver::simulated:
       break;
@@ -114,6 +116,31 @@ haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
   settings.resolution = device.resolution;
   settings.period = device.period;
   settings.chain = device.delay_samples * device.period;
+  return settings;
+}
+
+std::string evdev_fault_of(const DeviceConfig& device) {
+  if (device.axes != 3) return "an event device has the axes of 'event_axes': take 'axes' out";
+  if (device.scale != 1.0 || device.left_handed || device.clutch_button >= 0)
+    return "an event device renders its walls by itself, where its handle is: take 'scale', "
+           "'left_handed' and 'clutch_button' out";
+  try {
+    static_cast<void>(haptics::evdev_limits(evdev_settings_of(device)));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+haptics::EvdevSettings evdev_settings_of(const DeviceConfig& device) {
+  haptics::EvdevSettings settings;
+  settings.event = device.event;
+  settings.axes = device.event_axes;
+  settings.scale = {device.travel, device.full_force, device.full_stiffness};
+  settings.max_force = device.max_force;
+  settings.max_stiffness = device.max_stiffness;
+  settings.max_speed = device.max_speed;
+  if (device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
   return settings;
 }
 

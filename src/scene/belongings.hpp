@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/polhem/polhem_kinematics.hpp"
 #include "reckon/haptics/usb/usb_limits.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -53,5 +55,10 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& s
 [[nodiscard]] haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device);
 /// For the driver of a real device.
 [[nodiscard]] haptics::UsbSettings usb_settings_of(const DeviceConfig& device);
+
+/// The same for a force feedback device of Linux.
+[[nodiscard]] haptics::EvdevSettings evdev_settings_of(const DeviceConfig& device);
+/// Why a device cannot be one, with the key that says otherwise: a sentence; empty: it can.
+[[nodiscard]] std::string evdev_fault_of(const DeviceConfig& device);
 
 }  // namespace reckon::peer

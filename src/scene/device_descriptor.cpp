@@ -34,9 +34,12 @@ UsbId parse_usb_id(std::string_view text) {
 
 void check_kind(TomlReader& file, const DeviceDescriptor& device) {
   if (device.kind == DeviceKind::impedance) return;
-  file.problem("kind",
-               "the servo drives impedance devices alone: they tell their place and take a force; "
-               "there is no way to use this one");
+  file.problem(
+      "kind",
+      "descriptors are of impedance devices alone: they tell their place and take a force; one "
+      "that takes a force model is described in [[device]], with driver = \"evdev\", and there is "
+      "no "
+      "way to use one that takes a motion");
 }
 
 void check_axes(TomlReader& file, const DeviceDescriptor& device) {
@@ -83,7 +86,7 @@ const Section<DeviceDescriptor>& descriptor_section() {
            "vendor and product under which it is attached, as \"0403:cb48\"; absent: by no USB"},
           {"kind", &Device::kind,
            "which way it works: it tells its place and takes a force, tells a force and takes a "
-           "place, or takes a force model; the servo drives the first alone"},
+           "place, or takes a force model; a descriptor is of the first alone"},
           {"axes", &Device::axes, within("", 1, 8),
            "3; or 6: it turns, and shows torque besides the force. Others are refused"},
           {"max_force", &Device::max_force, declared("N", 0.01, 1e3), "it can show for long"},

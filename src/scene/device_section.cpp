@@ -103,6 +103,15 @@ void check_kind(TomlReader& table, const DeviceConfig& device) {
   }
   if (device.driver == DeviceDriver::serial && device.port.empty())
     table.problem("driver", "a board is on a serial line: name that with port = \"/dev/ttyACM0\"");
+  for (const char* key : {"event", "event_axes", "travel", "full_force", "full_stiffness"}) {
+    const bool may_be_one =
+        device.driver == DeviceDriver::evdev || device.driver == DeviceDriver::simulated;
+    if (!may_be_one && table.has(key)) {
+      table.problem(key,
+                    "only a force feedback device of Linux has it: say driver = \"evdev\", or take "
+                    "it out");
+    }
+  }
   for (const char* key : {"upper_weight", "fore_weight"}) {
     if (device.driver != DeviceDriver::polhem && table.has(key)) {
       table.problem(key,
@@ -112,9 +121,19 @@ void check_kind(TomlReader& table, const DeviceConfig& device) {
   }
 }
 
+// What the numbers of such a device mean is asked for, and none of it guessed.
+void check_evdev(TomlReader& table, const DeviceConfig& device) {
+  if (device.driver != DeviceDriver::evdev) return;
+  if (device.source == DeviceSource::pointer)
+    table.problem("kind", "a person holds an event device, and no pointer moves it: take kind out");
+  if (const std::string fault = evdev_fault_of(device); !fault.empty())
+    table.problem("driver", fault);
+}
+
 // What the driver knows of its device is not said once more.
 void check_driver(TomlReader& table, DeviceConfig& device) {
   check_kind(table, device);
+  check_evdev(table, device);
   const haptics::UsbFacts* const facts = usb_facts_of(device);
   if (facts == nullptr) return;
   const std::string name = facts->name;
@@ -268,8 +287,9 @@ Section<DeviceConfig> device_section() {
            "it at first"},
           {"driver", &Device::driver,
            "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
-           "which a person holds; or a plugin, a driver of yours; in simulated time its operator "
-           "stands in"},
+           "which a person holds; evdev, a wheel or stick with force feedback that Linux drives; "
+           "or "
+           "a plugin, a driver of yours; in simulated time its operator stands in"},
           {"descriptor", no_descriptor,
            "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
            "before it: docs/devices.md"},
@@ -287,6 +307,19 @@ Section<DeviceConfig> device_section() {
            "of a Polhem: torque that pulls its upper link down while that is level; held up by its "
            "motors while forces are shown, which costs damping"},
           {"fore_weight", &Device::fore_weight, within("N m", 0, 2), "the same of its fore link"},
+          {"event", &Device::event,
+           "of evdev: path of its event device, or a part of its name; absent: the first that "
+           "gives "
+           "force feedback"},
+          {"event_axes", &Device::event_axes, within("", 1, 2),
+           "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is y"},
+          {"travel", &Device::travel, declared("m", 0.01, 10),
+           "of evdev: way of the handle from one end of an axis to the other; no device tells it"},
+          {"full_force", &Device::full_force, declared("N", 0.1, 1e3),
+           "of evdev: force at the handle at the greatest level; no device tells it"},
+          {"full_stiffness", &Device::full_stiffness, declared("N/m", 1, 1e6),
+           "of evdev: stiffness at the handle of a spring with the greatest coefficient; no device "
+           "tells it"},
           {"reach", &Device::reach, within("m", 0.001, 10),
            "of a pointer: so far from there it takes the hand, along each axis of the device"},
           {"marking", &Device::marking,

@@ -134,6 +134,7 @@ enum class DeviceDriver : std::uint8_t {
   falcon,     ///< a Novint Falcon on USB, that a person holds
   polhem,     ///< a Polhem on USB, that a person holds
   serial,     ///< a board on a serial line, that a person holds
+  evdev,      ///< a force feedback device of Linux, that a person holds
   plugin,     ///< whatever a shared library drives
 };
 
@@ -169,8 +170,13 @@ struct DeviceConfig {
   double fore_weight = 0.0;        ///< [N m] >= 0, of its fore link while that is level
   std::string port;                ///< of a serial board: its line, such as /dev/ttyACM0
   std::uint32_t baud = 1'000'000;  ///< of that line
-  std::filesystem::path plugin;    ///< shared library of its driver; absolute once loaded
-  std::string plugin_options;      ///< for that driver
+  std::string event;               ///< of an event device: its path, or a part of its name
+  int event_axes = 2;              ///< of an event device: 1 or 2
+  double travel = 0.0;           ///< [m], of an event device, from end to end of an axis; 0: unsaid
+  double full_force = 0.0;       ///< [N], of an event device at its greatest level; 0: unsaid
+  double full_stiffness = 0.0;   ///< [N/m], of its greatest coefficient; 0: unsaid
+  std::filesystem::path plugin;  ///< shared library of its driver; absolute once loaded
+  std::string plugin_options;    ///< for that driver
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin

@@ -46,6 +46,7 @@ inline constexpr auto kWords<DeviceDriver> =
                                        {"falcon", DeviceDriver::falcon},
                                        {"polhem", DeviceDriver::polhem},
                                        {"serial", DeviceDriver::serial},
+                                       {"evdev", DeviceDriver::evdev},
                                        {"plugin", DeviceDriver::plugin}});
 
 template <>

@@ -106,13 +106,16 @@ std::string_view udev_rule() noexcept {
          "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", "
          "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
          "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\", "
-         "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n";
+         "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
+         "# Event devices that give force feedback.\n"
+         "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{capabilities/ff}==\"*[1-9a-f]*\", "
+         "TAG+=\"uaccess\"\n";
 }
 
 std::string driver_names() {
   std::string names;
-  for (const Kind& kind : kinds()) names += (names.empty() ? "" : ", ") + std::string(kind.driver);
-  return names;
+  for (const Kind& kind : kinds()) names += std::string(kind.driver) + ", ";
+  return names + "evdev";
 }
 
 UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std::string>& said) {

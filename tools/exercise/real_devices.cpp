@@ -28,7 +28,6 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
-// Of devices on USB.
 std::vector<std::string_view> driver_words() {
   std::vector<std::string_view> words;
   for (const auto& word : peer::kWords<DeviceDriver>) {
@@ -137,6 +136,9 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       first->baud = place.baud;
     }
     if (first->driver != chosen) peer::use_driver(*first, chosen, {});
+    const std::string fault =
+        chosen == DeviceDriver::evdev ? peer::evdev_fault_of(*first) : std::string();
+    if (!fault.empty()) throw UsageError("--device evdev: " + fault);
   }
   if (choice.firmware.empty()) return;
   const auto falcon = std::ranges::find_if(scene.devices, [&](const DeviceConfig& device) {
@@ -166,6 +168,17 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
       sentences_.push_back(fmt::format(
           "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
           plugins_.back()->name(), plugins_.back()->limits().damping, device.plugin.string()));
+      continue;
+    }
+    if (device.driver == DeviceDriver::evdev) {
+      const haptics::EvdevSettings settings = peer::evdev_settings_of(device);
+      evdev_.push_back(std::make_unique<peer::EvdevThread>(clock_, settings));
+      wired[i].device = &evdev_.back()->device();
+      sentences_.push_back(
+          fmt::format("evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms "
+                      "later; what others "
+                      "have is felt along its axes, and pushes no hand that does not press",
+                      settings.max_speed, 1e3 * pdu::to_seconds(settings.chain)));
       continue;
     }
     const haptics::UsbFacts* const facts = peer::usb_facts_of(device);
@@ -213,6 +226,8 @@ std::vector<std::string> RealDevices::take_notices() {
   for (const Wired& wired : wired_) {
     for (std::string& sentence : wired.thread->take_notices()) all.push_back(std::move(sentence));
   }
+  for (const auto& thread : evdev_)
+    for (std::string& sentence : thread->take_notices()) all.push_back(std::move(sentence));
   for (const auto& plugin : plugins_)
     for (std::string& sentence : plugin->take_notices()) all.push_back(std::move(sentence));
   return all;

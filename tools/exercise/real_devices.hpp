@@ -11,6 +11,7 @@
 #include "reckon/haptics/devices/mapped_device.hpp"
 #include "reckon/haptics/plugin/plugin_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/evdev_thread.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/serial_thread.hpp"
@@ -72,6 +73,7 @@ class RealDevices {
   std::vector<Wired> wired_;
   std::vector<std::unique_ptr<haptics::MappedDevice>> mapped_;  // before the real ones
   std::vector<std::unique_ptr<haptics::PluginDevice>> plugins_;
+  std::vector<std::unique_ptr<peer::EvdevThread>> evdev_;
   std::vector<std::string> sentences_;
 };
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
+#include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
 #include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -48,7 +50,7 @@ int install_rule(const DevicesOptions& options, const Console& console) {
   }
   fmt::print(console.out,
              "{} is written; plug the device in again, or: sudo udevadm control --reload && sudo "
-             "udevadm trigger --subsystem-match=usb\n",
+             "udevadm trigger --subsystem-match=usb --subsystem-match=input\n",
              file.string());
   return exit_status(ExitCode::good);
 }
@@ -72,9 +74,10 @@ void print_device(std::FILE* out, const AttachedDevice& device) {
 }
 
 int list_devices(const DevicesOptions& options, const Console& console) {
-  const UsbLook look = look_at_usb(true);
+  UsbLook look = look_at_usb(true);
+  std::ranges::move(look_at_events(), std::back_inserter(look.devices));
   const std::vector<AttachedDevice> lines = look_at_serial_lines();
-  if (!look.problem.empty() && lines.empty())
+  if (!look.problem.empty() && look.devices.empty() && lines.empty())
     throw EnvironmentError(look.problem + "; see reckon doctor");
   const auto print = [&](const AttachedDevice& device) {
     options.json ? print_json(console.out, device) : print_device(console.out, device);

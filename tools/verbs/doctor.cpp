@@ -17,6 +17,7 @@
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
+#include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -116,6 +117,17 @@ peer::Finding examine_waking() {
           "sudo setfacl -m u:$USER:w " + file + ", or run as root"};
 }
 
+void add_findings(const std::vector<AttachedDevice>& devices,
+                  std::vector<peer::Finding>& findings) {
+  for (const AttachedDevice& device : devices) {
+    if (device.problem.empty())
+      findings.push_back({peer::FindingLevel::ok, device.name + ": it can be opened", ""});
+    else
+      findings.push_back(
+          {peer::FindingLevel::warning, device.name + ": " + device.problem, device.remedy});
+  }
+}
+
 // Whether devices on USB can be used.
 void examine_usb(std::vector<peer::Finding>& findings) {
   const UsbLook look = look_at_usb(false);
@@ -125,13 +137,7 @@ void examine_usb(std::vector<peer::Finding>& findings) {
                         "needed for a real device only"});
     return;
   }
-  for (const AttachedDevice& device : look.devices) {
-    if (device.problem.empty())
-      findings.push_back({peer::FindingLevel::ok, device.name + ": it can be opened", ""});
-    else
-      findings.push_back(
-          {peer::FindingLevel::warning, device.name + ": " + device.problem, device.remedy});
-  }
+  add_findings(look.devices, findings);
   if (look.devices.empty())
     findings.push_back({peer::FindingLevel::ok,
                         "USB can be used; no device that a hand could hold is attached", ""});
@@ -194,6 +200,7 @@ int run_doctor(Arguments arguments, const Console& console) {
   findings.push_back(examine_waking());
   examine_usb(findings);
   examine_serial_lines(findings);
+  add_findings(look_at_events(), findings);
 
   for (const peer::Finding& finding : findings) {
     if (options.json)

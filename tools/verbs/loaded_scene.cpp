@@ -11,6 +11,7 @@
 #include "reckon/peer/scene/scene_extent.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
+#include "reckon/tools/exercise/felt_device.hpp"
 
 namespace reckon::tools {
 
@@ -20,6 +21,7 @@ LoadedScene load_whole_scene(const std::string& path) {
   LoadedScene scene{peer::load_scene_file(path), {}};
   try {
     scene.plan = haptics::EffectPlan(scene.file.scene);
+    check_felt(scene.file, scene.plan);
     for (const peer::OperatorConfig& hand : scene.file.operators) {
       if (hand.kind == peer::OperatorKind::trace) (void)peer::read_hand_trace(hand.trace);
     }

@@ -22,6 +22,7 @@
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
+#include "reckon/tools/exercise/felt_device.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -45,6 +46,9 @@ std::string point(const Eigen::Vector3d& p) {
 std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   if (const haptics::UsbFacts* const facts = peer::usb_facts_of(device))
     return fmt::format("a person, by a {}", facts->name);
+  if (device.driver == peer::DeviceDriver::evdev)
+    return fmt::format("a person, by {} with force feedback",
+                       device.event.empty() ? "the first device" : device.event);
   if (device.driver == peer::DeviceDriver::plugin)
     return fmt::format(
         "whoever {} drives it for, which says what it can do; the limits here are "
@@ -90,6 +94,8 @@ std::string tool_of(const peer::DeviceConfig& device) {
 haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   haptics::ServoConfig config;
   config.period = device.period;
+  config.device_origin = device.position;
+  config.device_orientation = device.orientation;
   config.probe_radius = scene.hand.radius;
   config.contact_radius = scene.hand.contact_radius;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
@@ -101,9 +107,8 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
 
 /// Force rate limit of the device, and the shown share of the file's request.
 std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
-  const auto simulated = make_simulated_device(scene, device);
-  haptics::MappedDevice hand(*simulated, mapping_of(device));
-  const haptics::ServoLoop servo(hand, haptics::EffectPlan(), servo_of(scene, device));
+  FeltDevice hand(scene, device);
+  const haptics::ServoLoop servo(hand.get(), haptics::EffectPlan(), servo_of(scene, device));
   const std::string text = "up to " + about(servo.force_rate_limit(), "N/s");
   if (!(device.max_force_rate > servo.force_rate_limit())) return text;
   return text + fmt::format(" of {} asked: the stiffest wall that it holds gives no more at 1 m/s",
@@ -131,8 +136,14 @@ std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& 
   return text.empty() ? text : text + " as asked";
 }
 
-std::string stiffness_of(const peer::SceneFile& scene, const haptics::ServoLoop& servo) {
+std::string stiffness_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
+                         const haptics::ServoLoop& servo) {
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
+  if (device.driver == peer::DeviceDriver::evdev) {
+    return fmt::format(
+        "walls, hands and entities up to {}, which it renders by itself along its axes",
+        about(can.walls, "N/m"));
+  }
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));
   if (can.hand_limit() < can.hands)
@@ -182,17 +193,16 @@ std::string hold_of(const peer::SceneFile& scene, const peer::DeviceConfig& devi
 
 Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                const peer::DeviceConfig& device) {
-  const auto simulated = make_simulated_device(scene, device);
-  haptics::MappedDevice hand(*simulated, mapping_of(device));
+  FeltDevice hand(scene, device);
   const haptics::ServoLoop servo(
-      hand, std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
+      hand.get(), std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
       haptics::make_bodies(plan, scene.scene,
                            std::make_shared<peer::BodyMover>(plan, scene.nodes)));
   Facts facts = {{"held by", holder_of(scene, device)},
                  {"stands at", point(device.position)},
                  {"limits", limits_of(device)},
                  {"force grows by", growth_of(scene, device)},
-                 {"stiffness", stiffness_of(scene, servo)}};
+                 {"stiffness", stiffness_of(scene, device, servo)}};
   if (std::ranges::any_of(plan.objects(), &haptics::PlannedObject::is_body))
     facts.push_back({"holds bodies", hold_of(scene, device, servo)});
   if (device.axes == 6) facts.insert(facts.begin() + 3, {"turns", tool_of(device)});

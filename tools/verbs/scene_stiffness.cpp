@@ -15,6 +15,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
+#include "reckon/tools/exercise/felt_device.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -80,14 +81,15 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
   for (std::uint32_t number = 1; number <= peer::peers_of(scene); ++number) {
     std::size_t count = 0;
     for (const peer::DeviceConfig& device : peer::devices_of(scene, number)) {
-      const auto simulated = make_simulated_device(scene, device);
+      FeltDevice hand(scene, device);
       haptics::ServoConfig config;
       config.period = device.period;
       config.probe_radius = scene.hand.radius;
       config.probes = probes_of(device);
-      haptics::MappedDevice hand(*simulated, mapping_of(device));
+      config.device_origin = device.position;
+      config.device_orientation = device.orientation;
       const haptics::ServoLoop servo(
-          hand, shared, config,
+          hand.get(), shared, config,
           haptics::make_bodies(plan, scene.scene,
                                std::make_shared<peer::BodyMover>(plan, scene.nodes)));
       std::string name = fmt::format("device {}", ++count);

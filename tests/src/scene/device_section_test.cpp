@@ -165,6 +165,49 @@ TEST(DeviceSection, APluginIsNamedByItsFile) {
               HasSubstr("add driver = \"plugin\""));
 }
 
+constexpr const char* kWheel =
+    "driver = \"evdev\"\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = \"2 kN/m\"\n"
+    "max_stiffness = \"1.5 kN/m\"\n";
+
+TEST(DeviceSection, AnEventDeviceIsWhatItsKeysSay) {
+  const DeviceConfig plain = device_of(kWheel);
+  EXPECT_EQ(plain.driver, DeviceDriver::evdev);
+  haptics::EvdevSettings settings = evdev_settings_of(plain);
+  EXPECT_EQ(settings.axes, 2);
+  EXPECT_EQ(settings.scale.travel, 0.2);
+  EXPECT_EQ(settings.scale.full_force, 20);
+  EXPECT_EQ(settings.scale.full_stiffness, 2000);
+  EXPECT_EQ(settings.max_stiffness, 1500);
+  EXPECT_EQ(settings.chain, haptics::EvdevSettings::kChain);
+
+  const DeviceConfig known =
+      device_of(std::string(kWheel) +
+                "event = \"FFBoard\"\nevent_axes = 1\ndelay = \"3 ms\"\nmax_force = \"5 N\"\n");
+  settings = evdev_settings_of(known);
+  EXPECT_EQ(settings.event, "FFBoard");
+  EXPECT_EQ(settings.axes, 1);
+  EXPECT_EQ(settings.chain, std::chrono::milliseconds(3));
+  EXPECT_EQ(haptics::evdev_limits(settings).max_force, 5);
+}
+
+TEST(DeviceSection, RefusesAnEventDeviceOfWhichSomethingIsNotSaid) {
+  const std::string whole = kWheel;
+  for (const std::string key : {"travel", "full_force", "full_stiffness", "max_stiffness"}) {
+    const std::size_t from = whole.find(key);
+    const std::string less = std::string(whole).erase(from, whole.find('\n', from) + 1 - from);
+    EXPECT_THAT(refusal("[[device]]\n" + less + kOperator), HasSubstr("state '" + key + "'"));
+  }
+  EXPECT_THAT(refusal("[[device]]\n" + whole + "scale = 2\n" + kOperator),
+              HasSubstr("take 'scale'"));
+  EXPECT_THAT(refusal("[[device]]\n" + whole + "axes = 6\n" + kOperator),
+              HasSubstr("take 'axes' out"));
+  EXPECT_THAT(refusal("[[device]]\n" + whole + "kind = \"pointer\"\n" + kOperator),
+              HasSubstr("no pointer moves it"));
+  EXPECT_THAT(
+      refusal("[[device]]\ndriver = \"falcon\"\ntravel = \"0.2 m\"\n" + std::string(kOperator)),
+      HasSubstr("say driver = \"evdev\""));
+}
+
 TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
   const DeviceConfig plain = device_of("driver = \"polhem\"\n");
   EXPECT_EQ(plain.driver, DeviceDriver::polhem);

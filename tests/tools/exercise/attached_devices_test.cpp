@@ -17,6 +17,7 @@
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/serial_lines.hpp"
 
 namespace reckon::tools {
@@ -84,6 +85,46 @@ TEST(AttachedDevices, SayHowAPolhemWouldBeUsedAndWhatIsInTheWay) {
   EXPECT_THAT(judge_usb({denied}, {}).devices.at(0).remedy, HasSubstr("--install-rule"));
 }
 
+haptics::EventDeviceSeen wheel() {
+  haptics::EventDeviceSeen seen;
+  seen.path = "/dev/input/event7";
+  seen.facts.name = "OpenFFBoard";
+  seen.facts.has_springs = seen.facts.has_constant_forces = true;
+  seen.facts.most_effects = 16;
+  seen.facts.axes[0] = haptics::EventAxis{-32768, 32767};
+  return seen;
+}
+
+TEST(AttachedDevices, SayHowAnEventDeviceWouldBeUsedAndWhatIsInTheWay) {
+  const auto said = [](const haptics::EventDeviceSeen& seen) {
+    return judge_events({seen}, {}).at(0);
+  };
+  AttachedDevice device = said(wheel());
+  EXPECT_EQ(device.driver, "evdev");
+  EXPECT_EQ(device.name, "OpenFFBoard, /dev/input/event7");
+  EXPECT_THAT(device.use, HasSubstr("event_axes = 1"));
+  EXPECT_THAT(device.problem, IsEmpty());
+  haptics::EventDeviceSeen seen = wheel();
+  seen.facts.has_springs = false;
+  EXPECT_THAT(said(seen).problem, HasSubstr("only forces that it is told"));
+  seen = wheel();
+  seen.is_denied = true;
+  EXPECT_THAT(said(seen).remedy, HasSubstr("--install-rule"));
+  seen = wheel();
+  seen.problem = "Input/output error";
+  EXPECT_THAT(said(seen).problem, HasSubstr("Input/output error"));
+}
+
+TEST(AttachedDevices, ABoardWithoutItsKernelsDriverIsTold) {
+  UsbDeviceSeen board;
+  board.vendor = 0x1209;
+  board.product = 0xffb0;
+  ASSERT_EQ(judge_events({}, {hub(), board}).size(), 1U);
+  EXPECT_THAT(judge_events({}, {board}).at(0).remedy, HasSubstr("CONFIG_HID_PID"));
+  EXPECT_EQ(judge_events({wheel()}, {board}).size(), 1U);
+  EXPECT_THAT(judge_events({}, {hub()}), IsEmpty());
+}
+
 TEST(AttachedDevices, SayWhoMayNotOpenItAndTheRemedy) {
   UsbDeviceSeen seen = falcon(false);
   seen.is_denied = true;
@@ -121,6 +162,7 @@ TEST(AttachedDevices, TheRuleIsWrittenWhereItIsAskedFor) {
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\""));
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\""));
   EXPECT_THAT(text, HasSubstr("TAG+=\"uaccess\""));
+  EXPECT_THAT(text, HasSubstr("ATTRS{capabilities/ff}==\"*[1-9a-f]*\""));
 }
 
 TEST(AttachedDevices, ARuleThatCannotBeWrittenSaysWhy) {
@@ -177,7 +219,7 @@ TEST(AttachedDevices, TheVerbTellsOfThisHost) {
     EXPECT_NE(result.status, 0);
     EXPECT_THAT(result.err, HasSubstr(look.problem));
   } else {
-    EXPECT_THAT(result.err, HasSubstr("drivers: falcon, polhem, serial"));
+    EXPECT_THAT(result.err, HasSubstr("drivers: falcon, polhem, evdev, serial"));
   }
   EXPECT_THAT(run_reckon({"doctor", "--iface", "lo"}).out, HasSubstr("USB"));
 }

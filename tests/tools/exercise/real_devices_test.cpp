@@ -111,6 +111,49 @@ TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {
   EXPECT_EQ(scene.devices.at(0).firmware, file);
 }
 
+TEST(RealDevices, AnEventDeviceIsChosenWhereTheSceneSaysWhatItsNumbersMean) {
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  EXPECT_THAT(usage_error([&] {
+                choose_device({"evdev", ""}, scene, 1, 2);
+              }),
+              AllOf(HasSubstr("--device evdev"), HasSubstr("state 'travel' in its [[device]]")));
+  scene = peer::parse_scene_file(
+      std::string("[[device]]\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = "
+                  "2000\nmax_stiffness = 1500\nevent = \"/no/such/device\"\n") +
+          kTwoHands,
+      "x.toml");
+  choose_device({"evdev", ""}, scene, 1, 2);
+  EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::evdev);
+  SimulatedHands hands = make_simulated_hands(scene, 1);
+  RealDevices real;
+  real.plug_in(scene, 1, hands.wired);
+  const haptics::DeviceLimits limits = hands.wired.at(0).device->limits();
+  EXPECT_EQ(limits.kind, haptics::DeviceKind::coefficients);
+  EXPECT_EQ(limits.axes, 2);
+  EXPECT_EQ(limits.max_stiffness, 1500);
+  EXPECT_THAT(real.take_notices(),
+              ::testing::Contains(HasSubstr("pushes no hand that does not press")));
+}
+
+TEST(RealDevices, WhatIsExplainedOfAnEventDeviceIsWhatItsServoRefuses) {
+  const std::string wheel =
+      "[[device]]\ndriver = \"evdev\"\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = "
+      "2000\nmax_stiffness = 1500\n";
+  const test::ScratchFolder folder;
+  const auto explained = [&](const std::string& object) {
+    const std::string file = folder.file("scene.toml");
+    std::ofstream(file) << wheel << "[[object]]\nname = \"thing\"\n" << object << kTwoHands;
+    return test::run_reckon({"scene", "explain", file});
+  };
+  const auto good = explained("plane = [1, 0, 0]\nposition = [-0.02, 0, 0]\n");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out,
+              HasSubstr("walls, hands and entities up to 1.5 kN/m, which it renders by itself"));
+  const auto bad = explained("sphere = \"10 mm\"\n");
+  EXPECT_NE(bad.status, 0);
+  EXPECT_THAT(bad.err, HasSubstr("'thing' is no plane and no box"));
+}
+
 TEST(RealDevices, APeerWithoutADeviceCannotHaveOne) {
   peer::SceneFile scene =
       peer::parse_scene_file(std::string("[[device]]\npeer = 2\n") + kTwoHands, "x.toml");

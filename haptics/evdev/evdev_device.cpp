@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/evdev/evdev_device.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace reckon::haptics {
+namespace {
+
+void require(double value, const char* key, const char* what) {
+  if (value > 0) return;
+  throw std::invalid_argument(std::string("no event device tells ") + what + ": state '" + key +
+                              "' in its [[device]]");
+}
+
+}  // namespace
+
+DeviceLimits evdev_limits(const EvdevSettings& settings) {
+  const EffectScale& scale = settings.scale;
+  require(scale.travel, "travel", "how far its handle goes from one end to the other");
+  require(scale.full_force, "full_force", "the force at its greatest level");
+  require(scale.full_stiffness, "full_stiffness", "the stiffness at its greatest coefficient");
+  require(settings.max_stiffness, "max_stiffness", "the stiffness that it shows without shaking");
+  if (settings.axes != 1 && settings.axes != 2)
+    throw std::invalid_argument(
+        "an event device is driven by 1 or 2 axes: say one of them in "
+        "'event_axes' of its [[device]]");
+  if (!(settings.max_force > 0) || !(settings.max_speed > 0) || settings.chain.count() <= 0)
+    throw std::invalid_argument("max_force, max_speed and delay of an event device are above 0");
+  DeviceLimits limits;
+  limits.kind = DeviceKind::coefficients;
+  limits.axes = settings.axes;
+  limits.max_force = std::min(settings.max_force, scale.full_force);
+  limits.max_stiffness = std::min(settings.max_stiffness, scale.full_stiffness);
+  limits.max_speed = settings.max_speed;
+  limits.workspace_min = limits.workspace_max = Eigen::Vector3d::Zero();
+  limits.workspace_min.head(settings.axes).setConstant(-0.5 * scale.travel);
+  limits.workspace_max.head(settings.axes).setConstant(0.5 * scale.travel);
+  return limits;
+}
+
+DeviceSample EvdevDevice::read(std::chrono::nanoseconds now) noexcept {
+  exchange_.reading.update();
+  const EvdevReading& reading = exchange_.reading.read();
+  DeviceSample sample;
+  sample.ok = reading.is_there && now - reading.at <= kWatchdog;
+  sample.position = reading.position;
+  sample.buttons = reading.buttons;
+  return sample;
+}
+
+void EvdevDevice::state(const SpringModel& wanted, std::chrono::nanoseconds now) noexcept {
+  exchange_.model.write({wanted, now, true});
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/evdev/evdev_loop.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::nanoseconds;
+
+constexpr std::array kSides{WallSide::below, WallSide::above};
+constexpr std::uint16_t kLengthInEffect = EvdevLoop::kLength.count();
+constexpr std::int32_t kFullGain = 0xFFFF;
+
+std::size_t index_of(WallSide side) noexcept { return static_cast<std::size_t>(side); }
+
+bool are_equal(const ff_effect& a, const ff_effect& b) noexcept {
+  const auto same = [](const ff_condition_effect& x, const ff_condition_effect& y) {
+    return x.center == y.center && x.left_coeff == y.left_coeff && x.right_coeff == y.right_coeff &&
+           x.left_saturation == y.left_saturation && x.right_saturation == y.right_saturation;
+  };
+  return same(a.u.condition[0], b.u.condition[0]) && same(a.u.condition[1], b.u.condition[1]);
+}
+
+// Whether a wall begins less deep than another of the same spring.
+bool is_nearer(const SpringWall& wall, const SpringWall& than, WallSide side) noexcept {
+  return side == WallSide::below ? wall.at > than.at : wall.at < than.at;
+}
+
+}  // namespace
+
+EvdevLoop::EvdevLoop(EvdevExchange& exchange, const EvdevSettings& settings,
+                     std::unique_ptr<EventCalls> calls, std::function<nanoseconds()> clock)
+    : exchange_(exchange), settings_(settings), calls_(std::move(calls)), clock_(std::move(clock)) {
+  for (ff_effect& effect : effects_) effect.id = -1;
+  static_cast<void>(evdev_limits(settings));
+}
+
+EvdevLoop::~EvdevLoop() { let_go(); }
+
+void EvdevLoop::tell(std::string sentence) {
+  const std::string name = facts_.name.empty() ? "evdev" : facts_.name;
+  const std::lock_guard lock(telling_);
+  notices_.push_back(name + ": " + std::move(sentence));
+}
+
+std::vector<std::string> EvdevLoop::take_notices() {
+  const std::lock_guard lock(telling_);
+  return std::exchange(notices_, {});
+}
+
+void EvdevLoop::step(microseconds longest) {
+  if (file_ < 0) {
+    if (clock_() >= next_try_) return attach();
+    calls_->wait(-1, longest);
+    return publish(clock_());
+  }
+  calls_->wait(file_, longest);
+  if (!read_events()) return detach("was unplugged");
+  const nanoseconds now = clock_();
+  show(now);
+  publish(now);
+}
+
+// The kernel hands out what it has. A device that is gone says so.
+bool EvdevLoop::read_events() noexcept {
+  std::array<input_event, 64> events{};
+  while (true) {
+    const int count = calls_->read(file_, events);
+    if (count == -EAGAIN) break;
+    if (count < 0) return false;
+    for (int i = 0; i < count; ++i) state_.take(events[static_cast<std::size_t>(i)]);
+    if (count < static_cast<int>(events.size())) break;
+  }
+  return !state_.wants_all() || ask_state(*calls_, file_, state_);
+}
+
+// A servo that is silent wants no walls.
+SpringModel EvdevLoop::wanted(nanoseconds now) noexcept {
+  exchange_.model.update();
+  const StatedModel& stated = exchange_.model.read();
+  if (!stated.is_stated || now - stated.at > HapticDevice::kWatchdog) return {};
+  return stated.model;
+}
+
+PlaceRange EvdevLoop::places_of(std::size_t axis, nanoseconds longer) const noexcept {
+  const double at = place_of(state_.axis(axis), *facts_.axes[axis], settings_.scale);
+  const double reach = settings_.max_speed * pdu::to_seconds(settings_.chain + longer) +
+                       step_of(*facts_.axes[axis], settings_.scale);
+  return {at - reach, at + reach};
+}
+
+// Rounding makes a wall begin a little deeper each time: what is told already stays, where it is as
+// near.
+SpringWall EvdevLoop::next_wall(std::size_t axis, WallSide side,
+                                const SpringWall& wanted) const noexcept {
+  const SpringWall& shown = books_.shown().wall(axis, side);
+  const SpringWall whole = as_told(wanted, side, settings_.scale);
+  if (whole == shown) return shown;
+  const SpringWall next =
+      as_told(books_.payable(axis, side, wanted, places_of(axis, {})), side, settings_.scale);
+  const bool is_alike = next.stiffness == shown.stiffness && next.most == shown.most;
+  const bool is_short = is_nearer(whole, next, side);
+  return is_alike && is_short && !is_nearer(next, shown, side) ? shown : next;
+}
+
+// What is booked is what may have become of it while the call took its time.
+int EvdevLoop::tell_side(WallSide side, const SpringModel& model, nanoseconds now) noexcept {
+  ff_effect& told = effects_[index_of(side)];
+  ff_effect next = effect_of(model, side, settings_.scale, told.id, kLengthInEffect);
+  if (!are_equal(next, told)) {
+    const int result = calls_->control(file_, EVIOCSFF, &next);
+    if (result < 0) return result;
+    told = next;
+    changed_[index_of(side)] = now;
+  }
+  const nanoseconds took = std::max(clock_() - now, nanoseconds(0));
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
+    if (books_.shown().wall(axis, side) != model.wall(axis, side))
+      books_.book(axis, side, model.wall(axis, side), places_of(axis, took));
+  }
+  return 0;
+}
+
+int EvdevLoop::play(std::int32_t value) noexcept {
+  int result = 0;
+  for (const ff_effect& effect : effects_) {
+    if (effect.id < 0) continue;
+    input_event event{};
+    event.type = EV_FF;
+    event.code = static_cast<std::uint16_t>(effect.id);
+    event.value = value;
+    if (const int one = calls_->write(file_, event); one < 0) result = one;
+  }
+  return result;
+}
+
+// An effect that was played too long ago may have ended, or not: the next one is paid for as if it
+// had, before it is played again.
+void EvdevLoop::show(nanoseconds now) {
+  const SpringModel asked = wanted(now);
+  const bool may_have_ended = now - played_ > kLength / 2;
+  if (may_have_ended) books_.forget();
+  int result = 0;
+  for (const WallSide side : kSides) {
+    SpringModel next;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
+      next.wall(axis, side) = next_wall(axis, side, asked.wall(axis, side));
+    const bool is_due = now - changed_[index_of(side)] >= kBetween || asked == SpringModel();
+    if ((is_due || may_have_ended) && result >= 0) result = tell_side(side, next, now);
+  }
+  if (result >= 0 && now - played_ >= kLength / 3) {
+    result = play(1);
+    if (result >= 0) played_ = now;
+  }
+  if (result == -EAGAIN) return;  // it is asked again in the next step
+  if (result == -ENODEV) return detach("was unplugged");
+  if (result < 0) detach(std::string("refuses an effect (") + std::strerror(-result) + ")");
+}
+
+void EvdevLoop::publish(nanoseconds now) noexcept {
+  EvdevReading& reading = exchange_.reading.write_slot();
+  reading = {};
+  reading.at = now;
+  reading.is_there = file_ >= 0;
+  if (reading.is_there) {
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
+      reading.position[static_cast<Eigen::Index>(axis)] =
+          place_of(state_.axis(axis), *facts_.axes[axis], settings_.scale);
+    }
+    reading.buttons = state_.buttons();
+    reading.shown = {books_.shown(), books_.energy()};
+  }
+  exchange_.reading.publish();
+}
+
+// What cannot be told does not matter: the kernel erases what a closed file had.
+void EvdevLoop::let_go() noexcept {
+  if (file_ < 0) return;
+  static_cast<void>(play(0));
+  for (ff_effect& effect : effects_) {
+    const auto id = static_cast<std::intptr_t>(std::exchange(effect.id, std::int16_t{-1}));
+    if (id >= 0) static_cast<void>(calls_->control(file_, EVIOCRMFF, reinterpret_cast<void*>(id)));
+  }
+  calls_->close(std::exchange(file_, -1));
+}
+
+void EvdevLoop::detach(const std::string& why) {
+  let_go();
+  problem_.clear();
+  next_try_ = clock_() + kRetry;
+  publish(clock_());
+  tell(why + ": it shows nothing; it is taken up again as soon as it is there");
+}
+
+// Another program that has the device for itself gets all its places, and we none.
+std::string EvdevLoop::set_up() {
+  int result = calls_->control(file_, EVIOCGRAB, reinterpret_cast<void*>(std::intptr_t{1}));
+  if (result == -EBUSY) return "another program has it for itself: end that one";
+  if (result < 0) return std::string("it cannot be taken: ") + std::strerror(-result);
+  const auto set = [&](std::uint16_t code, std::int32_t value) {
+    input_event event{};
+    event.type = EV_FF;
+    event.code = code;
+    event.value = value;
+    return calls_->write(file_, event);
+  };
+  if (facts_.has_autocenter) result = set(FF_AUTOCENTER, 0);
+  if (result >= 0 && facts_.has_gain) result = set(FF_GAIN, kFullGain);
+  if (result < 0) return std::string("its gain cannot be set: ") + std::strerror(-result);
+  for (const WallSide side : kSides) {
+    ff_effect& effect = effects_[index_of(side)];
+    effect = effect_of({}, side, settings_.scale, -1, kLengthInEffect);
+    result = calls_->control(file_, EVIOCSFF, &effect);
+    if (result == -ENOSPC) return "it has no room for two effects: end what else uses it";
+    if (result < 0) return std::string("it takes no spring: ") + std::strerror(-result);
+  }
+  result = play(1);
+  if (result < 0) return std::string("it plays no spring: ") + std::strerror(-result);
+  state_ = EventState(facts_.buttons);
+  if (!ask_state(*calls_, file_, state_)) return "it does not tell where it is";
+  return {};
+}
+
+// What is in the way, as a sentence; empty: it is set up, and file_ is its own.
+std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
+  const auto is_named = [&](const std::string& name) {
+    return by_path || (!name.empty() && name.find(settings_.event) != std::string::npos);
+  };
+  const int file = calls_->open(path);
+  if (file < 0 && !is_named(calls_->closed_name(path))) return "none";
+  if (file == -EACCES || file == -EPERM)
+    return "this user may not open " + path + ": " + kEventRemedy;
+  if (file < 0) return path + " cannot be opened: " + std::strerror(-file);
+  auto facts = event_facts(*calls_, file);
+  const bool is_meant = is_named(facts ? facts->name : std::string());
+  std::string fault;
+  if (!is_meant || !facts) {
+    fault = is_meant ? path + " gives no force feedback" : "none";
+  } else {
+    fault = fault_of(*facts, settings_.axes);
+  }
+  if (!fault.empty()) {
+    calls_->close(file);
+    return is_meant && facts ? facts->name + ": " + fault : fault;
+  }
+  facts_ = std::move(*facts);
+  file_ = file;
+  return set_up();
+}
+
+std::string EvdevLoop::open() {
+  const bool by_path = settings_.event.starts_with('/');
+  if (by_path) return open_one(settings_.event, true);
+  std::string nearest;
+  for (const std::string& path : calls_->paths()) {
+    std::string fault = open_one(path, false);
+    if (fault.empty()) return {};
+    let_go();
+    if (fault != "none") nearest = std::move(fault);
+  }
+  if (!nearest.empty()) return nearest;
+  return settings_.event.empty()
+             ? "no device with force feedback is attached (reckon devices tells what there is)"
+             : "no device whose name has '" + settings_.event + "' is attached";
+}
+
+void EvdevLoop::attach() {
+  std::string problem = open();
+  const nanoseconds now = clock_();
+  next_try_ = now + kRetry;
+  if (!problem.empty()) {
+    let_go();
+    publish(now);
+    if (problem != problem_) tell(problem);
+    problem_ = std::move(problem);
+    return;
+  }
+  problem_.clear();
+  books_ = {};
+  changed_ = {};
+  played_ = now;
+  publish(now);
+  tell("ready: it renders walls");
+}
+
+}  // namespace reckon::haptics

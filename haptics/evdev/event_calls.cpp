@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/evdev/event_calls.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstddef>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr std::string_view kEvent = "event";
+
+// A call again where a signal interrupted it. @return its result, or -errno
+template <class Call>
+auto made(Call call) noexcept {
+  while (true) {
+    const auto result = call();
+    if (result >= 0) return result;
+    if (errno != EINTR) return static_cast<decltype(result)>(-errno);
+  }
+}
+
+std::string first_line(const std::filesystem::path& file) {
+  std::string line;
+  std::getline(std::ifstream(file) >> std::ws, line);
+  return line;
+}
+
+class KernelCalls final : public EventCalls {
+ public:
+  KernelCalls(std::string devices, std::string facts)
+      : devices_(std::move(devices)), facts_(std::move(facts)) {}
+
+  std::vector<std::string> paths() override {
+    std::vector<std::pair<int, std::string>> found;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(devices_, none)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(kEvent)) continue;
+      int number = 0;
+      const char* const end = name.data() + name.size();
+      const auto read = std::from_chars(name.data() + kEvent.size(), end, number);
+      if (read.ec == std::errc() && read.ptr == end)
+        found.emplace_back(number, entry.path().string());
+    }
+    std::ranges::sort(found);
+    std::vector<std::string> out;
+    for (auto& [number, path] : found) out.push_back(std::move(path));
+    return out;
+  }
+  // The bits of its effects are words of hexadecimal digits.
+  std::string closed_name(const std::string& path) override {
+    const auto of =
+        std::filesystem::path(facts_) / std::filesystem::path(path).filename() / "device";
+    const std::string effects = first_line(of / "capabilities" / "ff");
+    return effects.find_first_not_of("0 ") == std::string::npos ? "" : first_line(of / "name");
+  }
+  int open(const std::string& path) override {
+    return made([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
+  }
+  void close(int file) noexcept override { ::close(file); }
+  int control(int file, unsigned long request, void* argument) noexcept override {
+    return made([&] { return ::ioctl(file, request, argument); });
+  }
+  // The kernel gives whole events. Less is no event.
+  int read(int file, std::span<input_event> events) noexcept override {
+    const auto octets = made([&] { return ::read(file, events.data(), events.size_bytes()); });
+    if (octets < 0) return static_cast<int>(octets);
+    if (octets == 0) return -ENODEV;
+    return octets % sizeof(input_event) == 0 ? static_cast<int>(octets / sizeof(input_event))
+                                             : -EIO;
+  }
+  int write(int file, const input_event& event) noexcept override {
+    const auto octets = made([&] { return ::write(file, &event, sizeof event); });
+    if (octets < 0) return static_cast<int>(octets);
+    return octets == sizeof event ? 0 : -EIO;
+  }
+  void wait(int file, std::chrono::microseconds longest) noexcept override {
+    pollfd one{file, POLLIN, 0};
+    const auto time = std::chrono::nanoseconds(longest).count();
+    const timespec most{time / 1'000'000'000, time % 1'000'000'000};
+    ::ppoll(&one, 1, &most, nullptr);
+  }
+
+ private:
+  std::string devices_, facts_;
+};
+
+}  // namespace
+
+std::unique_ptr<EventCalls> kernel_event_calls(const std::string& devices,
+                                               const std::string& facts) {
+  return std::make_unique<KernelCalls>(devices, facts);
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/passivity/wall_books.hpp"
+
+#include <algorithm>
+
+namespace reckon::haptics {
+
+// A wall that begins where the handle cannot be stores nothing there, so it is always paid for.
+SpringWall WallBooks::payable(std::size_t axis, WallSide side, const SpringWall& wanted,
+                              PlaceRange places) const noexcept {
+  constexpr int kHalvings = 30;
+  const SpringWall& old = shown_.wall(axis, side);
+  const auto costs = [&](double at) {
+    return worst_rise(old, {at, wanted.stiffness, wanted.most}, side, places);
+  };
+  if (costs(wanted.at) <= energy_) return wanted;
+  double paid = side == WallSide::below ? places.from : places.to, unpaid = wanted.at;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (paid + unpaid);
+    (costs(middle) <= energy_ ? paid : unpaid) = middle;
+  }
+  return {paid, wanted.stiffness, wanted.most};
+}
+
+void WallBooks::book(std::size_t axis, WallSide side, const SpringWall& told,
+                     PlaceRange places) noexcept {
+  SpringWall& old = shown_.wall(axis, side);
+  energy_ = std::min(kMost, energy_ - worst_rise(old, told, side, places));
+  old = told;
+}
+
+}  // namespace reckon::haptics

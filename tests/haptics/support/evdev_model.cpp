@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/haptics/support/evdev_model.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace reckon::test {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::nanoseconds;
+
+constexpr const char* kPath = "/dev/input/event7";
+constexpr int kFile = 7;
+constexpr microseconds kStep{50};
+constexpr int kSubsteps = 5;
+constexpr std::int32_t kLeast = -32768, kMost = 32767;  // of its axes
+
+}  // namespace
+
+EvdevModel::EvdevModel(const EvdevModelOptions& options, std::function<Places(double)> hand)
+    : options_(options), hand_(std::move(hand)), random_(options.seed) {
+  place_ = hand_(0);
+}
+
+void EvdevModel::pass(nanoseconds time) {
+  for (const nanoseconds end = now_ + time; now_ < end;) {
+    now_ += kStep;
+    while (!orders_.empty() && orders_.front().at <= now_) {
+      orders_.front().act();
+      orders_.pop_front();
+    }
+    for (auto& [id, effect] : effects_)
+      if (effect.plays && options_.ends_effects && now_ >= effect.until) effect.plays = false;
+    for (int i = 0; i < kSubsteps; ++i)
+      run(std::chrono::duration<double>(kStep).count() / kSubsteps);
+    if (plugged_ && now_ >= next_report_) report();
+    if (beside_) beside_(now_);
+  }
+}
+
+// The energy that a constant model takes is the difference of its potential, whatever the step.
+void EvdevModel::run(double h) {
+  const double t = std::chrono::duration<double>(now_).count();
+  const Places to = hand_(t), before = hand_(t - 1e-4);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(options_.axes); ++i) {
+    const double wanted_speed = (to[i] - before[i]) / 1e-4;
+    const double force = force_at(i, place_[i]) + options_.hand_stiffness * (to[i] - place_[i]) +
+                         options_.hand_damping * (wanted_speed - speed_[i]);
+    greatest_ = std::max(greatest_, std::abs(force_at(i, place_[i])));
+    speed_[i] += h * force / options_.mass;
+    const double old = energy_at(i, place_[i]);
+    place_[i] += h * speed_[i];
+    absorbed_ += energy_at(i, place_[i]) - old;
+    fastest_ = std::max(fastest_, std::abs(speed_[i]));
+  }
+  least_ = std::min(least_, absorbed_);
+}
+
+template <class Each>
+void EvdevModel::each_spring(std::size_t axis, double x, Each&& each) const {
+  if (!plugged_) return;
+  for (const auto& [id, effect] : effects_) {
+    if (!effect.plays) continue;
+    const ff_condition_effect& c = effect.numbers.u.condition[axis];
+    const double beyond = x - c.center / 32767.0 * options_.travel / 2;
+    const bool is_right = beyond > 0;
+    const double k = (is_right ? c.right_coeff : c.left_coeff) / 32767.0 * options_.full_stiffness;
+    const double most =
+        (is_right ? c.right_saturation : c.left_saturation) / 65535.0 * options_.full_force;
+    if (k > 0) each(std::abs(beyond), k, most, is_right ? -1.0 : 1.0);
+  }
+}
+
+double EvdevModel::force_at(std::size_t axis, double x) const {
+  double force = 0;
+  each_spring(axis, x, [&](double d, double k, double most, double sign) {
+    force += sign * std::min(k * d, most);
+  });
+  return force;
+}
+
+double EvdevModel::energy_at(std::size_t axis, double x) const {
+  double energy = 0;
+  each_spring(axis, x, [&](double d, double k, double most, double /*sign*/) {
+    const double f = std::min(k * d, most);
+    energy += f * d - f * f / (2 * k);
+  });
+  return energy;
+}
+
+std::int32_t EvdevModel::reading(std::size_t axis) const {
+  const double share = place_[axis] / options_.travel + 0.5;
+  const double whole = static_cast<double>(kMost) - kLeast;
+  return static_cast<std::int32_t>(std::lround(kLeast + std::clamp(share, 0.0, 1.0) * whole));
+}
+
+void EvdevModel::send(std::uint16_t type, std::uint16_t code, std::int32_t value) {
+  input_event event{};
+  event.type = type;
+  event.code = code;
+  event.value = value;
+  if (open_ > 0) events_.push_back(event);
+}
+
+void EvdevModel::report() {
+  next_report_ = now_ + options_.report;
+  if (drops_) {
+    send(EV_SYN, SYN_DROPPED, 0);
+    send(EV_ABS, ABS_X, 30000);  // a part of a frame that is not to be believed
+  }
+  bool is_new = drops_;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(options_.axes); ++i) {
+    const std::int32_t value = reading(i);
+    if (value == sent_[i]) continue;
+    sent_[i] = value;
+    is_new = true;
+    if (!drops_) send(EV_ABS, static_cast<std::uint16_t>(ABS_X + i), value);
+  }
+  if (is_new) send(EV_SYN, SYN_REPORT, 0);
+  drops_ = false;
+}
+
+void EvdevModel::press(std::uint16_t key, bool down) {
+  keys_[key] = down;
+  send(EV_KEY, key, down ? 1 : 0);
+  send(EV_SYN, SYN_REPORT, 0);
+}
+
+void EvdevModel::plug(bool in) {
+  plugged_ = in;
+  erase_all();
+  events_.clear();
+  orders_.clear();
+}
+
+void EvdevModel::erase_all() { effects_.clear(); }
+
+// In the order in which it was told.
+void EvdevModel::order(std::function<void()> act) {
+  std::uniform_int_distribution<std::int64_t> within(0, options_.latency.count());
+  last_order_ = std::max(last_order_, now_ + microseconds(within(random_)));
+  orders_.push_back({last_order_, std::move(act)});
+}
+
+std::vector<std::string> EvdevModel::paths() {
+  std::vector<std::string> all = others;
+  if (plugged_) all.emplace_back(kPath);
+  return all;
+}
+
+std::string EvdevModel::closed_name(const std::string& path) {
+  return path == kPath ? "Model wheel" : "";
+}
+
+int EvdevModel::open(const std::string& path) {
+  if (path != kPath || !plugged_) return -ENOENT;
+  if (opening < 0) return opening;
+  ++open_;
+  return kFile;
+}
+
+void EvdevModel::close(int /*file*/) noexcept {
+  --open_;
+  events_.clear();
+  if (open_ == 0) order([this] { erase_all(); });
+}
+
+int EvdevModel::ask_bits(unsigned long request, void* argument) const {
+  auto* const octets = static_cast<std::uint8_t*>(argument);
+  const std::size_t length = _IOC_SIZE(request);
+  std::memset(octets, 0, length);
+  const auto set = [&](std::size_t bit) {
+    octets[bit / 8] |= static_cast<std::uint8_t>(1U << bit % 8);
+  };
+  const int nr = _IOC_NR(request);
+  if (nr == 0x20 + EV_FF) {
+    for (const int bit : {FF_RUMBLE, FF_SPRING, FF_CONSTANT, FF_GAIN, FF_AUTOCENTER})
+      if (std::ranges::find(without, bit) == without.end()) set(static_cast<std::size_t>(bit));
+  }
+  if (nr == 0x20 + EV_ABS)
+    for (int i = 0; i < options_.axes; ++i) set(static_cast<std::size_t>(ABS_X + i));
+  if (nr == 0x20 + EV_KEY) {
+    set(BTN_TRIGGER);
+    set(BTN_THUMB);
+  }
+  if (nr == 0x18) {
+    for (const auto& [key, down] : keys_)
+      if (down) set(key);
+  }
+  return static_cast<int>(length);
+}
+
+int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noexcept {
+  if (!plugged_) return -ENODEV;
+  if (const auto found = failing_.find(request); found != failing_.end() && found->second != 0)
+    return -found->second;
+  const int nr = _IOC_NR(request);
+  if (request == EVIOCGRAB) return 0;
+  if (request == EVIOCGEFFECTS) {
+    *static_cast<int*>(argument) = most_effects;
+    return 0;
+  }
+  if (request == EVIOCSFF) {
+    auto& told = *static_cast<ff_effect*>(argument);
+    if (told.id < 0) {
+      if (static_cast<int>(effects_.size()) >= most_effects) return -ENOSPC;
+      told.id = static_cast<std::int16_t>(next_id_++);
+      effects_[told.id].numbers.replay = told.replay;
+    } else if (!effects_.contains(told.id)) {
+      return -EINVAL;
+    }
+    ++uploads_;
+    order([this, numbers = told] {
+      if (effects_.contains(numbers.id)) effects_[numbers.id].numbers = numbers;
+    });
+    return 0;
+  }
+  if (request == EVIOCRMFF) {
+    const auto id = static_cast<int>(reinterpret_cast<std::intptr_t>(argument));
+    order([this, id] { effects_.erase(id); });
+    return 0;
+  }
+  if (nr == 0x06) {  // EVIOCGNAME
+    std::strncpy(static_cast<char*>(argument), "Model wheel", _IOC_SIZE(request));
+    return 12;
+  }
+  if (nr == 0x18 || (nr >= 0x20 && nr < 0x40)) return ask_bits(request, argument);
+  if (nr >= 0x40 && nr < 0x40 + options_.axes) {  // EVIOCGABS
+    auto& info = *static_cast<input_absinfo*>(argument);
+    info = {};
+    info.value = sent_[static_cast<std::size_t>(nr - 0x40)];
+    info.minimum = kLeast;
+    info.maximum = kMost;
+    return 0;
+  }
+  return -EINVAL;
+}
+
+int EvdevModel::read(int /*file*/, std::span<input_event> events) noexcept {
+  if (!plugged_) return -ENODEV;
+  if (events_.empty()) return -EAGAIN;
+  std::size_t count = 0;
+  while (count < events.size() && !events_.empty()) {
+    events[count++] = events_.front();
+    events_.pop_front();
+  }
+  return static_cast<int>(count);
+}
+
+int EvdevModel::write(int /*file*/, const input_event& event) noexcept {
+  if (!plugged_) return -ENODEV;
+  if (failing_write_ != 0) return -failing_write_;
+  if (event.type != EV_FF) return -EINVAL;
+  if (event.code == FF_GAIN) {
+    gain_ = event.value;
+  } else if (event.code == FF_AUTOCENTER) {
+    autocenter_ = event.value;
+  } else {
+    order([this, event] {
+      const auto found = effects_.find(event.code);
+      if (found == effects_.end()) return;
+      found->second.plays = event.value > 0;
+      found->second.until = now_ + std::chrono::milliseconds(found->second.numbers.replay.length);
+    });
+  }
+  return 0;
+}
+
+void EvdevModel::wait(int /*file*/, microseconds longest) noexcept { pass(longest); }
+
+}  // namespace reckon::test

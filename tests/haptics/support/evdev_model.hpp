@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A force feedback device below the calls of the kernel, and the hand that holds it: a mass on each
+// axis, springs that the device renders by itself, its own books, and what goes wrong with it.
+#pragma once
+
+#include <linux/input.h>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/evdev/event_calls.hpp"
+
+namespace reckon::test {
+
+struct EvdevModelOptions {
+  unsigned seed = 1;
+  double mass = 0.2;                       ///< [kg]
+  double hand_stiffness = 300;             ///< [N/m]
+  double hand_damping = 6;                 ///< [N s/m]
+  double travel = 0.2;                     ///< [m], of each axis
+  double full_force = 20;                  ///< [N]
+  double full_stiffness = 2000;            ///< [N/m]
+  std::chrono::microseconds report{1000};  ///< between reports of its places
+  std::chrono::microseconds latency{500};  ///< most, until it does what it is told; seeded
+  int axes = 2;
+  bool ends_effects = true;  ///< obeys the length of an effect
+};
+
+/// All time is the model's: wait() lets it pass. Calls take none.
+class EvdevModel final : public haptics::EventCalls {
+ public:
+  using Places = std::array<double, 2>;  // [m]
+
+  /// @param hand where the hand wants the handle [m] at a time [s]
+  EvdevModel(const EvdevModelOptions& options, std::function<Places(double)> hand);
+
+  [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
+  /// Called every 50 us of its time: what runs beside the device's thread.
+  void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
+  void pass(std::chrono::nanoseconds time);
+
+  // What goes wrong.
+  void plug(bool in);
+  void fail(unsigned long request, int error) { failing_[request] = error; }  ///< 0: no more
+  void fail_writes(int error) { failing_write_ = error; }
+  void drop_events() { drops_ = true; }  ///< of the next report
+  void press(std::uint16_t key, bool down);
+  std::vector<int> without;         ///< bits of EV_FF that it has not
+  int most_effects = 16;            ///< at once
+  int opening = 0;                  ///< what open() returns where it is below 0
+  std::vector<std::string> others;  ///< paths before its own, which are no devices
+
+  // Its own books, of its springs: what they took from the hand since the begin [J].
+  [[nodiscard]] double absorbed() const { return absorbed_; }
+  [[nodiscard]] double least_absorbed() const { return least_; }
+  [[nodiscard]] double fastest() const { return fastest_; }  ///< [m/s], so far
+  [[nodiscard]] double force(std::size_t axis) const { return force_at(axis, place_[axis]); }
+  [[nodiscard]] double greatest_force() const { return greatest_; }
+  [[nodiscard]] const Places& place() const { return place_; }
+  [[nodiscard]] std::size_t effects() const { return effects_.size(); }
+  [[nodiscard]] int uploads() const { return uploads_; }
+  [[nodiscard]] std::int32_t gain() const { return gain_; }
+  [[nodiscard]] std::int32_t autocenter() const { return autocenter_; }
+  [[nodiscard]] int open_files() const { return open_; }
+
+  std::vector<std::string> paths() override;
+  std::string closed_name(const std::string& path) override;
+  int open(const std::string& path) override;
+  void close(int file) noexcept override;
+  int control(int file, unsigned long request, void* argument) noexcept override;
+  int read(int file, std::span<input_event> events) noexcept override;
+  int write(int file, const input_event& event) noexcept override;
+  void wait(int file, std::chrono::microseconds longest) noexcept override;
+
+ private:
+  struct Effect {
+    ff_effect numbers{};
+    bool plays = false;
+    std::chrono::nanoseconds until{0};
+  };
+  struct Order {
+    std::chrono::nanoseconds at{0};
+    std::function<void()> act;
+  };
+
+  void order(std::function<void()> act);
+  void run(double h);
+  void report();
+  void send(std::uint16_t type, std::uint16_t code, std::int32_t value);
+  void erase_all();
+  [[nodiscard]] int ask_bits(unsigned long request, void* argument) const;
+  [[nodiscard]] std::int32_t reading(std::size_t axis) const;
+  [[nodiscard]] double force_at(std::size_t axis, double x) const;
+  [[nodiscard]] double energy_at(std::size_t axis, double x) const;
+  template <class Each>
+  void each_spring(std::size_t axis, double x, Each&& each) const;
+
+  EvdevModelOptions options_;
+  std::function<Places(double)> hand_;
+  std::function<void(std::chrono::nanoseconds)> beside_;
+  std::mt19937 random_;
+  std::chrono::nanoseconds now_{0}, next_report_{0}, last_order_{0};
+  Places place_{}, speed_{};
+  std::map<int, Effect> effects_;
+  std::deque<Order> orders_;
+  std::deque<input_event> events_;
+  std::array<std::int32_t, 2> sent_{};
+  std::map<std::uint16_t, bool> keys_;
+  std::map<unsigned long, int> failing_;
+  int failing_write_ = 0;
+  bool plugged_ = true, drops_ = false;
+  int open_ = 0, next_id_ = 0, uploads_ = 0;
+  std::int32_t gain_ = -1, autocenter_ = -1;
+  double absorbed_ = 0, least_ = 0, fastest_ = 0, greatest_ = 0;
+};
+
+}  // namespace reckon::test

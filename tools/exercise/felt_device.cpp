@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/felt_device.hpp"
+
+#include "reckon/haptics/servo/spring_scene.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
+
+namespace reckon::tools {
+
+FeltDevice::FeltDevice(const peer::SceneFile& scene, const peer::DeviceConfig& config) {
+  if (config.driver == peer::DeviceDriver::evdev) {
+    evdev_.emplace(exchange_, haptics::evdev_limits(peer::evdev_settings_of(config)));
+    return;
+  }
+  simulated_ = make_simulated_device(scene, config);
+  mapped_.emplace(*simulated_, mapping_of(config));
+}
+
+void check_felt(const peer::SceneFile& scene, const haptics::EffectPlan& plan) {
+  for (const peer::DeviceConfig& device : scene.devices) {
+    if (device.driver != peer::DeviceDriver::evdev) continue;
+    haptics::ServoConfig config;
+    config.device_origin = device.position;
+    config.device_orientation = device.orientation;
+    config.contact_radius = scene.hand.contact_radius;
+    const haptics::DeviceLimits limits = haptics::evdev_limits(peer::evdev_settings_of(device));
+    static_cast<void>(haptics::SpringScene(plan, config, limits.axes, limits.max_stiffness));
+  }
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A device of a scene as its servo sees it, where nobody holds it: for what is said of a scene.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "reckon/haptics/devices/mapped_device.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/evdev/evdev_device.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::tools {
+
+/// Its limits are those of the real device. Nothing is opened.
+class FeltDevice {
+ public:
+  /// @throws as make_simulated_device()
+  FeltDevice(const peer::SceneFile& scene, const peer::DeviceConfig& config);
+  FeltDevice(const FeltDevice&) = delete;
+  FeltDevice& operator=(const FeltDevice&) = delete;
+
+  [[nodiscard]] haptics::HapticDevice& get() noexcept {
+    if (evdev_) return *evdev_;
+    return *mapped_;
+  }
+
+ private:
+  haptics::EvdevExchange exchange_;
+  std::optional<haptics::EvdevDevice> evdev_;  // of a device that renders springs
+  std::unique_ptr<haptics::SimulatedDevice> simulated_;
+  std::optional<haptics::MappedDevice> mapped_;
+};
+
+/// @throws std::invalid_argument that names what a device of the scene cannot show: one that
+/// renders springs by itself
+void check_felt(const peer::SceneFile& scene, const haptics::EffectPlan& plan);
+
+}  // namespace reckon::tools
