@@ -21,7 +21,7 @@ enum class DeviceKind : std::uint8_t {
 /// What a device can do and what one may rely on. All of it is fixed after construction.
 struct DeviceLimits {
   DeviceKind kind = DeviceKind::impedance;
-  /// 3: gives a position and shows a force. 6: gives a pose and shows a torque too.
+  /// 3: gives a position and shows a force. 6: gives a pose, shows a torque. 1, 2: coefficients.
   int axes = 3;
   double max_force = 0.0;      ///< [N], > 0: beyond it the output is scaled, direction kept
   double max_stiffness = 0.0;  ///< [N/m], 0 = no limit of its own (the sampled bound always holds)

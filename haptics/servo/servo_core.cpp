@@ -3,6 +3,7 @@
 #include "reckon/haptics/servo/servo_core.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "reckon/haptics/servo/coefficient_step.hpp"
@@ -78,8 +79,10 @@ std::unique_ptr<ServoCore> make_servo(HapticDevice& device, std::shared_ptr<cons
                                       const ServoConfig& config,
                                       std::shared_ptr<BodyWorld> bodies) {
   if (device.limits().kind == DeviceKind::coefficients) {
-    return std::make_unique<CoefficientStep>(dynamic_cast<CoefficientDevice&>(device),
-                                             std::move(plan), config, std::move(bodies));
+    auto* const springs = dynamic_cast<CoefficientDevice*>(&device);
+    if (springs == nullptr)
+      throw std::invalid_argument("servo: a device of kind coefficients is a CoefficientDevice");
+    return std::make_unique<CoefficientStep>(*springs, std::move(plan), config, std::move(bodies));
   }
   if (device.limits().axes == 6)
     return std::make_unique<ServoStepOf<6>>(device, std::move(plan), config, std::move(bodies));

@@ -10,8 +10,8 @@
 
 namespace reckon::haptics {
 
-/// The servo of one impedance device, of three axes or of six. Takes the newest ContactSet,
-/// publishes a ServoSnapshot every step.
+/// The servo of one impedance device, of three axes or of six, or of a CoefficientDevice. Takes the
+/// newest ContactSet, publishes a ServoSnapshot every step.
 ///
 /// One energy port serves all contacts of the device. Walls may use at most 3/4 of the device's
 /// guaranteed damping; the rest is for hands.

@@ -67,6 +67,16 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
                      device.operator_number > count ? ", aside" : "");
 }
 
+std::string spring_limits_of(const peer::DeviceConfig& device) {
+  const haptics::EvdevSettings settings = peer::evdev_settings_of(device);
+  return fmt::format("{}, {}; {} over {}; a change is there {} late",
+                     peer::format_quantity(haptics::evdev_limits(settings).max_force, "N"),
+                     peer::format_quantity(settings.max_speed, "m/s"),
+                     settings.axes == 1 ? "an axis" : "two axes",
+                     peer::format_quantity(settings.scale.travel, "m"),
+                     about(pdu::to_seconds(settings.chain), "s"));
+}
+
 std::string limits_of(const peer::DeviceConfig& device) {
   const double period = pdu::to_seconds(device.period);
   return fmt::format(
@@ -136,14 +146,8 @@ std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& 
   return text.empty() ? text : text + " as asked";
 }
 
-std::string stiffness_of(const peer::SceneFile& scene, const peer::DeviceConfig& device,
-                         const haptics::ServoLoop& servo) {
+std::string stiffness_of(const peer::SceneFile& scene, const haptics::ServoLoop& servo) {
   const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
-  if (device.driver == peer::DeviceDriver::evdev) {
-    return fmt::format(
-        "walls, hands and entities up to {}, which it renders by itself along its axes",
-        about(can.walls, "N/m"));
-  }
   std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
                                  about(can.hand_limit(), "N/m"));
   if (can.hand_limit() < can.hands)
@@ -198,11 +202,19 @@ Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
       hand.get(), std::make_shared<const haptics::EffectPlan>(plan), servo_of(scene, device),
       haptics::make_bodies(plan, scene.scene,
                            std::make_shared<peer::BodyMover>(plan, scene.nodes)));
+  if (device.driver == peer::DeviceDriver::evdev) {
+    return {{"held by", holder_of(scene, device)},
+            {"stands at", point(device.position)},
+            {"limits", spring_limits_of(device)},
+            {"stiffness", "walls, hands and entities up to " +
+                              about(servo.static_stiffness_limit(), "N/m") +
+                              ", which it renders by itself along its axes"}};
+  }
   Facts facts = {{"held by", holder_of(scene, device)},
                  {"stands at", point(device.position)},
                  {"limits", limits_of(device)},
                  {"force grows by", growth_of(scene, device)},
-                 {"stiffness", stiffness_of(scene, device, servo)}};
+                 {"stiffness", stiffness_of(scene, servo)}};
   if (std::ranges::any_of(plan.objects(), &haptics::PlannedObject::is_body))
     facts.push_back({"holds bodies", hold_of(scene, device, servo)});
   if (device.axes == 6) facts.insert(facts.begin() + 3, {"turns", tool_of(device)});

@@ -149,6 +149,7 @@ TEST(RealDevices, WhatIsExplainedOfAnEventDeviceIsWhatItsServoRefuses) {
   EXPECT_EQ(good.status, 0) << good.err;
   EXPECT_THAT(good.out,
               HasSubstr("walls, hands and entities up to 1.5 kN/m, which it renders by itself"));
+  EXPECT_THAT(good.out, HasSubstr("two axes over 200 mm; a change is there 8 ms late"));
   const auto bad = explained("sphere = \"10 mm\"\n");
   EXPECT_NE(bad.status, 0);
   EXPECT_THAT(bad.err, HasSubstr("'thing' is no plane and no box"));
