@@ -34,7 +34,7 @@ typedef struct {
   uint8_t axes;     /* 1 to 3 */
   reckon_axis axis[RECKON_AXES];
   uint8_t watchdog; /* [ms], 1 to 10: without a frame for so long the force is zero */
-  uint16_t period;  /* [us] between ticks, 100 to 2500 */
+  uint16_t period;  /* [us] between ticks, 100 to 2000 */
   void (*write)(void* line, const uint8_t* octets, uint8_t length); /* to the host */
   void* line;
 
@@ -45,7 +45,8 @@ typedef struct {
   uint8_t was_told; /* a frame came since the last tick */
   uint8_t has_next; /* a force that the next tick takes up */
   uint8_t drops;    /* the next tick lets go */
-  uint8_t holds;    /* a force of the host's */
+  uint8_t holds;         /* a force of the host's */
+  uint8_t let_go;        /* how often it did */
   uint16_t next_number, number;
   int16_t next_force[RECKON_AXES], force[RECKON_AXES];
   uint16_t sequence;
@@ -176,11 +177,13 @@ static inline void reckon_board_tick(reckon_board* board, uint32_t now, const in
   }
   board->has_next = 0;
   if (!is_homed || (uint32_t)(now - board->told_at) >= 1000uL * board->watchdog) board->holds = 0;
+  if (held && !board->holds) ++board->let_go;
   if ((uint32_t)(now - board->told_at) > 1000000uL) board->is_asked = 0;
   for (i = 0; i < board->axes; ++i) force[i] = board->holds ? board->force[i] : 0;
   if (!board->is_asked) return;
 
-  flags = (uint8_t)((held ? 1 : 0) | (board->holds ? 2 : 0) | (is_homed ? 0 : 4));
+  flags = (uint8_t)((held ? 1 : 0) | (board->holds ? 2 : 0) | (is_homed ? 0 : 4) |
+                    (uint8_t)(board->let_go << 4));
   at = reckon_put(at, 0x82, 1);
   at = reckon_put(at, ++board->sequence, 2);
   at = reckon_put(at, now, 4);

@@ -19,9 +19,9 @@ constexpr std::size_t kGreeting = 8;  // octets before its axes
 constexpr std::size_t kAxis = 7;
 constexpr std::size_t kReport = 13;                              // octets before its counts
 constexpr std::int32_t kLongestStep = 1'000'000;                 // [nm]
-constexpr std::uint16_t kLeastPeriod = 100, kMostPeriod = 2500;  // [us]
+constexpr std::uint16_t kLeastPeriod = 100, kMostPeriod = 2000;  // [us]
 
-enum Flag : std::uint8_t { kHeldUntil = 1, kHoldsFrom = 2, kNotHomed = 4, kKnownFlags = 7 };
+enum Flag : std::uint8_t { kHeldUntil = 1, kHoldsFrom = 2, kNotHomed = 4, kUnknown = 8 };
 
 unsigned read16(Octets octets, std::size_t at) noexcept {
   return octets[at] | unsigned{octets[at + 1]} << 8;
@@ -62,7 +62,7 @@ std::string refusal_of_times(const SerialGreeting& greeting) {
            "energy";
   if (greeting.period < kLeastPeriod || greeting.period > kMostPeriod)
     return "its reports come every " + std::to_string(greeting.period) +
-           " us: 100 us to 2.5 ms are driven";
+           " us: 100 us to 2 ms are driven";
   return {};
 }
 
@@ -104,12 +104,13 @@ std::optional<SerialReport> serial_report(Octets carried, std::size_t axes) noex
   if (!is_kind(carried, SerialKind::report) || carried.size() != kReport + 4 * axes)
     return std::nullopt;
   const unsigned flags = carried[11];
-  if ((flags & ~unsigned{kKnownFlags}) != 0) return std::nullopt;
+  if ((flags & kUnknown) != 0) return std::nullopt;
   SerialReport report;
   report.sequence = static_cast<std::uint16_t>(read16(carried, 1));
   report.stamp = read32(carried, 3);
   if ((flags & kHeldUntil) != 0) report.until = static_cast<std::uint16_t>(read16(carried, 7));
   if ((flags & kHoldsFrom) != 0) report.from = static_cast<std::uint16_t>(read16(carried, 9));
+  report.let_go = static_cast<std::uint8_t>(flags >> 4);
   report.homed = (flags & kNotHomed) == 0;
   report.buttons = carried[12];
   for (std::size_t i = 0; i < axes; ++i)

@@ -53,6 +53,7 @@ struct SerialReport {
   std::uint32_t stamp = 0;                  ///< [us] of its own clock
   std::optional<std::uint16_t> until = {};  ///< number of the force held until then; none: none
   std::optional<std::uint16_t> from = {};   ///< number of the force held from then on
+  std::uint8_t let_go = 0;                  ///< how often it did so by itself, modulo 16
   bool homed = true;                        ///< its counts are places
   std::uint8_t buttons = 0;
   std::array<std::int32_t, kSerialAxes> counts{};

@@ -112,17 +112,18 @@ void SerialSession::hear(const SerialReport& report, nanoseconds now) {
 // A reading is one where the board held forces of the servo's alone since the one before.
 void SerialSession::read(const SerialReport& report, nanoseconds now) noexcept {
   const auto from = report.from ? frame_at(*report.from) : std::nullopt;
-  if (!from || !sent(*from).is_its) return leave();
+  if (!from || !are_its(*from, *from)) return leave();
   UsbReading reading;
   if (held_) {
     const auto until = report.until ? frame_at(*report.until) : std::nullopt;
-    const bool joins = until && *until >= *held_ && *until <= *from && sent(*until).is_its &&
-                       (zeroed_ < *held_ || zeroed_ > *until);
+    const bool joins = until && *until >= *held_ && *until <= *from && are_its(*held_, *until) &&
+                       report.let_go == let_go_;
     if (!joins) return leave();
     reading.before = sent(*until).number;
     if (sent(*from).number > sent(*held_).number) time(sent(*held_), sent(*from), now);
   }
   held_ = *from;
+  let_go_ = report.let_go;
   reading.position = place_of(report);
   reading.at = clock_;
   reading.after = sent(*from).number;
@@ -173,8 +174,8 @@ SerialForce SerialSession::force_of(const Eigen::Vector3d& force) const noexcept
 
 SerialFrame SerialSession::tell(const UsbForce& force, bool is_its) noexcept {
   ++told_;
-  if (!is_its) zeroed_ = told_;
-  frames_[static_cast<std::size_t>(told_ % kKept)] = {force.number, force.at, is_its};
+  const std::int64_t zero = is_its ? sent(told_ - 1).zero : told_;
+  frames_[static_cast<std::size_t>(told_ % kKept)] = {force.number, force.at, zero};
   SerialForce told = force_of(is_its ? force.force : Eigen::Vector3d(Eigen::Vector3d::Zero()));
   told.number = static_cast<std::uint16_t>(told_);
   return frame_of(told, greeting_.axes);

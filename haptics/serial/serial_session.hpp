@@ -45,7 +45,7 @@ inline constexpr double kSerialAssumedForce = 1.0;
 class SerialSession {
  public:
   /// Of the servo. A zero is at the board 10 ms after the servo's last write.
-  static constexpr std::chrono::milliseconds kSilence{7};
+  static constexpr std::chrono::microseconds kSilence{6500};
   /// Without a report for so long the board is told a zero.
   static constexpr std::chrono::milliseconds kLate{6};
   /// Without a report for so long it has to be asked anew.
@@ -104,7 +104,8 @@ class SerialSession {
   struct Sent {
     std::int64_t number = 0;
     std::chrono::nanoseconds at{0};  // of the write
-    bool is_its = false;             // false: a zero in its place
+    std::int64_t zero = 0;           // number of the last frame, of those to this one, that was a
+                                     // zero in the place of the servo's force
   };
   static constexpr std::int64_t kKept = 256;  // frames
 
@@ -116,6 +117,10 @@ class SerialSession {
   void leave() noexcept;
   void time(const Sent& held, const Sent& next, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::optional<std::int64_t> frame_at(std::uint16_t number) const noexcept;
+  // Whether all frames from one to another have the servo's forces.
+  [[nodiscard]] bool are_its(std::int64_t first, std::int64_t last) const noexcept {
+    return sent(last).zero < first;
+  }
   [[nodiscard]] const Sent& sent(std::int64_t frame) const noexcept {
     return frames_[static_cast<std::size_t>(frame % kKept)];
   }
@@ -135,13 +140,13 @@ class SerialSession {
 
   std::array<Sent, kKept> frames_{};         // a ring
   std::int64_t told_ = 0;                    // number of the last frame, from 1
-  std::int64_t zeroed_ = 0;                  // of the last frame that was no force of the servo's
   bool answers_ = false;                     // a report came, and no frame went out since
   bool is_its_ = false;                      // of the last frame
   std::optional<SerialReport> last_;         // report
   std::chrono::nanoseconds clock_{0};        // the board's, of that
   std::chrono::nanoseconds first_heard_{0};  // of reports
   bool is_timed_ = false;                    // its clock was judged
+  int let_go_ = 0;                           // of the last reading
   std::optional<std::int64_t> held_;  // frame of the last reading of this run; none: none yet
   std::uint64_t lost_ = 0, strange_ = 0;
   int timed_ = 0;

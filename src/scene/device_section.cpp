@@ -142,12 +142,12 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
   const bool is_serial = device.driver == DeviceDriver::serial;
   if (table.has("resolution") && !is_serial)
     table.problem("resolution", "the driver knows the steps of a " + name + ": take it out");
-  const std::chrono::milliseconds silence =
+  const std::chrono::microseconds silence =
       is_serial ? haptics::SerialSession::kSilence : haptics::UsbSession::kSilence;
   if (5 * device.period > 2 * silence)
-    table.problem("rate", fmt::format("a {} is let go after {} ms without a force, which one "
+    table.problem("rate", fmt::format("a {} is let go after {:.3g} ms without a force, which one "
                                       "missed period must not bring about: 400 Hz is enough",
-                                      name, silence.count()));
+                                      name, 1e-3 * static_cast<double>(silence.count())));
   const bool described = !device.described.name.empty();
   const auto said = [&](const char* key) { return described || table.has(key); };
   use_driver(device, device.driver,

@@ -107,13 +107,15 @@ TEST(SerialPackets, AReportIsWhatItsOctetsSay) {
   EXPECT_EQ(report->until, 0x0102);
   EXPECT_EQ(report->from, 0x0103);
   EXPECT_TRUE(report->homed);
+  EXPECT_EQ(report->let_go, 0);
   EXPECT_EQ(report->buttons, 9);
   EXPECT_THAT(report->counts, ElementsAre(1, -1, -2'147'483'648));
   Octets none = kReport;
-  none[11] = 4;
+  none[11] = 4 + 16 * 9;
   EXPECT_EQ(serial_report(none, 3)->until, std::nullopt);
   EXPECT_EQ(serial_report(none, 3)->from, std::nullopt);
   EXPECT_FALSE(serial_report(none, 3)->homed);
+  EXPECT_EQ(serial_report(none, 3)->let_go, 9);
 }
 
 TEST(SerialPackets, OfAnotherLengthKindOrFlagIsNoReport) {
@@ -215,7 +217,7 @@ TEST(SerialPackets, ABoardThatCannotBeDrivenIsRefusedByItsReason) {
   EXPECT_THAT(refusal([](auto& board) { board.axes = 0; }), HasSubstr("it has 0 axes"));
   EXPECT_THAT(refusal([](auto& board) { board.watchdog = 0; }), HasSubstr("after 0 ms"));
   EXPECT_THAT(refusal([](auto& board) { board.watchdog = 11; }), HasSubstr("one of 1 to 10 ms"));
-  EXPECT_THAT(refusal([](auto& board) { board.period = 2501; }), HasSubstr("every 2501 us"));
+  EXPECT_THAT(refusal([](auto& board) { board.period = 2001; }), HasSubstr("every 2001 us"));
   EXPECT_THAT(refusal([](auto& board) { board.period = 99; }), HasSubstr("every 99 us"));
   EXPECT_THAT(refusal([](auto& board) { board.axis[0].direction = 3; }), HasSubstr("nowhere"));
   EXPECT_THAT(refusal([](auto& board) {

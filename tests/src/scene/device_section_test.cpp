@@ -277,7 +277,7 @@ TEST(DeviceSection, RefusesWhatASerialBoardIsNot) {
   EXPECT_THAT(refusal(serial + kOperator), HasSubstr("name that with port = \"/dev/ttyACM0\""));
   const std::string wired = serial + "port = \"/dev/ttyACM0\"\n";
   EXPECT_THAT(refusal(wired + "axes = 6\n" + kOperator), HasSubstr("take out axes = 6"));
-  EXPECT_THAT(refusal(wired + "rate = \"300 Hz\"\n" + kOperator), HasSubstr("after 7 ms"));
+  EXPECT_THAT(refusal(wired + "rate = \"300 Hz\"\n" + kOperator), HasSubstr("after 6.5 ms"));
   EXPECT_THAT(refusal(wired + "kind = \"pointer\"\n" + kOperator),
               HasSubstr("a person holds a serial board"));
   for (const std::string key : {"port = \"/dev/ttyACM0\"", "baud = 9600"}) {
