@@ -222,6 +222,18 @@ double BodyEngine::work(std::size_t push) const noexcept {
   return push < works_.size() ? works_[push] : 0.0;
 }
 
+double BodyEngine::take_back(std::size_t body, double energy) noexcept {
+  const std::size_t slot = solver_.slots().slot_of(body);
+  if (slot == BodySlots::kNone || solver_.is_carried(slot) || !(energy > 0)) return 0.0;
+  go_back();
+  const double taken = solver_.take_back(slot, energy);
+  const double step = states_[body].step;
+  static_cast<ObjectMotion&>(states_[body]) = solver_.motion(slot);
+  states_[body].step = step;
+  near_.forget();
+  return taken;
+}
+
 std::span<const std::uint32_t> BodyEngine::with_slot() const noexcept {
   return {in_slot_.data(), solver_.size()};
 }

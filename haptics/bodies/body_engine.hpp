@@ -54,6 +54,7 @@ class BodyEngine {
   [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
   void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
   [[nodiscard]] double work(std::size_t push) const noexcept;
+  double take_back(std::size_t body, double energy) noexcept;
   [[nodiscard]] std::span<const BodyState> states() const noexcept { return states_; }
   [[nodiscard]] std::chrono::nanoseconds time() const noexcept { return time_; }
   [[nodiscard]] const BodySolver& solver() const noexcept { return solver_; }

@@ -425,6 +425,16 @@ double BodySolver::length_free(const RigidBody& body, const Vector3d& from, cons
   return free;
 }
 
+double BodySolver::take_back(std::size_t slot, double energy) noexcept {
+  RigidBody& body = body_at(slot);
+  const double moving = body.kinetic_energy();
+  const double taken = std::min(energy, moving);
+  if (!(taken > 0)) return 0.0;
+  body.slow(std::sqrt(1.0 - taken / moving));
+  ledger_.energy -= taken;
+  return taken;
+}
+
 // @param given work of all pushes in this step [J]
 void BodySolver::take_out(double given) noexcept {
   const double most = ledger_.energy + given;

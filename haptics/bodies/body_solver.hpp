@@ -88,6 +88,9 @@ class BodySolver {
   /// the bodies' speeds in the same step.
   void step(double dt, std::span<BodyForce> forces) noexcept;
 
+  /// Slows a body. @param energy [J] > 0, at most  @return how much it had of that
+  double take_back(std::size_t slot, double energy) noexcept;
+
   /// Keeps the bodies of only(), and puts them back as they were kept.
   void keep() noexcept;
   void restore() noexcept;

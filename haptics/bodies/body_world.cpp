@@ -105,6 +105,9 @@ void BodyWorld::hold(std::size_t push, double share, const Vector3d& rest) noexc
   engine_->hold(push, share, rest);
 }
 double BodyWorld::work(std::size_t push) const noexcept { return engine_->work(push); }
+double BodyWorld::take_back(std::size_t body, double energy) noexcept {
+  return engine_->take_back(body, energy);
+}
 std::span<const BodyState> BodyWorld::states() const noexcept { return engine_->states(); }
 double BodyWorld::energy() const noexcept { return engine_->solver().energy(); }
 double BodyWorld::taken_out() const noexcept { return engine_->solver().taken_out(); }

@@ -123,6 +123,9 @@ class BodyWorld {
   void written(std::size_t hand, const HandReach& reach) noexcept;
   /// Work that a push of the period before did on its body [J].
   [[nodiscard]] double work(std::size_t push) const noexcept;
+  /// Slows a body by so much of its kinetic energy [J], before anything is pushed in this period.
+  /// @return what was there to be taken
+  double take_back(std::size_t body, double energy) noexcept;
 
   [[nodiscard]] std::span<const BodyState> states() const noexcept;
   /// The same after each advance in which one was awake, once all hands have written or the next

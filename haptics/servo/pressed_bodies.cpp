@@ -45,6 +45,7 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const E
   if (!world_) return;
   hand_ = world_->add_hand();
   pushes_.reserve(std::min(probes * (world_->states().size() + 1), BodyWorld::kMostPushes));
+  gifts_.reserve(pushes_.capacity());
   body_of_.resize(plan.objects().size());
   const double period = pdu::to_seconds(config.period);
   for (const BodyState& body : world_->states()) {
@@ -73,12 +74,26 @@ void PressedBodiesOf<axes>::settle(std::chrono::nanoseconds now, bool frozen,
                                    EnergyLedger& ledger) noexcept {
   if (!world_) return;
   world_->advance_to(now, frozen);
+  gifts_.clear();
   for (const Push& push : pushes_) {
     const double work = world_->work(push.number);
     ledger.book(-work);
     work_ += work;
+    if (work > 0) gifts_.push_back({body_of_[push.object], work});
   }
   pushes_.clear();
+}
+
+// A body gets all of its spring, and the hand more than is left of it where the port could not pay
+// for less.
+template <int axes>
+void PressedBodiesOf<axes>::repay(EnergyLedger& ledger) noexcept {
+  for (const Gift& gift : gifts_) {
+    const double back = world_->take_back(gift.body, std::min(gift.energy, ledger.debt()));
+    ledger.book(back);
+    work_ -= back;
+  }
+  gifts_.clear();
 }
 
 template <int axes>

@@ -36,6 +36,9 @@ class PressedBodiesOf {
   /// can be read.
   /// @param frozen they stand still
   void settle(std::chrono::nanoseconds now, bool frozen, EnergyLedger& ledger) noexcept;
+  /// After the contacts have settled: where the port is in debt, the bodies give back of what they
+  /// got in the last period.
+  void repay(EnergyLedger& ledger) noexcept;
   /// Tells the contacts where the bodies are that the tool may meet.
   /// @param period [s], until the next step
   void place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts, double period) noexcept;
@@ -61,6 +64,11 @@ class PressedBodiesOf {
     std::uint32_t object = 0;
     bool grips = false;
   };
+  /// What a body got of a push.
+  struct Gift {
+    std::size_t body = 0;
+    double energy = 0.0;  // [J] > 0
+  };
   /// What holds one body.
   struct Hold {
     GrabSpring by_button, by_touch;
@@ -85,6 +93,7 @@ class PressedBodiesOf {
   std::vector<std::uint32_t> body_of_;  // of the plan's objects, those that have one
   std::array<bool, kMostProbes> by_{};  // a probe holds its body by the button
   std::vector<Push> pushes_;
+  std::vector<Gift> gifts_;  // of the last period
   double work_ = 0.0;
 };
 

@@ -270,6 +270,7 @@ void ServoStepOf<axes>::settle() noexcept {
     if (in_steps) change += remote->spring().force();
   }
   if (in_steps) port_.follow(tool_.at_port(0, crowd_share_ * held_.springs * change), dx);
+  if (port_.debt() > 0) pressed_.repay(port_);
 }
 
 // The force that is written may be less than the one that the port chose, or lag behind.

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -247,7 +248,11 @@ TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
   };
   double worst = -1e9, cut = 0.0;
   int free = 0;
-  for (unsigned seed = 1; seed <= (std::getenv("RECKON_SOAK") != nullptr ? 1000U : 40U); ++seed) {
+  // In 364 the port of a light, fast body has nothing left for less than the force at the begin.
+  std::vector<unsigned> seeds(std::getenv("RECKON_SOAK") != nullptr ? 1000 : 40);
+  std::iota(seeds.begin(), seeds.end(), 1U);
+  if (seeds.back() < 364) seeds.push_back(364);
+  for (const unsigned seed : seeds) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(0.0, 1.0);
     const double mass = 0.001 * std::pow(1000.0, any(random));
