@@ -157,6 +157,8 @@ class Peer {
   void trace_contacts(haptics::ContactRing* ring, std::size_t device = 0) noexcept {
     model_.trace_contacts(ring, device);
   }
+  /// Records each stage of each pass of the model loop into `ring`; call while no loop runs.
+  void trace_loop(LoopRing* ring) noexcept { model_.trace(ring); }
 
   [[nodiscard]] const ModelLoop& model() const noexcept { return model_; }
   /// The owned entities; for the thread of model_step(), or while no loop runs.

@@ -173,7 +173,7 @@ class ToolOf<6> {
  private:
   void place_probes() noexcept;
 
-  DampedAxes<6> axes_;
+  DampedAxes axes_;
   std::array<Eigen::Vector3d, kMostProbes> probes_{};  // in axes of the tool
   std::array<Eigen::Vector3d, kMostProbes> levers_{};  // in S
   std::size_t size_ = 1;

@@ -5,9 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
 
 #include "reckon/haptics/passivity/split.hpp"
 
@@ -31,53 +28,32 @@ inline constexpr double kMostTurn = 0.02;
 /// it, for turns up to kMostTurn: J^T K J, and what the bend of the way of a probe that turns adds
 /// (at most |r| turn^2 / 2 off the straight way).
 /// @param r [m]  @param stiffness of the potential [N/m], symmetric, >= 0  @param f its force [N]
-[[nodiscard]] inline WrenchCurvature curvature_of(const Eigen::Vector3d& r,
-                                                  const Eigen::Matrix3d& stiffness,
-                                                  const Eigen::Vector3d& f) noexcept {
-  Eigen::Matrix<double, 3, 6> motion;  // of the probe
-  motion.leftCols<3>().setIdentity();
-  motion.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
-  WrenchCurvature curvature = motion.transpose() * stiffness * motion;
-  // With e off the straight way u: -f e + u K e + e K e / 2, where |e| <= |r| turn^2 / 2.
-  const double lever = r.norm(), most = stiffness.norm() * kMostTurn;
-  curvature.diagonal().head<3>().array() += 0.5 * most;
-  curvature.diagonal().tail<3>().array() +=
-      lever * f.norm() + (1.5 + 0.25 * kMostTurn) * most * lever * lever;
-  return curvature;
-}
+[[nodiscard]] WrenchCurvature curvature_of(const Eigen::Vector3d& r,
+                                           const Eigen::Matrix3d& stiffness,
+                                           const Eigen::Vector3d& f) noexcept;
 
-/// Axes of a device, scaled so that each has a damping of 1: forces by 1 / sqrt(b), motions by
-/// sqrt(b). Work and loss stay what they are, so that a port of one damping serves all axes.
-template <int axes>
+/// The six axes of a device, scaled so that each has a damping of 1: forces by 1 / sqrt(b), motions
+/// by sqrt(b). Work and loss stay what they are, so that a port of one damping serves all axes.
 class DampedAxes {
  public:
-  using Force = AxisForces<axes>;
-  using Curvature = Eigen::Matrix<double, axes, axes>;
-
   /// @param damping of each axis, > 0 [N s/m; N m s/rad]
-  explicit DampedAxes(const Force& damping) noexcept : root_(damping.cwiseSqrt()) {}
+  explicit DampedAxes(const Wrench& damping) noexcept : root_(damping.cwiseSqrt()) {}
 
-  [[nodiscard]] Force scaled_force(const Force& force) const noexcept {
+  [[nodiscard]] Wrench scaled_force(const Wrench& force) const noexcept {
     return force.cwiseQuotient(root_);
   }
-  [[nodiscard]] Force scaled_motion(const Force& motion) const noexcept {
+  [[nodiscard]] Wrench scaled_motion(const Wrench& motion) const noexcept {
     return motion.cwiseProduct(root_);
   }
   /// Of a scaled force.
-  [[nodiscard]] Force force(const Force& scaled) const noexcept {
+  [[nodiscard]] Wrench force(const Wrench& scaled) const noexcept {
     return scaled.cwiseProduct(root_);
   }
   /// Greatest curvature in scaled axes [1/s]: as PortLoadOf takes it. @param curvature symmetric
-  [[nodiscard]] double slope(const Curvature& curvature) const noexcept {
-    const Force inverse = root_.cwiseInverse();
-    const Curvature scaled = inverse.asDiagonal() * curvature * inverse.asDiagonal();
-    return std::max(0.0, Eigen::SelfAdjointEigenSolver<Curvature>(scaled, Eigen::EigenvaluesOnly)
-                             .eigenvalues()
-                             .maxCoeff());
-  }
+  [[nodiscard]] double slope(const WrenchCurvature& curvature) const noexcept;
 
  private:
-  Force root_;
+  Wrench root_;
 };
 
 }  // namespace reckon::haptics

@@ -87,30 +87,48 @@ void ModelLoop::drop_stale(nanoseconds now) noexcept {
 }
 
 void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
+  trace_.begin_pass(now);
   begin(now, utc);
-  intake_.read(pass_, owned_.simulation().simulation(), *this);
-  participant_.deliver(now);
-  doubt_the_silent();
-  send_what_is_felt();
-  remote_.expire(now);
-  tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
-  if (own_bodies_ != nullptr) move_bodies();
-  if (mover_ != nullptr) {
-    mover_->set_offset(pass_.utc - pass_.now);
-    remote_bodies_->publish(remote_);
-  }
+  read_sensors();
+  trace_.end(LoopStage::sensors);
   if (guest_ != nullptr) guest_->begin_pass(*this);
+  trace_.end(LoopStage::actions);
+  do_tasks();
+  trace_.end(LoopStage::tasks);
+  publish();
+  trace_.end(LoopStage::publish);
+}
+
+void ModelLoop::read_sensors() noexcept {
+  intake_.read(pass_, owned_.simulation().simulation(), *this);
+  participant_.deliver(pass_.now);
+  doubt_the_silent();
+  remote_.expire(pass_.now);
   if (touch_.read_hands()) subscriber_.note_moved();
+  if (own_bodies_ != nullptr) move_bodies();
+}
+
+void ModelLoop::do_tasks() noexcept {
+  tracked_.advance(pass_.now,
+                   [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
+  send_what_is_felt();
   touch_.answer_bodies(pass_);
   touch_.find_near(pass_);
   touch_.consider(pass_);
   consider_others();
+}
+
+void ModelLoop::publish() noexcept {
+  if (mover_ != nullptr) {
+    mover_->set_offset(pass_.utc - pass_.now);
+    remote_bodies_->publish(remote_);
+  }
   touch_.publish_contacts(pass_);
   touch_.publish_felt_sources();
-  view_.publish_shown(remote_, now);
+  view_.publish_shown(remote_, pass_.now);
   emit(false);
   if (guest_ != nullptr) guest_->end_pass(*this);
-  if (now >= view_.next()) {
+  if (pass_.now >= view_.next()) {
     look_around();
     publish_view();
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop between the servos and the network. It keeps the state table and the entities of this
 // peer, decides on updates and their recipients, and publishes to each servo what its hand can
-// touch. It is the only writer of all of these.
+// touch. It is the only writer of all of these. A pass has the stages of LoopStage.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include "reckon/peer/loops/datagram_intake.hpp"
 #include "reckon/peer/loops/datagram_outlet.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
+#include "reckon/peer/loops/loop_trace.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/loops/order_stage.hpp"
@@ -41,13 +42,14 @@ class ModelLoop;
 class ModelGuest {
  public:
   virtual ~ModelGuest() = default;
-  /// A pass begins: entities may now be added, moved and removed, and PDUs sent.
+  /// The actions of a pass: entities may now be added, moved and removed, and PDUs sent. What has
+  /// arrived and where the hands are is known.
   virtual void begin_pass(ModelLoop& loop) noexcept = 0;
   /// Receives PDUs for the program: fires, detonations, comments, and orders too. None that was
   /// sent in another's name.  @param octets of the whole PDU, valid until the call returns
   virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
                     const InteractionSender& sender) noexcept = 0;
-  /// A pass ends: remote() contains all that has arrived.
+  /// A pass publishes: remote() contains all that has arrived, and all that is due was sent.
   virtual void end_pass(ModelLoop& loop) noexcept = 0;
 };
 
@@ -90,6 +92,8 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   void trace_contacts(haptics::ContactRing* ring, std::size_t device) noexcept {
     touch_.trace_contacts(ring, device);
   }
+  /// See Peer::trace_loop().
+  void trace(LoopRing* ring) noexcept { trace_.record(ring); }
 
   /// Announces this peer at the next step. Call before the first step.
   void start(std::chrono::nanoseconds now);
@@ -125,6 +129,9 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   using Nanoseconds = std::chrono::nanoseconds;
 
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
+  void read_sensors() noexcept;
+  void do_tasks() noexcept;
+  void publish() noexcept;
   void drop_stale(Nanoseconds now) noexcept;
   void take_datagram(std::span<const std::byte> octets) noexcept override;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept override;
@@ -148,6 +155,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   void report(std::string_view format, const Arguments&... arguments) noexcept;
 
   const SceneFile& scene_;
+  LoopTrace trace_;
   Pass pass_;
   ModelCounters counted_;
   OwnedEntities owned_;

@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <iterator>
 
 #include "reckon/pdu/seconds.hpp"
@@ -23,29 +21,25 @@ std::string csv(const std::string& name) {
   return out + '"';
 }
 
-}  // namespace
-
-BodyTrace::BodyTrace(const std::filesystem::path& file, const haptics::Scene& scene)
-    : name_(file.string()), file_(nullptr) {
+// Of the objects of a scene in which some move.
+std::vector<std::string> names_of(const haptics::Scene& scene) {
   const auto moves = [](const haptics::SceneObject& object) {
     return object.matter.mass > 0 || object.carried;
   };
   if (std::ranges::none_of(scene.objects, moves))
     throw UsageError("--trace-bodies: nothing in this scene moves; give an object a mass");
-  for (const haptics::SceneObject& object : scene.objects) objects_.push_back(csv(object.name));
-  file_ = std::fopen(name_.c_str(), "w");
-  if (file_ == nullptr) {
-    throw UsageError(
-        fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
-  }
-  std::fputs(
-      "t_s,object,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps,awake\n",
-      file_);
+  std::vector<std::string> names;
+  for (const haptics::SceneObject& object : scene.objects) names.push_back(csv(object.name));
+  return names;
 }
 
-BodyTrace::~BodyTrace() {
-  if (file_ != nullptr) std::fclose(file_);
-}
+}  // namespace
+
+BodyTrace::BodyTrace(const std::filesystem::path& file, const haptics::Scene& scene)
+    : objects_(names_of(scene)),
+      file_(file,
+            "t_s,object,x_m,y_m,z_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,wx_radps,wy_radps,wz_radps,"
+            "awake") {}
 
 void BodyTrace::write(const haptics::BodyStep& step) {
   line_.clear();
@@ -61,15 +55,7 @@ void BodyTrace::write(const haptics::BodyStep& step) {
   vector(body.velocity);
   vector(body.turn_rate);
   fmt::format_to(to, FMT_COMPILE(",{:d}\n"), body.awake);
-  std::fwrite(line_.data(), 1, line_.size(), file_);
-}
-
-void BodyTrace::close() {
-  if (file_ == nullptr) return;
-  const bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  std::fclose(file_);
-  file_ = nullptr;
-  if (!good) throw EnvironmentError(fmt::format("{}: {}", name_, std::strerror(errno)));
+  file_.write(line_);
 }
 
 }  // namespace reckon::tools

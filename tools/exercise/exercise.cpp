@@ -23,6 +23,7 @@ constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for c
 // Updates of remote hands that may wait: at 125 a second of each of two, half a second.
 constexpr std::size_t kContactSets = 128;
 constexpr std::size_t kBodySteps = 65'536;  // of all bodies
+constexpr std::size_t kLoopSteps = 16'384;  // of one peer: 20 ms of passes 5 us after one another
 constexpr nanoseconds kCollect = milliseconds(20);
 constexpr nanoseconds kTick = milliseconds(1);  // simulated: all peers look at the network
 constexpr std::uint16_t kSite = 1;
@@ -43,10 +44,11 @@ std::string servo_text(const peer::PeerThreads& threads) {
 struct Exercise::Member {
   SimulatedHands hands;
   std::unique_ptr<peer::JoinedPeer> joined;
-  std::size_t first_hand = 0;             // in hands_
-  std::vector<peer::EntityTrack> tracks;  // of its entities without a hand, in their order
-  pdu::SimulationAddress address;         // as of the last collect()
-  bool awake = false;                     // simulated time: has something to do at this instant
+  std::size_t first_hand = 0;              // in hands_
+  std::vector<peer::EntityTrack> tracks;   // of its entities without a hand, in their order
+  pdu::SimulationAddress address;          // as of the last collect()
+  std::unique_ptr<peer::LoopRing> stages;  // with trace_loops
+  bool awake = false;                      // simulated time: has something to do at this instant
 };
 
 /// One device of a member.
@@ -121,6 +123,10 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
     member.joined = std::make_unique<peer::JoinedPeer>(own);
   }
   add_hands(index);
+  if (options_.trace_loops) {
+    member.stages = std::make_unique<peer::LoopRing>(kLoopSteps);
+    member.joined->peer().trace_loop(member.stages.get());
+  }
   if (options_.measure) member.tracks = peer::tracks_of(peer::entities_of(scene, number));
 }
 
@@ -185,6 +191,8 @@ nanoseconds Exercise::elapsed() const noexcept { return now() - begun_; }
 void Exercise::on_step(StepSink sink) { sink_ = std::move(sink); }
 
 void Exercise::on_body(BodySink sink) { body_sink_ = std::move(sink); }
+
+void Exercise::on_stage(StageSink sink) { stage_sink_ = std::move(sink); }
 
 void Exercise::run(nanoseconds span) {
   if (options_.simulated_time) {
@@ -269,6 +277,7 @@ void Exercise::collect(bool all) {
   }
   measurement_->set_ids(ids);
   collect_bodies();
+  collect_stages();
   if (!options_.measure) return;
   std::size_t most_shown = 0;  // each step of a hand shows all others
   for (std::size_t i = 0; i < hands_.size(); ++i) {
@@ -287,6 +296,15 @@ void Exercise::collect_bodies() {
   haptics::BodyStep step;
   while (bodies_ && bodies_->pop(step))
     if (body_sink_) body_sink_(step);
+}
+
+void Exercise::collect_stages() {
+  peer::LoopStep step;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    peer::LoopRing* ring = members_[i]->stages.get();
+    while (ring != nullptr && ring->pop(step))
+      if (stage_sink_) stage_sink_(i, step);
+  }
 }
 
 void Exercise::collect_steps(std::size_t index, std::size_t most) {

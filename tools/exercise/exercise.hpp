@@ -44,6 +44,7 @@ struct ExerciseOptions {
   bool impairment_changes = false;  ///< real time: change_impairment() may be called
   bool trace_contacts = false;      ///< fill contacts()
   bool trace_bodies = false;        ///< for on_body()
+  bool trace_loops = false;         ///< for on_stage()
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool even_if_slow = false;                 ///< real time: see FederateOptions
@@ -119,6 +120,10 @@ class Exercise {
   using BodySink = std::function<void(const haptics::BodyStep&)>;
   /// With trace_bodies: called for each recorded step of a body of the first peer.
   void on_body(BodySink sink);
+  /// With the peer, numbered from 0.
+  using StageSink = std::function<void(std::size_t, const peer::LoopStep&)>;
+  /// With trace_loops: called for each recorded stage of the model loop of every peer.
+  void on_stage(StageSink sink);
 
  private:
   struct Member;
@@ -133,6 +138,7 @@ class Exercise {
   void step_servos(std::chrono::nanoseconds now);
   void collect(bool all);
   void collect_bodies();
+  void collect_stages();
   void collect_steps(std::size_t index, std::size_t most);
   void collect_shown(Member& member, std::size_t most);
   void take_shown(const peer::ShownSample& sample);
@@ -148,6 +154,7 @@ class Exercise {
   std::unique_ptr<DemoMeasurement> measurement_;
   StepSink sink_;
   BodySink body_sink_;
+  StageSink stage_sink_;
   std::unique_ptr<haptics::BodyRing> bodies_;  // of the first peer, with trace_bodies
   peer::DurationHistogram servo_steps_;        // of all members together
   std::chrono::nanoseconds begun_{0};

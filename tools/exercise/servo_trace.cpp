@@ -5,33 +5,25 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <iterator>
+#include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kColumns =
+    "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
+    "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
+    "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device";
+constexpr std::string_view kTurnColumns =
+    ",tx_Nm,ty_Nm,tz_Nm,qw,qx,qy,qz,wx_radps,wy_radps,wz_radps";
+
+}  // namespace
 
 ServoTrace::ServoTrace(const std::filesystem::path& file, bool turns)
-    : name_(file.string()), turns_(turns), file_(std::fopen(name_.c_str(), "w")) {
-  if (file_ == nullptr) {
-    throw UsageError(
-        fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
-  }
-  std::fputs(
-      "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
-      "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
-      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device",
-      file_);
-  if (turns_) std::fputs(",tx_Nm,ty_Nm,tz_Nm,qw,qx,qy,qz,wx_radps,wy_radps,wz_radps", file_);
-  std::fputs("\n", file_);
-}
-
-ServoTrace::~ServoTrace() {
-  if (file_ != nullptr) std::fclose(file_);
-}
+    : turns_(turns), file_(file, fmt::format("{}{}", kColumns, turns ? kTurnColumns : "")) {}
 
 void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
   line_.clear();
@@ -66,15 +58,7 @@ void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::Serv
     vector(step.tool.turn_rate);
   }
   line_ += '\n';
-  std::fwrite(line_.data(), 1, line_.size(), file_);
-}
-
-void ServoTrace::close() {
-  if (file_ == nullptr) return;
-  const bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  std::fclose(file_);
-  file_ = nullptr;
-  if (!good) throw EnvironmentError(fmt::format("{}: {}", name_, std::strerror(errno)));
+  file_.write(line_);
 }
 
 }  // namespace reckon::tools

@@ -3,11 +3,12 @@
 // Every servo step as a line of CSV, for plots and for reproducing a run.
 #pragma once
 
-#include <cstdio>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/tools/exercise/csv_output.hpp"
 
 namespace reckon::tools {
 
@@ -17,20 +18,16 @@ class ServoTrace {
   /// @param turns with columns of torque, orientation and turn rate
   /// @throws UsageError where the file cannot be written.
   explicit ServoTrace(const std::filesystem::path& file, bool turns = false);
-  ~ServoTrace();
-  ServoTrace(const ServoTrace&) = delete;
-  ServoTrace& operator=(const ServoTrace&) = delete;
 
   /// @param peer, device numbered from 0; from 1 in the file
   void write(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step);
-  /// Writes what is left. @throws EnvironmentError where the disk is full.
-  void close();
+  /// As CsvOutput::close().
+  void close() { file_.close(); }
 
  private:
-  std::string name_;
   bool turns_;
+  CsvOutput file_;
   std::string line_;
-  std::FILE* file_;
 };
 
 }  // namespace reckon::tools

@@ -20,18 +20,17 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/exercise/body_report.hpp"
-#include "reckon/tools/exercise/body_trace.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
-#include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/exercise/simulated_slice.hpp"
 #include "reckon/tools/exercise/stop_control.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/demo_page.hpp"
+#include "reckon/tools/verbs/demo_traces.hpp"
 #include "reckon/tools/verbs/page_address.hpp"
 
 namespace reckon::tools {
@@ -48,7 +47,7 @@ constexpr double kRawOctets = 144 + 32 + 8 + 72;
 struct DemoOptions {
   SceneOptions scene;
   DeviceChoice device;
-  std::string trace, trace_bodies;
+  TraceFiles traces;
   std::optional<std::uint64_t> asked_peers;
   std::uint64_t peers = 2;  // what is run
   std::optional<nanoseconds> duration;
@@ -74,9 +73,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
   add_device_flags(line, options.device);
-  line.option("--trace", options.trace, "write every servo step of every device to this CSV file");
-  line.option("--trace-bodies", options.trace_bodies,
-              "write every step of every body that is awake to this CSV file");
+  add_trace_options(line, options.traces);
   line.flag("--simulated-time", options.simulated_time,
             "no sockets and no waiting: simulated network, as fast as the machine goes");
   line.flag("--no-transfer", options.no_transfer,
@@ -296,7 +293,8 @@ ExerciseOptions exercise_options(const DemoOptions& options) {
   made.simulated_time = options.simulated_time;
   made.transfer = !options.no_transfer;
   made.even_if_slow = options.scene.even_if_slow;
-  made.trace_bodies = !options.trace_bodies.empty();
+  made.trace_bodies = !options.traces.bodies.empty();
+  made.trace_loops = !options.traces.loop.empty();
   made.impairment_changes = made.trace_contacts = flags_of_switch(options.view).has_value();
   return made;
 }
@@ -352,25 +350,14 @@ int run(const DemoOptions& asked, const Console& console) {
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }
-  std::unique_ptr<ServoTrace> trace;
-  if (!options.trace.empty()) {
-    trace = std::make_unique<ServoTrace>(
-        options.trace, std::ranges::any_of(scene.devices, [](const peer::DeviceConfig& device) {
-          return device.axes == 6;
-        }));
-  }
-  std::optional<BodyTrace> bodies;
-  if (!options.trace_bodies.empty()) {
-    bodies.emplace(options.trace_bodies, scene.scene);
-    exercise->on_body([&](const haptics::BodyStep& step) { bodies->write(step); });
-  }
+  DemoTraces traces(options.traces, scene, *exercise);
   std::optional<HandTwins> twins;
   if (flags) twins.emplace(scene, *exercise);
   std::optional<DemoPage> page;
-  if (trace || flags) {
+  if (traces.takes_steps() || flags) {
     exercise->on_step(
         [&](std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
-          if (trace) trace->write(peer, device, step);
+          traces.take(peer, device, step);
           if (twins) twins->take(peer, device, step);
           if (page) page->take(peer, device, step);
         });
@@ -393,8 +380,7 @@ int run(const DemoOptions& asked, const Console& console) {
   page.reset();
   const Cost cost = cost_of(*exercise);
   exercise->stop();
-  if (trace) trace->close();
-  if (bodies) bodies->close();
+  traces.close();
   if (options.json) {
     print_json(console.out, cost, *exercise);
   } else {

@@ -125,8 +125,8 @@ Figure drawing_simulation_loop() {
   d.arrow({steps[4].right(), {752, 50}}, "");
   d.text(740, 40, "yes");
   return drawn(std::move(d), "The simulation loop of the core application.",
-               "Reckon's loops are four threads with one task each, not one after the other; it "
-               "renders force, not pictures (docs/architecture.md).");
+               "Reckon's model loop has these stages in each pass and publishes where this one "
+               "renders: `reckon demo --trace-loop` writes them (docs/architecture.md).");
 }
 
 Figure drawing_work_space() {

@@ -291,6 +291,7 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--key", {key}},
       {"--trace", {csv_}},
       {"--trace-bodies", {csv_}},
+      {"--trace-loop", {csv_}},
       {"--simulated-time", {}},
       {"--no-transfer", {}},
       {"--json", {}},

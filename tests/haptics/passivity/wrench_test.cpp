@@ -101,7 +101,7 @@ struct Tool {
   }
 };
 
-PortLoadOf<6> load_of(const Tool& tool, const DampedAxes<6>& axes) {
+PortLoadOf<6> load_of(const Tool& tool, const DampedAxes& axes) {
   const auto [springs, curvature] = tool.pressed();
   PortLoadOf<6> load;
   load.springs = axes.scaled_force(springs);
@@ -150,7 +150,7 @@ TEST(Wrench, DampedAxesKeepWorkAndLoss) {
   Random random(3);
   for (int i = 0; i < 100; ++i) {
     const Tool tool(random);
-    const DampedAxes<6> axes(tool.damping);
+    const DampedAxes axes(tool.damping);
     const Wrench force = 3 * random.wrench(), motion = 1e-3 * random.wrench();
     EXPECT_NEAR(axes.scaled_force(force).dot(axes.scaled_motion(motion)), force.dot(motion), 1e-15);
     EXPECT_NEAR(axes.scaled_motion(motion).squaredNorm(), motion.cwiseAbs2().dot(tool.damping),
@@ -167,7 +167,7 @@ TEST(SixAxes, APortAnswersForTheWorstMotionOfAHundredThousandTools) {
   int cut = 0, whole = 0;
   for (int i = 0; i < 100'000; ++i) {
     const Tool tool(random);
-    const DampedAxes<6> axes(tool.damping);
+    const DampedAxes axes(tool.damping);
     const auto [springs, curvature] = tool.pressed();
     const PortLoadOf<6> load = load_of(tool, axes);
     EnergyPortOf<6> port(1.0);
@@ -207,7 +207,7 @@ TEST(SixAxes, NoHandTakesEnergyOutOfAToolOfSeveralProbes) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     Random random(seed);
     Tool tool(random);
-    const DampedAxes<6> axes(tool.damping);
+    const DampedAxes axes(tool.damping);
     EnergyPortOf<6> port(1.0);
     double books = 0, least = 0;
     for (int i = 0; i < 300; ++i) {
