@@ -37,9 +37,8 @@ void check_kind(TomlReader& file, const DeviceDescriptor& device) {
   file.problem(
       "kind",
       "descriptors are of impedance devices alone: they tell their place and take a force; one "
-      "that takes a force model is described in [[device]], with driver = \"evdev\", and there is "
-      "no "
-      "way to use one that takes a motion");
+      "that takes a force model is described in [[device]], with driver = \"evdev\", and so is one "
+      "that takes a motion, with virtual_mass");
 }
 
 void check_axes(TomlReader& file, const DeviceDescriptor& device) {

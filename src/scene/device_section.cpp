@@ -121,6 +121,32 @@ void check_kind(TomlReader& table, const DeviceConfig& device) {
   }
 }
 
+// It has a handle of its own making, which moves by a mass.
+void check_admittance(TomlReader& table, const DeviceConfig& device) {
+  if (!(device.admittance.mass > 0)) {
+    for (const char* key : {"bandwidth", "sensor_stiffness", "motion_loop"}) {
+      if (table.has(key))
+        table.problem(key, fmt::format("only a device that moves by itself has '{}': add "
+                                       "virtual_mass = \"2 kg\", or take it out",
+                                       key));
+    }
+    return;
+  }
+  if (device.driver != DeviceDriver::simulated)
+    table.problem("virtual_mass",
+                  "only a simulated device moves by itself: take it out, or driver");
+  if (device.source == DeviceSource::pointer)
+    table.problem("virtual_mass",
+                  "a pointer holds a device that takes forces: take it out, or "
+                  "kind = \"pointer\"");
+  if (device.axes == 6)
+    table.problem("virtual_mass", "a virtual mass does not turn: take it out, or axes = 6");
+  if (!(device.damping > 0))
+    table.problem("damping", "a virtual mass needs damping, or nothing pays for walls");
+  if (table.has("resolution"))
+    table.problem("resolution", "the place of a virtual mass is computed and exact: take it out");
+}
+
 // What the numbers of such a device mean is asked for, and none of it guessed.
 void check_evdev(TomlReader& table, const DeviceConfig& device) {
   if (device.driver != DeviceDriver::evdev) return;
@@ -258,6 +284,7 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   table.read("delay", delay);
   device.delay_samples = samples_of(delay, rate);
   check_mapping(table, device);
+  check_admittance(table, device);
   check_driver(table, device);
 }
 
@@ -320,6 +347,17 @@ Section<DeviceConfig> device_section() {
           {"full_stiffness", &Device::full_stiffness, declared("N/m", 1, 1e6),
            "of evdev: stiffness at the handle of a spring with the greatest coefficient; no device "
            "tells it"},
+          {"virtual_mass", in(&Device::admittance, &AdmittanceConfig::mass),
+           declared("kg", 0.05, 100),
+           "makes it an admittance device, simulated: it measures the hand's force and goes where "
+           "a mass would go that hand and scene push, braked by `damping`; absent: it takes "
+           "forces"},
+          {"bandwidth", in(&Device::admittance, &AdmittanceConfig::bandwidth),
+           within("Hz", 1, 1000), "with a virtual mass: of the device's own motion"},
+          {"sensor_stiffness", in(&Device::admittance, &AdmittanceConfig::sensor_stiffness),
+           within("N/m", 100, 1e6), "with a virtual mass: of the sensor between hand and handle"},
+          {"motion_loop", in(&Device::admittance, &AdmittanceConfig::loop),
+           "with a virtual mass: whether it is told places or velocities"},
           {"reach", &Device::reach, within("m", 0.001, 10),
            "of a pointer: so far from there it takes the hand, along each axis of the device"},
           {"marking", &Device::marking,

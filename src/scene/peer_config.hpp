@@ -18,6 +18,7 @@
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/haptics/devices/motion_device.hpp"
 #include "reckon/haptics/scene/grab_spring.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
@@ -143,7 +144,14 @@ struct ProbeConfig {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] from the handle, in the tool's axes
 };
 
-/// A haptic device of one peer, and the hand that it moves.
+/// What a simulated device is that measures the hand's force and goes where a mass would go.
+struct AdmittanceConfig {
+  double mass = 0.0;               ///< [kg], of that mass; 0: it is no such device
+  double bandwidth = 30.0;         ///< [Hz] > 0, of its motion
+  double sensor_stiffness = 20e3;  ///< [N/m] > 0, of its force sensor
+  haptics::MotionLoop loop = haptics::MotionLoop::position;
+};
+
 /// What a descriptor alone says of a device.
 struct DescribedDevice {
   std::string name;                   ///< of the product; empty: the device has no descriptor
@@ -155,6 +163,7 @@ struct DescribedDevice {
                                  Eigen::Vector3d::Constant(0.05)};  ///< [m], frame D
 };
 
+/// A haptic device of one peer, and the hand that it moves.
 struct DeviceConfig {
   std::uint32_t peer = 1;             ///< number of its peer, from 1
   std::uint32_t operator_number = 1;  ///< number of the [[operator]] that holds it, from 1
@@ -177,6 +186,7 @@ struct DeviceConfig {
   double full_stiffness = 0.0;   ///< [N/m], of its greatest coefficient; 0: unsaid
   std::filesystem::path plugin;  ///< shared library of its driver; absolute once loaded
   std::string plugin_options;    ///< for that driver
+  AdmittanceConfig admittance;
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin

@@ -56,6 +56,10 @@ inline constexpr auto kWords<haptics::DeviceKind> =
                                               {"coefficients", haptics::DeviceKind::coefficients}});
 
 template <>
+inline constexpr auto kWords<haptics::MotionLoop> = std::to_array<Word<haptics::MotionLoop>>(
+    {{"position", haptics::MotionLoop::position}, {"velocity", haptics::MotionLoop::velocity}});
+
+template <>
 inline constexpr auto kWords<NodeKind> =
     std::to_array<Word<NodeKind>>({{"group", NodeKind::group},
                                    {"switch", NodeKind::switch_},

@@ -169,6 +169,13 @@ std::span<const PointerHand> Exercise::pointers(std::size_t index) const noexcep
   return members_[index]->hands.pointers;
 }
 
+std::vector<std::string> Exercise::device_notices() {
+  std::vector<std::string> all = real_.take_notices();
+  for (const auto& member : members_)
+    for (std::string& sentence : member->hands.take_notices()) all.push_back(std::move(sentence));
+  return all;
+}
+
 haptics::ContactRing* Exercise::contacts(std::size_t peer, std::size_t device) noexcept {
   return hands_[members_[peer]->first_hand + device].contacts.get();
 }

@@ -109,8 +109,8 @@ class Exercise {
   [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
   /// Notices of all peers since the last call.
   [[nodiscard]] std::vector<ReceivedNotice> take_notices();
-  /// Sentences of devices that are no simulation, since the last call.
-  [[nodiscard]] std::vector<std::string> device_notices() { return real_.take_notices(); }
+  /// Sentences of devices that are no simulation, or could not follow, since the last call.
+  [[nodiscard]] std::vector<std::string> device_notices();
   /// Updates a second of peers that would send each hand at each step of its servo.
   [[nodiscard]] double raw_rate() const noexcept;
   /// With (peer, device, step), both numbered from 0.

@@ -13,8 +13,8 @@ FeltDevice::FeltDevice(const peer::SceneFile& scene, const peer::DeviceConfig& c
     evdev_.emplace(exchange_, haptics::evdev_limits(peer::evdev_settings_of(config)));
     return;
   }
-  simulated_ = make_simulated_device(scene, config);
-  mapped_.emplace(*simulated_, mapping_of(config));
+  held_ = make_held_device(scene, config);
+  mapped_.emplace(*held_, mapping_of(config));
 }
 
 void check_felt(const peer::SceneFile& scene, const haptics::EffectPlan& plan) {

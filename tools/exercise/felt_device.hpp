@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
-#include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -17,7 +16,7 @@ namespace reckon::tools {
 /// Its limits are those of the real device. Nothing is opened.
 class FeltDevice {
  public:
-  /// @throws as make_simulated_device()
+  /// @throws as make_held_device()
   FeltDevice(const peer::SceneFile& scene, const peer::DeviceConfig& config);
   FeltDevice(const FeltDevice&) = delete;
   FeltDevice& operator=(const FeltDevice&) = delete;
@@ -30,7 +29,7 @@ class FeltDevice {
  private:
   haptics::EvdevExchange exchange_;
   std::optional<haptics::EvdevDevice> evdev_;  // of a device that renders springs
-  std::unique_ptr<haptics::SimulatedDevice> simulated_;
+  std::unique_ptr<haptics::HapticDevice> held_;
   std::optional<haptics::MappedDevice> mapped_;
 };
 

@@ -83,7 +83,7 @@ HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
     for (const PointerHand& pointer : hands.pointers) {
       if (twins_.size() == kMost) break;
       twins_.push_back(std::make_unique<Twin>(
-          peer, pointer, std::move(hands.devices[pointer.device]), plan, scene, exercise));
+          peer, pointer, std::move(hands.devices[pointer.held]), plan, scene, exercise));
     }
   }
   for (const auto& twin : twins_) twin->lines.resize(twins_.size());

@@ -127,6 +127,7 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
     if (first == scene.devices.end())
       throw UsageError(fmt::format("--device: peer {} has no device in this scene", number));
     first->source = peer::DeviceSource::simulated;
+    first->admittance.mass = 0.0;
     // What the scene says of a simulated device's friction and delay is not said of this one.
     const DeviceDriver chosen = driver_of(choice.device);
     if (chosen == DeviceDriver::plugin) first->plugin = std::filesystem::absolute(choice.device);

@@ -223,6 +223,42 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::Scen
                                                     std::move(held.turns));
 }
 
+std::unique_ptr<AdmittanceHand> make_admittance_hand(const peer::SceneFile& scene,
+                                                     const peer::DeviceConfig& device,
+                                                     const haptics::HandScript& path) {
+  Held held = hold(scene, device, path);
+  haptics::SimulatedMotionConfig motion;
+  motion.loop = device.admittance.loop;
+  motion.bandwidth = device.admittance.bandwidth;
+  motion.sensor_stiffness = device.admittance.sensor_stiffness;
+  motion.hand_stiffness = held.config.hand_stiffness;
+  motion.hand_damping = held.config.hand_damping;
+  motion.max_force = device.max_force;
+  motion.max_speed = device.max_speed;
+  motion.delay_samples = device.delay_samples;
+  motion.start = held.config.start;
+  motion.workspace = held.config.workspace;
+  haptics::VirtualHandleConfig handle;
+  handle.mass = device.admittance.mass;
+  handle.damping = device.damping;
+  handle.hold = held.config.hold;
+  return std::make_unique<AdmittanceHand>(motion, std::move(held.script), handle);
+}
+
+std::unique_ptr<haptics::HapticDevice> make_held_device(const peer::SceneFile& scene,
+                                                        const peer::DeviceConfig& device) {
+  if (device.admittance.mass > 0) return make_admittance_hand(scene, device);
+  return make_simulated_device(scene, device);
+}
+
+std::vector<std::string> SimulatedHands::take_notices() {
+  std::vector<std::string> all;
+  for (const auto& hand : admittance)
+    if (std::string sentence = hand->take_notice(); !sentence.empty())
+      all.push_back(std::move(sentence));
+  return all;
+}
+
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneFile& scene,
                                                               std::size_t index,
                                                               const haptics::HandScript& path) {
@@ -235,15 +271,17 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
                                     const haptics::HandScript& script) {
   SimulatedHands hands;
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
-    if (config.source == peer::DeviceSource::pointer && !script) {
+    haptics::HapticDevice* wired = nullptr;
+    if (config.admittance.mass > 0) {
+      wired = hands.admittance.emplace_back(make_admittance_hand(scene, config, script)).get();
+    } else if (config.source == peer::DeviceSource::pointer && !script) {
       auto device = make_pointer_device(scene, config);
-      hands.pointers.push_back(
-          {hands.devices.size(), &device->inbox(), config.position, config.orientation});
-      hands.devices.push_back(std::move(device));
+      hands.pointers.push_back({hands.wired.size(), &device->inbox(), config.position,
+                                config.orientation, nullptr, hands.devices.size()});
+      wired = hands.devices.emplace_back(std::move(device)).get();
     } else {
-      hands.devices.push_back(make_simulated_device(scene, config, script));
+      wired = hands.devices.emplace_back(make_simulated_device(scene, config, script)).get();
     }
-    haptics::HapticDevice* wired = hands.devices.back().get();
     if (const haptics::HandMapping mapping = mapping_of(config); !mapping.is_plain())
       wired =
           hands.mapped.emplace_back(std::make_unique<haptics::MappedDevice>(*wired, mapping)).get();
@@ -257,7 +295,7 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
 void check_files(const peer::SceneFile& scene, std::size_t hands) {
   static_cast<void>(haptics::EffectPlan(scene.scene));
   for (const peer::DeviceConfig& device : scene.devices) {
-    static_cast<void>(make_simulated_device(scene, device));
+    static_cast<void>(make_held_device(scene, device));
   }
   if (!scene.devices.empty()) return;
   const std::size_t different = std::min(hands, scene.operators.size());

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
@@ -15,6 +16,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/exercise/admittance_hand.hpp"
 #include "reckon/tools/exercise/pointer_recorder.hpp"
 
 namespace reckon::tools {
@@ -44,6 +46,15 @@ namespace reckon::tools {
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
     const haptics::HandScript& script = nullptr);
 
+/// The same of a device with a virtual mass. @throws as above.
+[[nodiscard]] std::unique_ptr<AdmittanceHand> make_admittance_hand(
+    const peer::SceneFile& scene, const peer::DeviceConfig& device,
+    const haptics::HandScript& script = nullptr);
+
+/// Whichever of the two it is. @throws as above.
+[[nodiscard]] std::unique_ptr<haptics::HapticDevice> make_held_device(
+    const peer::SceneFile& scene, const peer::DeviceConfig& device);
+
 /// One device of a scene that follows a pointer, whatever its table says of that, and its operator
 /// while nobody points. @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::PointerDevice> make_pointer_device(
@@ -57,6 +68,7 @@ struct PointerHand {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   PointerRecorder* recorder = nullptr;  ///< gets the same, for a second device; null: none
+  std::size_t held = 0;                 ///< of SimulatedHands::devices, from 0
 
   /// Leads the hand to a point of S [m]; see haptics::PointerInbox::put, whose thread it is.
   bool lead(const Eigen::Vector3d& p_S, bool grabs = false) const noexcept {
@@ -74,9 +86,13 @@ struct PointerHand {
 /// The devices of one peer, and how they stand in the scene.
 struct SimulatedHands {
   std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
+  std::vector<std::unique_ptr<AdmittanceHand>> admittance;     ///< beside `devices`
   std::vector<std::unique_ptr<haptics::MappedDevice>> mapped;  ///< before those that have a mapping
-  std::vector<peer::PeerDevice> wired;                         ///< to `devices`, or to `mapped`
-  std::vector<PointerHand> pointers;  ///< those of `devices` that follow one
+  std::vector<peer::PeerDevice> wired;  ///< all, in their order, or what maps them
+  std::vector<PointerHand> pointers;    ///< those of `devices` that follow one
+
+  /// Sentences since the last call, of devices that could not follow. One thread, any.
+  [[nodiscard]] std::vector<std::string> take_notices();
 };
 
 /// All devices that peer `peer` (from 1) has by devices_of(), maybe none, all moved by the script

@@ -146,9 +146,10 @@ class RunningPeer {
     return joined_.take_sealing_notices();
   }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
-  /// Of its devices that are no simulation, and of the software stop.
+  /// Of its devices, and of the software stop.
   [[nodiscard]] std::vector<std::string> device_notices() {
     std::vector<std::string> all = real_.take_notices();
+    for (std::string& sentence : hands_.take_notices()) all.push_back(std::move(sentence));
     for (std::string& sentence : stop_.take_notices()) all.push_back(std::move(sentence));
     return all;
   }

@@ -63,8 +63,13 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
                        peer::format_quantity(device.reach, "m"), index + 1,
                        peer::format_quantity(haptics::PointerPath::kLag, "s"));
   }
-  return fmt::format("operator {}, {}{}", index + 1, peer::word_of(config.kind),
-                     device.operator_number > count ? ", aside" : "");
+  return fmt::format("operator {}, {}{}{}", index + 1, peer::word_of(config.kind),
+                     device.operator_number > count ? ", aside" : "",
+                     device.admittance.mass > 0
+                         ? fmt::format("; it moves by itself, as a mass of {}, to {}",
+                                       peer::format_quantity(device.admittance.mass, "kg"),
+                                       peer::format_quantity(device.admittance.bandwidth, "Hz"))
+                         : "");
 }
 
 std::string spring_limits_of(const peer::DeviceConfig& device) {

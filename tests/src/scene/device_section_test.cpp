@@ -120,6 +120,29 @@ TEST(DeviceSection, RefusesAToolThatItsDeviceCannotTurn) {
   EXPECT_THAT(refused(nine), HasSubstr("a tool has at most 8 probes, this one has 9"));
 }
 
+TEST(DeviceSection, MakesADeviceThatMovesByItself) {
+  const AdmittanceConfig plain =
+      device_of(
+          "virtual_mass = \"3 kg\"\nbandwidth = \"50 Hz\"\nsensor_stiffness = \"10 kN/m\"\n"
+          "motion_loop = \"velocity\"\ndelay = \"2 ms\"\n")
+          .admittance;
+  EXPECT_EQ(plain.mass, 3);
+  EXPECT_EQ(plain.bandwidth, 50);
+  EXPECT_EQ(plain.sensor_stiffness, 10e3);
+  EXPECT_EQ(plain.loop, haptics::MotionLoop::velocity);
+  EXPECT_EQ(device_of("").admittance.mass, 0) << "it takes forces";
+  const auto refused = [](const std::string& lines) {
+    return refusal("[[device]]\n" + lines + kOperator);
+  };
+  const std::string mass = "virtual_mass = \"2 kg\"\n";
+  EXPECT_THAT(refused("bandwidth = \"30 Hz\"\n"), HasSubstr("add virtual_mass"));
+  EXPECT_THAT(refused(mass + "axes = 6\n"), HasSubstr("a virtual mass does not turn"));
+  EXPECT_THAT(refused(mass + "kind = \"pointer\"\n"), HasSubstr("a pointer holds a device"));
+  EXPECT_THAT(refused(mass + "driver = \"falcon\"\n"), HasSubstr("only a simulated device"));
+  EXPECT_THAT(refused(mass + "damping = 0\n"), HasSubstr("a virtual mass needs damping"));
+  EXPECT_THAT(refused(mass + "resolution = \"10 um\"\n"), HasSubstr("computed and exact"));
+}
+
 // What a servo may rely on is the driver's to say, as far as the file does not.
 TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_EQ(device_of("driver = \"simulated\"\n").driver, DeviceDriver::simulated);

@@ -54,8 +54,17 @@ double largest(const std::vector<Felt>& steps) {
   return most;
 }
 
+// Grip and wall are springs in a row, of the second device the sensor and the motors too.
+TEST(ThesisScenes, FeelOneWallAlikeWithDevicesOfBothKinds) {
+  const auto felt = run_scene("admittance", 2);
+  const double takes_force = largest(felt[0]), moves = largest(felt[1]);
+  EXPECT_NEAR(takes_force, 0.01 / (1 / 300.0 + 1 / 1200.0), 0.02);
+  // Beside the swing of its mass, which has come to the wall at 20 mm/s.
+  EXPECT_NEAR(moves, 0.01 / (1 / 300.0 + 1 / 1200.0 + 1 / 20e3 + 1 / 177.7e3), 0.03);
+}
+
 TEST(ThesisScenes, AreGoodAndAskForNoMoreThanTheirDevicesShow) {
-  for (const char* name : {"stiff_wall", "slip", "one_user_push", "two_user_push"}) {
+  for (const char* name : {"stiff_wall", "slip", "one_user_push", "two_user_push", "admittance"}) {
     const auto result = test::run_reckon({"scene", "check", path_of(name)});
     EXPECT_EQ(result.status, 0) << result.out;
     EXPECT_THAT(result.out, HasSubstr("good"));

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/admittance_hand.hpp"
+
+#include <fmt/format.h>
+
+#include "reckon/peer/scene/units.hpp"
+
+namespace reckon::tools {
+
+std::string AdmittanceHand::take_notice() {
+  const std::uint64_t heavier = handle_.heavier();
+  if (heavier == told_) return {};
+  const std::uint64_t times = heavier - std::exchange(told_, heavier);
+  return fmt::format(
+      "an admittance device could not follow its hand: its mass of {} was doubled {} for some "
+      "seconds; a greater virtual_mass, more damping or a looser grip go without",
+      peer::format_quantity(own_mass_, "kg"), times == 1 ? "once" : fmt::format("{} times", times));
+}
+
+}  // namespace reckon::tools
