@@ -10,12 +10,13 @@ namespace reckon::tools {
 
 std::string AdmittanceHand::take_notice() {
   const std::uint64_t heavier = handle_.heavier();
-  if (heavier == told_) return {};
-  const std::uint64_t times = heavier - std::exchange(told_, heavier);
+  if (heavier == 0 || heavier < 2 * told_) return {};
+  told_ = heavier;
   return fmt::format(
-      "an admittance device could not follow its hand: its mass of {} was doubled {} for some "
-      "seconds; a greater virtual_mass, more damping or a looser grip go without",
-      peer::format_quantity(own_mass_, "kg"), times == 1 ? "once" : fmt::format("{} times", times));
+      "an admittance device could not follow its hand: its mass of {} was doubled for some "
+      "seconds, {} so far; a greater virtual_mass, more damping or a looser grip go without",
+      peer::format_quantity(own_mass_, "kg"),
+      heavier == 1 ? "once" : fmt::format("{} times", heavier));
 }
 
 }  // namespace reckon::tools

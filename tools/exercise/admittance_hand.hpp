@@ -29,7 +29,8 @@ class AdmittanceHand final : public haptics::HapticDevice {
     handle_.write(force, now);
   }
 
-  /// Since the last call, if its device could not follow: a sentence; else empty. One thread, any.
+  /// The first time that its device could not follow, and each time that it was twice as often as
+  /// last told: a sentence; else empty. One thread, any.
   [[nodiscard]] std::string take_notice();
 
  private:
