@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -17,6 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
 constexpr double kSoon = 3.0;  // periods, in which what comes nearer may be met
 // Of what a body can take of a spring beside the wall's, and of viscosity that is held for a
 // period.
@@ -46,7 +49,7 @@ PressedBodiesOf<axes>::PressedBodiesOf(std::shared_ptr<BodyWorld> world, const E
   hand_ = world_->add_hand();
   pushes_.reserve(std::min(probes * (world_->states().size() + 1), BodyWorld::kMostPushes));
   gifts_.reserve(pushes_.capacity());
-  body_of_.resize(plan.objects().size());
+  body_of_.assign(plan.objects().size(), kNoBody);
   const double period = pdu::to_seconds(config.period);
   for (const BodyState& body : world_->states()) {
     const PlannedObject& object = plan.objects()[body.object];
@@ -153,7 +156,7 @@ void PressedBodiesOf<axes>::take(const ToolOf<axes>& tool, StaticContactOf<axes>
   double most = 0.0;
   for (const std::uint32_t object : touched.touched) {
     const std::uint32_t i = body_of_[object];
-    if (states[i].object != object) continue;  // it is no body
+    if (i == kNoBody) continue;
     const double force = touched.objects[object].force.norm();
     const Hold& hold = holds_[i];
     const bool by_button = pressed && hold.by_button.stiffness > 0;
@@ -173,6 +176,7 @@ void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<ax
     const WallContact& walls = contacts.walls(probe);
     const Vector3d velocity = tool.velocity(probe);
     for (const std::uint32_t index : walls.result().touched) {
+      if (body_of_[index] == kNoBody) continue;
       const ObjectContact& contact = walls.result().objects[index];
       BodySpring spring;
       spring.point = contact.scp;
@@ -194,6 +198,7 @@ void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<ax
     if (grab.holds()) press_held(grab, probe, velocity);
   }
   world_->foresee(hand_, period);
+  if (!std::exchange(foresaw_, !pushes_.empty()) && !foresaw_) return;
   std::array<Vector3d, kMostProbes> of_walls, of_grab;
   of_walls.fill(Vector3d::Zero());
   of_grab.fill(Vector3d::Zero());
@@ -228,9 +233,8 @@ void PressedBodiesOf<axes>::press_held(const Grab& grab, std::size_t probe,
 template <int axes>
 void PressedBodiesOf<axes>::press(const WallContact& walls, std::size_t probe, std::uint32_t object,
                                   BodySpring spring) noexcept {
-  const std::span<const BodyState> states = world_->states();
   const std::uint32_t body = body_of_[object];
-  if (states[body].object != object || states[body].carried) return;  // or no body
+  if (world_->states()[body].carried) return;
   spring.body = body;
   spring.stiffness = walls.stiffness_of(object);
   spring.friction = walls.friction_of(object);

@@ -90,9 +90,10 @@ class PressedBodiesOf {
   double pad_ = 0.0;  // [m], radius by which a grip resists turning
   std::uint32_t buttons_ = 0;
   std::vector<Hold> holds_;             // of the bodies
-  std::vector<std::uint32_t> body_of_;  // of the plan's objects, those that have one
+  std::vector<std::uint32_t> body_of_;  // of the plan's objects; kNoBody
   std::array<bool, kMostProbes> by_{};  // a probe holds its body by the button
   std::vector<Push> pushes_;
+  bool foresaw_ = false;     // a push, in the last step
   std::vector<Gift> gifts_;  // of the last period
   double work_ = 0.0;
 };
