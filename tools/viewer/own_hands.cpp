@@ -105,7 +105,9 @@ HandMark OwnHands::mark(std::size_t index) {
   if (std::exchange(hand.rate_limited, step.tally.rate.seconds) < step.tally.rate.seconds)
     flags |= kHandRateLimited;
   const std::uint64_t let_go = step.tally.let_go + step.trips;
-  if (std::exchange(hand.let_go, let_go) < let_go || !step.enabled) flags |= kHandLetGo;
+  if (std::exchange(hand.let_go, let_go) < let_go || (!step.enabled && !step.stopped))
+    flags |= kHandLetGo;
+  if (step.stopped) flags |= kHandStopped;
   if (hand.pointer_free)
     flags |= kHandPointer | (*hand.pointer_free ? unsigned{kHandPointerFree} : 0U);
   if (hand.twin && hand.twin->force) {

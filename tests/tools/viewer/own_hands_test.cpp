@@ -32,5 +32,21 @@ TEST(OwnHands, MarkTheForceOfAHiddenTwinWhileItFeels) {
   EXPECT_EQ(frame.twins.size(), 1U);
 }
 
+// By the software stop, or by a device that lets go: these are two things.
+TEST(OwnHands, AreMarkedWhereTheirForceIsStopped) {
+  OwnHands hands{peer::HandModel{}};
+  hands.add(0, {});
+  const auto flags = [&](bool enabled, bool stopped) {
+    haptics::ServoSnapshot step;
+    step.enabled = enabled;
+    step.stopped = stopped;
+    hands.take(0, step);
+    return hands.frame(0ns, true).hands[0].flags & (kHandStopped | kHandLetGo);
+  };
+  EXPECT_EQ(flags(true, false), 0);
+  EXPECT_EQ(flags(false, true), kHandStopped);
+  EXPECT_EQ(flags(false, false), kHandLetGo);
+}
+
 }  // namespace
 }  // namespace reckon::tools

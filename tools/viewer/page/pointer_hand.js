@@ -114,6 +114,9 @@ export class PointerHand {
     if (this.index === null) return;
     if (this.keys.size && this.grip(moment)) this.moveByKeys(seconds);
     const hand = this.hand(moment);
+    const stopped = !!hand && (hand.flags & HAND_FLAGS.stopped) !== 0;
+    if (stopped && !this.stopped) this.say('All forces are stopped, by the software stop.', 'warning');
+    this.stopped = stopped;
     if (hand && hand.flags & HAND_FLAGS.letGo && !this.told) this.say('The device let go; the force comes back when it is calm.', 'warning');
     this.told = !!hand && (hand.flags & HAND_FLAGS.letGo) !== 0;
   }

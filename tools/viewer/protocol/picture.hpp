@@ -41,7 +41,8 @@ enum HandFlag : std::uint16_t {
   kHandPointerFree = 32,
   kHandYours = 64,       ///< by this page
   kHandTrueForce = 128,  ///< true_force is known
-  kHandTwin = 256        ///< twin_force is known
+  kHandTwin = 256,       ///< twin_force is known
+  kHandStopped = 512     ///< the software stop holds its force at zero
 };
 
 /// An entity; east, north, up of the origin [m].
