@@ -39,6 +39,8 @@ std::string device_text(const Softened& row) {
   return fmt::format("{} of peer {}", row.device, row.peer);
 }
 
+constexpr double kAlmost = 1.0 - 1e-9;
+
 // Subject of one sentence: things of one kind that the same devices show alike.
 struct Group {
   Softened first;
@@ -61,9 +63,11 @@ std::string sentence(const Group& group, std::size_t devices) {
   }
   const bool beside = group.first.shown < group.first.alone;
   const std::string remedy = fmt::format(
-      "{}; {}more damping, a higher rate or less delay in [[device]] shows more",
+      "{}; {}{} in [[device]] shows more",
       beside ? fmt::format(", {:.6g} N/m without the damper beside it", group.first.alone) : "",
-      beside ? "less damping there, " : "");
+      beside ? "less damping there, " : "",
+      group.first.has_limit ? "a greater max_stiffness"
+                            : "more damping, a higher rate or less delay");
   if (group.first.is_hardening()) {
     return fmt::format("k3 of [hand] is felt up to a slope of {:.6g} N/m, {:.3g} mm deep, by {}{}",
                        group.first.shown, 1e3 * group.first.from, by, remedy);
@@ -94,7 +98,10 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
                                std::make_shared<peer::BodyMover>(plan, scene.nodes)));
       std::string name = fmt::format("device {}", ++count);
       if (!device.marking.empty()) name += " " + device.marking;
-      devices.push_back({number, std::move(name), peer::stiffness_of(servo, scene.hand)});
+      const peer::DeviceStiffness stiffness = peer::stiffness_of(servo, scene.hand);
+      const double own = hand.get().limits().max_stiffness;
+      devices.push_back(
+          {number, std::move(name), stiffness, own > 0 && stiffness.walls >= kAlmost * own});
     }
   }
   return devices;
@@ -105,6 +112,7 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
   std::vector<Softened> rows;
   for (const SceneDevice& device : devices) {
     const peer::DeviceStiffness& can = device.stiffness;
+    const std::size_t first = rows.size();
     const auto note = [&](std::string what, double asked, double most, double alone) {
       if (asked > most)
         rows.push_back({device.peer, device.name, std::move(what), most, asked, 0.0, alone});
@@ -129,6 +137,7 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
       note("entity " + entity.marking, entity.model->k1,
            can.bodies * can.left_beside(entity.model->damping), can.bodies);
     }
+    for (std::size_t i = first; i < rows.size(); ++i) rows[i].has_limit = device.has_limit;
   }
   return rows;
 }

@@ -18,6 +18,7 @@ struct SceneDevice {
   std::uint32_t peer = 1;
   std::string name;  ///< "device 1 LEFT"
   peer::DeviceStiffness stiffness;
+  bool has_limit = false;  ///< its own max_stiffness is what it shows of walls
 };
 
 /// Every device of every peer, with limits from the servo that would drive it. @throws
@@ -36,6 +37,7 @@ struct Softened {
   double alone = 0.0;  ///< [N/m], shown stiffness without the damper beside it; 0: there is none
   /// Whether it is of dampers: `asked` and what is kept for it of the device's damping [N s/m].
   bool damps = false;
+  bool has_limit = false;  ///< as SceneDevice::has_limit
   [[nodiscard]] bool is_hardening() const noexcept { return asked == 0.0; }
 };
 

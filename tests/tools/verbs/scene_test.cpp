@@ -343,6 +343,24 @@ TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
   EXPECT_EQ(json["softened"][1]["shown"], 950);
 }
 
+// What limits it is what would help.
+TEST(SceneCheck, TellsWhetherDampingOrTheLimitOfTheDeviceWouldShowMore) {
+  const auto wall = [](const std::string& device) {
+    const TemporaryScene scene(
+        "[[object]]\nname = \"wall\"\nplane = [1, 0, 0]\nsurface = { stiffness = 20000 }\n"
+        "[[operator]]\npassive = true\nposition = [0.05, 0, 0]\n[[device]]\n"
+        "position = [0.2, 0, 0]\n" +
+        device);
+    return run_reckon({"scene", "check", scene.path()}).out;
+  };
+  EXPECT_THAT(wall(""), HasSubstr("more damping, a higher rate or less delay in [[device]]"));
+  EXPECT_THAT(wall("max_stiffness = 600\n"), HasSubstr("a greater max_stiffness in [[device]]"));
+  EXPECT_THAT(wall("max_stiffness = 5000\n"), HasSubstr("more damping, a higher rate"));
+  EXPECT_THAT(wall("driver = \"evdev\"\ntravel = 0.25\nfull_force = 15\nfull_stiffness = 2000\n"
+                   "max_stiffness = 800\n"),
+              HasSubstr("a greater max_stiffness in [[device]]"));
+}
+
 // Of 1 N s/m three quarters are for surfaces, half of it at most for dampers.
 TEST(SceneCheck, TellsWhatDampersAskAndWhatIsKeptForThem) {
   const auto check = [](const std::string& damping, bool json) {
