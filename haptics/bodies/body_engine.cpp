@@ -120,7 +120,8 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
 
 std::span<const std::uint32_t> BodyEngine::near(std::size_t hand, const HandReach& reach,
                                                 double period) noexcept {
-  return near_.of(hand, reach, about(states_), period);
+  return near_.of(
+      hand, reach, [this] { return about(states_); }, period);
 }
 
 const ObjectMotion& BodyEngine::state_before(std::size_t body) const noexcept {
@@ -130,13 +131,14 @@ const ObjectMotion& BodyEngine::state_before(std::size_t body) const noexcept {
 bool BodyEngine::written(std::size_t hand, const HandReach& reach) noexcept {
   near_.watch(hand, reach);
   written_ |= std::uint64_t{1} << hand % 64;
-  return static_cast<std::size_t>(std::popcount(written_)) >= near_.hands();
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - std::min<std::size_t>(near_.hands(), 64));
+  return (written_ & all) == all;
 }
 
 void BodyEngine::go_ahead() noexcept {
   if (frozen_ || !started_ || ahead_ > 0 || !(period_ > lead_)) return;
   if (is_quiet()) {
-    near_.foresee_moved(about(states_), period_);
+    near_.foresee_moved([this] { return about(states_); }, period_);
     return;
   }
   take_in_met();
@@ -239,10 +241,6 @@ std::span<const std::uint32_t> BodyEngine::with_slot() const noexcept {
 }
 
 // Nothing moves, and has not since both sets of states were read.
-bool BodyEngine::is_quiet() const noexcept {
-  return quiet_ >= 2 && pushes_.empty() && last_.empty() && carried_.empty();
-}
-
 BodiesAbout BodyEngine::about(std::span<const BodyState> states) const noexcept {
   return {states, with_slot(), solver_.slots().asleep()};
 }

@@ -69,7 +69,9 @@ class BodyEngine {
   [[nodiscard]] std::span<const std::uint32_t> last_left() const noexcept { return left_; }
 
  private:
-  [[nodiscard]] bool is_quiet() const noexcept;
+  [[nodiscard]] bool is_quiet() const noexcept {
+    return quiet_ >= 2 && pushes_.empty() && last_.empty() && carried_.empty();
+  }
   [[nodiscard]] BodiesAbout about(std::span<const BodyState> states) const noexcept;
   [[nodiscard]] std::size_t slot_for(std::size_t body) noexcept;
   void take_in_met() noexcept;

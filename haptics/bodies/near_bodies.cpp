@@ -10,14 +10,8 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 
 namespace reckon::haptics {
-namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kMargin = 0.005;  // [m], of a hand that starts from rest
-constexpr double kLeft = 0.5;      // of the margin, up to which a list is not made anew
-
-}  // namespace
 
 NearBodies::NearBodies(std::vector<double> radius) : radius_(std::move(radius)) {
   for (std::uint32_t i = 0; i < radius_.size(); ++i)
@@ -32,20 +26,6 @@ std::size_t NearBodies::add_hand() {
 void NearBodies::foresee(const BodiesAbout& bodies, double period) noexcept {
   for (Hand& hand : hands_) list(hand, hand.watched, bodies, period);
   is_foreseen_ = true;
-}
-
-void NearBodies::foresee_moved(const BodiesAbout& bodies, double period) noexcept {
-  if (!is_foreseen_) return foresee(bodies, period);
-  for (Hand& hand : hands_) {
-    if (!holds(hand, hand.watched, period, kLeft * kMargin))
-      list(hand, hand.watched, bodies, period);
-  }
-}
-
-bool NearBodies::holds(const Hand& hand, const HandReach& reach, double period,
-                       double spare) noexcept {
-  const double left = hand.covers - reach.radius - reach.speed * (kAhead - 1.0) * period - spare;
-  return left >= 0.0 && (reach.middle - hand.at.middle).squaredNorm() <= left * left;
 }
 
 void NearBodies::list(Hand& hand, const HandReach& at, const BodiesAbout& bodies,
@@ -66,13 +46,6 @@ void NearBodies::list(Hand& hand, const HandReach& at, const BodiesAbout& bodies
     if (!std::isinf(radius_[i])) out.push_back(i);
   });
   std::ranges::sort(out);
-}
-
-std::span<const std::uint32_t> NearBodies::of(std::size_t hand, const HandReach& reach,
-                                              const BodiesAbout& bodies, double period) noexcept {
-  Hand& own = hands_[hand];
-  if (!is_foreseen_ || !holds(own, reach, period, 0.0)) list(own, reach, bodies, period);
-  return own.bodies;
 }
 
 std::vector<double> radii_of_moving(const EffectPlan& plan) {

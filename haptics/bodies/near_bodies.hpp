@@ -48,15 +48,31 @@ class NearBodies {
   /// Makes the lists of all hands. @param bodies as they will be  @param period [s]
   void foresee(const BodiesAbout& bodies, double period) noexcept;
   /// The same where no body has moved: of the hands that will soon be out of their lists.
-  void foresee_moved(const BodiesAbout& bodies, double period) noexcept;
+  /// @param about returns the bodies; called where they are needed
+  template <class About>
+  void foresee_moved(const About& about, double period) noexcept {
+    if (!is_foreseen_) return foresee(about(), period);
+    for (Hand& hand : hands_) {
+      if (!holds(hand, hand.watched, period, kLeft * kMargin))
+        list(hand, hand.watched, about(), period);
+    }
+  }
   /// The states are others than those that were foreseen.
   void forget() noexcept { is_foreseen_ = false; }
   /// As foreseen, or else made now: some ns a body that is awake.
+  /// @param about as above
+  template <class About>
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t hand, const HandReach& reach,
-                                                  const BodiesAbout& bodies,
-                                                  double period) noexcept;
+                                                  const About& about, double period) noexcept {
+    Hand& own = hands_[hand];
+    if (!is_foreseen_ || !holds(own, reach, period, 0.0)) list(own, reach, about(), period);
+    return own.bodies;
+  }
 
  private:
+  static constexpr double kMargin = 0.005;  // [m], of a hand that starts from rest
+  static constexpr double kLeft = 0.5;      // of the margin, up to which a list is not made anew
+
   struct Hand {
     HandReach watched, at;  // at the end of its last step; where its list was made for
     double covers = 0.0;    // [m], radius about the middle within which all bodies are listed
@@ -64,7 +80,10 @@ class NearBodies {
   };
   // Whether its list holds for a hand there, with room to spare [m].
   [[nodiscard]] static bool holds(const Hand& hand, const HandReach& reach, double period,
-                                  double spare) noexcept;
+                                  double spare) noexcept {
+    const double left = hand.covers - reach.radius - reach.speed * (kAhead - 1.0) * period - spare;
+    return left >= 0.0 && (reach.middle - hand.at.middle).squaredNorm() <= left * left;
+  }
   void list(Hand& hand, const HandReach& at, const BodiesAbout& bodies,
             double period) const noexcept;
 

@@ -87,8 +87,8 @@ class ContactSolver {
   /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
-  /// The objects of the plan that move, in its order.
-  [[nodiscard]] std::size_t moving() const noexcept { return moving_.size(); }
+  /// How many of the plan's objects that move the last step met.
+  [[nodiscard]] std::size_t placed() const noexcept { return placed_.size(); }
   /// Puts one of them where it is, before a step, which meets only those that were placed since the
   /// last one. The SCP goes on with the body that holds it; one that comes from elsewhere pushes
   /// it.

@@ -41,7 +41,7 @@ Eigen::Vector3d WallContact::move(const Eigen::Vector3d& device, double dt,
   result_ = solver_.step(device, dt);
   measure_stiffness();
   ledger.book(before - stored());
-  if (solver_.moving() > 0) {
+  if (solver_.placed() > 0 || lent_ != 0.0) {
     take_from_carried(ledger);
     lend_for_motion(ledger);
   }

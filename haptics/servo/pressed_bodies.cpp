@@ -118,7 +118,9 @@ template <int axes>
 void PressedBodiesOf<axes>::place(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
                                   double period) noexcept {
   if (!world_) return;
+  placed_ = 0;
   const auto put = [&](std::size_t body) {
+    ++placed_;
     contacts.place(static_cast<std::uint32_t>(body), world_->states()[body],
                    world_->state_before(body));
   };
@@ -138,7 +140,7 @@ void PressedBodiesOf<axes>::place_all(StaticContactOf<axes>& contacts) const noe
 template <int axes>
 void PressedBodiesOf<axes>::grab(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
                                  std::uint32_t pressed, EnergyLedger& ledger) noexcept {
-  if (!world_) return;
+  if (!world_ || placed_ == 0) return;
   const bool is_pressed = (pressed & buttons_) != 0;
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     Grab& grab = contacts.grab(probe);
@@ -172,7 +174,7 @@ template <int axes>
 void PressedBodiesOf<axes>::foresee(const ToolOf<axes>& tool, StaticContactOf<axes>& contacts,
                                     double period) noexcept {
   if (!world_) return;
-  for (std::size_t probe = 0; probe < tool.size(); ++probe) {
+  for (std::size_t probe = 0; placed_ > 0 && probe < tool.size(); ++probe) {
     const WallContact& walls = contacts.walls(probe);
     const Vector3d velocity = tool.velocity(probe);
     for (const std::uint32_t index : walls.result().touched) {

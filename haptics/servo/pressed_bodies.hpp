@@ -84,8 +84,9 @@ class PressedBodiesOf {
 
   std::shared_ptr<BodyWorld> world_;
   std::size_t hand_ = 0;
-  HandReach reach_;      // when the bodies were placed last
-  double radius_ = 0.0;  // [m], of a probe
+  HandReach reach_;         // when the bodies were placed last
+  std::size_t placed_ = 0;  // then
+  double radius_ = 0.0;     // [m], of a probe
   double patch_ = 0.0;
   double pad_ = 0.0;  // [m], radius by which a grip resists turning
   std::uint32_t buttons_ = 0;

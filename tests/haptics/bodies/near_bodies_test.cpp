@@ -118,7 +118,12 @@ TEST(NearBodies, ListWhatActsFromAfar) {
   states[0].position = states[1].position = {5.0, 0.0, 0.0};
   const std::array<std::uint32_t, 2> awake{0, 1};
   const CellGrid asleep;
-  const auto found = near.of(hand, {Vector3d::Zero(), 0.0, 0.0}, {states, awake, asleep}, kPeriod);
+  const auto found = near.of(
+      hand, {Vector3d::Zero(), 0.0, 0.0},
+      [&] {
+        return BodiesAbout{states, awake, asleep};
+      },
+      kPeriod);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0], 1u);
 }
