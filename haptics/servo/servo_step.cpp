@@ -320,7 +320,8 @@ template <int axes>
 void ServoStepOf<axes>::soften_crowd(Load& load) noexcept {
   const double whole = axes == 3 ? body_stiffness_limit() : stiffness_per_damping_;
   const double most = whole - load.walls_slope;
-  const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
+  const bool beyond = load.springs_slope > std::max(0.0, most);  // none has no slope
+  const double goal = beyond ? std::max(0.0, most) / load.springs_slope : 1.0;
   const double step = step_.dt / RemoteContact::kRamp;
   crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
   tally_.crowd.note_force(crowd_share_, tool_.force(load.springs), step_.dt);

@@ -266,5 +266,29 @@ TEST(RegionEffects, AServoShowsAWeightUpAndDown) {
   EXPECT_GE(bench.least, bench::kPassive);
 }
 
+// By sensors with steps a hand comes to rest exactly there, where a spring has a slope and no
+// energy.
+TEST(RegionEffects, AServoShowsASpringToAHandThatRestedAtItsVeryMiddle) {
+  Scene scene;
+  SceneRegion& region = scene.regions.emplace_back();
+  region.name = "tether";
+  region.shape = SphereShape{0.05};
+  region.effects.declare<PointSpring>() = {3000.0};
+  bench::Bench bench(scene, bench::at(0.0, 20e-6), [](double t) {
+    HandTarget hand;
+    hand.position.z() = 0.001 * std::clamp(t - 1.0, 0.0, 1.0);
+    return hand;
+  });
+  bench.run(std::chrono::seconds(1));
+  ASSERT_EQ(bench.servo.snapshots().read().device.norm(), 0.0);
+  bench.run(std::chrono::seconds(2));
+  const ServoSnapshot& last = bench.servo.snapshots().read();
+  // Of what the device shows of walls, a third.
+  EXPECT_NEAR(last.force.z(), -bench.servo.static_stiffness_limit() / 3 * last.device.z(), 1e-3);
+  EXPECT_LT(last.force.z(), -0.05);
+  EXPECT_EQ(last.trips, 0U);
+  EXPECT_GE(bench.least, bench::kPassive);
+}
+
 }  // namespace
 }  // namespace reckon::haptics

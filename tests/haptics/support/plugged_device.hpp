@@ -14,9 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/haptics/usb/usb_device.hpp"
 #include "reckon/haptics/usb/usb_loop.hpp"
+#include "reckon/tests/haptics/support/drawn_touch.hpp"
 #include "reckon/tests/haptics/support/usb_shim.hpp"
 
 namespace reckon::test {
@@ -40,11 +42,17 @@ class PluggedDevice {
 
   template <class Options>
   PluggedDevice(const Options& options, Hand wanted, std::unique_ptr<haptics::UsbDriver> driver,
-                const haptics::DeviceLimits& limits)
+                const haptics::DeviceLimits& limits, const haptics::Scene& scene = stiff_floor())
+      : PluggedDevice(options, std::move(wanted), std::move(driver), limits, scene,
+                      std::make_shared<const haptics::EffectPlan>(scene)) {}
+  template <class Options>
+  PluggedDevice(const Options& options, Hand wanted, std::unique_ptr<haptics::UsbDriver> driver,
+                const haptics::DeviceLimits& limits, const haptics::Scene& scene,
+                std::shared_ptr<const haptics::EffectPlan> plan)
       : model(options, tended(std::move(wanted))),
         shim(model),
         device(exchange, limits),
-        servo(device, haptics::EffectPlan(stiff_floor()), servo_config()),
+        servo(device, plan, servo_config(), haptics::make_bodies(*plan, scene)),
         loop(std::make_unique<haptics::UsbLoop>(exchange, std::move(driver), loop_options())) {
     model.beside([this](std::chrono::nanoseconds now) {
       tend();
@@ -82,6 +90,7 @@ class PluggedDevice {
   typename Model::Care care_;  // what a person does to it
 
  public:
+  std::function<void(std::chrono::nanoseconds)> before_step;  // of the servo
   Model model;
   UsbShim shim;
   haptics::UsbExchange exchange;
@@ -119,11 +128,13 @@ class PluggedDevice {
   }
 
   void step_servo(std::chrono::nanoseconds now) {
+    if (before_step) before_step(now);
     servo.step(now);
     servo.snapshots().update();
     last = servo.snapshots().read();
-    least_own = std::min(least_own, books() + last.loan);
-    least_books = std::min(least_books, books() + last.loan + last.encoder_allowance);
+    const double own = books() + transferred(last) + last.loan;
+    least_own = std::min(least_own, own);
+    least_books = std::min(least_books, own + last.encoder_allowance);
   }
 
   double first_ = 0;

@@ -15,9 +15,11 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/haptics/usb/usb_device.hpp"
+#include "reckon/tests/haptics/support/drawn_touch.hpp"
 #include "reckon/tests/haptics/support/serial_board.hpp"
 
 namespace reckon::test {
@@ -61,9 +63,14 @@ class WiredBoard {
 
   WiredBoard(const SerialBoardOptions& options, std::function<Vector3d(double)> hand,
              const haptics::DeviceLimits& limits, const haptics::Scene& scene)
+      : WiredBoard(options, std::move(hand), limits, scene,
+                   std::make_shared<const haptics::EffectPlan>(scene)) {}
+  WiredBoard(const SerialBoardOptions& options, std::function<Vector3d(double)> hand,
+             const haptics::DeviceLimits& limits, const haptics::Scene& scene,
+             std::shared_ptr<const haptics::EffectPlan> plan)
       : board(options, std::move(hand)),
         device(exchange, limits),
-        servo(device, haptics::EffectPlan(scene), servo_config()),
+        servo(device, plan, servo_config(), haptics::make_bodies(*plan, scene)),
         session(std::in_place, exchange, limits, 1U, static_cast<std::uint16_t>(65'530),
                 board.now()),
         random_(options.seed),
@@ -81,7 +88,8 @@ class WiredBoard {
   LineWay in, out;
   LineFaults faults;
   bool servo_runs = true;
-  bool in_is_cut = false, out_is_cut = false;  // no octets
+  std::function<void(std::chrono::nanoseconds)> before_step;  // of the servo
+  bool in_is_cut = false, out_is_cut = false;                 // no octets
   double least_books = 0;  // [J], of the board's own books with loan and allowance
   double least_own = 0;    // [J], with loan alone
   haptics::ServoSnapshot last;
@@ -137,11 +145,13 @@ class WiredBoard {
   }
 
   void step_servo(std::chrono::nanoseconds now) {
+    if (before_step) before_step(now);
     servo.step(now);
     servo.snapshots().update();
     last = servo.snapshots().read();
-    least_own = std::min(least_own, board.books() + last.loan);
-    least_books = std::min(least_books, board.books() + last.loan + last.encoder_allowance);
+    const double own = board.books() + transferred(last) + last.loan;
+    least_own = std::min(least_own, own);
+    least_books = std::min(least_books, own + last.encoder_allowance);
   }
 
   std::mt19937 random_;

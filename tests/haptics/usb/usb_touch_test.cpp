@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Devices behind the real libusb at whatever there is to touch: walls, hands of others, effects,
+// bodies, at five delays each. Energy by the models' own books. RECKON_SOAK=1 draws 200 of each.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <utility>
+
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/tests/haptics/support/falcon_model.hpp"
+#include "reckon/tests/haptics/support/plugged_device.hpp"
+#include "reckon/tests/haptics/support/polhem_model.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using test::DrawnTouch;
+using test::TouchKind;
+
+int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 1; }
+
+constexpr int kDelays = 5;
+
+struct Falcon {
+  using Model = test::FalconModel;
+  // Its chip's timer fires at other times of a frame, and the servo is told of more than there is.
+  static test::FalconModelOptions options(int delay) {
+    test::FalconModelOptions options;
+    options.tick_at = 0.1 + 0.2 * delay;
+    return options;
+  }
+  static milliseconds chain(int delay) { return milliseconds(6 + 2 * delay); }
+  static std::unique_ptr<UsbDriver> driver() {
+    return std::make_unique<FalconDriver>(FalconFirmware{});
+  }
+  static const UsbFacts& facts() { return falcon_facts(); }
+};
+
+struct Polhem {
+  using Model = test::PolhemModel;
+  // It is asked and told at other times of a frame.
+  static test::PolhemModelOptions options(int delay) {
+    test::PolhemModelOptions options;
+    options.in_at = 0.2 * delay;
+    options.out_at = 0.15 * (4 - delay);
+    return options;
+  }
+  static milliseconds chain(int delay) { return milliseconds(6 + 2 * delay); }
+  static std::unique_ptr<UsbDriver> driver() { return std::make_unique<PolhemDriver>(); }
+  static const UsbFacts& facts() { return polhem_facts(); }
+};
+
+template <class Device>
+class UsbTouch : public testing::Test {};
+using Devices = testing::Types<Falcon, Polhem>;
+class Names {
+ public:
+  template <class Device>
+  static std::string GetName(int) {
+    return std::is_same_v<Device, Falcon> ? "Falcon" : "Polhem";
+  }
+};
+TYPED_TEST_SUITE(UsbTouch, Devices, Names);
+
+TYPED_TEST(UsbTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch) {
+  double least = 0, allowance = 0, felt = 0;
+  for (const TouchKind kind : test::kTouchKinds) {
+    double most_force = 0;
+    for (int run = 0; run < seeds() * kDelays; ++run) {
+      const int delay = run % kDelays;
+      const auto seed = static_cast<unsigned>(1 + run);
+      DrawnTouch touch(kind, seed);
+      auto options = TypeParam::options(delay);
+      options.seed = seed;
+      options.mass = run % 3 == 0 ? 0.5 : 0.1;
+      options.hand_stiffness = 50.0 * (1 + run * 7 % 12);
+      options.hand_damping = run % 2 == 0 ? 0.5 : 3.0;
+      UsbSettings settings;
+      settings.damping = options.damping = 6.0;  // so that walls are felt
+      settings.chain = TypeParam::chain(delay);
+      test::PluggedDevice<typename TypeParam::Model> plugged(
+          options, [&](double t) { return touch.hand(t - 3.0); }, TypeParam::driver(),
+          usb_limits(TypeParam::facts(), settings), touch.scene());
+      plugged.run(milliseconds(900));
+      plugged.begin_books();
+      plugged.before_step = [&](nanoseconds now) {
+        touch.play_others(plugged.servo, now - milliseconds(3000));
+        most_force = std::max(most_force, plugged.last.force.norm());
+      };
+      plugged.run(milliseconds(7000));
+      const std::string which = "kind " + std::to_string(static_cast<int>(kind)) + ", seed " +
+                                std::to_string(seed) + ", delay " + std::to_string(delay);
+      ASSERT_GE(plugged.least_books, -1e-9) << which;
+      if (kind != TouchKind::bodies) {
+        ASSERT_LE(plugged.last.port_energy - test::transferred(plugged.last),
+                  plugged.books() + plugged.last.encoder_allowance + 1e-9)
+            << which;
+      }
+      ASSERT_LE(plugged.last.trips, 1U) << which << ": before there was a device";
+      least = std::min(least, plugged.least_own);
+      allowance = std::max(allowance, plugged.last.encoder_allowance);
+    }
+    EXPECT_GT(most_force, 0.3) << "nothing is felt of kind " << static_cast<int>(kind);
+    felt = std::max(felt, most_force);
+  }
+  std::printf("least %.3g J without the encoders' allowance of up to %.3g J; to %.1f N\n", least,
+              allowance, felt);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
