@@ -8,10 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
+#include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_motion.hpp"
+#include "reckon/tests/haptics/support/drawn_touch.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
@@ -30,7 +33,8 @@ struct Stand {
         VirtualHandleConfig config = {})
       : motion(device, std::move(script)),
         handle(motion, with_hold(config)),
-        servo(handle, EffectPlan(scene), {}) {}
+        plan(std::make_shared<const EffectPlan>(scene)),
+        servo(handle, plan, {}, make_bodies(*plan, scene)) {}
 
   static VirtualHandleConfig with_hold(VirtualHandleConfig config) {
     config.hold = 1500us;
@@ -40,8 +44,9 @@ struct Stand {
     servo.step(now);
     servo.snapshots().update();
     const ServoSnapshot& snapshot = servo.snapshots().read();
-    least = std::min(least, motion.handle_work() + handle.written_off());
-    port = std::min(port, snapshot.port_energy);
+    least =
+        std::min(least, motion.handle_work() + handle.written_off() + test::transferred(snapshot));
+    port = std::min(port, snapshot.port_energy + snapshot.loan);
     now += period;
     return snapshot;
   }
@@ -51,6 +56,7 @@ struct Stand {
 
   SimulatedMotion motion;
   VirtualHandle handle;
+  std::shared_ptr<const EffectPlan> plan;
   ServoLoop servo;
   nanoseconds now{0};
   double least = 0.0, port = 0.0;  // [J]
@@ -178,6 +184,34 @@ TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
   }
   EXPECT_GT(heavier, 20) << "the scenes are easy";
   EXPECT_LT(heavier, 60);
+}
+
+// Walls, hands of others, effects, bodies.
+TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverThereIsToTouch) {
+  for (const test::TouchKind kind : test::kTouchKinds) {
+    double most = 0.0;
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      test::DrawnTouch touch(kind, seed);
+      SimulatedMotionConfig config =
+          device(seed % 2 == 0 ? MotionLoop::position : MotionLoop::velocity, 100.0 * seed);
+      config.start = touch.hand(0);
+      config.delay_samples = static_cast<int>(seed % 5);
+      Stand stand(touch.scene(), config, [&](double t) {
+        HandTarget hand;
+        hand.position = touch.hand(t);
+        return hand;
+      });
+      for (int i = 0; i < 5000; ++i) {
+        touch.play_others(stand.servo, stand.now);
+        most = std::max(most, stand.step().force.norm());
+      }
+      EXPECT_GE(stand.least, -2.2 * VirtualHandleConfig{}.loan)
+          << static_cast<int>(kind) << ' ' << seed;
+      EXPECT_GE(stand.port, -1e-9) << static_cast<int>(kind) << ' ' << seed;
+      EXPECT_LE(stand.handle.heavier(), 10U) << static_cast<int>(kind) << ' ' << seed;
+    }
+    EXPECT_GT(most, 1.0) << static_cast<int>(kind);
+  }
 }
 
 // 200 g behind 30 Hz swing with a hand of 300 N/m: the plain loop diverges. It becomes heavier, and
