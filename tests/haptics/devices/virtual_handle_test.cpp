@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -142,12 +144,13 @@ TEST(VirtualHandle, GoesAsAMassWithDampingAtAnyRate) {
   }
 }
 
-// Masses, grips, loops, walls, friction, rates of loss: what the hand got beyond what was written
-// off is the loan, and what the device did by itself while the mass stood: 7.3 mJ in the worst of
-// 1,000 seeds.
+// Masses, grips, loops, walls, friction, delays: what the hand got beyond what was written off is
+// the loan, and what the device did by itself while the mass stood. RECKON_SOAK=1 draws 1,000.
 TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
-  int heavier = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 1000 : 60;
+  unsigned heavier = 0;
+  double least = 0.0;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
     std::mt19937_64 random(seed);
     const auto within = [&](double least, double most) {
       return std::uniform_real_distribution<double>(least, most)(random);
@@ -178,12 +181,15 @@ TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
     EXPECT_GE(stand.least, -2.2 * mass.loan) << seed;
     EXPECT_GE(stand.port, -1e-9) << seed << ": the mass is passive";
     EXPECT_LE(stand.handle.written_off(),
-              2.5 * mass.loan * static_cast<double>(stand.handle.heavier()))
+              3.0 * mass.loan * static_cast<double>(stand.handle.heavier()))
         << seed;
-    heavier += stand.handle.heavier() > 0 ? 1 : 0;
+    heavier += stand.handle.heavier() > 0 ? 1U : 0U;
+    least = std::min(least, stand.least);
   }
-  EXPECT_GT(heavier, 20) << "the scenes are easy";
-  EXPECT_LT(heavier, 60);
+  std::printf("least %.3g J beside what was written off; %u of %u became heavier\n", least, heavier,
+              seeds);
+  EXPECT_GT(heavier, seeds / 3) << "the scenes are easy";
+  EXPECT_LT(heavier, seeds);
 }
 
 // Walls, hands of others, effects, bodies.
