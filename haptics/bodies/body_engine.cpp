@@ -278,7 +278,7 @@ void BodyEngine::take_in_met() noexcept {
     const double way = BodySolver::kNear + kMetAhead * period_ * motion.velocity.norm();
     Eigen::AlignedBox3d box = solver_.box(slot);
     box.extend(Vector3d(box.min().array() - way)).extend(Vector3d(box.max().array() + way));
-    solver_.slots().asleep().visit(box, [&](std::uint32_t body) {
+    solver_.visit_asleep(slot, box, [&](std::uint32_t body) {
       if (met_.size() < met_.capacity()) met_.push_back(body);
     });
   }

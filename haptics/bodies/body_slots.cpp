@@ -88,6 +88,7 @@ void BodySlots::sit(std::size_t slot, const BodyKind& kind) noexcept {
   RigidBody& body = bodies_[slot];
   static_cast<BodyKind&>(body) = kind;
   slot_of_[kind.number] = slot;
+  body.clear_since = 0;
   const bool was_asleep = kind.geom != nullptr && dGeomGetSpace(kind.geom) == nullptr;
   if (was_asleep) {
     asleep_.remove(static_cast<std::uint32_t>(kind.number));
@@ -130,6 +131,7 @@ void BodySlots::lie_down(const BodyKind& kind) noexcept {
   dGeomSetQuaternion(kind.geom, turned);
   asleep_.place(static_cast<std::uint32_t>(kind.number), box_of(kind.geom));
   asleep_energy_ += kind.height_energy(kind.at, gravity_);
+  ++lain_down_;
 }
 
 }  // namespace reckon::haptics

@@ -44,6 +44,22 @@ class BodySlots {
   [[nodiscard]] std::size_t slot_of(std::size_t body) const noexcept { return slot_of_[body]; }
   /// Boxes of those without a slot [m], S, by their numbers.
   [[nodiscard]] const CellGrid& asleep() const noexcept { return asleep_; }
+  /// Calls visit(number) for each of those whose box overlaps or touches `box` of a slot [m, S].
+  /// Where none is near, the slot's next boxes thereabouts cost some ns.
+  template <class Visit>
+  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, Visit&& visit) {
+    RigidBody& body = bodies_[slot];
+    if (asleep_.size() == 0 || (body.clear_since == lain_down_ && body.clear.contains(box))) return;
+    bool any = false;
+    asleep_.visit(box, [&](std::uint32_t number) {
+      any = true;
+      visit(number);
+    });
+    if (any) return;
+    body.clear = {box.min().array() - kClear, box.max().array() + kClear};
+    asleep_.visit(body.clear, [&](std::uint32_t) { any = true; });
+    body.clear_since = any ? 0 : lain_down_;
+  }
   /// Of their weight [J].
   [[nodiscard]] double asleep_energy() const noexcept { return asleep_energy_; }
   /// Gives a body a slot: a new one, or that of one that sleeps and is not in `pinned`, which then
@@ -66,6 +82,8 @@ class BodySlots {
   }
 
  private:
+  static constexpr double kClear = 0.005;  // [m], about a box that meets none
+
   void sit(std::size_t slot, const BodyKind& kind) noexcept;
   void leave(std::size_t slot) noexcept;
   void lie_down(const BodyKind& kind) noexcept;
@@ -78,6 +96,7 @@ class BodySlots {
   std::vector<RigidBody> bodies_;     // by their slots
   BodySet carried_ = 0;
   CellGrid asleep_;
+  std::uint64_t lain_down_ = 1;  // how often one was added to them
   double asleep_energy_ = 0.0;
   std::size_t next_out_ = 0;  // slot
 };

@@ -331,7 +331,7 @@ void BodySolver::meet_sleeping() noexcept {
   each_acting([&](std::size_t i) {
     const RigidBody& body = body_at(i);
     if (body.geom == nullptr || !body.is_awake()) return;
-    slots_->asleep().visit(box_of(body.geom), [&](std::uint32_t number) {
+    slots_->visit_asleep(i, box_of(body.geom), [&](std::uint32_t number) {
       collide(body.geom, slots_->kinds()[number].geom);
     });
   });

@@ -48,6 +48,12 @@ class BodySolver {
     return slots_->take_in(body, pinned);
   }
 
+  /// See BodySlots.
+  template <class Visit>
+  void visit_asleep(std::size_t slot, const Eigen::AlignedBox3d& box, Visit&& visit) {
+    slots_->visit_asleep(slot, box, visit);
+  }
+
   /// Slots in use. The following are of slots.
   [[nodiscard]] std::size_t size() const noexcept { return slots_->size(); }
   [[nodiscard]] std::size_t body(std::size_t slot) const noexcept { return body_at(slot).number; }

@@ -58,9 +58,11 @@ struct RigidBody : BodyKind {
   };
 
   dBodyID id = nullptr;
-  double still = 0.0;  ///< [s]
-  bool flies = true;   ///< nothing pushes it in this step but its weight
-  State before, kept;  ///< of a step; of BodySolver::keep()
+  double still = 0.0;             ///< [s]
+  bool flies = true;              ///< nothing pushes it in this step but its weight
+  State before, kept;             ///< of a step; of BodySolver::keep()
+  Eigen::AlignedBox3d clear;      ///< [m], S: where no body without a slot was, BodySlots
+  std::uint64_t clear_since = 0;  ///< as of which of its changes; 0: nothing is known
 
   [[nodiscard]] bool is_awake() const noexcept { return dBodyIsEnabled(id) != 0; }
   [[nodiscard]] State state() const noexcept;

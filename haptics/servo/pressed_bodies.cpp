@@ -26,6 +26,9 @@ constexpr double kSoon = 3.0;  // periods, in which what comes nearer may be met
 constexpr double kSpringShare = 0.5;
 constexpr double kViscousShare = 0.1;
 
+// At least its length and at most 1.8 times that, without a root.
+double most_length(const Vector3d& v) noexcept { return v.cwiseAbs().sum(); }
+
 // As far as device and body can take it.
 GrabSpring held_by(GrabSpring spring, double mass, double period, double cap) {
   spring.stiffness = std::min(
@@ -106,10 +109,10 @@ HandReach PressedBodiesOf<axes>::reach_of(const ToolOf<axes>& tool,
   for (std::size_t probe = 0; probe < tool.size(); ++probe) {
     const Vector3d at = tool.place(probe);
     const ContactResult& walls = contacts.walls(probe).result();
-    const double depth = walls.in_contact ? (walls.scp - at).norm() : 0.0;
+    const double depth = walls.in_contact ? most_length(walls.scp - at) : 0.0;
     const double away = probe > 0 ? (at - reach.middle).norm() : 0.0;
     reach.radius = std::max(reach.radius, away + depth + radius_);
-    reach.speed = std::max(reach.speed, tool.velocity(probe).norm());
+    reach.speed = std::max(reach.speed, most_length(tool.velocity(probe)));
   }
   return reach;
 }

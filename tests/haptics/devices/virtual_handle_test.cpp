@@ -149,7 +149,7 @@ TEST(VirtualHandle, GoesAsAMassWithDampingAtAnyRate) {
 TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
   const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 1000 : 60;
   unsigned heavier = 0;
-  double least = 0.0;
+  double lowest = 0.0;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     std::mt19937_64 random(seed);
     const auto within = [&](double least, double most) {
@@ -184,10 +184,10 @@ TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
               3.0 * mass.loan * static_cast<double>(stand.handle.heavier()))
         << seed;
     heavier += stand.handle.heavier() > 0 ? 1U : 0U;
-    least = std::min(least, stand.least);
+    lowest = std::min(lowest, stand.least);
   }
-  std::printf("least %.3g J beside what was written off; %u of %u became heavier\n", least, heavier,
-              seeds);
+  std::printf("least %.3g J beside what was written off; %u of %u became heavier\n", lowest,
+              heavier, seeds);
   EXPECT_GT(heavier, seeds / 3) << "the scenes are easy";
   EXPECT_LT(heavier, seeds);
 }
