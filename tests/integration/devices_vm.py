@@ -53,7 +53,15 @@ peer = {0}
 [[operator]]
 sweep = {{from = "{1} 0 0 mm", to = "{2} 0 0 mm", period = "0.7 s"}}
 """
-SCENES = {"wall": WHEEL + WALL, "hands": WHEEL + HAND.format(2, 45, 65) + HAND.format(3, -65, -45)}
+CEILING = """
+[[object]]
+name = "ceiling"
+plane = [0.0, -1.0, 0.0]
+position = "0 7 0 mm"
+surface = {stiffness = "700 N/m"}
+"""
+SCENES = {"wall": WHEEL + WALL, "corner": WHEEL.replace("event_axes = 1", "event_axes = 2") + WALL + CEILING,
+          "hands": WHEEL + HAND.format(2, 45, 65) + HAND.format(3, -65, -45)}
 
 INIT = """#!/bin/busybox sh
 /bin/busybox mount -t proc none /proc

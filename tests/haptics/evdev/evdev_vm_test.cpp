@@ -160,13 +160,14 @@ class EvdevVm : public ::testing::Test {
     ASSERT_TRUE(comes_true([] { return rests_at(kRest, 1e-4); }))
         << place() << " m, " << force() << " N";
   }
-  static void expect_the_wall() {
+  static void expect_the_wall(std::size_t axis = 0, double wall = kWall) {
     const auto [at, shown] =
-        wheel->with([](PidWheel& one) { return std::pair(one.place(0), one.force(0)); });
-    const double depth = kWall - at;
-    EXPECT_NEAR(shown, kStiffness * depth, kStiffness * kPlaceStep + kStiffnessStep * depth);
-    std::printf("  %.4f N at %.4f mm in the wall: %.3f N/m of %.0f\n", shown, 1e3 * depth,
-                shown / depth, kStiffness);
+        wheel->with([&](PidWheel& one) { return std::pair(one.place(axis), one.force(axis)); });
+    const double depth = std::abs(at - wall), force = shown * (at < wall ? 1 : -1);
+    EXPECT_GT(depth, 0.003);
+    EXPECT_NEAR(force, kStiffness * depth, kStiffness * kPlaceStep + kStiffnessStep * depth);
+    std::printf("  %.4f N at %.4f mm in the wall: %.3f N/m of %.0f\n", force, 1e3 * depth,
+                force / depth, kStiffness);
   }
   static std::unique_ptr<Program> start(std::vector<std::string> words = {"peer", "/wall.toml",
                                                                           "--iface", "lo"}) {
@@ -174,6 +175,7 @@ class EvdevVm : public ::testing::Test {
     words.insert(words.end(), {"--device", "evdev", "--json", "--for", "600s"});
     auto program = std::make_unique<Program>(std::move(words));
     EXPECT_TRUE(comes_true([] { return playing() == 2; })) << program->said();
+    std::this_thread::sleep_for(milliseconds(500));  // its greatest force has risen
     return program;
   }
 
@@ -231,7 +233,7 @@ TEST_F(EvdevVm, OneThatHangsLeavesNoForceOnceItsEffectsEnd) {
   program->send(SIGSTOP);
   const double took = milliseconds_until([] { return force() == 0; });
   std::printf("  stopped: no force after %.1f ms\n", took);
-  EXPECT_EQ(playing(), 0U);
+  EXPECT_TRUE(comes_true([] { return playing() == 0; }));
   EXPECT_EQ(effects(), 2U);
   retreat();
   program->send(SIGCONT);
@@ -246,9 +248,9 @@ TEST_F(EvdevVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
   press();
   wheel->unplug();
   EXPECT_EQ(force(), 0);
-  EXPECT_TRUE(comes_true([&] {
-    return program->said().find("was unplugged") != std::string::npos;
-  })) << program->said();
+  const double said = milliseconds_until(
+      [&] { return program->said().find("was unplugged") != std::string::npos; });
+  std::printf("  unplugged: said after %.1f ms\n", said);
   retreat();
   wheel->plug_in();
   const double took = milliseconds_until([] { return playing() == 2; });
@@ -284,11 +286,82 @@ TEST_F(EvdevVm, AHandPressesThoseOfOthersOnBothSides) {
   retreat();
 }
 
+// Walls on both sides that never rest, as far away as costs nothing.
+TEST_F(EvdevVm, AChangeComesWithinItsDelayHoweverManyThereAre) {
+  go(0);
+  haptics::EvdevExchange exchange;
+  haptics::EvdevSettings settings;
+  settings.event = UsbipWheel::kProduct;
+  settings.axes = 1;
+  settings.scale = {0.25, 15, 2000};
+  settings.max_stiffness = 800;
+  haptics::EvdevDevice device(exchange, haptics::evdev_limits(settings));
+  haptics::EvdevLoop loop(exchange, settings, haptics::kernel_event_calls(), UsbipWheel::now);
+  ASSERT_TRUE(comes_true([&] {
+    loop.step(milliseconds(1));
+    return playing() == 2;
+  }));
+  const int before = wheel->with([](PidWheel& one) { return one.changes(); });
+  const auto begin = UsbipWheel::now();
+  while (UsbipWheel::now() - begin < seconds(4)) {
+    const double time = std::chrono::duration<double>(UsbipWheel::now() - begin).count();
+    haptics::SpringModel model;
+    model.wall(0, haptics::WallSide::below) = {-0.07 - 0.02 * std::sin(40 * time), 700, 10};
+    model.wall(0, haptics::WallSide::above) = {0.07 + 0.02 * std::cos(40 * time), 700, 10};
+    device.state(model, UsbipWheel::now());
+    loop.step(milliseconds(1));
+  }
+  const auto last = UsbipWheel::now();
+  std::this_thread::sleep_for(seconds(1));
+  wheel->with([&](PidWheel& one) {
+    std::printf("  %d changes in 4 s, the last of them there %.1f ms after it was told\n",
+                one.changes() - before, milliseconds_of(one.told() - last));
+    EXPECT_LT(one.told() - last, settings.chain);
+    EXPECT_GT(one.changes() - before, 700);
+  });
+}
+
 // All that was done to it.
 TEST_F(EvdevVm, TheWheelNeverGaveMoreEnergyThanTheHandPutIn) {
   wheel->with([](PidWheel& one) {
     std::printf("  %.6f J taken, %.3g J at least; %.3f m/s at most; %d changes\n", one.absorbed(),
                 one.least_absorbed(), one.fastest(), one.changes());
+    EXPECT_GE(one.least_absorbed(), -1e-6);
+    EXPECT_EQ(one.strange(), 0);
+  });
+}
+
+// Walls below along x and above along y.
+TEST_F(EvdevVm, AStickFeelsWallsAlongBothItsAxes) {
+  constexpr double kCeiling = 0.007;
+  PidWheelOptions options;
+  options.axes = 2;
+  wheel.reset();
+  wheel = std::make_unique<UsbipWheel>(options);
+  go(kOutside);
+  wheel->plug_in();
+  const auto program = start({"peer", "/corner.toml", "--iface", "lo"});
+  EXPECT_TRUE(comes_true([] { return rests_at(kOutside, 1e-4); }));
+  wheel->with([](PidWheel& one) {
+    one.want(0, -0.02);
+    one.want(1, 0.022);
+  });
+  EXPECT_TRUE(comes_true([] {
+    return wheel->with([](PidWheel& one) {
+      return one.force(0) > 3 && one.force(1) < -3 && std::hypot(one.speed(0), one.speed(1)) < 1e-5;
+    });
+  }));
+  expect_the_wall();
+  expect_the_wall(1, kCeiling);
+  wheel->with([](PidWheel& one) {
+    one.want(0, kOutside);
+    one.want(1, 0);
+  });
+  EXPECT_TRUE(comes_true([] { return rests_at(kOutside, 1e-4); }));
+  program->send(SIGINT);
+  EXPECT_EQ(program->wait(), 0);
+  EXPECT_TRUE(comes_true([] { return effects() == 0; }));
+  wheel->with([](PidWheel& one) {
     EXPECT_GE(one.least_absorbed(), -1e-6);
     EXPECT_EQ(one.strange(), 0);
   });

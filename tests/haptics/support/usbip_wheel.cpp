@@ -3,6 +3,7 @@
 #include "reckon/tests/haptics/support/usbip_wheel.hpp"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <linux/usb/ch9.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,7 +28,7 @@ constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr unsigned kFullSpeed = 2;
 constexpr std::uint8_t kHid = 0x21, kReport = 0x22;  // descriptors of the class HID
 constexpr std::uint8_t kGetReport = 0x01, kSetReport = 0x09;
-constexpr int kMostAtOnce = 8;  // [ms] that are made up for after a pause of this thread
+constexpr milliseconds kFrame{1};
 
 std::uint8_t low(std::size_t value) { return static_cast<std::uint8_t>(value); }
 std::uint8_t high(std::size_t value) { return static_cast<std::uint8_t>(value >> 8); }
@@ -58,15 +58,19 @@ void UsbipWheel::plug_in() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw std::runtime_error("no sockets");
+  const std::string order = "0 " + std::to_string(ends[0]) + " 65538 " + std::to_string(kFullSpeed);
+  const int attach = ::open((std::string(kBus) + "/attach").c_str(), O_WRONLY | O_CLOEXEC);
   bool is_taken = false;
-  for (int tries = 0; tries < 200 && !is_taken; ++tries) {
-    std::ofstream attach(std::string(kBus) + "/attach");
-    attach << "0 " << ends[0] << " 65538 " << kFullSpeed << std::flush;
-    is_taken = attach.good();
+  for (int tries = 0; tries < 200 && attach >= 0 && !is_taken; ++tries) {
+    is_taken = ::write(attach, order.data(), order.size()) >= 0;  // a call is an order
     if (!is_taken) std::this_thread::sleep_for(milliseconds(20));
   }
+  ::close(attach);
   ::close(ends[0]);
-  if (!is_taken) throw std::runtime_error("vhci_hcd takes no device");
+  if (!is_taken) {
+    ::close(ends[1]);
+    throw std::runtime_error("vhci_hcd takes no device");
+  }
   const std::lock_guard lock(having_);
   socket_ = ends[1];
 }
@@ -81,7 +85,7 @@ void UsbipWheel::unplug() {
 }
 
 void UsbipWheel::serve() {
-  nanoseconds moved = now();
+  nanoseconds frame = now();  // that is over
   while (!ends_) {
     int socket = -1;
     {
@@ -89,25 +93,27 @@ void UsbipWheel::serve() {
       socket = socket_;
     }
     pollfd one{socket, POLLIN, 0};
-    ::poll(&one, 1, 1);
+    const nanoseconds left = std::max(frame + kFrame - now(), nanoseconds(0));
+    const timespec longest{0, left.count()};
+    ::ppoll(&one, 1, &longest, nullptr);
     const std::lock_guard lock(having_);
     wheel_.run_until(now());
     if (socket != socket_) continue;
     if ((one.revents & POLLIN) != 0 && !take_request()) ::close(std::exchange(socket_, -1));
-    const auto due = std::chrono::duration_cast<milliseconds>(now() - moved);
-    moved += due;
-    move_reports(static_cast<int>(std::min<std::int64_t>(due.count(), kMostAtOnce)));
+    if (now() < frame + kFrame) continue;
+    frame = std::max(frame + kFrame, now() - kFrame);
+    move_reports();
   }
 }
 
-void UsbipWheel::move_reports(int milliseconds) {
-  for (int i = 0; i < milliseconds && !out_.empty(); ++i) {
+void UsbipWheel::move_reports() {
+  if (!out_.empty()) {
     wheel_.take(out_.front().data);
     answer(out_.front(), 0, {});
     out_.pop_front();
   }
   std::vector<std::uint8_t> report = wheel_.input();
-  if (milliseconds == 0 || in_.empty() || report == sent_) return;
+  if (in_.empty() || report == sent_) return;
   answer(in_.front(), 0, report);
   in_.pop_front();
   sent_ = std::move(report);

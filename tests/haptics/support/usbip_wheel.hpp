@@ -56,7 +56,7 @@ class UsbipWheel {
   };
 
   void serve();
-  void move_reports(int milliseconds);
+  void move_reports();
   [[nodiscard]] bool take_request();
   void cancel(std::uint32_t number, std::uint32_t victim);
   void control(const Request& request);
