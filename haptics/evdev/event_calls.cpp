@@ -84,10 +84,12 @@ class KernelCalls final : public EventCalls {
     const auto of = std::filesystem::path(facts_) / std::filesystem::path(path).filename() /
                     "device" / "device" / "..";
     std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(of, none)) {
-      if (!entry.path().filename().string().starts_with("ep_")) continue;
-      if (first_line(entry.path() / "direction") == "out")
-        return interval_of(first_line(entry.path() / "interval"));
+    // It may be unplugged meanwhile.
+    for (std::filesystem::directory_iterator each(of, none), end; each != end;
+         each.increment(none)) {
+      const auto& place = each->path();
+      if (place.filename().string().starts_with("ep_") && first_line(place / "direction") == "out")
+        return interval_of(first_line(place / "interval"));
     }
     return {};
   }

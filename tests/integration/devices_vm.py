@@ -20,7 +20,7 @@ MEMORY = "768M"
 CLOCK = "shift=0,sleep=off"
 LONGEST = 540  # [s] of this machine, for all of it
 CURSOR = re.compile(r"\x1b(\[[0-9;?]*[A-Za-z]|c)")  # of a terminal
-TROUBLE = re.compile(r"\b(BUG:|WARNING:|Oops|Call Trace|general protection|Kernel panic|output queue full|control queue full)")
+TROUBLE = re.compile(r"(BUG:|WARNING:|Oops|Call Trace|general protection|Kernel panic|queue full|blocked for more than)")
 
 WHEEL = """# A hand at a wheel
 [scene]

@@ -277,6 +277,8 @@ Told roam(unsigned seed, microseconds report, microseconds latency, double stiff
   options.latency = latency;
   options.hand_stiffness = stiffness_of_hand;
   options.ends_effects = seed % 3 != 0;
+  options.takes = seed % 2 == 0 ? milliseconds(1) : microseconds(125);
+  options.misses_turns = seed > 3;
   Roaming hand(seed);
   Plugged plugged(room(), hand, options);
   for (std::uint32_t i = 0; i < 20; ++i) {

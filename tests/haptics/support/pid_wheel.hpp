@@ -63,11 +63,12 @@ class PidWheel {
   [[nodiscard]] double least_absorbed() const { return least_; }
   [[nodiscard]] std::size_t effects() const { return effects_.size(); }
   [[nodiscard]] std::size_t playing() const;
-  /// Conditions so far that changed an effect, and reports that said nothing known.
+  /// Conditions so far that changed an effect.
   [[nodiscard]] int changes() const { return changes_; }
+  /// Reports so far that it does not know, or of an effect that is not there.
+  [[nodiscard]] int strange() const { return strange_; }
   /// When a report of the host came last.
   [[nodiscard]] std::chrono::nanoseconds told() const { return told_; }
-  [[nodiscard]] int strange() const { return strange_; }
 
  private:
   struct Condition {
