@@ -19,6 +19,10 @@ using std::chrono::nanoseconds;
 constexpr std::array kSides{WallSide::below, WallSide::above};
 constexpr std::uint16_t kLengthInEffect = EvdevLoop::kLength.count();
 constexpr std::int32_t kFullGain = 0xFFFF;
+// A condition is a report for each of two axes, of a device of one axis too.
+constexpr int kReportsOfAChange = 2;
+constexpr int kReportsOfANewEffect = 3;
+constexpr int kTurns = 2;  // of the endpoint, until a report is surely there
 
 std::size_t index_of(WallSide side) noexcept { return static_cast<std::size_t>(side); }
 
@@ -112,7 +116,8 @@ SpringWall EvdevLoop::next_wall(std::size_t axis, WallSide side,
   return is_alike && is_short && !is_nearer(next, shown, side) ? shown : next;
 }
 
-// What is booked is what may have become of it while the call took its time.
+// What is booked is what may have become of it while the call took its time, and until the device
+// has it where the line was too long.
 int EvdevLoop::tell_side(WallSide side, const SpringModel& model, nanoseconds now) noexcept {
   ff_effect& told = effects_[index_of(side)];
   ff_effect next = effect_of(model, side, settings_.scale, told.id, kLengthInEffect);
@@ -121,8 +126,10 @@ int EvdevLoop::tell_side(WallSide side, const SpringModel& model, nanoseconds no
     if (result < 0) return result;
     told = next;
     changed_[index_of(side)] = now;
+    line_up(kReportsOfAChange, now);
   }
-  const nanoseconds took = std::max(clock_() - now, nanoseconds(0));
+  const nanoseconds took = std::max(clock_() - now, nanoseconds(0)) +
+                           std::max(drained_ - now - settings_.chain, nanoseconds(0));
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
     if (books_.shown().wall(axis, side) != model.wall(axis, side))
       books_.book(axis, side, model.wall(axis, side), places_of(axis, took));
@@ -140,7 +147,31 @@ int EvdevLoop::play(std::int32_t value) noexcept {
     event.value = value;
     if (const int one = calls_->write(file_, event); one < 0) result = one;
   }
+  line_up(static_cast<int>(effects_.size()), clock_());
   return result;
+}
+
+void EvdevLoop::line_up(int reports, nanoseconds now) noexcept {
+  drained_ = std::max(drained_, now) + kTurns * reports * interval_;
+}
+
+bool EvdevLoop::is_soon_there(nanoseconds now) const noexcept {
+  return std::max(drained_, now) + kTurns * kReportsOfAChange * interval_ <= now + settings_.chain;
+}
+
+// Why the device is too slow for the delay that is stated, as a sentence.
+std::string EvdevLoop::learn_interval(const std::string& path) {
+  const microseconds told = calls_->report_interval(path);
+  constexpr int kIntervals = kTurns * kReportsOfAChange;
+  interval_ = told.count() > 0 ? nanoseconds(told)
+                               : std::min<nanoseconds>(kReport, settings_.chain / kIntervals);
+  drained_ = {};
+  const nanoseconds change = kIntervals * interval_;
+  if (change <= settings_.chain) return {};
+  return "it takes a report each " + std::to_string(told.count()) +
+         " us, and a change is two: state a delay of " +
+         std::to_string(std::chrono::ceil<std::chrono::milliseconds>(change).count()) +
+         " ms or more in its [[device]]";
 }
 
 // An effect that was played too long ago may have ended, or not: the next one is paid for as if it
@@ -150,11 +181,14 @@ void EvdevLoop::show(nanoseconds now) {
   const bool may_have_ended = now - played_ > kLength / 2;
   if (may_have_ended) books_.forget();
   int result = 0;
-  for (const WallSide side : kSides) {
+  auto sides = kSides;  // which waits longest is first
+  if (changed_[index_of(sides[1])] < changed_[index_of(sides[0])]) std::swap(sides[0], sides[1]);
+  for (const WallSide side : sides) {
     SpringModel next;
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
       next.wall(axis, side) = next_wall(axis, side, asked.wall(axis, side));
-    const bool is_due = now - changed_[index_of(side)] >= kBetween || asked == SpringModel();
+    const bool is_due = (now - changed_[index_of(side)] >= kBetween && is_soon_there(now)) ||
+                        asked == SpringModel();
     if ((is_due || may_have_ended) && result >= 0) result = tell_side(side, next, now);
   }
   if (result >= 0 && now - played_ >= kLength / 3) {
@@ -222,6 +256,7 @@ std::string EvdevLoop::set_up() {
     result = calls_->control(file_, EVIOCSFF, &effect);
     if (result == -ENOSPC) return "it has no room for two effects: end what else uses it";
     if (result < 0) return std::string("it takes no spring: ") + std::strerror(-result);
+    line_up(kReportsOfANewEffect, clock_());
   }
   result = play(1);
   if (result < 0) return std::string("it plays no spring: ") + std::strerror(-result);
@@ -247,6 +282,7 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
     fault = is_meant ? path + " gives no force feedback" : "none";
   } else {
     fault = fault_of(*facts, settings_.axes);
+    if (fault.empty()) fault = learn_interval(path);
   }
   if (!fault.empty()) {
     calls_->close(file);

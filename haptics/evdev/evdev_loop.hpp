@@ -27,12 +27,19 @@ namespace reckon::haptics {
 /// device ends them by itself kLength after they were last played, so that a program that hangs
 /// leaves none; one that ends leaves none because the kernel erases the effects of a closed file. A
 /// driver or a device that ignores the length of an effect keeps them until then.
+///
+/// The kernel takes a change at once and sends it as reports, one in each interval of the device's
+/// endpoint or, where it is late with the next, in every other one; how many wait, it does not
+/// tell. So changes wait here until they are surely there within the delay that is stated. Walls
+/// are taken off without that wait.
 class EvdevLoop {
  public:
   static constexpr std::chrono::milliseconds kRetry{500};  ///< between attempts
   /// After which the device ends an effect that is not played again, as it is a third of it later.
   static constexpr std::chrono::milliseconds kLength{60};
-  static constexpr std::chrono::milliseconds kBetween{4};  ///< changes of an effect
+  static constexpr std::chrono::milliseconds kBetween{4};  ///< changes of an effect, at least
+  /// Between reports that a device takes which does not tell: that of USB at full speed.
+  static constexpr std::chrono::milliseconds kReport{1};
 
   /// @param exchange outlives it  @param clock steady, that of the servo
   /// @throws std::invalid_argument as evdev_limits()
@@ -65,6 +72,9 @@ class EvdevLoop {
   [[nodiscard]] int tell_side(WallSide side, const SpringModel& model,
                               std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] int play(std::int32_t value) noexcept;
+  [[nodiscard]] std::string learn_interval(const std::string& path);
+  void line_up(int reports, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] bool is_soon_there(std::chrono::nanoseconds now) const noexcept;
   void publish(std::chrono::nanoseconds now) noexcept;
   void tell(std::string sentence);
 
@@ -79,6 +89,8 @@ class EvdevLoop {
   std::array<ff_effect, SpringModel::kSides> effects_{};  // as uploaded
   std::array<std::chrono::nanoseconds, SpringModel::kSides> changed_{};
   std::chrono::nanoseconds played_{0};
+  std::chrono::nanoseconds interval_{kReport};  // of reports that the device takes
+  std::chrono::nanoseconds drained_{0};         // when it has all of them
   std::chrono::nanoseconds next_try_{0};
   std::string problem_;  // told already
   std::mutex telling_;   // never taken by the servo

@@ -39,6 +39,16 @@ std::string first_line(const std::filesystem::path& file) {
   return line;
 }
 
+// As the kernel writes it: "1ms", "125us". 0: it is none.
+std::chrono::microseconds interval_of(const std::string& text) {
+  long number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view unit(read.ptr, text.data() + text.size());
+  if (read.ec != std::errc() || number <= 0 || number > 10'000) return {};
+  if (unit == "us") return std::chrono::microseconds(number);
+  return unit == "ms" ? std::chrono::milliseconds(number) : std::chrono::milliseconds(0);
+}
+
 class KernelCalls final : public EventCalls {
  public:
   KernelCalls(std::string devices, std::string facts)
@@ -67,6 +77,21 @@ class KernelCalls final : public EventCalls {
         std::filesystem::path(facts_) / std::filesystem::path(path).filename() / "device";
     const std::string effects = first_line(of / "capabilities" / "ff");
     return effects.find_first_not_of("0 ") == std::string::npos ? "" : first_line(of / "name");
+  }
+  // The input device is of a device of HID, and that is of an interface of USB, which lists its
+  // endpoints.
+  std::chrono::microseconds report_interval(const std::string& path) override {
+    const auto of = std::filesystem::path(facts_) / std::filesystem::path(path).filename() /
+                    "device" / "device" / "..";
+    std::error_code none;
+    // It may be unplugged meanwhile.
+    for (std::filesystem::directory_iterator each(of, none), end; each != end;
+         each.increment(none)) {
+      const auto& place = each->path();
+      if (place.filename().string().starts_with("ep_") && first_line(place / "direction") == "out")
+        return interval_of(first_line(place / "interval"));
+    }
+    return {};
   }
   int open(const std::string& path) override {
     return made([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });

@@ -23,6 +23,8 @@ class EventCalls {
   [[nodiscard]] virtual std::vector<std::string> paths() = 0;
   /// Name of a device that gives force feedback, without opening it; empty: another, or unknown.
   [[nodiscard]] virtual std::string closed_name(const std::string& path) = 0;
+  /// Between two reports that a device takes of this host, by its USB endpoint; 0: unknown.
+  [[nodiscard]] virtual std::chrono::microseconds report_interval(const std::string& path) = 0;
   /// For reading and writing, without waiting. @return a descriptor
   [[nodiscard]] virtual int open(const std::string& path) = 0;
   virtual void close(int file) noexcept = 0;

@@ -28,10 +28,12 @@ namespace {
 using peer::DeviceConfig;
 using peer::DeviceDriver;
 
+// Drivers that a word is enough for.
 std::vector<std::string_view> driver_words() {
   std::vector<std::string_view> words;
   for (const auto& word : peer::kWords<DeviceDriver>) {
-    if (word.value == DeviceDriver::falcon || word.value == DeviceDriver::polhem)
+    if (word.value == DeviceDriver::falcon || word.value == DeviceDriver::polhem ||
+        word.value == DeviceDriver::evdev)
       words.push_back(word.name);
   }
   return words;

@@ -71,7 +71,7 @@ EvdevSettings settings_for(const EvdevModelOptions& model) {
   settings.scale = {model.travel, model.full_force, model.full_stiffness};
   settings.max_stiffness = 1500;
   settings.max_speed = 1.0;
-  settings.chain = model.report + model.latency + milliseconds(1);
+  settings.chain = model.report + model.latency + 8 * model.takes + milliseconds(1);
   return settings;
 }
 
@@ -277,6 +277,8 @@ Told roam(unsigned seed, microseconds report, microseconds latency, double stiff
   options.latency = latency;
   options.hand_stiffness = stiffness_of_hand;
   options.ends_effects = seed % 3 != 0;
+  options.takes = seed % 2 == 0 ? milliseconds(1) : microseconds(125);
+  options.misses_turns = seed > 3;
   Roaming hand(seed);
   Plugged plugged(room(), hand, options);
   for (std::uint32_t i = 0; i < 20; ++i) {
@@ -312,6 +314,80 @@ TEST(EvdevLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
   }
   RecordProperty("least_J", std::to_string(all.least));
   EXPECT_GT(all.greatest, 3.0) << "no wall was ever pressed";
+}
+
+// Walls far away on both sides that never rest: what it is told, and how late it has that at most.
+struct Line {
+  nanoseconds slowest{0};
+  int uploads = 0;
+  std::vector<std::string> notices;
+  double below = 0, above = 0;  // how far the newest wall of each side is from what was asked [m]
+};
+
+Line line_of(const EvdevModelOptions& options, nanoseconds chain, bool tells_interval = true) {
+  EvdevSettings settings = settings_for(options);
+  settings.chain = chain;
+  EvdevExchange exchange;
+  EvdevDevice device(exchange, evdev_limits(settings));
+  auto calls = std::make_unique<EvdevModel>(options, [](double) { return EvdevModel::Places(); });
+  EvdevModel& model = *calls;
+  model.tells_interval = tells_interval;
+  EvdevLoop loop(exchange, settings, std::move(calls), [&] { return model.now(); });
+  Line line;
+  SpringModel asked;
+  while (model.now() < std::chrono::seconds(4)) {
+    const double t = std::chrono::duration<double>(model.now()).count();
+    asked.wall(0, WallSide::below) = {-0.06 - 0.02 * std::sin(40 * t), 1000, 10};
+    asked.wall(0, WallSide::above) = {0.06 + 0.02 * std::cos(40 * t), 1000, 10};
+    device.state(asked, model.now());
+    loop.step(milliseconds(1));
+    for (std::string& notice : loop.take_notices()) line.notices.push_back(std::move(notice));
+    if (model.now() < milliseconds(100)) continue;  // it is set up
+    static_cast<void>(device.read(model.now()));
+    const SpringModel shown = device.shown().model;
+    line.below = std::max(line.below, std::abs(shown.wall(0, WallSide::below).at -
+                                               asked.wall(0, WallSide::below).at));
+    line.above = std::max(line.above, std::abs(shown.wall(0, WallSide::above).at -
+                                               asked.wall(0, WallSide::above).at));
+  }
+  line.uploads = model.uploads();
+  line.slowest = model.slowest_change();
+  return line;
+}
+
+TEST(EvdevLoop, AChangeIsThereWithinItsDelayHoweverOftenWallsChange) {
+  for (const auto takes : {microseconds(125), microseconds(1000), microseconds(2000)}) {
+    for (const bool misses : {false, true}) {
+      EvdevModelOptions options;
+      options.takes = takes;
+      options.misses_turns = misses;
+      const Line line = line_of(options, milliseconds(8));
+      EXPECT_LE(line.slowest, milliseconds(8) + options.latency) << takes.count() << misses;
+      // Each side is as new as the other: a wall goes 0.8 m/s at most.
+      EXPECT_LT(line.below, 0.03) << takes.count() << misses;
+      EXPECT_LT(line.above, 0.03) << takes.count() << misses;
+      EXPECT_GT(line.uploads, 250) << takes.count() << misses;
+    }
+  }
+}
+
+TEST(EvdevLoop, WhatDoesNotTellHowOftenItTakesAReportHasAMillisecondForEach) {
+  EvdevModelOptions options;
+  options.takes = milliseconds(1);
+  const Line line = line_of(options, milliseconds(8), false);
+  EXPECT_LE(line.slowest, milliseconds(8));
+  EXPECT_GT(line.uploads, 300);
+}
+
+TEST(EvdevLoop, OneThatIsTooSlowForItsDelayIsRefusedWithTheDelayThatServes) {
+  EvdevModelOptions options;
+  options.takes = milliseconds(4);
+  const Line refused = line_of(options, milliseconds(8));
+  EXPECT_THAT(refused.notices, ::testing::ElementsAre(HasSubstr("a delay of 16 ms or more")));
+  EXPECT_EQ(refused.uploads, 0);
+  const Line taken = line_of(options, milliseconds(16));
+  EXPECT_THAT(taken.notices, Contains(HasSubstr("ready")));
+  EXPECT_LE(taken.slowest, milliseconds(16) + options.latency);
 }
 
 TEST(EvdevLoop, UnpluggedItShowsNothingAndIsTakenUpByItself) {
@@ -369,6 +445,9 @@ TEST(EvdevLoop, AProgramThatEndsTakesItsEffectsWithIt) {
     explicit Shared(EvdevModel& m) : model(m) {}
     std::vector<std::string> paths() override { return model.paths(); }
     std::string closed_name(const std::string& path) override { return model.closed_name(path); }
+    microseconds report_interval(const std::string& path) override {
+      return model.report_interval(path);
+    }
     int open(const std::string& path) override { return model.open(path); }
     void close(int file) noexcept override { model.close(file); }
     int control(int f, unsigned long r, void* a) noexcept override {

@@ -51,6 +51,31 @@ TEST(KernelEventCalls, AClosedDeviceIsNamedIfItGivesForceFeedback) {
   EXPECT_EQ(calls->closed_name("/dev/input/event4"), "");
 }
 
+TEST(KernelEventCalls, HowOftenADeviceTakesAReportIsReadFromItsEndpoint) {
+  const test::ScratchFolder folder;
+  namespace fs = std::filesystem;
+  // As /sys has it: an interface of USB, its device of HID, the input device of that.
+  const fs::path usb = folder.file("usb"), input = usb / "hid" / "input";
+  fs::create_directories(input);
+  fs::create_directories(folder.file("event3"));
+  fs::create_directory_symlink(usb / "hid", input / "device");
+  fs::create_directory_symlink(input, folder.file("event3/device"));
+  const auto calls = kernel_event_calls("/dev/input", folder.file("."));
+  const auto say = [&](const std::string& end, const char* direction, const char* interval) {
+    fs::create_directories(usb / end);
+    std::ofstream(usb / end / "direction") << direction << '\n';
+    std::ofstream(usb / end / "interval") << interval << '\n';
+    return calls->report_interval("/dev/input/event3").count();
+  };
+  EXPECT_EQ(calls->report_interval("/dev/input/event3").count(), 0);
+  EXPECT_EQ(say("ep_81", "in", "2ms"), 0);
+  EXPECT_EQ(say("ep_01", "out", "4ms"), 4000);
+  EXPECT_EQ(say("ep_01", "out", "125us"), 125);
+  for (const char* none : {"", "ms", "-1ms", "3", "3 ms", "99999999999999999999ms", "20000ms"})
+    EXPECT_EQ(say("ep_01", "out", none), 0) << none;
+  EXPECT_EQ(calls->report_interval("/dev/input/event4").count(), 0);
+}
+
 class KernelEventPipe : public ::testing::Test {
  protected:
   void SetUp() override {

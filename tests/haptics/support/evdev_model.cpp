@@ -140,9 +140,10 @@ void EvdevModel::plug(bool in) {
 void EvdevModel::erase_all() { effects_.clear(); }
 
 // In the order in which it was told.
-void EvdevModel::order(std::function<void()> act) {
+void EvdevModel::order(int reports, std::function<void()> act) {
   std::uniform_int_distribution<std::int64_t> within(0, options_.latency.count());
-  last_order_ = std::max(last_order_, now_ + microseconds(within(random_)));
+  last_order_ = std::max(last_order_, now_ + microseconds(within(random_))) +
+                (options_.misses_turns ? 2 : 1) * reports * options_.takes;
   orders_.push_back({last_order_, std::move(act)});
 }
 
@@ -156,6 +157,10 @@ std::string EvdevModel::closed_name(const std::string& path) {
   return path == kPath ? "Model wheel" : "";
 }
 
+microseconds EvdevModel::report_interval(const std::string& /*path*/) {
+  return tells_interval ? options_.takes : microseconds(0);
+}
+
 int EvdevModel::open(const std::string& path) {
   if (path != kPath || !plugged_) return -ENOENT;
   if (opening < 0) return opening;
@@ -166,7 +171,7 @@ int EvdevModel::open(const std::string& path) {
 void EvdevModel::close(int /*file*/) noexcept {
   --open_;
   events_.clear();
-  if (open_ == 0) order([this] { erase_all(); });
+  if (open_ == 0) order(0, [this] { erase_all(); });
 }
 
 int EvdevModel::ask_bits(unsigned long request, void* argument) const {
@@ -206,7 +211,8 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
   }
   if (request == EVIOCSFF) {
     auto& told = *static_cast<ff_effect*>(argument);
-    if (told.id < 0) {
+    const bool is_new = told.id < 0;
+    if (is_new) {
       if (static_cast<int>(effects_.size()) >= most_effects) return -ENOSPC;
       told.id = static_cast<std::int16_t>(next_id_++);
       effects_[told.id].numbers.replay = told.replay;
@@ -214,14 +220,15 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
       return -EINVAL;
     }
     ++uploads_;
-    order([this, numbers = told] {
+    order(2, [this, numbers = told] {
       if (effects_.contains(numbers.id)) effects_[numbers.id].numbers = numbers;
     });
+    if (!is_new) slowest_change_ = std::max(slowest_change_, last_order_ - now_);
     return 0;
   }
   if (request == EVIOCRMFF) {
     const auto id = static_cast<int>(reinterpret_cast<std::intptr_t>(argument));
-    order([this, id] { effects_.erase(id); });
+    order(1, [this, id] { effects_.erase(id); });
     return 0;
   }
   if (nr == 0x06) {  // EVIOCGNAME
@@ -260,7 +267,7 @@ int EvdevModel::write(int /*file*/, const input_event& event) noexcept {
   } else if (event.code == FF_AUTOCENTER) {
     autocenter_ = event.value;
   } else {
-    order([this, event] {
+    order(1, [this, event] {
       const auto found = effects_.find(event.code);
       if (found == effects_.end()) return;
       found->second.plays = event.value > 0;

@@ -31,6 +31,9 @@ struct EvdevModelOptions {
   double full_stiffness = 2000;            ///< [N/m]
   std::chrono::microseconds report{1000};  ///< between reports of its places
   std::chrono::microseconds latency{500};  ///< most, until it does what it is told; seeded
+  /// It takes one report of the host each so long; a change of an effect is two, playing it is one.
+  std::chrono::microseconds takes{125};
+  bool misses_turns = false;  ///< every other: it takes one in twice as long
   int axes = 2;
   bool ends_effects = true;  ///< obeys the length of an effect
 };
@@ -57,6 +60,7 @@ class EvdevModel final : public haptics::EventCalls {
   std::vector<int> without;         ///< bits of EV_FF that it has not
   int most_effects = 16;            ///< at once
   int opening = 0;                  ///< what open() returns where it is below 0
+  bool tells_interval = true;       ///< how often it takes a report
   std::vector<std::string> others;  ///< paths before its own, which are no devices
 
   // Its own books, of its springs: what they took from the hand since the begin [J].
@@ -71,9 +75,12 @@ class EvdevModel final : public haptics::EventCalls {
   [[nodiscard]] std::int32_t gain() const { return gain_; }
   [[nodiscard]] std::int32_t autocenter() const { return autocenter_; }
   [[nodiscard]] int open_files() const { return open_; }
+  /// The longest that a change of an effect took so far until it was there.
+  [[nodiscard]] std::chrono::nanoseconds slowest_change() const { return slowest_change_; }
 
   std::vector<std::string> paths() override;
   std::string closed_name(const std::string& path) override;
+  std::chrono::microseconds report_interval(const std::string& path) override;
   int open(const std::string& path) override;
   void close(int file) noexcept override;
   int control(int file, unsigned long request, void* argument) noexcept override;
@@ -92,7 +99,7 @@ class EvdevModel final : public haptics::EventCalls {
     std::function<void()> act;
   };
 
-  void order(std::function<void()> act);
+  void order(int reports, std::function<void()> act);
   void run(double h);
   void report();
   void send(std::uint16_t type, std::uint16_t code, std::int32_t value);
@@ -108,7 +115,7 @@ class EvdevModel final : public haptics::EventCalls {
   std::function<Places(double)> hand_;
   std::function<void(std::chrono::nanoseconds)> beside_;
   std::mt19937 random_;
-  std::chrono::nanoseconds now_{0}, next_report_{0}, last_order_{0};
+  std::chrono::nanoseconds now_{0}, next_report_{0}, last_order_{0}, slowest_change_{0};
   Places place_{}, speed_{};
   std::map<int, Effect> effects_;
   std::deque<Order> orders_;

@@ -72,7 +72,12 @@ TEST(RealDevices, AWrongNameGetsTheNearest) {
   EXPECT_THAT(usage_error([] {
                 check_device_choice({"crane", ""});
               }),
-              HasSubstr("there are falcon, polhem"));
+              HasSubstr("there are falcon, polhem, evdev"));
+}
+
+TEST(RealDevices, EachNameIsAccepted) {
+  for (const char* name : {"falcon", "polhem", "evdev"})
+    EXPECT_EQ(usage_error([&] { check_device_choice({name, ""}); }), "") << name;
 }
 
 TEST(RealDevices, AFileOfADriverIsLoadedAndTold) {
