@@ -21,15 +21,26 @@ AxisModel model_of(const Parameters& p) {
   return {std::exp(p(0)), p(1), std::max(0.0, p(2)), std::max(0.0, p(3))};
 }
 
-// Integral of the forces from the first write to `time` [N s]; none was held before.
-double impulse(const std::vector<double>& sums, const std::vector<double>& forces, double time,
-               double period) {
-  if (!(time > 0)) return 0.0;
-  const double place = time / period;
-  const auto last = static_cast<double>(forces.size() - 1);
-  const auto k = static_cast<std::size_t>(std::min(place, last));
-  return sums[k] + forces[k] * (time - static_cast<double>(k) * period);
-}
+// Integral of the forces of a push from its first write on [N s]; none was held before.
+class Impulse {
+ public:
+  explicit Impulse(const AxisPush& push) : push_(push), sums_(push.forces.size(), 0.0) {
+    for (std::size_t k = 1; k < sums_.size(); ++k)
+      sums_[k] = sums_[k - 1] + push.forces[k - 1] * (push.writes[k] - push.writes[k - 1]);
+  }
+  // Times never decrease.
+  double until(double time) {
+    const std::vector<double>& writes = push_.writes;
+    if (!(time > writes.front())) return 0.0;
+    while (k_ + 1 < writes.size() && writes[k_ + 1] <= time) ++k_;
+    return sums_[k_] + push_.forces[k_] * (time - writes[k_]);
+  }
+
+ private:
+  const AxisPush& push_;
+  std::vector<double> sums_;
+  std::size_t k_ = 0;
+};
 
 // Places that changed, or change next. The others are wrong by where in a step of its sensor the
 // handle stands, all in the same way.
@@ -46,7 +57,7 @@ Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters&
   std::vector<double> all;
   const AxisModel model = model_of(p);
   for (const AxisPush& push : pushes) {
-    const std::vector<double> said = places_of(model, push.forces, push.places.front(), period);
+    const std::vector<double> said = places_of(model, push, period / kSubsteps);
     const std::size_t first = all.size();
     for (const std::size_t k : telling(push)) all.push_back(said[k] - push.places[k]);
     const auto count = static_cast<double>(all.size() - first);
@@ -128,26 +139,26 @@ Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double p
 
 }  // namespace
 
-// Semi-implicit steps, ten a period; the force is its mean over the step.
-std::vector<double> places_of(const AxisModel& model, const std::vector<double>& forces,
-                              double from, double period) {
-  std::vector<double> sums(forces.size(), 0.0);
-  for (std::size_t k = 1; k < forces.size(); ++k) sums[k] = sums[k - 1] + period * forces[k - 1];
+// Semi-implicit steps; the force is its mean over the step.
+std::vector<double> places_of(const AxisModel& model, const AxisPush& push, double substep) {
+  Impulse impulse(push);
   std::vector<double> places;
-  places.reserve(forces.size());
-  const double h = period / kSubsteps;
-  double x = from, v = 0.0, before = impulse(sums, forces, -model.delay, period);
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    places.push_back(x);
-    for (int i = 1; i <= kSubsteps; ++i) {
-      const double time = static_cast<double>(k) * period + i * h;
-      const double pushed = impulse(sums, forces, time - model.delay, period);
+  places.reserve(push.reads.size());
+  double time = push.reads.front(), x = push.places.front(), v = 0.0;
+  double before = impulse.until(time - model.delay);
+  for (const double read : push.reads) {
+    const int steps = static_cast<int>(std::ceil((read - time) / substep - 1e-6));
+    const double begin = time, h = steps > 0 ? (read - begin) / steps : 0.0;
+    for (int i = 1; i <= steps; ++i) {
+      const double pushed = impulse.until(begin + i * h - model.delay);
       v += (pushed - before - h * model.damping * v) / model.mass;
       before = pushed;
       const double rubs = h * model.friction / model.mass;
       v = std::abs(v) > rubs ? v - std::copysign(rubs, v) : 0.0;
       x += h * v;
     }
+    time = read;
+    places.push_back(x);
   }
   return places;
 }
