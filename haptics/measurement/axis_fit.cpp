@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace reckon::haptics {
 namespace {
@@ -52,18 +53,44 @@ std::vector<std::size_t> telling(const AxisPush& push) {
   return some;
 }
 
-// Where in such a step it began is not known either: of each push the mean is left out.
+// Takes out of values what is along others, or their mean.
+void leave_out(std::span<double> values, std::span<const double> along) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    product += values[i] * along[i];
+    square += along[i] * along[i];
+  }
+  if (square == 0.0) return;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= product / square * along[i];
+}
+void leave_out_mean(std::span<double> values) {
+  leave_out(values, std::vector<double>(values.size(), 1.0));
+}
+
+// How far 1 m/s at first carries it, without dry friction: where there is any, nothing creeps.
+double coasted(const AxisModel& model, double time) {
+  const double share = model.damping * time / model.mass;
+  return std::abs(share) < 1e-6 ? time : -std::expm1(-share) * model.mass / model.damping;
+}
+
+// Where in such a step it began is not known either: of each push the mean is left out, and what a
+// speed at first makes.
 Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters& p, double period) {
   std::vector<double> all;
   const AxisModel model = model_of(p);
   for (const AxisPush& push : pushes) {
     const std::vector<double> said = places_of(model, push, period / kSubsteps);
     const std::size_t first = all.size();
-    for (const std::size_t k : telling(push)) all.push_back(said[k] - push.places[k]);
-    const auto count = static_cast<double>(all.size() - first);
-    double mean = 0.0;
-    for (std::size_t i = first; i < all.size(); ++i) mean += all[i] / count;
-    for (std::size_t i = first; i < all.size(); ++i) all[i] -= mean;
+    std::vector<double> ways;
+    for (const std::size_t k : telling(push)) {
+      all.push_back(said[k] - push.places[k]);
+      ways.push_back(coasted(model, push.reads[k] - push.reads.front()));
+    }
+    const std::span<double> own = std::span(all).subspan(first);
+    leave_out_mean(own);
+    if (!push.creeps) continue;
+    leave_out_mean(ways);
+    leave_out(own, ways);
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
@@ -120,18 +147,21 @@ Descent descend(const std::vector<AxisPush>& pushes, Parameters p, double period
 }
 
 // Where dry friction holds the handle the cost has corners, and a descent may end in one. A delay
-// is what they hide best: others about it are tried until none is better.
+// is what they hide best, and dry friction passes for viscous: others about it are tried until none
+// is better.
 Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double period,
                      double longest_delay) {
   constexpr int kMostRounds = 6;
+  const auto attempt = [&](const Parameters& there) {
+    const Descent one = descend(pushes, bounded(there, longest_delay), period, longest_delay);
+    if (one.cost < best.cost) best = one;
+  };
   for (int round = 0; round < kMostRounds; ++round) {
     const double before = best.cost;
-    for (const double ways : {-2.0, -0.7, 0.7, 2.0}) {
-      Parameters there = best.place;
-      there(3) += ways * period;
-      const Descent one = descend(pushes, bounded(there, longest_delay), period, longest_delay);
-      if (one.cost < best.cost) best = one;
-    }
+    for (const double ways : {-2.0, -0.7, 0.7, 2.0})
+      attempt(best.place + Parameters(0, 0, 0, ways * period));
+    const Parameters p = best.place;
+    for (const double more : {1.0, 2.0}) attempt({p(0), more * p(1), 0.0, p(3)});
     if (best.cost > 0.999 * before) break;
   }
   return best;
@@ -167,8 +197,12 @@ AxisFit fit_axis(const std::vector<AxisPush>& pushes, double period, double long
   std::vector<Descent> starts;
   for (const double delay : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 0.95}) {
     for (const double mass : {0.03, 0.1, 0.3, 1.0}) {
-      const Parameters start(std::log(mass), 0.5, 0.1, delay * longest_delay);
-      starts.push_back({start, residuals(pushes, start, period).squaredNorm()});
+      for (const double damping : {0.3, 2.0}) {
+        for (const double friction : {0.0, 0.1}) {
+          const Parameters start(std::log(mass), damping, friction, delay * longest_delay);
+          starts.push_back({start, residuals(pushes, start, period).squaredNorm()});
+        }
+      }
     }
   }
   std::ranges::sort(starts, {}, &Descent::cost);

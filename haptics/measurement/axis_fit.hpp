@@ -7,16 +7,17 @@
 
 namespace reckon::haptics {
 
-/// One push: the handle rests, is pushed by forces that are held until the next, and comes to rest.
-/// All lists are as long; times begin anywhere and never decrease.
+/// One push: the handle all but rests, is pushed by forces that are held until the next, and comes
+/// to rest. All lists are as long; times begin anywhere and never decrease.
 struct AxisPush {
+  bool creeps = false;         ///< it moved a little at first, at a speed that nobody knows
   std::vector<double> forces;  ///< [N]; before the first there was none
   std::vector<double> writes;  ///< [s], from when on each was asked for
   std::vector<double> places;  ///< [m]
   std::vector<double> reads;   ///< [s], when the handle was there
 };
 
-/// m x'' + b x' + f sign(x') = F(t - delay), at rest at first.
+/// m x'' + b x' + f sign(x') = F(t - delay)
 struct AxisModel {
   double mass = 0.1;      ///< [kg] > 0
   double damping = 0.0;   ///< [N s/m], below 0 where the handle gains energy by itself

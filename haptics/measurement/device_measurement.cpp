@@ -66,9 +66,12 @@ void DeviceMeasurement::end(MeasurementProblem problem) noexcept {
   phase_ = Phase::done;
 }
 
-Eigen::Vector3d DeviceMeasurement::step(const DeviceSample& sample, std::chrono::nanoseconds now) {
+Eigen::Vector3d DeviceMeasurement::step(const DeviceSample& sample, std::chrono::nanoseconds now,
+                                        std::optional<std::chrono::nanoseconds> heard) {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   if (is_done() || needs_judging()) return force;
+  heard_gap_ = heard && heard_ ? pdu::to_seconds(*heard - *heard_) : 0.0;
+  heard_ = heard;
   if (!is_punctual(now) || !is_safe(sample)) return force;
   if (!sample.ok || (sample.watchdog && phase_ == Phase::push)) {
     begin_anew();
@@ -140,6 +143,8 @@ void DeviceMeasurement::rest(double place) {
   const double mean = mean_of(still);
   for (const double one : still) rests_.push_back(one - mean);
   begin_push();
+  // Without dry friction it does so for long.
+  now_.creeps = *most > *least;
 }
 
 void DeviceMeasurement::begin_push() {
@@ -158,9 +163,15 @@ double DeviceMeasurement::force_at(std::size_t k) const noexcept {
   return time < quarter || time >= 3 * quarter ? sign * amplitude_ : -sign * amplitude_;
 }
 
+// [s], of the handle's way to a reading.
+double DeviceMeasurement::way_time(const DeviceSample& sample) const noexcept {
+  if (sample.took) return pdu::to_seconds(*sample.took);
+  return heard_ ? heard_gap_ : gap_;
+}
+
 double DeviceMeasurement::push(const DeviceSample& sample) {
   const double place = sample.position(axis_);
-  took_.push_back(sample.took ? pdu::to_seconds(*sample.took) : gap_);
+  took_.push_back(way_time(sample));
   const std::size_t k = now_.places.size();
   const double force = force_at(k);
   if (k > 0) moves_.push_back(place - now_.places.back());

@@ -56,7 +56,7 @@ struct MeasuredDevice {
 ///
 /// Steps need not be punctual: by the contract of delay_samples the way of the handle between two
 /// reads was under the force written that many writes before the later, and how long it took the
-/// device says (DeviceSample::took), or else the steps' own times.
+/// device says (DeviceSample::took), or its driver, or else the steps' own times.
 class DeviceMeasurement {
  public:
   static constexpr double kWay = 0.005;      ///< [m], of the handle at the end of its first push
@@ -77,8 +77,11 @@ class DeviceMeasurement {
   DeviceMeasurement(const DeviceLimits& limits, std::chrono::nanoseconds period,
                     Axes axes = {true, true, true});
 
-  /// @param now when the sample was read, steady  @return the force to write [N], frame D
-  [[nodiscard]] Eigen::Vector3d step(const DeviceSample& sample, std::chrono::nanoseconds now);
+  /// @param now when the sample was read, steady  @param heard when the driver had the report that
+  /// it is of, on any steady clock; none: it is as new as `now`  @return the force to write [N],
+  /// frame D
+  [[nodiscard]] Eigen::Vector3d step(const DeviceSample& sample, std::chrono::nanoseconds now,
+                                     std::optional<std::chrono::nanoseconds> heard = {});
 
   /// All pushes of an axis are recorded, and until judge() has been called no force is asked for.
   [[nodiscard]] bool needs_judging() const noexcept { return phase_ == Phase::judge; }
@@ -108,6 +111,7 @@ class DeviceMeasurement {
   void end_push();
   void begin_anew();
   [[nodiscard]] AxisPush recorded() const;
+  [[nodiscard]] double way_time(const DeviceSample& sample) const noexcept;
   [[nodiscard]] double force_at(std::size_t k) const noexcept;
   [[nodiscard]] int axis_from(int axis) const noexcept;
   void conclude();
@@ -124,8 +128,10 @@ class DeviceMeasurement {
   bool recording_ = false;
   double start_ = 0.0;  // [m], of the axis
   bool has_start_ = false;
-  std::optional<std::chrono::nanoseconds> last_;  // step
-  double gap_ = 0.0;                              // [s], from that before it
+  std::optional<std::chrono::nanoseconds> last_;   // step
+  std::optional<std::chrono::nanoseconds> heard_;  // of the last report
+  double heard_gap_ = 0.0;                         // [s], from that before it
+  double gap_ = 0.0;                               // [s], from that before it
   std::size_t in_push_ = 0, late_ = 0;  // steps of pushes, and those of them that came late
   std::vector<double> at_rest_;         // of the present rest
   AxisPush now_;                        // the present push: forces and places

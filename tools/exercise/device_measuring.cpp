@@ -99,10 +99,13 @@ haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device) 
 }
 
 std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor& known,
-                            const haptics::MeasuredDevice& found) {
+                            const haptics::MeasuredDevice& found,
+                            const std::vector<std::string>& remarks) {
   // Of what is sure two standard deviations are left out.
   const double sure = std::max(0.0, found.damping - 2 * found.damping_error);
-  std::string text = fmt::format("name = \"{}\"\n", name);
+  std::string text;
+  for (const std::string& remark : remarks) text += fmt::format("# {}\n", remark);
+  text += fmt::format("name = \"{}\"\n", name);
   std::string ids;
   for (const peer::UsbId& id : known.usb)
     ids += fmt::format("{}\"{:04x}:{:04x}\"", ids.empty() ? "" : ", ", id.vendor, id.product);

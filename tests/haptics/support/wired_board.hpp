@@ -81,6 +81,8 @@ class WiredBoard {
   LineWay in, out;
   LineFaults faults;
   bool servo_runs = true;
+  /// Steps in its place, if there is one.
+  std::function<void(std::chrono::nanoseconds)> other_servo;
   bool in_is_cut = false, out_is_cut = false;  // no octets
   double least_books = 0;  // [J], of the board's own books with loan and allowance
   double least_own = 0;    // [J], with loan alone
@@ -137,6 +139,7 @@ class WiredBoard {
   }
 
   void step_servo(std::chrono::nanoseconds now) {
+    if (other_servo) return other_servo(now);
     servo.step(now);
     servo.snapshots().update();
     last = servo.snapshots().read();
