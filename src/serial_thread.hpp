@@ -29,6 +29,8 @@ class SerialThread {
 
   /// For the servo; its reading fails while the board is not there.
   [[nodiscard]] haptics::UsbDevice& device() noexcept { return device_; }
+  /// See haptics::SerialLoop::axes(). Any thread.
+  [[nodiscard]] unsigned axes() const noexcept { return loop_.axes(); }
   /// Sentences for the user since the last call. Any thread.
   [[nodiscard]] std::vector<std::string> take_notices() { return loop_.take_notices(); }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace reckon::haptics {
 namespace {
@@ -21,15 +22,26 @@ AxisModel model_of(const Parameters& p) {
   return {std::exp(p(0)), p(1), std::max(0.0, p(2)), std::max(0.0, p(3))};
 }
 
-// Integral of the forces from the first write to `time` [N s]; none was held before.
-double impulse(const std::vector<double>& sums, const std::vector<double>& forces, double time,
-               double period) {
-  if (!(time > 0)) return 0.0;
-  const double place = time / period;
-  const auto last = static_cast<double>(forces.size() - 1);
-  const auto k = static_cast<std::size_t>(std::min(place, last));
-  return sums[k] + forces[k] * (time - static_cast<double>(k) * period);
-}
+// Integral of the forces of a push from its first write on [N s]; none was held before.
+class Impulse {
+ public:
+  explicit Impulse(const AxisPush& push) : push_(push), sums_(push.forces.size(), 0.0) {
+    for (std::size_t k = 1; k < sums_.size(); ++k)
+      sums_[k] = sums_[k - 1] + push.forces[k - 1] * (push.writes[k] - push.writes[k - 1]);
+  }
+  // Times never decrease.
+  double until(double time) {
+    const std::vector<double>& writes = push_.writes;
+    if (!(time > writes.front())) return 0.0;
+    while (k_ + 1 < writes.size() && writes[k_ + 1] <= time) ++k_;
+    return sums_[k_] + push_.forces[k_] * (time - writes[k_]);
+  }
+
+ private:
+  const AxisPush& push_;
+  std::vector<double> sums_;
+  std::size_t k_ = 0;
+};
 
 // Places that changed, or change next. The others are wrong by where in a step of its sensor the
 // handle stands, all in the same way.
@@ -41,18 +53,44 @@ std::vector<std::size_t> telling(const AxisPush& push) {
   return some;
 }
 
-// Where in such a step it began is not known either: of each push the mean is left out.
+// Takes out of values what is along others, or their mean.
+void leave_out(std::span<double> values, std::span<const double> along) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    product += values[i] * along[i];
+    square += along[i] * along[i];
+  }
+  if (square == 0.0) return;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= product / square * along[i];
+}
+void leave_out_mean(std::span<double> values) {
+  leave_out(values, std::vector<double>(values.size(), 1.0));
+}
+
+// How far 1 m/s at first carries it, without dry friction: where there is any, nothing creeps.
+double coasted(const AxisModel& model, double time) {
+  const double share = model.damping * time / model.mass;
+  return std::abs(share) < 1e-6 ? time : -std::expm1(-share) * model.mass / model.damping;
+}
+
+// Where in such a step it began is not known either: of each push the mean is left out, and what a
+// speed at first makes.
 Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters& p, double period) {
   std::vector<double> all;
   const AxisModel model = model_of(p);
   for (const AxisPush& push : pushes) {
-    const std::vector<double> said = places_of(model, push.forces, push.places.front(), period);
+    const std::vector<double> said = places_of(model, push, period / kSubsteps);
     const std::size_t first = all.size();
-    for (const std::size_t k : telling(push)) all.push_back(said[k] - push.places[k]);
-    const auto count = static_cast<double>(all.size() - first);
-    double mean = 0.0;
-    for (std::size_t i = first; i < all.size(); ++i) mean += all[i] / count;
-    for (std::size_t i = first; i < all.size(); ++i) all[i] -= mean;
+    std::vector<double> ways;
+    for (const std::size_t k : telling(push)) {
+      all.push_back(said[k] - push.places[k]);
+      ways.push_back(coasted(model, push.reads[k] - push.reads.front()));
+    }
+    const std::span<double> own = std::span(all).subspan(first);
+    leave_out_mean(own);
+    if (!push.creeps) continue;
+    leave_out_mean(ways);
+    leave_out(own, ways);
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
@@ -109,18 +147,21 @@ Descent descend(const std::vector<AxisPush>& pushes, Parameters p, double period
 }
 
 // Where dry friction holds the handle the cost has corners, and a descent may end in one. A delay
-// is what they hide best: others about it are tried until none is better.
+// is what they hide best, and dry friction passes for viscous: others about it are tried until none
+// is better.
 Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double period,
                      double longest_delay) {
   constexpr int kMostRounds = 6;
+  const auto attempt = [&](const Parameters& there) {
+    const Descent one = descend(pushes, bounded(there, longest_delay), period, longest_delay);
+    if (one.cost < best.cost) best = one;
+  };
   for (int round = 0; round < kMostRounds; ++round) {
     const double before = best.cost;
-    for (const double ways : {-2.0, -0.7, 0.7, 2.0}) {
-      Parameters there = best.place;
-      there(3) += ways * period;
-      const Descent one = descend(pushes, bounded(there, longest_delay), period, longest_delay);
-      if (one.cost < best.cost) best = one;
-    }
+    for (const double ways : {-2.0, -0.7, 0.7, 2.0})
+      attempt(best.place + Parameters(0, 0, 0, ways * period));
+    const Parameters p = best.place;
+    for (const double more : {1.0, 2.0}) attempt({p(0), more * p(1), 0.0, p(3)});
     if (best.cost > 0.999 * before) break;
   }
   return best;
@@ -128,26 +169,26 @@ Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double p
 
 }  // namespace
 
-// Semi-implicit steps, ten a period; the force is its mean over the step.
-std::vector<double> places_of(const AxisModel& model, const std::vector<double>& forces,
-                              double from, double period) {
-  std::vector<double> sums(forces.size(), 0.0);
-  for (std::size_t k = 1; k < forces.size(); ++k) sums[k] = sums[k - 1] + period * forces[k - 1];
+// Semi-implicit steps; the force is its mean over the step.
+std::vector<double> places_of(const AxisModel& model, const AxisPush& push, double substep) {
+  Impulse impulse(push);
   std::vector<double> places;
-  places.reserve(forces.size());
-  const double h = period / kSubsteps;
-  double x = from, v = 0.0, before = impulse(sums, forces, -model.delay, period);
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    places.push_back(x);
-    for (int i = 1; i <= kSubsteps; ++i) {
-      const double time = static_cast<double>(k) * period + i * h;
-      const double pushed = impulse(sums, forces, time - model.delay, period);
+  places.reserve(push.reads.size());
+  double time = push.reads.front(), x = push.places.front(), v = 0.0;
+  double before = impulse.until(time - model.delay);
+  for (const double read : push.reads) {
+    const int steps = static_cast<int>(std::ceil((read - time) / substep - 1e-6));
+    const double begin = time, h = steps > 0 ? (read - begin) / steps : 0.0;
+    for (int i = 1; i <= steps; ++i) {
+      const double pushed = impulse.until(begin + i * h - model.delay);
       v += (pushed - before - h * model.damping * v) / model.mass;
       before = pushed;
       const double rubs = h * model.friction / model.mass;
       v = std::abs(v) > rubs ? v - std::copysign(rubs, v) : 0.0;
       x += h * v;
     }
+    time = read;
+    places.push_back(x);
   }
   return places;
 }
@@ -156,8 +197,12 @@ AxisFit fit_axis(const std::vector<AxisPush>& pushes, double period, double long
   std::vector<Descent> starts;
   for (const double delay : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 0.95}) {
     for (const double mass : {0.03, 0.1, 0.3, 1.0}) {
-      const Parameters start(std::log(mass), 0.5, 0.1, delay * longest_delay);
-      starts.push_back({start, residuals(pushes, start, period).squaredNorm()});
+      for (const double damping : {0.3, 2.0}) {
+        for (const double friction : {0.0, 0.1}) {
+          const Parameters start(std::log(mass), damping, friction, delay * longest_delay);
+          starts.push_back({start, residuals(pushes, start, period).squaredNorm()});
+        }
+      }
     }
   }
   std::ranges::sort(starts, {}, &Descent::cost);

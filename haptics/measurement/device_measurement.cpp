@@ -46,34 +46,66 @@ double step_of(const std::vector<double>& moves) {
 
 }  // namespace
 
-DeviceMeasurement::DeviceMeasurement(const DeviceLimits& limits, std::chrono::nanoseconds period)
+DeviceMeasurement::DeviceMeasurement(const DeviceLimits& limits, std::chrono::nanoseconds period,
+                                     Axes axes)
     : period_(pdu::to_seconds(period)),
+      delay_(static_cast<std::size_t>(std::max(0, limits.delay_samples))),
+      axes_(axes),
       greatest_(std::min(kMostPush, 0.4 * limits.max_force)),
+      axis_(axis_from(0)),
       amplitude_(std::min(kFirstPush, greatest_)) {}
+
+// The first that it has; 3: none.
+int DeviceMeasurement::axis_from(int axis) const noexcept {
+  while (axis < 3 && !axes_[static_cast<std::size_t>(axis)]) ++axis;
+  return axis;
+}
 
 void DeviceMeasurement::end(MeasurementProblem problem) noexcept {
   problem_ = problem;
   phase_ = Phase::done;
 }
 
-Eigen::Vector3d DeviceMeasurement::step(const DeviceSample& sample) {
-  if (is_done() || !is_safe(sample)) return Eigen::Vector3d::Zero();
-  if (!sample.ok) {
-    // What was recorded has a hole now.
-    if (phase_ == Phase::push) begin_push();
-    phase_ = Phase::rest;
-    at_rest_.clear();
-    return Eigen::Vector3d::Zero();
-  }
-  const double place = sample.position(axis_);
+Eigen::Vector3d DeviceMeasurement::step(const DeviceSample& sample, std::chrono::nanoseconds now,
+                                        std::optional<std::chrono::nanoseconds> heard) {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  if (phase_ == Phase::rest) {
-    rest(place);
-  } else {
-    force(axis_) = push(place);
+  if (is_done() || needs_judging()) return force;
+  heard_gap_ = heard && heard_ ? pdu::to_seconds(*heard - *heard_) : 0.0;
+  heard_ = heard;
+  if (!is_punctual(now) || !is_safe(sample)) return force;
+  if (!sample.ok || (sample.watchdog && phase_ == Phase::push)) {
+    begin_anew();
+    return force;
   }
+  if (phase_ == Phase::rest) {
+    rest(sample.position(axis_));
+  } else {
+    force(axis_) = push(sample);
+  }
+  if (is_done() || needs_judging()) return Eigen::Vector3d::Zero();
   most_push_ = std::max(most_push_, force.norm());
-  return is_done() ? Eigen::Vector3d::Zero() : force;
+  return force;
+}
+
+// What was recorded has a hole now.
+void DeviceMeasurement::begin_anew() {
+  if (phase_ == Phase::push && ++holes_ > kMostHoles) return end(MeasurementProblem::readings);
+  now_ = {};
+  at_rest_.clear();
+  phase_ = Phase::rest;
+}
+
+// A force that is held for too long moves the handle farther than was meant.
+bool DeviceMeasurement::is_punctual(std::chrono::nanoseconds now) {
+  constexpr std::size_t kTold = 1'000;  // steps that tell a share
+  gap_ = last_ ? pdu::to_seconds(now - *last_) : period_;
+  last_ = now;
+  if (phase_ != Phase::push) return true;
+  ++in_push_;
+  if (gap_ > 1.5 * period_) ++late_;
+  const double most = kMostLate * static_cast<double>(std::max(in_push_, kTold));
+  if (gap_ > kMostGap || static_cast<double>(late_) > most) end(MeasurementProblem::busy);
+  return !is_done();
 }
 
 bool DeviceMeasurement::is_safe(const DeviceSample& sample) {
@@ -111,11 +143,14 @@ void DeviceMeasurement::rest(double place) {
   const double mean = mean_of(still);
   for (const double one : still) rests_.push_back(one - mean);
   begin_push();
+  // Without dry friction it does so for long.
+  now_.creeps = *most > *least;
 }
 
 void DeviceMeasurement::begin_push() {
   phase_ = Phase::push;
   now_ = {};
+  took_.clear();
   at_rest_.clear();
 }
 
@@ -128,7 +163,15 @@ double DeviceMeasurement::force_at(std::size_t k) const noexcept {
   return time < quarter || time >= 3 * quarter ? sign * amplitude_ : -sign * amplitude_;
 }
 
-double DeviceMeasurement::push(double place) {
+// [s], of the handle's way to a reading.
+double DeviceMeasurement::way_time(const DeviceSample& sample) const noexcept {
+  if (sample.took) return pdu::to_seconds(*sample.took);
+  return heard_ ? heard_gap_ : gap_;
+}
+
+double DeviceMeasurement::push(const DeviceSample& sample) {
+  const double place = sample.position(axis_);
+  took_.push_back(way_time(sample));
   const std::size_t k = now_.places.size();
   const double force = force_at(k);
   if (k > 0) moves_.push_back(place - now_.places.back());
@@ -157,8 +200,8 @@ void DeviceMeasurement::end_push() {
   phase_ = Phase::rest;
   ++pushes_;
   if (recording_) {
-    record_.push_back(now_);
-    if (record_.size() == kRecorded) next_axis();
+    record_.push_back(recorded());
+    if (record_.size() == kRecorded) phase_ = Phase::judge;
     return;
   }
   if (way >= kWay) {
@@ -171,7 +214,21 @@ void DeviceMeasurement::end_push() {
   }
 }
 
-void DeviceMeasurement::next_axis() {
+// The present push, with times. The way from read k to the next was under the force of write
+// k - delay, however late they came.
+AxisPush DeviceMeasurement::recorded() const {
+  AxisPush push = now_;
+  const std::size_t last = push.places.size() - 1;
+  double time = 0.0;
+  for (std::size_t k = 0; k <= last; ++k) push.reads.push_back(time += k > 0 ? took_[k] : 0.0);
+  for (std::size_t k = 0; k <= last; ++k) {
+    const std::size_t read = std::min(k + delay_, last);
+    push.writes.push_back(push.reads[read] - static_cast<double>(read - k) * period_);
+  }
+  return push;
+}
+
+void DeviceMeasurement::judge() {
   const AxisFit fit = fit_axis(record_, period_, 2.2 * kLongestDelay);
   if (fit.model.damping < 0) return end(MeasurementProblem::active);
   if (fit.model.delay > kLongestDelay) return end(MeasurementProblem::late);
@@ -179,13 +236,16 @@ void DeviceMeasurement::next_axis() {
   if (fit.residual > 0.02 * kWay + fine) return end(MeasurementProblem::unlike);
   fits_.push_back(fit);
   record_.clear();
+  at_rest_.clear();
+  failed_ = 0;
   recording_ = has_start_ = false;
   amplitude_ = std::min(kFirstPush, greatest_);
-  if (++axis_ == 3) conclude();
+  axis_ = axis_from(axis_ + 1);
+  if (axis_ == 3) return conclude();
+  phase_ = Phase::rest;
 }
 
 void DeviceMeasurement::conclude() {
-  axis_ = 2;
   MeasuredDevice found;
   const auto least =
       std::ranges::min_element(fits_, {}, [](const AxisFit& fit) { return fit.model.damping; });

@@ -106,6 +106,10 @@ void SerialLoop::tell_stage(nanoseconds now) {
     tell(name + " does not know its place yet; no force until then");
   if (stage == SerialStage::running) {
     problem_.clear();
+    unsigned axes = 0;
+    for (std::size_t i = 0; i < session_->greeting().axes; ++i)
+      axes |= 1U << session_->greeting().axis[i].direction;
+    axes_ = axes;
     tell(name + " is ready: forces are shown");
   }
 }

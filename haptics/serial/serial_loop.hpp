@@ -53,6 +53,9 @@ class SerialLoop {
   [[nodiscard]] std::vector<std::string> take_notices();
   /// How far it is; nothing while the line is not open. The thread of step().
   [[nodiscard]] std::optional<SerialStage> stage() const noexcept;
+  /// Axes of frame D that the board has, bit 0 for x, of the last one that was ready; 0: none was.
+  /// Any thread.
+  [[nodiscard]] unsigned axes() const noexcept { return axes_; }
 
  private:
   void attach();
@@ -74,6 +77,7 @@ class SerialLoop {
   std::string problem_;                                 // told already
   std::optional<SerialStage> told_;
   bool timed_ = false;  // and told so
+  std::atomic<unsigned> axes_{0};
   std::mutex telling_;  // never taken by the servo
   std::vector<std::string> notices_;
 };

@@ -126,6 +126,7 @@ void SerialSession::read(const SerialReport& report, nanoseconds now) noexcept {
   let_go_ = report.let_go;
   reading.position = place_of(report);
   reading.at = clock_;
+  reading.heard = now;
   reading.after = sent(*from).number;
   reading.run = run_;
   reading.buttons = report.buttons;

@@ -38,6 +38,9 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds) noexcept {
   DeviceSample sample;
   sample.ok = has_shown_ && shown_.after > due;
   if (!sample.ok) return sample;
+  const UsbReading& newest =
+      count_ > 0 ? waiting_[(first_ + count_ - 1) % waiting_.size()] : shown_;
+  needed_ = std::max(needed_, static_cast<int>(written_ + 1 - newest.after));
   sample.position = shown_.position;
   if (shown_.orientation) sample.turn = DeviceTurn{*shown_.orientation};
   if (told_at_ && shown_.at) sample.took = *shown_.at - *told_at_;

@@ -31,6 +31,14 @@ class UsbDevice final : public HapticDevice {
   [[nodiscard]] DeviceSample read(std::chrono::nanoseconds now) noexcept override;
   void write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept override;
 
+  /// The least `delay` [writes] with which none of the readings that were good so far would have
+  /// failed; 0: there was none. What this host and this line need, found without a force. The
+  /// servo's thread, or any once that has ended.
+  [[nodiscard]] int needed_delay() const noexcept { return needed_; }
+  /// When the host had the report that the last read showed, on the clock of the writes. The
+  /// servo's thread.
+  [[nodiscard]] std::chrono::nanoseconds heard() const noexcept { return shown_.heard; }
+
  private:
   void take_readings() noexcept;
 
@@ -46,6 +54,7 @@ class UsbDevice final : public HapticDevice {
   std::uint32_t run_ = 0;
   bool has_shown_ = false;  // a reading of this run
   bool dropped_ = false;    // the force was, and the servo does not know
+  int needed_ = 0;          // writes, that a delay has to be
 };
 
 }  // namespace reckon::haptics

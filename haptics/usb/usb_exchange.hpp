@@ -35,6 +35,7 @@ struct UsbReading {
   std::uint8_t buttons = 0;
   /// By the device's own clock, where its reports have one.
   std::optional<std::chrono::nanoseconds> at = {};
+  std::chrono::nanoseconds heard{0};  ///< when the host had it, on the clock of the writes
 };
 
 /// Neither side waits for the other. Allocates once, here.

@@ -17,12 +17,13 @@ void UsbSession::take(std::span<const std::uint8_t> transfer, nanoseconds now) n
       longest_ = std::max(longest_, now - sent_at_);
       ++timed_;
     }
-    answer();
+    answer(now);
   }
 }
 
-void UsbSession::answer() noexcept {
+void UsbSession::answer(nanoseconds now) noexcept {
   UsbReading reading;
+  reading.heard = now;
   reading.before = held_;
   held_ = sent_;
   const UsbStage stage = driver_.judge(stage_ == UsbStage::running, reading);

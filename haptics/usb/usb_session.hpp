@@ -62,7 +62,7 @@ class UsbSession {
   static constexpr int kTimed = 500;
 
  private:
-  void answer() noexcept;
+  void answer(std::chrono::nanoseconds now) noexcept;
   void leave(UsbStage stage) noexcept;
 
   UsbExchange& exchange_;

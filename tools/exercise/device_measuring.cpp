@@ -73,6 +73,9 @@ std::string_view sentence_of(MeasurementProblem problem) noexcept {
     case MeasurementProblem::unlike:
       return "it does not move as a mass with friction does: let go of the handle, or a spring "
              "holds it";
+    case MeasurementProblem::busy:
+      return "this host was too busy to call it in time, and what was found would be wrong: end "
+             "other programs, and allow real-time priority (see reckon doctor)";
     case MeasurementProblem::none:
       break;
   }
@@ -85,8 +88,10 @@ haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device) 
     throw std::runtime_error("only devices of three axes are measured: turns are not pushed yet");
   haptics::SimulatedDevice simulated(free_device_of(device));
   haptics::DeviceMeasurement run(simulated.limits(), kPeriod);
-  for (std::chrono::nanoseconds now{0}; !run.is_done() && now < kLongest; now += kPeriod)
-    simulated.write(run.step(simulated.read(now)), now);
+  for (std::chrono::nanoseconds now{0}; !run.is_done() && now < kLongest; now += kPeriod) {
+    simulated.write(run.step(simulated.read(now), now), now);
+    if (run.needs_judging()) run.judge();
+  }
   if (run.problem() != MeasurementProblem::none)
     throw std::runtime_error(std::string(sentence_of(run.problem())));
   if (!run.result()) throw std::runtime_error("it did not come to an end within 10 minutes");
@@ -94,10 +99,13 @@ haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device) 
 }
 
 std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor& known,
-                            const haptics::MeasuredDevice& found) {
+                            const haptics::MeasuredDevice& found,
+                            const std::vector<std::string>& remarks) {
   // Of what is sure two standard deviations are left out.
   const double sure = std::max(0.0, found.damping - 2 * found.damping_error);
-  std::string text = fmt::format("name = \"{}\"\n", name);
+  std::string text;
+  for (const std::string& remark : remarks) text += fmt::format("# {}\n", remark);
+  text += fmt::format("name = \"{}\"\n", name);
   std::string ids;
   for (const peer::UsbId& id : known.usb)
     ids += fmt::format("{}\"{:04x}:{:04x}\"", ids.empty() ? "" : ", ", id.vendor, id.product);

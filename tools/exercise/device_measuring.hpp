@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/measurement/device_measurement.hpp"
@@ -22,9 +23,11 @@ namespace reckon::tools {
 /// the reason where it cannot be measured
 [[nodiscard]] haptics::MeasuredDevice measure_simulated(const peer::DeviceDescriptor& device);
 
-/// The text of a descriptor: what was measured, and of the rest what `known` says.
+/// The text of a descriptor: what was measured, and of the rest what `known` says. @param remarks
+/// lines that it begins with
 [[nodiscard]] std::string descriptor_text(std::string_view name,
                                           const peer::DeviceDescriptor& known,
-                                          const haptics::MeasuredDevice& found);
+                                          const haptics::MeasuredDevice& found,
+                                          const std::vector<std::string>& remarks = {});
 
 }  // namespace reckon::tools

@@ -221,6 +221,17 @@ haptics::HapticDevice& RealDevices::plug_in_serial(const DeviceConfig& config,
   return wired_.back().thread->device();
 }
 
+unsigned RealDevices::axes() const noexcept {
+  constexpr unsigned kAll = 7;
+  const unsigned told = wired_.empty() ? 0 : wired_.front().thread->axes();
+  return told == 0 ? kAll : told;
+}
+
+const haptics::UsbDevice* RealDevices::reports() const noexcept {
+  if (!plugged_.empty()) return &plugged_.front().thread->device();
+  return wired_.empty() ? nullptr : &wired_.front().thread->device();
+}
+
 std::vector<std::string> RealDevices::take_notices() {
   std::vector<std::string> all = std::exchange(sentences_, {});
   for (const Plugged& plugged : plugged_) {

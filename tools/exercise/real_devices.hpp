@@ -50,6 +50,11 @@ class RealDevices {
                std::vector<peer::PeerDevice>& wired);
   /// Sentences since the last call.
   [[nodiscard]] std::vector<std::string> take_notices();
+  /// Axes of frame D that the first device has, bit 0 for x: a serial board tells once it is ready,
+  /// and of all others it is all three.
+  [[nodiscard]] unsigned axes() const noexcept;
+  /// The first device, where it reports at times of its own; else null.
+  [[nodiscard]] const haptics::UsbDevice* reports() const noexcept;
 
  private:
   [[nodiscard]] haptics::HapticDevice& plug_in_usb(const peer::DeviceConfig& config,

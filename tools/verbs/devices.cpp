@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
@@ -25,6 +26,7 @@
 #include "reckon/tools/exercise/attached_devices.hpp"
 #include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
+#include "reckon/tools/exercise/real_measuring.hpp"
 #include "reckon/tools/exercise/serial_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -33,7 +35,8 @@ namespace reckon::tools {
 namespace {
 
 struct DevicesOptions {
-  std::string action, name, simulate;
+  std::string action, name, simulate, firmware, max_force;
+  bool is_agreed = false;
   bool install_rule = false;
   std::string folder = kRuleFolder;
   bool json = false;
@@ -199,7 +202,7 @@ int describe_devices(const DevicesOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-int measure_device(const DevicesOptions& options, const Console& console) {
+std::string simulated_text(const DevicesOptions& options) {
   const peer::DeviceDescriptor known = descriptor_of(options.simulate);
   haptics::MeasuredDevice found;
   try {
@@ -207,7 +210,15 @@ int measure_device(const DevicesOptions& options, const Console& console) {
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(fmt::format("{}: {}", known.name, error.what()));
   }
-  const std::string text = descriptor_text(options.name, known, found);
+  return descriptor_text(options.name, known, found);
+}
+
+int measure_device(const DevicesOptions& options, const Console& console) {
+  const std::string text =
+      options.simulate.empty()
+          ? measure_real({{options.name, options.firmware}, options.max_force, options.is_agreed},
+                         console)
+          : simulated_text(options);
   // What was written is a descriptor in every case.
   static_cast<void>(peer::parse_device_descriptor(text, options.name));
   std::fwrite(text.data(), 1, text.size(), console.out);
@@ -220,13 +231,20 @@ void check_measure(const DevicesOptions& options) {
     throw UsageError(
         "--simulate is what measure pushes: reckon devices measure mine --simulate "
         "falcon");
+  for (const auto& [given, flag] :
+       {std::pair(options.is_agreed, "--yes"), std::pair(!options.firmware.empty(), "--firmware"),
+        std::pair(!options.max_force.empty(), "--max-force")}) {
+    if (!given) continue;
+    if (!measures)
+      throw UsageError(fmt::format("{}: of measure: reckon devices measure falcon", flag));
+    if (!options.simulate.empty())
+      throw UsageError(fmt::format("{}: of a real device: leave it or --simulate out", flag));
+  }
   if (!measures) return;
   if (options.name.empty())
     throw UsageError(
-        "measure names the device in what it prints: reckon devices measure mine "
-        "--simulate falcon");
-  if (options.simulate.empty())
-    throw UsageError("measure pushes no real device yet: add --simulate DESCRIPTOR");
+        "measure needs a device: reckon devices measure falcon, or for a simulated one reckon "
+        "devices measure mine --simulate falcon");
   if (options.json) throw UsageError("--json: measure prints a descriptor; leave it out");
 }
 
@@ -255,18 +273,28 @@ int run_devices(Arguments arguments, const Console& console) {
                    "reckon devices\n"
                    "reckon devices describe\n"
                    "reckon devices describe touch\n"
+                   "reckon devices measure falcon > mine.toml\n"
+                   "reckon devices measure /dev/ttyACM0 --max-force \"3 N\"\n"
                    "reckon devices measure mine --simulate falcon\n"
                    "sudo reckon devices --install-rule\n"
                    "reckon demo --device falcon");
   line.word("ACTION", options.action, false,
             "describe: what descriptors say, and the stiffness that follows; keys: what a "
             "descriptor may say; measure: find damping, friction and delay by small pushes, and "
-            "print a descriptor; absent: look for devices");
+            "print a descriptor: it asks first; absent: look for devices");
   line.word("NAME", options.name, false,
             "of describe: a descriptor's file, or the name of one that comes with Reckon; absent: "
-            "all of these. Of measure: name of the device");
+            "all of these. Of measure: a real device as --device of a demo has it (falcon, polhem, "
+            "./DRIVER.so, /dev/ttyACM0[@BAUD]), or with --simulate a name");
   line.option("--simulate", options.simulate,
               "of measure: push a simulated device of this descriptor, that nobody holds");
+  line.flag("--yes", options.is_agreed,
+            "of measure: the handle is free to move by 40 mm, begin without asking");
+  line.option("--firmware", options.firmware,
+              "of measure: file of the program that a Falcon runs, where it has lost it");
+  line.option(
+      "--max-force", options.max_force,
+      "of measure: what each axis of a serial board can hold, such as \"3 N\"; default: 1 N");
   line.flag("--install-rule", options.install_rule,
             "write the rule of udev by which the person at this host may open them");
   line.option("--folder", options.folder,

@@ -34,6 +34,8 @@ class HeldModel : public UsbModel {
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
 
   void carry(double share) { carried_ = share; }  ///< of its links' weight, by the hand
+  void let_go() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
+  void gain(double damping) { options_.damping = damping; }  ///< [N s/m], below 0: it is active
 
   // What goes wrong from now on.
   void hang(std::chrono::nanoseconds time) { hangs_until_ = now_ + time; }  ///< no transfer ends

@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 using std::chrono::microseconds;
+using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr microseconds kStep{50};
@@ -71,14 +72,18 @@ void SerialBoard::move(double h) {
     position_ = hand_(t);
     return;
   }
+  lagging_.push_back(force_);
+  if (lagging_.size() > static_cast<std::size_t>(milliseconds(options_.lag) / kStep) + 1)
+    lagging_.pop_front();
+  const Vector3d held = lagging_.front();
   Vector3d pushed = options_.hand_stiffness * (hand_(t) - position_) +
-                    options_.hand_damping * (speed - velocity_) + force_ -
+                    options_.hand_damping * (speed - velocity_) + held -
                     options_.damping * velocity_;
   for (int i = options_.axes; i < 3; ++i) pushed[i] = 0;
   velocity_ += h / options_.mass * pushed;
   position_ += h * velocity_;
   damping_loss_ += h * options_.damping * velocity_.squaredNorm();
-  port_work_ -= h * force_.dot(velocity_);
+  port_work_ -= h * held.dot(velocity_);
 }
 
 void SerialBoard::tick() {

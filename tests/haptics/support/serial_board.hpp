@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <random>
 #include <span>
@@ -30,6 +31,7 @@ struct SerialBoardOptions {
   int period = 1'000;           ///< [us]
   bool is_led = false;          ///< its handle is where the hand wants it, whatever the force
   int jitter = 50;              ///< [us], of its ticks
+  int lag = 0;                  ///< [ms], of its motors behind what it reports
 };
 
 class SerialBoard {
@@ -60,6 +62,7 @@ class SerialBoard {
   };
   [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
 
+  void let_go() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
   void forget();  ///< as after its reset: counters, force, what it was told
   void hold_button(bool on) { buttons_ = on ? 1 : 0; }
   void lose_place(bool on) { homed_ = !on; }  ///< its counts are no places
@@ -76,6 +79,7 @@ class SerialBoard {
   std::mt19937 random_;
   std::chrono::nanoseconds now_{0}, next_tick_{0}, late_{0};
   Vector3d position_, velocity_ = Vector3d::Zero(), force_ = Vector3d::Zero();
+  std::deque<Vector3d> lagging_;  // forces of the last steps
   double port_work_ = 0, damping_loss_ = 0;
   std::uint32_t first_stamp_;
   double clock_rate_ = 1;

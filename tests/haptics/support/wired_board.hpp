@@ -89,7 +89,9 @@ class WiredBoard {
   LineFaults faults;
   bool servo_runs = true;
   std::function<void(std::chrono::nanoseconds)> before_step;  // of the servo
-  bool in_is_cut = false, out_is_cut = false;                 // no octets
+  /// Steps in its place, if there is one.
+  std::function<void(std::chrono::nanoseconds)> other_servo;
+  bool in_is_cut = false, out_is_cut = false;  // no octets
   double least_books = 0;  // [J], of the board's own books with loan and allowance
   double least_own = 0;    // [J], with loan alone
   haptics::ServoSnapshot last;
@@ -145,6 +147,7 @@ class WiredBoard {
   }
 
   void step_servo(std::chrono::nanoseconds now) {
+    if (other_servo) return other_servo(now);
     if (before_step) before_step(now);
     servo.step(now);
     servo.snapshots().update();
