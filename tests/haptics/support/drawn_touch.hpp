@@ -25,8 +25,8 @@ enum class TouchKind : std::uint8_t { walls, hands, effects, bodies };
 inline constexpr std::array kTouchKinds{TouchKind::walls, TouchKind::hands, TouchKind::effects,
                                         TouchKind::bodies};
 
-/// A floor some mm below the middle, and what belongs to its kind. The hand roams about the middle,
-/// some 10 mm wide, and rests there in the end.
+/// A floor some mm below the middle, and what belongs to its kind. The hand rests in the middle,
+/// where it touches nothing, roams about it, some 10 mm wide, and rests there again in the end.
 class DrawnTouch {
  public:
   DrawnTouch(TouchKind kind, unsigned seed) : random_(seed), kind_(kind) {
@@ -41,11 +41,11 @@ class DrawnTouch {
 
   [[nodiscard]] const haptics::Scene& scene() const { return scene_; }
 
-  /// Where the hand wants to be [m], at rest from `kRests` on.
+  /// Where the hand wants to be [m], at rest until 0 and from `kRests` on.
   static constexpr double kRests = 4.0;  // [s]
   [[nodiscard]] Eigen::Vector3d hand(double t) const {
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    const double share = std::clamp(2.0 * (kRests - t), 0.0, 1.0);
+    Eigen::Vector3d place = middle_;
+    const double share = std::clamp(2.0 * std::min(t, kRests - t), 0.0, 1.0);
     for (int i = 0; i < 3; ++i)
       for (const auto& [size, rate, phase] : strokes_[static_cast<std::size_t>(i)])
         place[i] += share * size * std::sin(rate * t + phase);
@@ -93,7 +93,7 @@ class DrawnTouch {
   }
   void add_floor() {
     haptics::SceneObject& floor = add("floor", haptics::PlaneShape{});
-    floor.pose.position.z() = -within(0.0, 0.006);
+    floor.pose.position.z() = -within(0.001, 0.006);
     floor.matter.friction = 0.5;
   }
   void add_walls() {
@@ -103,8 +103,9 @@ class DrawnTouch {
       wall.pose.position = -within(0.002, 0.01) * way.normalized();
       if (i == 0) wall.effects.of<haptics::StickSlipFriction>() = {0.6, 0.4};
     }
-    haptics::SceneObject& ball = add("ball", haptics::SphereShape{within(0.005, 0.02)});
-    ball.pose.position = {within(-0.03, 0.03), within(-0.03, 0.03), within(-0.03, 0.0)};
+    const double radius = within(0.005, 0.02);
+    const Eigen::Vector3d way = Eigen::Vector3d(within(-1, 1), within(-1, 1), -1).normalized();
+    add("ball", haptics::SphereShape{radius}).pose.position = (radius + 0.002) * way;
   }
   void add_effects() {
     haptics::DeclaredEffects& floor = scene_.objects.front().effects;
@@ -120,9 +121,10 @@ class DrawnTouch {
     if (within(0, 1) < 0.5) region.effects.declare<haptics::Attraction>();
     region.effects.declare<haptics::Oscillation>() = {0.2, 0.0, 0.4, scale(5, 200)};
   }
-  // On the floor, about the middle.
+  // On the floor, below the middle.
   void add_bodies() {
     const double floor = scene_.objects.front().pose.position.z();
+    middle_.z() = 0.027;
     for (int i = 0; i < 3; ++i) {
       const double edge = within(0.012, 0.025);
       haptics::SceneObject& cube = add("cube", haptics::BoxShape{Eigen::Vector3d::Constant(edge)});
@@ -137,6 +139,7 @@ class DrawnTouch {
   TouchKind kind_;
   haptics::Scene scene_;
   std::array<std::array<std::array<double, 3>, 2>, 3> strokes_{};
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::chrono::nanoseconds next_others_{0};
   std::uint32_t version_ = 0;
 };
