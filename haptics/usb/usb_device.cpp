@@ -25,7 +25,18 @@ void UsbDevice::take_readings() noexcept {
   }
 }
 
-DeviceSample UsbDevice::read(std::chrono::nanoseconds) noexcept {
+// What was read before is no place of now, and the force of then was dropped.
+void UsbDevice::forget_readings() noexcept {
+  UsbReading reading;
+  while (exchange_.readings.pop(reading)) run_ = reading.run;
+  dropped_ = dropped_ || has_shown_;
+  has_shown_ = false;
+  told_at_.reset();
+  count_ = 0;
+}
+
+DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
+  if (written_ > 0 && now - written_at_ > kWatchdog) forget_readings();
   take_readings();
   // Before the first write the device holds none, number 0.
   const std::int64_t due = std::max<std::int64_t>(0, written_ - limits_.delay_samples);
@@ -52,7 +63,7 @@ void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now
   UsbForce& newest = exchange_.force.write_slot();
   newest.force = force.allFinite() ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
   newest.number = ++written_;
-  newest.at = now;
+  newest.at = written_at_ = now;
   exchange_.force.publish();
 }
 

@@ -38,7 +38,8 @@ class FalconModel final : public HeldModel {
   /// @param hand where the hand wants it [m, frame D] at a time [s]
   FalconModel(const FalconModelOptions& options, std::function<Eigen::Vector3d(double)> hand);
 
-  void forget();  ///< without power: firmware, homing, motors
+  void forget();       ///< without power: firmware, homing, motors
+  void forget_line();  ///< without the bus: its FTDI chip, which the bus feeds
   void home() { homed_ = true; }
   void wake() { has_firmware_ = homed_ = true; }  ///< as after loading and homing
 

@@ -24,14 +24,20 @@ struct HeldModelOptions {
   double out_at = 0;            ///< [ms] of a frame, when it takes a transfer
 };
 
-/// Energies are those of its own motion, at a tenth of a millisecond or finer. All vectors are in
-/// frame D.
+/// Energies are those of its own motion, at a tenth of a millisecond or finer, or none while it is
+/// led. All vectors are in frame D.
 class HeldModel : public UsbModel {
  public:
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
   void pass(std::chrono::nanoseconds time) override;
   /// Called every 50 us of its time, whoever lets it pass: what runs beside the device's thread.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
+
+  /// A hand that is stronger than all holds the handle here, at rest, until it is let go. It is not
+  /// booked, and its time is cheap: a step may be a millisecond long.
+  void lead(const Eigen::Vector3d& place);
+  void let_go() { led_ = false; }
+  [[nodiscard]] bool is_led() const { return led_; }
 
   void carry(double share) { carried_ = share; }  ///< of its links' weight, by the hand
 
@@ -90,6 +96,7 @@ class HeldModel : public UsbModel {
   Eigen::Vector3d position_, velocity_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Identity();
   double carried_ = 1;
+  bool led_ = false;
   double port_work_ = 0, damping_loss_ = 0, first_height_ = 0;
   std::vector<std::uint8_t> out_;
   std::chrono::nanoseconds out_at_{0};  // a transfer ends

@@ -300,6 +300,25 @@ TEST(UsbDevice, AReadingThatIsLateFails) {
   }
 }
 
+// Else the first force after a silence would be that of a place from before it.
+TEST(UsbDevice, AReadingFromBeforeASilenceOfTheServoIsNone) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_TRUE(device.read(milliseconds(1)).ok);
+  device.write(Vector3d::UnitX(), milliseconds(1));
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_TRUE(device.read(milliseconds(11)).ok) << "its watchdog has not acted";
+  device.write(Vector3d::UnitX(), milliseconds(11));
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_FALSE(device.read(milliseconds(22)).ok);
+  device.write(Vector3d::Zero(), milliseconds(22));
+  EXPECT_FALSE(device.read(milliseconds(23)).ok) << "none has come since";
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 2, 0});
+  const DeviceSample sample = device.read(milliseconds(24));
+  EXPECT_TRUE(sample.ok && sample.watchdog);
+}
+
 // Also over readings that failed, and not over a force that was dropped.
 TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
   UsbExchange exchange;
