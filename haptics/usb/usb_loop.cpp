@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/usb/usb_loop.hpp"
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +41,9 @@ UsbLoop::~UsbLoop() {
   drain();
   line_->send(driver_->command(UsbStage::silent, nullptr));
   drain();
+  // A device that waits for its report to be fetched obeys after that.
+  const nanoseconds heard = std::min(end, options_.clock() + 2 * kUsbExchange);
+  while (line_->fault() == UsbFault::none && options_.clock() < heard) line_->pump(kGlance);
 }
 
 std::optional<UsbStage> UsbLoop::stage() const noexcept {
