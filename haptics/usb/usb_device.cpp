@@ -25,10 +25,13 @@ void UsbDevice::take_readings() noexcept {
   }
 }
 
-// What was read before is no place of now, and the force of then was dropped.
+// Whether what was read is no place of now, and the force of then was dropped.
+bool UsbDevice::is_over(std::chrono::nanoseconds now) const noexcept {
+  return (written_ > 0 && now - written_at_ > kWatchdog) ||
+         run_ <= exchange_.ended_run.load(std::memory_order_acquire);
+}
+
 void UsbDevice::forget_readings() noexcept {
-  UsbReading reading;
-  while (exchange_.readings.pop(reading)) run_ = reading.run;
   dropped_ = dropped_ || has_shown_;
   has_shown_ = false;
   told_at_.reset();
@@ -36,8 +39,8 @@ void UsbDevice::forget_readings() noexcept {
 }
 
 DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
-  if (written_ > 0 && now - written_at_ > kWatchdog) forget_readings();
   take_readings();
+  if (is_over(now)) forget_readings();
   // Before the first write the device holds none, number 0.
   const std::int64_t due = std::max<std::int64_t>(0, written_ - limits_.delay_samples);
   while (count_ > 0 && waiting_[first_].before <= due) {

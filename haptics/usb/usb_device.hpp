@@ -34,6 +34,7 @@ class UsbDevice final : public HapticDevice {
  private:
   void take_readings() noexcept;
   void forget_readings() noexcept;
+  [[nodiscard]] bool is_over(std::chrono::nanoseconds now) const noexcept;
 
   UsbExchange& exchange_;
   DeviceLimits limits_;

@@ -23,7 +23,8 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
     : exchange_(exchange),
       driver_(std::move(driver)),
       options_(std::move(options)),
-      context_(options_.discover) {
+      context_(options_.discover),
+      run_(exchange.ended_run + 1) {
   if (!options_.open) {
     options_.open = [&facts = driver_->facts()](libusb_context* context) {
       return open_usb_device(context, facts.vendor, facts.product);
@@ -34,6 +35,7 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
 // The device would hold the last force for as long as it likes.
 UsbLoop::~UsbLoop() {
   if (!line_) return;
+  if (session_) session_->end_run();
   const nanoseconds end = options_.clock() + kFarewell;
   const auto drain = [&] {
     while (line_->is_sending() && options_.clock() < end) line_->pump(kGlance);
@@ -103,7 +105,8 @@ void UsbLoop::tell_stage() {
 // What is still there is set up at once: that tells it a zero.
 void UsbLoop::detach(const std::string& why) {
   const bool is_gone = line_->fault() == UsbFault::gone;
-  run_ = session_->run() + 1;
+  session_->end_run();
+  run_ = session_->run();
   session_.reset();
   line_.reset();
   driver_->lost(is_gone);
