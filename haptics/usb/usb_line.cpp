@@ -108,7 +108,10 @@ UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPip
   const int code = libusb_claim_interface(handle, pipes_.interface);
   if (code != 0) {
     libusb_close(handle);
-    throw std::runtime_error("another program has it: " + reason(code));
+    const bool is_gone = code == LIBUSB_ERROR_NO_DEVICE;
+    throw std::runtime_error(
+        (is_gone ? "was unplugged while it was opened: " : "another program has it: ") +
+        reason(code));
   }
   out_.reset(libusb_alloc_transfer(0));
   for (std::size_t i = 0; i < kListeners; ++i) {

@@ -145,8 +145,13 @@ void UsbLoop::attach() {
     session_.emplace(exchange_, *driver_, run_, now);
     return;
   }
-  if (line_) driver_->lost(line_->fault() == UsbFault::gone);
-  line_.reset();
+  if (line_) {
+    const bool is_gone = line_->fault() == UsbFault::gone;
+    driver_->lost(is_gone);
+    if (is_gone)
+      problem = "was unplugged while it was set up; it is taken up again as soon as it is there";
+    line_.reset();
+  }
   if (problem != problem_) tell(problem);
   problem_ = std::move(problem);
 }

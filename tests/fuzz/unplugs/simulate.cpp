@@ -12,7 +12,7 @@ int run(int argc, char** argv) {
       "unplugs", "Unplugs devices on USB at random instants, and breaks their lines otherwise.",
       "U",       9,
       plan_of,   try_out,
-      calmed};
+      calmed,    "times unplugged"};
   return SeededSearch(unplugs).run(argc, argv);
 }
 

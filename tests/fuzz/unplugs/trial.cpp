@@ -117,6 +117,7 @@ class Trial {
   void play(const Fault& fault);
   bool reach(const Fault& fault);
   void open_anew();
+  bool wait_and_strike(const Fault& fault);
   void strike(const Fault& fault);
   void strike_line(const Fault& fault);
   void pull(bool loses_power);
@@ -225,6 +226,7 @@ void Trial<Kind>::end_program() {
     model_.pass(milliseconds(2));
     if (!motors_rest()) watch_.fail(2, model_.now(), "the end of the program leaves a force on");
   }
+  watch_.happens(1);  // who is new says all of it anew
   begin_program();
 }
 
@@ -320,6 +322,7 @@ void Trial<Kind>::pull(bool loses_power) {
   ++outcome_.received;
   if (!motors_rest()) ++outcome_.pressed;
   shim_.unplug();
+  watch_.happens(1);
   watch_.broken(model_.now());
   model_.forget_line();
   if (loses_power) model_.forget();
@@ -366,6 +369,7 @@ void Trial<Kind>::strike_line(const Fault& fault) {
 
 template <class Kind>
 void Trial<Kind>::strike(const Fault& fault) {
+  watch_.happens(is_unplug(fault.kind) ? 1 : fault.number);
   if (!is_unplug(fault.kind) && fault.kind != FaultKind::end_program) hurt_at_ = model_.now();
   const nanoseconds short_time = fault.lasts % milliseconds(300);
   switch (fault.kind) {
@@ -423,15 +427,14 @@ void Trial<Kind>::open_anew() {
   plug();
 }
 
-// Lets time pass until it is there.
+// Lets time pass until it is struck; at once is left to who calls.
 template <class Kind>
 bool Trial<Kind>::reach(const Fault& fault) {
   if (fault.phase == Phase::any) return true;
   if (!go([this] { return agenda_.empty(); }, seconds(10))) return false;
   if (fault.phase == Phase::running) {
     come_back();
-    return go([end = model_.now() + fault.after, this] { return model_.now() >= end; },
-              fault.after + milliseconds(1));
+    return wait_and_strike(fault);
   }
   open_anew();
   if (fault.phase == Phase::opening) {
@@ -455,12 +458,17 @@ bool Trial<Kind>::reach(const Fault& fault) {
   } else {
     go([this] { return opened_at_.has_value(); }, kBackWithin);
   }
+  return wait_and_strike(fault);
+}
+
+template <class Kind>
+bool Trial<Kind>::wait_and_strike(const Fault& fault) {
   bool is_there = false;
   in(fault.after, [&] {
     is_there = true;
     strike(fault);
   });
-  return go([&] { return is_there; }, fault.after + milliseconds(10));
+  return go([&] { return is_there; }, kBackWithin);
 }
 
 template <class Kind>
@@ -474,10 +482,8 @@ void Trial<Kind>::play(const Fault& fault) {
   log("-- " + text_of(fault));
   stays_ = fault.stays;
   depth_ = fault.depth;
-  watch_.listen_anew();
   if (!reach(fault)) return;
-  const bool is_struck = fault.phase != Phase::any && fault.phase != Phase::running;
-  if (!is_struck) strike(fault);
+  if (fault.phase == Phase::any) strike(fault);
   mix(static_cast<std::uint64_t>(model_.now().count()));
   mix(std::bit_cast<std::uint64_t>(model_.position().z()));
   mix(model_.commands());
@@ -489,7 +495,6 @@ Outcome Trial<Kind>::run() {
     if (!watch_.finding()) play(fault);
   }
   go([this] { return agenda_.empty(); }, seconds(10));
-  watch_.listen_anew();
   come_back();
   hand_.press(model_.position(), kDeep, model_.now());
   const bool is_felt = go([this] { return model_.force().norm() > kFelt; }, kFeltWithin);

@@ -18,10 +18,10 @@ using std::chrono::milliseconds;
 constexpr nanoseconds kZeroWithin = milliseconds(10);
 // A command that was under way when the force was dropped.
 constexpr nanoseconds kUnderWay = milliseconds(3);
-constexpr double kLeastBooks = -1e-9;  // [J]
-constexpr int kRamp = 100;             // steps
-constexpr std::size_t kMostHeard = 12;
-constexpr int kTransfers = 3;  // of a line: two that listen, one that sends
+constexpr double kLeastBooks = -1e-9;    // [J]
+constexpr int kRamp = 100;               // steps
+constexpr std::uint64_t kSentences = 6;  // for an event
+constexpr int kTransfers = 3;            // of a line: two that listen, one that sends
 
 double ms_of(nanoseconds time) { return 1e3 * pdu::to_seconds(time); }
 
@@ -71,9 +71,12 @@ void Watch::see(const haptics::ServoSnapshot& servo, double books, nanoseconds n
 }
 
 void Watch::hear(const std::string& sentence, nanoseconds now) {
-  heard_.push_back(sentence);
-  if (heard_.size() > kMostHeard)
-    fail(6, now, fmt::format("{} sentences for one fault", heard_.size()));
+  if (sentence == heard_ && events_ == events_before_)
+    fail(6, now, fmt::format("nothing befell it, and it says again: {}", sentence));
+  heard_ = sentence;
+  events_before_ = events_;
+  if (++sentences_ > kSentences * (events_ + 1))
+    fail(6, now, fmt::format("{} sentences for {} events", sentences_, events_));
 }
 
 void Watch::count(bool has_line, std::size_t outstanding, nanoseconds now) {

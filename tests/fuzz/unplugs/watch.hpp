@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/tests/fuzz/unplugs/trial.hpp"
@@ -37,14 +36,13 @@ class Watch {
   /// @param books [J], of the device's own, with what is owed and allowed
   void see(const haptics::ServoSnapshot& servo, double books, nanoseconds now);
   void hear(const std::string& sentence, nanoseconds now);
-  /// Sentences since the last call are of what comes now.
-  void listen_anew() { heard_.clear(); }
+  /// So much befalls it, of each of which it may say something.
+  void happens(unsigned times) { events_ += times; }
   /// Handles and transfers of the library. @param has_line whether the thread has the device open
   void count(bool has_line, std::size_t outstanding, nanoseconds now);
   void fail(int invariant, nanoseconds now, std::string sentence);
 
   [[nodiscard]] const std::optional<Finding>& finding() const { return finding_; }
-  [[nodiscard]] bool has_heard() const { return !heard_.empty(); }
 
  private:
   nanoseconds watchdog_;
@@ -57,7 +55,8 @@ class Watch {
   std::uint64_t steps_ = 0;  // of the servo since it runs
   std::uint64_t commands_ = 0;
   nanoseconds commanded_at_{};
-  std::vector<std::string> heard_;
+  std::string heard_;  // last
+  std::uint64_t sentences_ = 0, events_ = 0, events_before_ = 0;
 };
 
 }  // namespace reckon::fuzz::unplugs
