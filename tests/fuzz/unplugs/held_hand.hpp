@@ -15,10 +15,10 @@ namespace reckon::fuzz::unplugs {
 
 class HeldHand {
  public:
-  /// @param start [m, frame D], 5 mm in front of the wall
+  /// @param start [m, frame D], just in front of the wall
   explicit HeldHand(const Eigen::Vector3d& start) : start_(start), from_(start), to_(start) {}
 
-  static constexpr double kGap = 0.005;  ///< [m]
+  static constexpr double kGap = 0.001;  ///< [m]
 
   [[nodiscard]] const Eigen::Vector3d& start() const { return start_; }
   /// From here it goes so deep into the wall, and in and out from then on.
@@ -29,7 +29,7 @@ class HeldHand {
   }
   /// Where it wants the handle [m] at a time [s].
   [[nodiscard]] Eigen::Vector3d operator()(double t) const {
-    constexpr double kWay = 0.05;     // [s]
+    constexpr double kWay = 0.03;     // [s]
     constexpr double kDepth = 0.002;  // [m], in and out
     const double share = std::clamp((t - since_) / kWay, 0.0, 1.0);
     const double smooth = share * share * (3 - 2 * share);

@@ -64,7 +64,7 @@ FaultKind kind_of(Draw& draw) {
 nanoseconds after_of(Phase phase, Draw& draw) {
   if (phase == Phase::setting_up || phase == Phase::homing) return draw.between(0, 30'000);
   if (phase != Phase::running) return {};
-  const std::size_t part = draw.part(std::array{40U, 45U});
+  const std::size_t part = draw.part(std::array{25U, 50U});
   if (part == 0) return draw.between(0, 10'000);
   return part == 1 ? draw.between(10'000, 80'000) : draw.between(80'000, 250'000);
 }

@@ -318,7 +318,8 @@ void Trial<Kind>::book_own_work(nanoseconds now) {
 
 template <class Kind>
 void Trial<Kind>::pull(bool loses_power) {
-  log(fmt::format("unplugged{}", loses_power ? ", without power" : ""));
+  log(fmt::format("unplugged{} at {:.3f} N", loses_power ? ", without power" : "",
+                  model_.force().norm()));
   ++outcome_.received;
   if (!motors_rest()) ++outcome_.pressed;
   shim_.unplug();
