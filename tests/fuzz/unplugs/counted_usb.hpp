@@ -4,12 +4,14 @@
 // (--wrap); each goes on to the library.
 #pragma once
 
+#include <atomic>
+
 namespace reckon::fuzz::unplugs {
 
 struct UsbCount {
-  int handles = 0, transfers = 0;
+  std::atomic<int> handles = 0, transfers = 0;
 };
-/// What is there now. One thread.
+/// What is there now. Any thread.
 [[nodiscard]] const UsbCount& counted_usb() noexcept;
 
 }  // namespace reckon::fuzz::unplugs

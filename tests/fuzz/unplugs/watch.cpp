@@ -84,9 +84,10 @@ void Watch::count(bool has_line, std::size_t outstanding, nanoseconds now) {
   const int handles = has_line ? 1 : 0;
   if (usb.handles != handles || usb.transfers != kTransfers * handles ||
       (!has_line && outstanding > 0)) {
-    fail(7, now,
-         fmt::format("{} handles, {} transfers, {} of them under way, {} a line", usb.handles,
-                     usb.transfers, outstanding, has_line ? "with" : "without"));
+    fail(
+        7, now,
+        fmt::format("{} handles, {} transfers, {} of them under way, {} a line", usb.handles.load(),
+                    usb.transfers.load(), outstanding, has_line ? "with" : "without"));
   }
 }
 

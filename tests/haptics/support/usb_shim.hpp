@@ -65,6 +65,12 @@ class UsbShim {
   void reset_port();
   /// Called at each call to the kernel for this device, before it is answered.
   void at_each_call(std::function<void()> call) { at_call_ = std::move(call); }
+  /// Calls it while no other thread has the model.
+  template <class Call>
+  auto with_model(Call&& call) {
+    const std::lock_guard lock(guard_);
+    return call();
+  }
   /// Transfers that the library has not fetched.
   [[nodiscard]] std::size_t outstanding() const { return requests_.size(); }
 
