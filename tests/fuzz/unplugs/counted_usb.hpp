@@ -13,5 +13,6 @@ struct UsbCount {
 };
 /// What is there now. Any thread.
 [[nodiscard]] const UsbCount& counted_usb() noexcept;
+[[nodiscard]] bool is_usb_given_back() noexcept;
 
 }  // namespace reckon::fuzz::unplugs

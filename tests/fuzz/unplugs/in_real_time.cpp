@@ -7,6 +7,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/search/search_program.hpp"
+#include "reckon/tests/fuzz/unplugs/counted_usb.hpp"
 #include "reckon/tests/fuzz/unplugs/real_unplugs.hpp"
 
 namespace reckon::fuzz::unplugs {
@@ -20,7 +21,7 @@ int run(int argc, char** argv) {
   app.add_option("--rounds", rounds, "so many times, 1000 (default)");
   app.add_option("--seed", seed, "of the instants");
   CLI11_PARSE(app, argc, argv);
-  const RealOutcome outcome =
+  RealOutcome outcome =
       device == "serial"
           ? unplug_board(rounds, seed)
           : unplug_usb(device == "polhem" ? DeviceKind::polhem : DeviceKind::falcon, rounds, seed);

@@ -5,7 +5,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "reckon/tests/fuzz/unplugs/plan.hpp"
 
@@ -18,8 +21,17 @@ struct RealOutcome {
   std::string problem;                  ///< what did not hold; empty: all did
 };
 
-/// Pulls the device out so many times, at random instants while forces are shown.
-[[nodiscard]] RealOutcome unplug_usb(DeviceKind device, unsigned rounds, unsigned seed);
+/// Where the library finds a device by itself.
+struct UsbSite {
+  std::string node;  ///< ends the name of its file
+  std::function<void(const std::vector<std::uint8_t>& descriptors)> add;
+  std::function<void()> remove;
+};
+
+/// Pulls the device out so many times, at random instants while forces are shown. @param site
+/// without one the library is given the device
+[[nodiscard]] RealOutcome unplug_usb(DeviceKind device, unsigned rounds, unsigned seed,
+                                     const UsbSite* site = nullptr);
 [[nodiscard]] RealOutcome unplug_board(unsigned rounds, unsigned seed);
 
 }  // namespace reckon::fuzz::unplugs

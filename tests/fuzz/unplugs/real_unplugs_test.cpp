@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "reckon/tests/fuzz/unplugs/counted_usb.hpp"
+
 namespace reckon::fuzz::unplugs {
 namespace {
 
@@ -14,6 +16,7 @@ constexpr unsigned kRounds = 20;
 void expect_all(const RealOutcome& outcome) {
   EXPECT_EQ(outcome.problem, "");
   EXPECT_EQ(outcome.rounds, kRounds);
+  EXPECT_TRUE(is_usb_given_back());
 }
 
 TEST(RealUnplugs, OfAFalconWhoseThreadRuns) {

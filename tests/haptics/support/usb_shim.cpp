@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdlib>
@@ -28,6 +29,15 @@ std::mutex all_guard;
 constexpr std::chrono::nanoseconds kTick = std::chrono::microseconds(50);
 constexpr std::chrono::nanoseconds kIdleTick = std::chrono::milliseconds(1);
 
+// Of the file that is open; empty where no device is looked for by its name.
+std::string name_of(int descriptor, bool is_wanted) {
+  std::array<char, 256> name{};
+  if (!is_wanted) return {};
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
+  const auto length = ::readlink(link.c_str(), name.data(), name.size());
+  return {name.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length))};
+}
+
 int refuse(int error) {
   errno = error;
   return -1;
@@ -39,9 +49,17 @@ usbdevfs_urb& urb_of(void* urb) { return *static_cast<usbdevfs_urb*>(urb); }
 
 UsbShim* UsbShim::of(int descriptor) {
   const std::lock_guard lock(all_guard);
-  const auto found = std::ranges::find_if(
-      shims(), [&](const UsbShim* shim) { return shim->descriptor() == descriptor; });
-  return found == shims().end() || descriptor < 0 ? nullptr : *found;
+  if (descriptor < 0) return nullptr;
+  const bool is_wanted =
+      std::ranges::any_of(shims(), [](const UsbShim* shim) { return !shim->node_.empty(); });
+  const std::string name = name_of(descriptor, is_wanted);
+  const auto is_its = [&](const UsbShim* shim) {
+    return shim->node_.empty() ? shim->file_ == descriptor : name.ends_with(shim->node_);
+  };
+  const auto found = std::ranges::find_if(shims(), is_its);
+  if (found == shims().end()) return nullptr;
+  (*found)->file_ = descriptor;
+  return *found;
 }
 
 UsbShim* UsbShim::that_keeps_time() {
@@ -60,7 +78,7 @@ UsbShim::UsbShim(UsbModel& model, Clock clock) : model_(model), clock_(std::move
 UsbShim::~UsbShim() {
   const std::lock_guard lock(all_guard);
   std::erase(shims(), this);
-  ::close(file_);
+  if (node_.empty()) ::close(file_);
 }
 
 void UsbShim::plug() {
@@ -73,6 +91,17 @@ void UsbShim::unplug() {
   plugged_ = false;
   gone_ = true;
   errors_ = 0;
+}
+
+void UsbShim::be_at(std::string node) {
+  const std::lock_guard lock(all_guard);
+  node_ = std::move(node);
+}
+
+// The library asks each device that it opens what it can do.
+void UsbShim::be_opened_anew() {
+  requests_.clear();
+  gone_ = !plugged_;
 }
 
 void UsbShim::fail(int error, unsigned count) {
@@ -117,6 +146,7 @@ int UsbShim::answer(unsigned long request, void* argument) {
   const std::lock_guard lock(guard_);
   if (at_call_) at_call_();
   if (request == USBDEVFS_REAPURBNDELAY || request == USBDEVFS_REAPURB) return reap(argument);
+  if (request == USBDEVFS_GET_CAPABILITIES && !node_.empty()) be_opened_anew();
   if (gone_) return refuse(ENODEV);
   switch (request) {
     case USBDEVFS_DISCARDURB: {

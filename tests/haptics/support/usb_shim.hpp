@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 struct libusb_context;
@@ -59,6 +60,9 @@ class UsbShim {
   /// A handle of libusb's on the device, null while it is not plugged in.
   [[nodiscard]] libusb_device_handle* open(libusb_context* context);
 
+  /// From now on the library finds and opens the device by itself, by a file of this name.
+  void be_at(std::string node);
+
   /// Transfers end with this errno from now on, so many; as a cable does that is half out.
   void fail(int error, unsigned count);
   /// What is under way is called off, as where a hub resets its port. The device stays open.
@@ -95,12 +99,14 @@ class UsbShim {
   int control(void* argument);
   int reap(void* argument);
   void end(Request& request);
+  void be_opened_anew();
   bool end_transfer(void* urb);
 
   UsbModel& model_;
   Clock clock_;
   mutable std::recursive_mutex guard_;
   std::chrono::nanoseconds passed_{0};
+  std::string node_;
   int file_ = -1;      // that is open
   bool gone_ = false;  // what was open when it was unplugged
   bool plugged_ = true;
