@@ -37,6 +37,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kServoStep = milliseconds(1);
+constexpr nanoseconds kMotionStep = microseconds(100);
 // Set up anew, with a firmware to load and homed, and the force is back.
 constexpr nanoseconds kBackWithin = seconds(5);
 constexpr nanoseconds kFeltWithin = seconds(1);
@@ -57,6 +58,7 @@ struct Falcon {
     test::FalconModelOptions options;
     options.seed = static_cast<unsigned>(plan.seed);
     options.out_at = plan.line.out_at;
+    options.motion_step = kMotionStep;
     options.tick_at = plan.line.in_at;
     options.firmware = firmware();
     return options;
@@ -80,6 +82,7 @@ struct Polhem {
     test::PolhemModelOptions options;
     options.seed = static_cast<unsigned>(plan.seed);
     options.out_at = plan.line.out_at;
+    options.motion_step = kMotionStep;
     options.in_at = plan.line.in_at;
     return options;
   }

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kMotionStep = std::chrono::microseconds(50);
+constexpr nanoseconds kStep = std::chrono::microseconds(50);
 constexpr nanoseconds kLedStep = std::chrono::milliseconds(1);
 constexpr nanoseconds kFrame = std::chrono::milliseconds(1);
 
@@ -48,8 +48,10 @@ Vector3d HeldModel::weight() const {
 void HeldModel::pass(nanoseconds time) {
   const nanoseconds end = now_ + time;
   while (now_ < end) {
-    const nanoseconds h = std::min(led_ ? kLedStep : kMotionStep, end - now_);
-    if (!led_) move(pdu::to_seconds(h));
+    const nanoseconds h = std::min(led_ ? kLedStep : kStep, end - now_);
+    moved_ += h;
+    if (!led_ && moved_ >= options_.motion_step)
+      move(pdu::to_seconds(std::exchange(moved_, nanoseconds(0))));
     now_ += h;
     run_line();
     if (beside_) beside_(now_);
@@ -58,6 +60,7 @@ void HeldModel::pass(nanoseconds time) {
 
 void HeldModel::lead(const Vector3d& place) {
   led_ = true;
+  moved_ = nanoseconds(0);
   velocity_.setZero();
   if (place == position_) return;
   position_ = place;

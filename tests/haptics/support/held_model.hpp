@@ -17,11 +17,12 @@ namespace reckon::test {
 
 struct HeldModelOptions {
   unsigned seed = 1;
-  double mass = 0.15;           ///< [kg]
-  double damping = 2.0;         ///< [N s/m]
-  double hand_stiffness = 200;  ///< [N/m]
-  double hand_damping = 3;      ///< [N s/m]
-  double out_at = 0;            ///< [ms] of a frame, when it takes a transfer
+  double mass = 0.15;                            ///< [kg]
+  double damping = 2.0;                          ///< [N s/m]
+  double hand_stiffness = 200;                   ///< [N/m]
+  double hand_damping = 3;                       ///< [N s/m]
+  double out_at = 0;                             ///< [ms] of a frame, when it takes a transfer
+  std::chrono::nanoseconds motion_step{50'000};  ///< of its motion; <= 0.1 ms
 };
 
 /// Energies are those of its own motion, at a tenth of a millisecond or finer, or none while it is
@@ -36,7 +37,10 @@ class HeldModel : public UsbModel {
   /// A hand that is stronger than all holds the handle here, at rest, until it is let go. It is not
   /// booked, and its time is cheap: a step may be a millisecond long.
   void lead(const Eigen::Vector3d& place);
-  void let_go() { led_ = false; }
+  void let_go() {
+    led_ = false;
+    moved_ = {};
+  }
   [[nodiscard]] bool is_led() const { return led_; }
 
   void carry(double share) { carried_ = share; }  ///< of its links' weight, by the hand
@@ -97,6 +101,7 @@ class HeldModel : public UsbModel {
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Identity();
   double carried_ = 1;
   bool led_ = false;
+  std::chrono::nanoseconds moved_{0};  // less, since its last motion
   double port_work_ = 0, damping_loss_ = 0, first_height_ = 0;
   std::vector<std::uint8_t> out_;
   std::chrono::nanoseconds out_at_{0};  // a transfer ends
