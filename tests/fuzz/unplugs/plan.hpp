@@ -29,7 +29,7 @@ enum class FaultKind : std::uint8_t {
   cut,           ///< the next transfer to it is cut short
   hang,          ///< no transfer to it ends for a while
   mute,          ///< no reports for a while
-  damage,        ///< its next reports are damaged
+  damage,        ///< its next reports are damaged, so that it can be seen: they have no checksum
   silent_servo,
 };
 inline constexpr std::size_t kFaultKinds = 13;

@@ -69,6 +69,7 @@ struct Falcon {
   static const haptics::UsbFacts& facts() { return haptics::falcon_facts(); }
   static constexpr bool kCanBeHomedAnywhere = true;
   static void home(Model& model) { model.home(); }
+  static void damage(Model& model, int count) { model.damage_visibly(count); }
   // It does not answer.
   static void be_another(Model& model, nanoseconds time) { model.mute(time); }
   static void be_itself(Model&) {}
@@ -92,6 +93,7 @@ struct Polhem {
   static const haptics::UsbFacts& facts() { return haptics::polhem_facts(); }
   static constexpr bool kCanBeHomedAnywhere = false;
   static void home(Model& model) { model.press(); }
+  static void damage(Model& model, int count) { model.merge(count); }
   static void be_another(Model& model, nanoseconds) { model.disguise(true); }
   static void be_itself(Model& model) { model.disguise(false); }
 };
@@ -409,7 +411,7 @@ void Trial<Kind>::strike(const Fault& fault) {
     case FaultKind::mute:
       return model_.mute(short_time);
     case FaultKind::damage:
-      return model_.damage(static_cast<int>(fault.number));
+      return Kind::damage(model_, static_cast<int>(fault.number));
     case FaultKind::silent_servo:
       servo_runs_ = false;
       return in(short_time, [this] { servo_runs_ = true; });

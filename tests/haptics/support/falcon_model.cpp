@@ -136,7 +136,7 @@ void FalconModel::report() {
   nanoseconds at = now_;
   for (char c : text) {
     if (damaged_ > 0 && random_() % 3 == 0) {
-      c = static_cast<char>(random_());
+      c = is_visible_ ? '~' : static_cast<char>(random_());
       --damaged_;
     }
     at += kOctet;

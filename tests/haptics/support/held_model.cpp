@@ -79,8 +79,8 @@ void HeldModel::move(double h) {
     const Vector3d speed = (hand_(t + 1e-4) - wanted) / 1e-4;
     const Vector3d hand = options_.hand_stiffness * (wanted - position_) +
                           options_.hand_damping * (speed - velocity_);
-    velocity_ += h / options_.mass *
-                 (hand + force() + (1 - carried_) * weight() - options_.damping * velocity_);
+    const Vector3d hangs = carried_ < 1 ? Vector3d((1 - carried_) * weight()) : Vector3d::Zero();
+    velocity_ += h / options_.mass * (hand + force() + hangs - options_.damping * velocity_);
     position_ += h * velocity_;
     damping_loss_ += h * options_.damping * velocity_.squaredNorm();
   }

@@ -50,7 +50,7 @@ class HeldModel : public UsbModel {
   void mute(std::chrono::nanoseconds time) { mute_until_ = now_ + time; }   ///< no reports
   void stall() { stalls_ = true; }              ///< the next transfer to it is refused
   void cut() { cuts_ = true; }                  ///< the next transfer to it ends early
-  void damage(int count) { damaged_ = count; }  ///< of its next reports
+  void damage(int count) { damaged_ = count; }  ///< of its next reports; some may read as good ones
   void split(bool on) { splits_ = on; }         ///< reports come in pieces
 
   // Its own books.

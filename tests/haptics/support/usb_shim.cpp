@@ -276,7 +276,7 @@ int shimmed_poll(UsbShim& shim, pollfd* files, nfds_t count, int wait_ms) {
     const auto time = shim.pass(left);
     left -= time;
     unseen += time;
-    if (unseen >= std::chrono::milliseconds(1) || left <= left.zero()) {
+    if (unseen >= std::chrono::milliseconds(1)) {
       others = real_poll(files, count, 0);
       unseen = unseen.zero();
     }
