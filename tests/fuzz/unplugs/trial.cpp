@@ -403,6 +403,7 @@ void Trial<Kind>::strike(const Fault& fault) {
         });
       });
     case FaultKind::end_program:
+      if (!loop_) return;  // it is ending
       loop_->stop();
       ends_ = true;
       return;
