@@ -40,7 +40,6 @@ constexpr nanoseconds kServoStep = milliseconds(1);
 constexpr nanoseconds kMotionStep = microseconds(100);
 // Set up anew, with a firmware to load and homed, and the force is back.
 constexpr nanoseconds kBackWithin = seconds(5);
-constexpr nanoseconds kFeltWithin = seconds(1);
 constexpr double kFelt = 0.1;    // [N]
 constexpr double kDeep = 0.015;  // [m], of a hand in the wall that must feel it
 // A handle that moves while nobody tells it a force.
@@ -503,8 +502,9 @@ Outcome Trial<Kind>::run() {
   }
   go([this] { return agenda_.empty(); }, seconds(10));
   come_back();
+  depth_ = kDeep;
   hand_.press(model_.position(), kDeep, model_.now());
-  const bool is_felt = go([this] { return model_.force().norm() > kFelt; }, kFeltWithin);
+  const bool is_felt = go([this] { return model_.force().norm() > kFelt; }, kBackWithin);
   if (!is_felt && !plan_.line.splits) watch_.fail(4, model_.now(), "the force does not come back");
   model_.beside({});
   loop_.reset();
