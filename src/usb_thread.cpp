@@ -7,8 +7,7 @@
 namespace reckon::peer {
 namespace {
 
-haptics::UsbLoopOptions options_of(const Clock& clock) {
-  haptics::UsbLoopOptions options;
+haptics::UsbLoopOptions options_of(haptics::UsbLoopOptions options, const Clock& clock) {
   options.clock = [&clock] { return clock.now(); };
   return options;
 }
@@ -16,9 +15,9 @@ haptics::UsbLoopOptions options_of(const Clock& clock) {
 }  // namespace
 
 UsbThread::UsbThread(const Clock& clock, const haptics::DeviceLimits& limits,
-                     std::unique_ptr<haptics::UsbDriver> driver)
+                     std::unique_ptr<haptics::UsbDriver> driver, haptics::UsbLoopOptions options)
     : device_(exchange_, limits),
-      loop_(exchange_, std::move(driver), options_of(clock)),
+      loop_(exchange_, std::move(driver), options_of(std::move(options), clock)),
       thread_(clock, "rk-usb", [this] { loop_.step(DeviceThread::kLongestWait); }) {}
 
 }  // namespace reckon::peer

@@ -25,10 +25,11 @@ namespace reckon::peer {
 class UsbThread {
  public:
   /// @param clock that of the servo; outlives this  @param limits see haptics::usb_limits()
+  /// @param options how the device is found, but for their clock
   /// @throws std::runtime_error where the host has no USB, std::system_error if no thread can be
   /// made
   UsbThread(const Clock& clock, const haptics::DeviceLimits& limits,
-            std::unique_ptr<haptics::UsbDriver> driver);
+            std::unique_ptr<haptics::UsbDriver> driver, haptics::UsbLoopOptions options = {});
   ~UsbThread() { loop_.stop(); }
   UsbThread(const UsbThread&) = delete;
   UsbThread& operator=(const UsbThread&) = delete;

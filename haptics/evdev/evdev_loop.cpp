@@ -18,6 +18,8 @@ using std::chrono::nanoseconds;
 
 constexpr std::array kSides{WallSide::below, WallSide::above};
 constexpr std::uint16_t kLengthInEffect = EvdevLoop::kLength.count();
+constexpr const char* kPulled =
+    "was unplugged while it was set up; it is taken up again as soon as it is there";
 constexpr std::int32_t kFullGain = 0xFFFF;
 // A condition is a report for each of two axes, of a device of one axis too.
 constexpr int kReportsOfAChange = 2;
@@ -271,6 +273,8 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
     return by_path || (!name.empty() && name.find(settings_.event) != std::string::npos);
   };
   const int file = calls_->open(path);
+  const bool is_gone_already = file == -ENOENT || file == -ENODEV || file == -ENXIO;
+  if (is_gone_already && !by_path) return "none";
   if (file < 0 && !is_named(calls_->closed_name(path))) return "none";
   if (file == -EACCES || file == -EPERM)
     return "this user may not open " + path + ": " + kEventRemedy;
@@ -285,12 +289,21 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
     if (fault.empty()) fault = learn_interval(path);
   }
   if (!fault.empty()) {
+    const bool was_pulled = is_gone(file);
     calls_->close(file);
+    if (was_pulled) return kPulled;
     return is_meant && facts ? facts->name + ": " + fault : fault;
   }
   facts_ = std::move(*facts);
   file_ = file;
-  return set_up();
+  fault = set_up();
+  return !fault.empty() && is_gone(file) ? kPulled : fault;
+}
+
+// Whatever failed of a device that is pulled out: it says nothing of the device.
+bool EvdevLoop::is_gone(int file) noexcept {
+  int version = 0;
+  return calls_->control(file, EVIOCGVERSION, &version) == -ENODEV;
 }
 
 std::string EvdevLoop::open() {

@@ -59,6 +59,7 @@ class EvdevLoop {
   void attach();
   [[nodiscard]] std::string open();
   [[nodiscard]] std::string open_one(const std::string& path, bool by_path);
+  [[nodiscard]] bool is_gone(int file) noexcept;
   [[nodiscard]] std::string set_up();
   void let_go() noexcept;
   void detach(const std::string& why);

@@ -24,11 +24,13 @@ SerialLoop::SerialLoop(UsbExchange& exchange, const DeviceLimits& limits, Serial
       limits_(limits),
       place_(std::move(place)),
       clock_(std::move(clock)),
+      run_(exchange.ended_run + 1),
       question_(static_cast<std::uint16_t>(clock_().count() >> 10)) {}
 
 // The board would hold the last force until its watchdog ends it.
 SerialLoop::~SerialLoop() {
   if (!port_ || !session_) return;
+  session_->end_run();
   const nanoseconds end = clock_() + kFarewell;
   const auto drain = [&] {
     while (!port_->is_gone() && port_->is_sending() && clock_() < end) wait_without_line(kGlance);
@@ -115,7 +117,8 @@ void SerialLoop::tell_stage(nanoseconds now) {
 }
 
 void SerialLoop::detach(const std::string& why, nanoseconds pause) {
-  run_ = session_->run() + 1;
+  session_->end_run();
+  run_ = session_->run();
   question_ = static_cast<std::uint16_t>(question_ + kQuestions);
   session_.reset();
   port_.reset();

@@ -71,7 +71,7 @@ class SerialLoop {
   std::function<std::chrono::nanoseconds()> clock_;
   std::unique_ptr<SerialPort> port_;
   std::optional<SerialSession> session_;
-  std::uint32_t run_ = 1;
+  std::uint32_t run_;
   std::uint16_t question_;
   std::chrono::nanoseconds next_try_{0}, taken_at_{0};  // when the line last took octets
   std::string problem_;                                 // told already

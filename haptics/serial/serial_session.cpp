@@ -133,9 +133,13 @@ void SerialSession::read(const SerialReport& report, nanoseconds now) noexcept {
   exchange_.readings.push(reading);
 }
 
+void SerialSession::end_run() noexcept {
+  exchange_.ended_run.store(run_++, std::memory_order_release);
+}
+
 // No reading joins those before.
 void SerialSession::leave() noexcept {
-  if (held_) ++run_;
+  if (held_) end_run();
   held_.reset();
 }
 

@@ -86,6 +86,8 @@ class SerialSession {
   [[nodiscard]] const std::string& refusal() const noexcept { return refusal_; }
   /// Valid from `greeted` on.
   [[nodiscard]] const SerialGreeting& greeting() const noexcept { return greeting_; }
+  /// The line is gone: what was read tells no place any more. Its last call.
+  void end_run() noexcept;
   /// Of the readings that it gives next.
   [[nodiscard]] std::uint32_t run() const noexcept { return run_; }
 

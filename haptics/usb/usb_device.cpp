@@ -25,8 +25,22 @@ void UsbDevice::take_readings() noexcept {
   }
 }
 
-DeviceSample UsbDevice::read(std::chrono::nanoseconds) noexcept {
+// Whether what was read is no place of now, and the force of then was dropped.
+bool UsbDevice::is_over(std::chrono::nanoseconds now) const noexcept {
+  return (written_ > 0 && now - written_at_ > kWatchdog) ||
+         run_ <= exchange_.ended_run.load(std::memory_order_acquire);
+}
+
+void UsbDevice::forget_readings() noexcept {
+  dropped_ = dropped_ || has_shown_;
+  has_shown_ = false;
+  told_at_.reset();
+  count_ = 0;
+}
+
+DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   take_readings();
+  if (is_over(now)) forget_readings();
   // Before the first write the device holds none, number 0.
   const std::int64_t due = std::max<std::int64_t>(0, written_ - limits_.delay_samples);
   while (count_ > 0 && waiting_[first_].before <= due) {
@@ -55,7 +69,7 @@ void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now
   UsbForce& newest = exchange_.force.write_slot();
   newest.force = force.allFinite() ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
   newest.number = ++written_;
-  newest.at = now;
+  newest.at = written_at_ = now;
   exchange_.force.publish();
 }
 

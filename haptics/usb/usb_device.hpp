@@ -41,10 +41,13 @@ class UsbDevice final : public HapticDevice {
 
  private:
   void take_readings() noexcept;
+  void forget_readings() noexcept;
+  [[nodiscard]] bool is_over(std::chrono::nanoseconds now) const noexcept;
 
   UsbExchange& exchange_;
   DeviceLimits limits_;
   std::int64_t written_ = 0;
+  std::chrono::nanoseconds written_at_{0};  // last
   // Those not shown yet, a ring.
   std::array<UsbReading, 2 * UsbExchange::kReadings> waiting_{};
   std::size_t first_ = 0, count_ = 0;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct UsbReading {
   std::optional<Eigen::Quaterniond> orientation = {};
   std::int64_t before = 0;  ///< number of the force that was held until then
   std::int64_t after = 0;   ///< number of the force that is held from then on
-  /// Changes where the force was dropped, whatever for: readings of two runs do not join.
+  /// From 1 on. Grows where the force was dropped, whatever for: readings of two runs do not join.
   std::uint32_t run = 0;
   std::uint8_t buttons = 0;
   /// By the device's own clock, where its reports have one.
@@ -44,6 +45,8 @@ struct UsbExchange {
 
   TripleBuffer<UsbForce> force;
   SpscRing<UsbReading> readings{kReadings};
+  /// The last run that is over: none of its readings, shown or not, tells a place of now.
+  std::atomic<std::uint32_t> ended_run{0};
 };
 
 }  // namespace reckon::haptics

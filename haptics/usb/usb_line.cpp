@@ -108,7 +108,10 @@ UsbLine::UsbLine(UsbContext& context, libusb_device_handle* handle, const UsbPip
   const int code = libusb_claim_interface(handle, pipes_.interface);
   if (code != 0) {
     libusb_close(handle);
-    throw std::runtime_error("another program has it: " + reason(code));
+    const bool is_gone = code == LIBUSB_ERROR_NO_DEVICE;
+    throw std::runtime_error(
+        (is_gone ? "was unplugged while it was opened: " : "another program has it: ") +
+        reason(code));
   }
   out_.reset(libusb_alloc_transfer(0));
   for (std::size_t i = 0; i < kListeners; ++i) {
@@ -138,16 +141,21 @@ void UsbLine::fill(libusb_transfer& transfer, std::uint8_t end, std::span<std::u
 }
 
 bool UsbLine::request(std::uint8_t request, std::uint16_t value) noexcept {
-  return libusb_control_transfer(handle_, kToDevice, request, value, kPort, nullptr, 0,
-                                 kPatience) >= 0;
+  return control(kToDevice, request, value, {}) >= 0;
+}
+
+int UsbLine::control(std::uint8_t kind, std::uint8_t request, std::uint16_t value,
+                     std::span<std::uint8_t> octets) noexcept {
+  const int code = libusb_control_transfer(handle_, kind, request, value, kPort, octets.data(),
+                                           static_cast<std::uint16_t>(octets.size()), kPatience);
+  if (code == LIBUSB_ERROR_NO_DEVICE) fault_ = UsbFault::gone;
+  return code;
 }
 
 std::optional<std::uint8_t> UsbLine::ask(std::uint8_t request) noexcept {
-  std::uint8_t octet = 0;
-  const int count =
-      libusb_control_transfer(handle_, kFromDevice, request, 0, kPort, &octet, 1, kPatience);
-  if (count != 1) return std::nullopt;
-  return octet;
+  std::array<std::uint8_t, 1> octet{};
+  if (control(kFromDevice, request, 0, octet) != 1) return std::nullopt;
+  return octet[0];
 }
 
 bool UsbLine::send(std::span<const std::uint8_t> octets) noexcept {

@@ -127,6 +127,8 @@ class UsbLine {
   };
   using Transfer = std::unique_ptr<libusb_transfer, Free>;
 
+  int control(std::uint8_t kind, std::uint8_t request, std::uint16_t value,
+              std::span<std::uint8_t> octets) noexcept;
   void fill(libusb_transfer& transfer, std::uint8_t end, std::span<std::uint8_t> octets,
             void (*ended)(libusb_transfer*)) noexcept;
   void listen(libusb_transfer* transfer) noexcept;

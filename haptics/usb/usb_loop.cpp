@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/usb/usb_loop.hpp"
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -22,7 +23,8 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
     : exchange_(exchange),
       driver_(std::move(driver)),
       options_(std::move(options)),
-      context_(options_.discover) {
+      context_(options_.discover),
+      run_(exchange.ended_run + 1) {
   if (!options_.open) {
     options_.open = [&facts = driver_->facts()](libusb_context* context) {
       return open_usb_device(context, facts.vendor, facts.product);
@@ -33,6 +35,7 @@ UsbLoop::UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLo
 // The device would hold the last force for as long as it likes.
 UsbLoop::~UsbLoop() {
   if (!line_) return;
+  if (session_) session_->end_run();
   const nanoseconds end = options_.clock() + kFarewell;
   const auto drain = [&] {
     while (line_->is_sending() && options_.clock() < end) line_->pump(kGlance);
@@ -40,6 +43,9 @@ UsbLoop::~UsbLoop() {
   drain();
   line_->send(driver_->command(UsbStage::silent, nullptr));
   drain();
+  // A device that waits for its report to be fetched obeys after that.
+  const nanoseconds heard = std::min(end, options_.clock() + 2 * kUsbExchange);
+  while (line_->fault() == UsbFault::none && options_.clock() < heard) line_->pump(kGlance);
 }
 
 std::optional<UsbStage> UsbLoop::stage() const noexcept {
@@ -99,7 +105,8 @@ void UsbLoop::tell_stage() {
 // What is still there is set up at once: that tells it a zero.
 void UsbLoop::detach(const std::string& why) {
   const bool is_gone = line_->fault() == UsbFault::gone;
-  run_ = session_->run() + 1;
+  session_->end_run();
+  run_ = session_->run();
   session_.reset();
   line_.reset();
   driver_->lost(is_gone);
@@ -138,8 +145,13 @@ void UsbLoop::attach() {
     session_.emplace(exchange_, *driver_, run_, now);
     return;
   }
-  if (line_) driver_->lost(line_->fault() == UsbFault::gone);
-  line_.reset();
+  if (line_) {
+    const bool is_gone = line_->fault() == UsbFault::gone;
+    driver_->lost(is_gone);
+    if (is_gone)
+      problem = "was unplugged while it was set up; it is taken up again as soon as it is there";
+    line_.reset();
+  }
   if (problem != problem_) tell(problem);
   problem_ = std::move(problem);
 }

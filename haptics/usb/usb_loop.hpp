@@ -65,7 +65,7 @@ class UsbLoop {
   UsbContext context_;
   std::optional<UsbLine> line_;
   std::optional<UsbSession> session_;
-  std::uint32_t run_ = 1;
+  std::uint32_t run_;
   std::chrono::nanoseconds next_try_{0};
   std::string problem_;  // told already
   std::optional<UsbStage> told_;

@@ -35,9 +35,13 @@ void UsbSession::answer(nanoseconds now) noexcept {
   exchange_.readings.push(reading);
 }
 
+void UsbSession::end_run() noexcept {
+  exchange_.ended_run.store(run_++, std::memory_order_release);
+}
+
 // The force is dropped with the next command, and no reading joins those before.
 void UsbSession::leave(UsbStage stage) noexcept {
-  if (stage_ == UsbStage::running) ++run_;
+  if (stage_ == UsbStage::running) end_run();
   stage_ = stage;
 }
 
@@ -56,7 +60,7 @@ std::optional<std::span<const std::uint8_t>> UsbSession::next(nanoseconds now) n
   exchange_.force.update();
   const UsbForce& newest = exchange_.force.read();
   const bool silent = newest.number == 0 || now - newest.at > kSilence;
-  if (silent && !servo_silent_) ++run_;
+  if (silent && !servo_silent_) end_run();
   servo_silent_ = silent;
   const bool shows = stage_ == UsbStage::running && !silent;
   sent_ = newest.number;

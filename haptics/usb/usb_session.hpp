@@ -51,6 +51,8 @@ class UsbSession {
     return now - heard_at_ > kLost;
   }
   [[nodiscard]] UsbStage stage() const noexcept { return stage_; }
+  /// The line is gone: what was read tells no place any more. Its last call.
+  void end_run() noexcept;
   /// Of the readings that it gives next.
   [[nodiscard]] std::uint32_t run() const noexcept { return run_; }
   /// Reports that came too late, since the begin.

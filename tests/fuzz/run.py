@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--without NUMBER] [--strict] [--replay LINE] [--first N] [--seeds N] [--plant].
-Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers and leaders, which run seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
+Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers, leaders and unplugs, which run seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
 import concurrent.futures
@@ -21,8 +21,8 @@ MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, 
                "presence": 2048, "tracker": 2048, "membership": 8192, "leading": 4096, "unicast": 2048,
                "viewer": 16384, "image": 4096, "falcon": 512, "polhem": 512, "serial": 1024}
 SECONDS_FOR_ONE_INPUT = 60
-TOUCH, PEERS, LEADERS = "touch", "peers", "leaders"
-SEEDED = (PEERS, LEADERS)
+TOUCH, PEERS, LEADERS, UNPLUGS = "touch", "peers", "leaders", "unplugs"
+SEEDED = (PEERS, LEADERS, UNPLUGS)
 SEEDS = 10_000
 TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "hiccup", "rows", "unseen", "liar"]
 TARGETS = [*MOST_OCTETS, TOUCH, *SEEDED]
@@ -133,12 +133,12 @@ def main():
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(TARGETS))
     parser.add_argument("--for", dest="seconds", type=duration, default=60, metavar="TIME",
                         help="of each target: 60s (default), 30m")
-    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers or leaders alone: a seed")
+    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers, leaders or unplugs alone: a seed")
     parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
     parser.add_argument("--without", action="append", default=[], metavar="NUMBER", help="with touch alone: a number of scenarios that stays out of play, as a line names it; may be given again")
     parser.add_argument("--strict", action="store_true", help="with touch alone: a wrong force is a finding even where the servo tells it")
-    parser.add_argument("--first", type=int, default=1, metavar="N", help="of peers and leaders: seed to begin with, 1 (default)")
-    parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers and leaders: {SEEDS} (default)")
+    parser.add_argument("--first", type=int, default=1, metavar="N", help="of peers, leaders and unplugs: seed to begin with, 1 (default)")
+    parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers, leaders and unplugs: {SEEDS} (default)")
     parser.add_argument("--plant", action="store_true", help="with peers or leaders alone: plants faults and wants each to be found")
     options = parser.parse_args()
     for target in options.targets:
@@ -151,15 +151,15 @@ def main():
     if options.first < 1:
         parser.error("--first needs 1 or more")
     if options.first > 1 and (options.plant or not options.targets or not set(options.targets) <= set(SEEDED)):
-        parser.error("--first goes with peers or leaders, without --plant")
+        parser.error("--first goes with peers, leaders or unplugs, without --plant")
     if options.plant:
-        if len(options.targets) != 1 or options.targets[0] not in SEEDED:
+        if options.targets not in ([PEERS], [LEADERS]):
             parser.error("--plant goes with peers or leaders alone")
         return plant.main(options.folder.parent, options.number, options.targets[0])
     if options.replay is not None:
         target = options.targets[0] if len(options.targets) == 1 else None
         if target not in (TOUCH, *SEEDED):
-            parser.error("--replay goes with touch, peers or leaders alone; the others are shown again by their own programs")
+            parser.error("--replay goes with touch, peers, leaders or unplugs alone; the others are shown again by their own programs")
         program = touch_program(options.folder) if target == TOUCH else seeded_program(target, options.folder)
         return subprocess.run([program, "--replay", options.replay, *(["--strict"] if options.strict else [])], check=False).returncode
     targets = options.targets or TARGETS

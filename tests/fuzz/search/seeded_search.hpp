@@ -31,7 +31,8 @@ struct SeededSimulation {
   int same_again = 0;  ///< number of the invariant that a seed runs the same way twice
   Plan (*plan_of)(std::uint64_t seed) = nullptr;
   Outcome (*try_out)(const Plan& plan, bool keep_log) = nullptr;
-  Plan (*calmed)(Plan plan) = nullptr;  ///< the same with a line that does no harm
+  Plan (*calmed)(Plan plan) = nullptr;         ///< the same with a line that does no harm
+  std::string counted = "datagrams received";  ///< what `received` of an outcome counts
 };
 
 template <typename Plan, typename Outcome>
@@ -131,7 +132,7 @@ class SeededSearch {
       if (!all) break;
     }
     statistics.print();
-    fmt::print("{} datagrams received\n", received);
+    fmt::print("{} {}\n", received, simulation_.counted);
     for (const auto& [invariant, count] : broken)
       fmt::print("{}{} broken by {} seeds\n", simulation_.letter, invariant, count);
     return broken.empty() ? 0 : 1;

@@ -18,6 +18,7 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kOctet = nanoseconds(6'667);    // at 1.5 Mbaud
 constexpr nanoseconds kWatchdog = milliseconds(100);  // of its own
+constexpr std::uint16_t kRunBaud = 2;                 // as its program has it
 constexpr std::size_t kPacket = 62;                   // octets, beside two of status
 
 // Frame D in the Falcon's own axes, which the model moves in.
@@ -58,12 +59,18 @@ std::optional<HeldModel::Joints> FalconModel::joints_at(const Vector3d& position
 void FalconModel::forget() {
   has_firmware_ = homed_ = loading_ = false;
   motors_ = {};
-  to_device_.clear();
-  to_host_.clear();
-  packets_.clear();
   command_.clear();
   loaded_.clear();
   greeting_.clear();
+  forget_line();
+}
+
+void FalconModel::forget_line() {
+  to_device_.clear();
+  to_host_.clear();
+  packets_.clear();
+  latency_ = 16;
+  baud_ = 0;
 }
 
 void FalconModel::run_line() {
@@ -73,7 +80,7 @@ void FalconModel::run_line() {
     to_device_.pop_front();
     if (!has_firmware_) {
       echo(octet);
-    } else {
+    } else if (baud_ == kRunBaud) {
       take(octet);
     }
   }
@@ -129,7 +136,7 @@ void FalconModel::report() {
   nanoseconds at = now_;
   for (char c : text) {
     if (damaged_ > 0 && random_() % 3 == 0) {
-      c = static_cast<char>(random_());
+      c = is_visible_ ? '~' : static_cast<char>(random_());
       --damaged_;
     }
     at += kOctet;
@@ -161,7 +168,7 @@ void FalconModel::echo(std::uint8_t octet) {
 
 int FalconModel::control(std::uint8_t request, std::uint16_t value,
                          std::span<std::uint8_t> answer) {
-  if (stalls_ && request == 0) return -EPIPE;
+  if (request == 0 && std::exchange(stalls_, false)) return -EPIPE;
   if (request == 3) {
     baud_ = value;
     // The loader starts what it was given where the line's speed becomes that of the program.

@@ -38,7 +38,13 @@ class FalconModel final : public HeldModel {
   /// @param hand where the hand wants it [m, frame D] at a time [s]
   FalconModel(const FalconModelOptions& options, std::function<Eigen::Vector3d(double)> hand);
 
-  void forget();  ///< without power: firmware, homing, motors
+  void forget();       ///< without power: firmware, homing, motors
+  void forget_line();  ///< without the bus: its FTDI chip, which the bus feeds
+  /// Octets of its next reports that are none of theirs.
+  void damage_visibly(int count) {
+    damage(count);
+    is_visible_ = true;
+  }
   void home() { homed_ = true; }
   void wake() { has_firmware_ = homed_ = true; }  ///< as after loading and homing
 
@@ -78,6 +84,7 @@ class FalconModel final : public HeldModel {
   std::vector<std::uint8_t> loaded_;
   std::string greeting_;
   bool loading_ = false;
+  bool is_visible_ = false;  // what is damaged
 };
 
 }  // namespace reckon::test

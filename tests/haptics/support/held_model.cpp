@@ -15,7 +15,8 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kMotionStep = std::chrono::microseconds(50);
+constexpr nanoseconds kStep = std::chrono::microseconds(50);
+constexpr nanoseconds kLedStep = std::chrono::milliseconds(1);
 constexpr nanoseconds kFrame = std::chrono::milliseconds(1);
 
 }  // namespace
@@ -47,11 +48,25 @@ Vector3d HeldModel::weight() const {
 void HeldModel::pass(nanoseconds time) {
   const nanoseconds end = now_ + time;
   while (now_ < end) {
-    const nanoseconds h = std::min(kMotionStep, end - now_);
-    move(pdu::to_seconds(h));
+    const nanoseconds h = std::min(led_ ? kLedStep : kStep, end - now_);
+    moved_ += h;
+    if (!led_ && moved_ >= options_.motion_step)
+      move(pdu::to_seconds(std::exchange(moved_, nanoseconds(0))));
     now_ += h;
     run_line();
     if (beside_) beside_(now_);
+  }
+}
+
+void HeldModel::lead(const Vector3d& place) {
+  led_ = true;
+  moved_ = nanoseconds(0);
+  velocity_.setZero();
+  if (place == position_) return;
+  position_ = place;
+  if (const std::optional<Joints> joints = joints_at(place)) {
+    angles_ = joints->angles;
+    if (!joints->jacobian.isZero(0)) jacobian_ = joints->jacobian;
   }
 }
 
@@ -60,11 +75,12 @@ void HeldModel::move(double h) {
   const Vector3d before = angles_;
   if (h > 0) {
     const double t = pdu::to_seconds(now_);
-    const Vector3d speed = (hand_(t + 1e-4) - hand_(t)) / 1e-4;
-    const Vector3d hand = options_.hand_stiffness * (hand_(t) - position_) +
+    const Vector3d wanted = hand_(t);
+    const Vector3d speed = (hand_(t + 1e-4) - wanted) / 1e-4;
+    const Vector3d hand = options_.hand_stiffness * (wanted - position_) +
                           options_.hand_damping * (speed - velocity_);
-    velocity_ += h / options_.mass *
-                 (hand + force() + (1 - carried_) * weight() - options_.damping * velocity_);
+    const Vector3d hangs = carried_ < 1 ? Vector3d((1 - carried_) * weight()) : Vector3d::Zero();
+    velocity_ += h / options_.mass * (hand + force() + hangs - options_.damping * velocity_);
     position_ += h * velocity_;
     damping_loss_ += h * options_.damping * velocity_.squaredNorm();
   }

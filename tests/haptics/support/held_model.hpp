@@ -17,21 +17,31 @@ namespace reckon::test {
 
 struct HeldModelOptions {
   unsigned seed = 1;
-  double mass = 0.15;           ///< [kg]
-  double damping = 2.0;         ///< [N s/m]
-  double hand_stiffness = 200;  ///< [N/m]
-  double hand_damping = 3;      ///< [N s/m]
-  double out_at = 0;            ///< [ms] of a frame, when it takes a transfer
+  double mass = 0.15;                            ///< [kg]
+  double damping = 2.0;                          ///< [N s/m]
+  double hand_stiffness = 200;                   ///< [N/m]
+  double hand_damping = 3;                       ///< [N s/m]
+  double out_at = 0;                             ///< [ms] of a frame, when it takes a transfer
+  std::chrono::nanoseconds motion_step{50'000};  ///< of its motion; <= 0.1 ms
 };
 
-/// Energies are those of its own motion, at a tenth of a millisecond or finer. All vectors are in
-/// frame D.
+/// Energies are those of its own motion, at a tenth of a millisecond or finer, or none while it is
+/// led. All vectors are in frame D.
 class HeldModel : public UsbModel {
  public:
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
   void pass(std::chrono::nanoseconds time) override;
   /// Called every 50 us of its time, whoever lets it pass: what runs beside the device's thread.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
+
+  /// A hand that is stronger than all holds the handle here, at rest, until it is let go. It is not
+  /// booked, and its time is cheap: a step may be a millisecond long.
+  void lead(const Eigen::Vector3d& place);
+  void let_go() {
+    led_ = false;
+    moved_ = {};
+  }
+  [[nodiscard]] bool is_led() const { return led_; }
 
   void carry(double share) { carried_ = share; }  ///< of its links' weight, by the hand
   void let_go() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
@@ -42,7 +52,7 @@ class HeldModel : public UsbModel {
   void mute(std::chrono::nanoseconds time) { mute_until_ = now_ + time; }   ///< no reports
   void stall() { stalls_ = true; }              ///< the next transfer to it is refused
   void cut() { cuts_ = true; }                  ///< the next transfer to it ends early
-  void damage(int count) { damaged_ = count; }  ///< of its next reports
+  void damage(int count) { damaged_ = count; }  ///< of its next reports; some may read as good ones
   void split(bool on) { splits_ = on; }         ///< reports come in pieces
 
   // Its own books.
@@ -92,6 +102,8 @@ class HeldModel : public UsbModel {
   Eigen::Vector3d position_, velocity_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Identity();
   double carried_ = 1;
+  bool led_ = false;
+  std::chrono::nanoseconds moved_{0};  // less, since its last motion
   double port_work_ = 0, damping_loss_ = 0, first_height_ = 0;
   std::vector<std::uint8_t> out_;
   std::chrono::nanoseconds out_at_{0};  // a transfer ends

@@ -52,8 +52,8 @@ class PluggedDevice {
       : model(options, tended(std::move(wanted))),
         shim(model),
         device(exchange, limits),
-        servo(device, plan, servo_config(), haptics::make_bodies(*plan, scene)),
-        loop(std::make_unique<haptics::UsbLoop>(exchange, std::move(driver), loop_options())) {
+        servo(device, plan, servo_config(), haptics::make_bodies(*plan, scene)) {
+    begin_thread(std::move(driver));
     model.beside([this](std::chrono::nanoseconds now) {
       tend();
       if (!motors_rest()) pulled_at = now;
@@ -61,6 +61,12 @@ class PluggedDevice {
       next_step_ += std::chrono::milliseconds(1);
       if (servo_runs) step_servo(now);
     });
+  }
+
+  /// In the place of the one that is there.
+  void begin_thread(std::unique_ptr<haptics::UsbDriver> driver) {
+    loop.reset();
+    loop = std::make_unique<haptics::UsbLoop>(exchange, std::move(driver), loop_options());
   }
 
   void run(std::chrono::nanoseconds time) {

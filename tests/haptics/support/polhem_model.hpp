@@ -52,7 +52,9 @@ class PolhemModel final : public HeldModel {
   void press() { asks_ = true; }               ///< its calibration button
   void hold_button(bool on) { button_ = on; }  ///< at the handle
   void turn_gimbal(const std::array<int, 3>& counts) { gimbal_ = counts; }  ///< outwards
-  void forget();                              ///< without power: counters, motors
+  void forget();                                     ///< without power: counters, motors
+  void forget_line() { command_.reset(); }           ///< without the bus: what has come over it
+  void disguise(bool on) { options_.is_hid = !on; }  ///< another device under its number
   void merge(int count) { merged_ = count; }  ///< the next reports come twice in one transfer
   void ask_once() { asks_once_ = true; }      ///< to be homed, in one report
   void lie(int counts) { lie_ = counts; }     ///< the next report, about its base

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdlib>
@@ -19,9 +20,23 @@
 namespace reckon::test {
 namespace {
 
-UsbShim* the_shim = nullptr;
+std::vector<UsbShim*>& shims() {
+  static std::vector<UsbShim*> all;
+  return all;
+}
+std::mutex all_guard;
 
 constexpr std::chrono::nanoseconds kTick = std::chrono::microseconds(50);
+constexpr std::chrono::nanoseconds kIdleTick = std::chrono::milliseconds(1);
+
+// Of the file that is open; empty where no device is looked for by its name.
+std::string name_of(int descriptor, bool is_wanted) {
+  std::array<char, 256> name{};
+  if (!is_wanted) return {};
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
+  const auto length = ::readlink(link.c_str(), name.data(), name.size());
+  return {name.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length))};
+}
 
 int refuse(int error) {
   errno = error;
@@ -32,48 +47,115 @@ usbdevfs_urb& urb_of(void* urb) { return *static_cast<usbdevfs_urb*>(urb); }
 
 }  // namespace
 
-UsbShim* UsbShim::current() { return the_shim; }
+UsbShim* UsbShim::of(int descriptor) {
+  const std::lock_guard lock(all_guard);
+  if (descriptor < 0) return nullptr;
+  const bool is_wanted =
+      std::ranges::any_of(shims(), [](const UsbShim* shim) { return !shim->node_.empty(); });
+  const std::string name = name_of(descriptor, is_wanted);
+  const auto is_its = [&](const UsbShim* shim) {
+    return shim->node_.empty() ? shim->file_ == descriptor : name.ends_with(shim->node_);
+  };
+  const auto found = std::ranges::find_if(shims(), is_its);
+  if (found == shims().end()) return nullptr;
+  (*found)->file_ = descriptor;
+  return *found;
+}
 
-UsbShim::UsbShim(UsbModel& model) : model_(model) {
-  the_shim = this;
-  plug();
+UsbShim* UsbShim::that_keeps_time() {
+  const std::lock_guard lock(all_guard);
+  const auto found = std::ranges::find_if(shims(), [](UsbShim* shim) { return !shim->clock_; });
+  return found == shims().end() ? nullptr : *found;
+}
+
+UsbShim::UsbShim(UsbModel& model) : UsbShim(model, nullptr) {}
+
+UsbShim::UsbShim(UsbModel& model, Clock clock) : model_(model), clock_(std::move(clock)) {
+  const std::lock_guard lock(all_guard);
+  shims().push_back(this);
 }
 
 UsbShim::~UsbShim() {
-  the_shim = nullptr;
-  ::close(file_);
+  const std::lock_guard lock(all_guard);
+  std::erase(shims(), this);
+  if (node_.empty()) ::close(file_);
 }
 
 void UsbShim::plug() {
-  if (plugged_) return;
-  if (file_ >= 0) ::close(file_);
-  file_ = ::memfd_create("usb", MFD_CLOEXEC);
-  const auto octets = model_.descriptors();
-  if (file_ < 0 || ::write(file_, octets.data(), octets.size()) < 0) std::abort();
-  requests_.clear();
+  const std::lock_guard lock(guard_);
   plugged_ = true;
 }
 
-void UsbShim::unplug() { plugged_ = false; }
+void UsbShim::unplug() {
+  const std::lock_guard lock(guard_);
+  plugged_ = false;
+  gone_ = true;
+  errors_ = 0;
+}
+
+void UsbShim::be_at(std::string node) {
+  const std::lock_guard lock(all_guard);
+  node_ = std::move(node);
+}
+
+// The library asks each device that it opens what it can do.
+void UsbShim::be_opened_anew() {
+  requests_.clear();
+  gone_ = !plugged_;
+}
+
+void UsbShim::fail(int error, unsigned count) {
+  const std::lock_guard lock(guard_);
+  error_ = error;
+  errors_ = count;
+}
+
+void UsbShim::reset_port() {
+  const std::lock_guard lock(guard_);
+  for (Request& request : requests_) request.discarded = true;
+}
 
 libusb_device_handle* UsbShim::open(libusb_context* context) {
+  int file = -1;
+  {
+    const std::lock_guard lock(guard_);
+    if (!plugged_) return nullptr;
+    if (!requests_.empty()) std::abort();  // the library still waits for what it has closed
+    const std::lock_guard all(all_guard);
+    if (file_ >= 0) ::close(file_);
+    file = file_ = ::memfd_create("usb", MFD_CLOEXEC);
+    const auto octets = model_.descriptors();
+    if (file_ < 0 || ::write(file_, octets.data(), octets.size()) < 0) std::abort();
+    gone_ = false;
+  }
   libusb_device_handle* handle = nullptr;
-  if (plugged_) libusb_wrap_sys_device(context, file_, &handle);
+  libusb_wrap_sys_device(context, file, &handle);
   return handle;
 }
 
+std::chrono::nanoseconds UsbShim::pass(std::chrono::nanoseconds most) {
+  const std::lock_guard lock(guard_);
+  std::chrono::nanoseconds time = std::min(most, requests_.empty() ? kIdleTick : kTick);
+  if (clock_) time = clock_() - passed_;
+  passed_ += time;
+  model_.pass(time);
+  return time;
+}
+
 int UsbShim::answer(unsigned long request, void* argument) {
+  const std::lock_guard lock(guard_);
+  if (at_call_) at_call_();
   if (request == USBDEVFS_REAPURBNDELAY || request == USBDEVFS_REAPURB) return reap(argument);
-  if (request == USBDEVFS_DISCARDURB) {
-    for (Request& r : requests_) {
-      if (r.urb != argument || r.ended) continue;
-      r.discarded = true;
+  if (request == USBDEVFS_GET_CAPABILITIES && !node_.empty()) be_opened_anew();
+  if (gone_) return refuse(ENODEV);
+  switch (request) {
+    case USBDEVFS_DISCARDURB: {
+      const auto found = std::ranges::find_if(
+          requests_, [&](const Request& r) { return r.urb == argument && !r.ended; });
+      if (found == requests_.end()) return refuse(EINVAL);
+      found->discarded = true;
       return 0;
     }
-    return refuse(EINVAL);
-  }
-  if (!plugged_) return refuse(ENODEV);
-  switch (request) {
     case USBDEVFS_CONNECTINFO:
       *static_cast<usbdevfs_connectinfo*>(argument) = {2, 0};
       return 0;
@@ -139,8 +221,13 @@ bool UsbShim::end_transfer(void* pointer) {
 void UsbShim::end(Request& request) {
   if (request.ended) return;
   usbdevfs_urb& urb = urb_of(request.urb);
-  if (!plugged_ || request.discarded) {
-    urb.status = plugged_ ? -ENOENT : -ESHUTDOWN;
+  if (gone_ || request.discarded) {
+    urb.status = gone_ ? -ESHUTDOWN : -ENOENT;
+    urb.actual_length = 0;
+    request.ended = true;
+  } else if (errors_ > 0) {
+    --errors_;
+    urb.status = -error_;
     urb.actual_length = 0;
     request.ended = true;
   } else {
@@ -149,16 +236,17 @@ void UsbShim::end(Request& request) {
 }
 
 bool UsbShim::is_ready() {
+  const std::lock_guard lock(guard_);
   // In order: of two that listen, the first gets what comes first.
   for (Request& request : requests_) end(request);
-  return !plugged_ ||
+  return gone_ ||
          std::ranges::any_of(requests_, [](const Request& request) { return request.ended; });
 }
 
 int UsbShim::reap(void* argument) {
   static_cast<void>(is_ready());
   const auto done = std::ranges::find_if(requests_, [](const Request& r) { return r.ended; });
-  if (done == requests_.end()) return refuse(plugged_ ? EAGAIN : ENODEV);
+  if (done == requests_.end()) return refuse(gone_ ? ENODEV : EAGAIN);
   *static_cast<void**>(argument) = done->urb;
   requests_.erase(done);
   return 0;
@@ -172,25 +260,32 @@ int real_poll(pollfd* files, nfds_t count, int wait_ms) {
       ::syscall(SYS_ppoll, files, count, wait_ms < 0 ? nullptr : &wait, nullptr, 0));
 }
 
-// The time to wait is the model's, and passes at once.
+// The time to wait is the model's, and passes at once; or, where it has a clock, that of the clock.
+// What else is waited for is of real time: to look once a millisecond is enough.
 int shimmed_poll(UsbShim& shim, pollfd* files, nfds_t count, int wait_ms) {
-  pollfd* const ours = std::find_if(files, files + count,
-                                    [&](const pollfd& f) { return f.fd == shim.descriptor(); });
-  if (ours != files + count) ours->fd = -1;  // the kernel leaves it out
+  pollfd* const end = files + count;
+  pollfd* const ours =
+      std::find_if(files, end, [&](const pollfd& f) { return f.fd == shim.descriptor(); });
+  if (ours != end) ours->fd = -1;  // the kernel leaves it out
   auto left = std::chrono::nanoseconds(std::chrono::milliseconds(wait_ms < 0 ? 1000 : wait_ms));
-  int others = 0;
-  bool ready = false;
-  while (true) {
-    others = real_poll(files, count, 0);
-    ready = ours != files + count && shim.is_ready();
-    if (others != 0 || ready || left <= left.zero()) break;
-    shim.pass(kTick);
-    left -= kTick;
+  auto unseen = std::chrono::nanoseconds(0);
+  int others = real_poll(files, count, 0);
+  bool ready = ours != end && shim.is_ready();
+  while (others == 0 && !ready && left > left.zero()) {
+    if (shim.has_clock()) ::usleep(50);
+    const auto time = shim.pass(left);
+    left -= time;
+    unseen += time;
+    if (unseen >= std::chrono::milliseconds(1)) {
+      others = real_poll(files, count, 0);
+      unseen = unseen.zero();
+    }
+    ready = ours != end && shim.is_ready();
   }
-  if (ours == files + count) return others;
+  if (ours == end) return std::max(0, others);
   ours->fd = shim.descriptor();
   ours->revents =
-      ready ? static_cast<short>(shim.is_plugged() ? POLLOUT : POLLERR | POLLHUP) : short{0};
+      ready ? static_cast<short>(shim.is_gone() ? POLLERR | POLLHUP : POLLOUT) : short{0};
   return std::max(0, others) + (ready ? 1 : 0);
 }
 
@@ -203,13 +298,16 @@ extern "C" int ioctl(int file, unsigned long request, ...) noexcept {
   va_start(arguments, request);
   void* const argument = va_arg(arguments, void*);
   va_end(arguments);
-  reckon::test::UsbShim* const shim = reckon::test::UsbShim::current();
-  if (shim != nullptr && file == shim->descriptor()) return shim->answer(request, argument);
+  reckon::test::UsbShim* const shim = reckon::test::UsbShim::of(file);
+  if (shim != nullptr) return shim->answer(request, argument);
   return static_cast<int>(::syscall(SYS_ioctl, file, request, argument));
 }
 
 extern "C" int poll(pollfd* files, nfds_t count, int wait_ms) {
-  reckon::test::UsbShim* const shim = reckon::test::UsbShim::current();
+  using reckon::test::UsbShim;
+  UsbShim* shim = nullptr;
+  for (nfds_t i = 0; i < count && shim == nullptr; ++i) shim = UsbShim::of(files[i].fd);
+  if (shim == nullptr) shim = UsbShim::that_keeps_time();
   return shim != nullptr ? reckon::test::shimmed_poll(*shim, files, count, wait_ms)
                          : reckon::test::real_poll(files, count, wait_ms);
 }

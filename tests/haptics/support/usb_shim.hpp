@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A USB device below libusb: the test program answers the calls by which libusb talks with the
 // kernel, ioctl() and poll(), for one descriptor. The library above it is the real one. Where it
-// waits, the model's time passes and no other.
+// waits, the model's time passes and no other, unless it is given a clock.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 struct libusb_context;
@@ -36,28 +39,56 @@ class UsbModel {
   virtual void pass(std::chrono::nanoseconds time) = 0;
 };
 
-/// The plug of one device at a time.
+/// The plug of one device. Several at a time have a descriptor each.
 class UsbShim {
  public:
+  using Clock = std::function<std::chrono::nanoseconds()>;
+
   /// @param model outlives it
   explicit UsbShim(UsbModel& model);
+  /// @param clock from 0; a wait then takes its time, and another thread may plug and unplug
+  UsbShim(UsbModel& model, Clock clock);
   ~UsbShim();
   UsbShim(const UsbShim&) = delete;
   UsbShim& operator=(const UsbShim&) = delete;
 
   /// What is under way then ends as unplugging ends it.
   void unplug();
+  /// What was open before stays as dead as it was.
   void plug();
   [[nodiscard]] bool is_plugged() const { return plugged_; }
   /// A handle of libusb's on the device, null while it is not plugged in.
   [[nodiscard]] libusb_device_handle* open(libusb_context* context);
 
+  /// From now on the library finds and opens the device by itself, by a file of this name.
+  void be_at(std::string node);
+
+  /// Transfers end with this errno from now on, so many; as a cable does that is half out.
+  void fail(int error, unsigned count);
+  /// What is under way is called off, as where a hub resets its port. The device stays open.
+  void reset_port();
+  /// Called at each call to the kernel for this device, before it is answered.
+  void at_each_call(std::function<void()> call) { at_call_ = std::move(call); }
+  /// Calls it while no other thread has the model.
+  template <class Call>
+  auto with_model(Call&& call) {
+    const std::lock_guard lock(guard_);
+    return call();
+  }
+  /// Transfers that the library has not fetched.
+  [[nodiscard]] std::size_t outstanding() const { return requests_.size(); }
+
   // For ioctl() and poll().
-  static UsbShim* current();
+  static UsbShim* of(int descriptor);
+  /// The first without a clock: its time passes where none of them has its device open.
+  static UsbShim* that_keeps_time();
   [[nodiscard]] int descriptor() const { return file_; }
   int answer(unsigned long request, void* argument);
   [[nodiscard]] bool is_ready();
-  void pass(std::chrono::nanoseconds time) { model_.pass(time); }
+  [[nodiscard]] bool is_gone() const { return gone_; }
+  /// Its time passes, up to so much. @return how much
+  std::chrono::nanoseconds pass(std::chrono::nanoseconds most);
+  [[nodiscard]] bool has_clock() const { return clock_ != nullptr; }
 
  private:
   struct Request {
@@ -68,12 +99,21 @@ class UsbShim {
   int control(void* argument);
   int reap(void* argument);
   void end(Request& request);
+  void be_opened_anew();
   bool end_transfer(void* urb);
 
   UsbModel& model_;
-  int file_ = -1;
-  bool plugged_ = false;
+  Clock clock_;
+  mutable std::recursive_mutex guard_;
+  std::chrono::nanoseconds passed_{0};
+  std::string node_;
+  int file_ = -1;      // that is open
+  bool gone_ = false;  // what was open when it was unplugged
+  bool plugged_ = true;
   std::vector<Request> requests_;  // in the order in which they came
+  std::function<void()> at_call_;
+  int error_ = 0;
+  unsigned errors_ = 0;
 };
 
 }  // namespace reckon::test

@@ -128,6 +128,18 @@ TYPED_TEST(UsbLoopTest, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
   EXPECT_GE(usb.least_books, -1e-9);
 }
 
+TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10MsHoweverLongTheChain) {
+  DeviceLimits slow = limits(TypeParam::facts());
+  slow.delay_samples = 30;
+  test::PluggedDevice<typename TypeParam::Model> usb(typename TypeParam::Options{}, pressing,
+                                                     TypeParam::driver(), slow);
+  usb.run(TypeParam::kSettle);
+  ASSERT_GT(usb.model.force().z(), 0.1);
+  usb.shim.unplug();
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+}
+
 TYPED_TEST(UsbLoopTest, PluggedInAgainItGoesOnByItselfAndTheForceRampsUp) {
   Plugged<TypeParam> usb;
   usb.press();
@@ -298,6 +310,39 @@ TEST(UsbDevice, AReadingThatIsLateFails) {
     EXPECT_EQ(device.read(milliseconds(write)).ok, write - 1 - delay < 1) << write;
     device.write(Vector3d::Zero(), milliseconds(write));
   }
+}
+
+// Else the first force after a silence would be that of a place from before it.
+TEST(UsbDevice, AReadingFromBeforeASilenceOfTheServoIsNone) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_TRUE(device.read(milliseconds(1)).ok);
+  device.write(Vector3d::UnitX(), milliseconds(1));
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_TRUE(device.read(milliseconds(11)).ok) << "its watchdog has not acted";
+  device.write(Vector3d::UnitX(), milliseconds(11));
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
+  EXPECT_FALSE(device.read(milliseconds(22)).ok);
+  device.write(Vector3d::Zero(), milliseconds(22));
+  EXPECT_FALSE(device.read(milliseconds(23)).ok) << "none has come since";
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 2, 0});
+  const DeviceSample sample = device.read(milliseconds(24));
+  EXPECT_TRUE(sample.ok && sample.watchdog);
+}
+
+// However long the chain may be that its user states.
+TEST(UsbDevice, WhereARunIsOverNothingIsRead) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 3, 0});
+  EXPECT_TRUE(device.read(milliseconds(1)).ok);
+  device.write(Vector3d::UnitX(), milliseconds(1));
+  exchange.ended_run = 3;
+  EXPECT_FALSE(device.read(milliseconds(2)).ok);
+  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 4, 0});
+  const DeviceSample sample = device.read(milliseconds(3));
+  EXPECT_TRUE(sample.ok && sample.watchdog);
 }
 
 // Also over readings that failed, and not over a force that was dropped.

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/unplugs/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <random>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::fuzz::unplugs {
+namespace {
+
+using std::chrono::microseconds;
+
+constexpr std::array<const char*, kDeviceKinds> kDeviceNames{"Falcon", "Polhem"};
+constexpr std::array<const char*, kFaultKinds> kFaultNames{"unplug",
+                                                           "loose plug",
+                                                           "bounce",
+                                                           "other device",
+                                                           "end of the program",
+                                                           "reset of the port",
+                                                           "errors",
+                                                           "stall",
+                                                           "cut",
+                                                           "hang",
+                                                           "mute",
+                                                           "damage",
+                                                           "silent servo"};
+constexpr std::array<const char*, kPhases> kPhaseNames{"at once", "opening", "setting up", "homing",
+                                                       "running"};
+
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(static_cast<std::uint32_t>(seed ^ seed >> 32)) {}
+
+  [[nodiscard]] unsigned below(unsigned end) { return static_cast<unsigned>(random_() % end); }
+  [[nodiscard]] bool happens(unsigned percent) { return below(100) < percent; }
+  [[nodiscard]] nanoseconds between(unsigned from_us, unsigned to_us) {
+    return microseconds(from_us + below(to_us - from_us));
+  }
+  /// Index of the part of a hundred that is drawn; what is left is the last.
+  template <std::size_t n>
+  [[nodiscard]] std::size_t part(const std::array<unsigned, n>& percents) {
+    unsigned drawn = below(100);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (drawn < percents[i]) return i;
+      drawn -= percents[i];
+    }
+    return n;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+// Half of them are plain.
+FaultKind kind_of(Draw& draw) {
+  if (draw.happens(50)) return FaultKind::unplug;
+  return static_cast<FaultKind>(1 + draw.below(kFaultKinds - 1));
+}
+
+nanoseconds after_of(Phase phase, Draw& draw) {
+  if (phase == Phase::setting_up || phase == Phase::homing) return draw.between(0, 30'000);
+  if (phase != Phase::running) return {};
+  const std::size_t part = draw.part(std::array{25U, 50U});
+  if (part == 0) return draw.between(0, 10'000);
+  return part == 1 ? draw.between(10'000, 80'000) : draw.between(80'000, 250'000);
+}
+
+// Before it is noticed, before it is looked for, and later.
+nanoseconds lasts_of(Draw& draw) {
+  switch (draw.part(std::array{30U, 55U, 12U})) {
+    case 0:
+      return draw.between(0, 2'000);
+    case 1:
+      return draw.between(2'000, 220'000);
+    case 2:
+      return draw.between(220'000, 600'000);
+    default:
+      return draw.between(600'000, 3'000'000);
+  }
+}
+
+Fault fault_of(Draw& draw) {
+  Fault fault;
+  fault.kind = kind_of(draw);
+  constexpr std::array kPhaseParts{8U, 14U, 12U, 6U};
+  fault.phase = static_cast<Phase>(draw.part(kPhaseParts));
+  fault.call = draw.below(60);
+  fault.after = after_of(fault.phase, draw);
+  fault.lasts = lasts_of(draw);
+  fault.loses_power = draw.happens(10);
+  fault.stays = draw.happens(30);
+  fault.number = 1 + draw.below(fault.kind == FaultKind::loose ? 250 : 8);
+  fault.depth = 1e-3 * (2 + draw.below(14));
+  return fault;
+}
+
+double milliseconds_of(nanoseconds time) { return 1e3 * pdu::to_seconds(time); }
+
+}  // namespace
+
+Plan plan_of(std::uint64_t seed) {
+  Draw draw(seed);
+  Plan plan;
+  plan.seed = seed;
+  plan.device = static_cast<DeviceKind>(draw.below(kDeviceKinds));
+  plan.line.out_at = 0.05 * draw.below(20);
+  plan.line.in_at = 0.05 * draw.below(20);
+  plan.line.splits = plan.device == DeviceKind::falcon && draw.happens(20);
+  for (std::size_t i = 0; i < kFaults; ++i) plan.faults.push_back(fault_of(draw));
+  return plan;
+}
+
+Plan calmed(Plan plan) {
+  plan.line = {};
+  return plan;
+}
+
+std::string text_of(const Plan& plan) {
+  return fmt::format("{}, {} faults, takes transfers at {:.2f} ms, sends at {:.2f} ms{}",
+                     kDeviceNames[static_cast<std::size_t>(plan.device)], plan.faults.size(),
+                     plan.line.out_at, plan.line.in_at, plan.line.splits ? ", in pieces" : "");
+}
+
+std::string text_of(const Fault& fault) {
+  return fmt::format(
+      "{}: {}, call {}, after {:.3f} ms, for {:.3f} ms, number {}, depth {:.0f} mm{}{}",
+      kFaultNames[static_cast<std::size_t>(fault.kind)],
+      kPhaseNames[static_cast<std::size_t>(fault.phase)], fault.call, milliseconds_of(fault.after),
+      milliseconds_of(fault.lasts), fault.number, 1e3 * fault.depth,
+      fault.loses_power ? ", without power" : "", fault.stays ? ", the hand stays" : "");
+}
+
+}  // namespace reckon::fuzz::unplugs

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Unplugs in real time: the threads of a peer, the real libusb over a model that another thread
+// pulls out, a serial board behind a real tty. What takes how long is told; it depends on the host.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "reckon/tests/fuzz/unplugs/plan.hpp"
+
+namespace reckon::fuzz::unplugs {
+
+struct RealOutcome {
+  unsigned rounds = 0;                  ///< that held
+  std::chrono::nanoseconds longest{0};  ///< from an unplug until the servo reads nothing
+  unsigned late = 0;                    ///< of them after more than 10 ms
+  std::string problem;                  ///< what did not hold; empty: all did
+};
+
+/// Where the library finds a device by itself.
+struct UsbSite {
+  std::string node;  ///< ends the name of its file
+  std::function<void(const std::vector<std::uint8_t>& descriptors)> add;
+  std::function<void()> remove;
+};
+
+/// Pulls the device out so many times, at random instants while forces are shown. @param site
+/// without one the library is given the device
+[[nodiscard]] RealOutcome unplug_usb(DeviceKind device, unsigned rounds, unsigned seed,
+                                     const UsbSite* site = nullptr);
+[[nodiscard]] RealOutcome unplug_board(unsigned rounds, unsigned seed);
+
+}  // namespace reckon::fuzz::unplugs

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Looks whether the invariants of docs/robustness.md hold for a device that is unplugged.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/tests/fuzz/unplugs/trial.hpp"
+
+namespace reckon::fuzz::unplugs {
+
+/// What can be seen of the device and its thread.
+struct Sight {
+  nanoseconds now{};
+  bool runs = false;  ///< the thread says that forces are shown
+  bool motors_rest = true;
+  std::uint64_t commands = 0;  ///< that the device has obeyed
+};
+
+class Watch {
+ public:
+  /// @param watchdog of the device itself  @param force_limit [N]
+  Watch(nanoseconds watchdog, double force_limit)
+      : watchdog_(watchdog), force_limit_(force_limit) {}
+
+  /// The line breaks here and now.
+  void broken(nanoseconds now);
+  /// What the device gets from now on is of another line.
+  void plugged() { ran_at_.reset(); }
+  void see(const Sight& sight);
+  /// @param books [J], of the device's own, with what is owed and allowed
+  void see(const haptics::ServoSnapshot& servo, double books, nanoseconds now);
+  void hear(const std::string& sentence, nanoseconds now);
+  /// So much befalls it, of each of which it may say something.
+  void happens(unsigned times) { events_ += times; }
+  /// Handles and transfers of the library. @param has_line whether the thread has the device open
+  void count(bool has_line, std::size_t outstanding, nanoseconds now);
+  void fail(int invariant, nanoseconds now, std::string sentence);
+
+  [[nodiscard]] const std::optional<Finding>& finding() const { return finding_; }
+
+ private:
+  nanoseconds watchdog_;
+  double force_limit_;
+  std::optional<Finding> finding_;
+  std::optional<nanoseconds> broken_at_;  // and not taken up again
+  bool was_down_ = false;                 // since then
+  std::optional<nanoseconds> ran_at_;     // last, on this plug
+  bool runs_ = false;
+  std::uint64_t steps_ = 0;  // of the servo since it runs
+  std::uint64_t commands_ = 0;
+  nanoseconds commanded_at_{};
+  std::string heard_;  // last
+  std::uint64_t sentences_ = 0, events_ = 0, events_before_ = 0;
+};
+
+}  // namespace reckon::fuzz::unplugs

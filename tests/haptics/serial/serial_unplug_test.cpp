@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A board that is pulled out at random instants, all time the board's: what its loop does then is
+// done here, for a tty of the kernel has a clock of its own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "reckon/haptics/serial/serial_session.hpp"
+#include "reckon/tests/haptics/support/plugged_device.hpp"
+#include "reckon/tests/haptics/support/wired_board.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+DeviceLimits limits() {
+  UsbSettings settings;
+  settings.damping = 2.0;
+  settings.max_force = 5.0;
+  settings.resolution = 20e-6;
+  return usb_limits(serial_facts(), settings);
+}
+
+class Pulled : public test::WiredBoard {
+ public:
+  explicit Pulled(const test::SerialBoardOptions& options)
+      : WiredBoard(
+            options, [](double t) { return Vector3d(0, 0, 0.015 * std::sin(20 * t) - 0.01); },
+            limits(), test::stiff_floor()) {}
+
+  // The next session asks into a line on which nobody is.
+  void pull() {
+    in = out = test::LineWay();
+    in_is_cut = out_is_cut = true;
+    session->end_run();
+    const std::uint32_t run = session->run();
+    session.emplace(exchange, limits(), run, question_ += 4'096, board.now());
+  }
+  void plug(bool has_lost_power) {
+    if (has_lost_power) board.forget();
+    in_is_cut = out_is_cut = false;
+  }
+
+ private:
+  std::uint16_t question_ = 100;
+};
+
+TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
+  std::uint64_t pressed = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    test::SerialBoardOptions options;
+    options.seed = seed;
+    std::mt19937 random(seed);
+    Pulled wired(options);
+    for (int round = 0; round < 100; ++round) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", round " << round);
+      // Also while it is asked and greets, and while the force ramps up.
+      wired.run(microseconds(50) * (random() % (round % 3 == 0 ? 400 : 6'000)));
+      if (!wired.board.force().isZero(0)) ++pressed;
+      wired.pull();
+      wired.run(milliseconds(10));
+      EXPECT_TRUE(wired.last.force.isZero(0));
+      EXPECT_FALSE(wired.last.enabled);
+      wired.run(milliseconds(2));  // a tick, and what was under way
+      EXPECT_TRUE(wired.board.force().isZero(0)) << "its own watchdog";
+      wired.run(microseconds(50) * (random() % 2'000));
+      EXPECT_TRUE(wired.board.force().isZero(0)) << "nothing is told to what is not there";
+      wired.plug(random() % 4 == 0);
+    }
+    wired.run(milliseconds(500));
+    EXPECT_EQ(wired.session->stage(), SerialStage::running);
+    EXPECT_TRUE(wired.last.enabled);
+    EXPECT_GE(wired.least_books, -1e-9);
+  }
+  EXPECT_GT(pressed, 100U) << "pulled out under a force";
+}
+
+}  // namespace
+}  // namespace reckon::haptics

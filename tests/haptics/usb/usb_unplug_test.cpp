@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A plug that is pulled, or a program that ends, in the middle of something. `./run fuzz unplugs`
+// does it at random.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
+#include "reckon/tests/haptics/support/falcon_model.hpp"
+#include "reckon/tests/haptics/support/plugged_device.hpp"
+#include "reckon/tests/haptics/support/polhem_model.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::milliseconds;
+using ::testing::AnyOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+DeviceLimits limits(const UsbFacts& facts) {
+  UsbSettings settings;
+  settings.damping = 2.0;
+  return usb_limits(facts, settings);
+}
+
+Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)}; }
+
+class PluggedFalcon : public test::PluggedDevice<test::FalconModel> {
+ public:
+  PluggedFalcon()
+      : PluggedDevice(test::FalconModelOptions{}, pressing,
+                      std::make_unique<FalconDriver>(FalconFirmware{}), limits(falcon_facts())) {}
+};
+
+class PluggedPolhem : public test::PluggedDevice<test::PolhemModel> {
+ public:
+  explicit PluggedPolhem(const test::PolhemModelOptions& options)
+      : PluggedDevice(options, pressing, std::make_unique<PolhemDriver>(), limits(polhem_facts())) {
+  }
+};
+
+// Whatever call to the kernel it is that fails.
+template <class Plugged>
+void unplug_at_each_call(const std::function<std::unique_ptr<Plugged>()>& made) {
+  constexpr unsigned kCalls = 60;  // and some of the first exchanges
+  for (unsigned call = 0; call < kCalls; ++call) {
+    const std::unique_ptr<Plugged> usb = made();
+    unsigned calls = 0;
+    usb->shim.at_each_call([&] {
+      if (calls++ == call) usb->shim.unplug();
+    });
+    for (int i = 0; i < 500 && usb->shim.is_plugged(); ++i) usb->run(milliseconds(1));
+    usb->run(milliseconds(10));
+    EXPECT_FALSE(usb->loop->stage()) << "call " << call;
+    usb->run(milliseconds(400));
+    EXPECT_THAT(usb->notices, Each(AnyOf(HasSubstr("was unplugged"), HasSubstr("none is attached"),
+                                         HasSubstr("ready"), HasSubstr("not homed"))))
+        << "call " << call;
+    EXPECT_LE(usb->notices.size(), 3U);
+    EXPECT_EQ(usb->shim.outstanding(), 0U);
+    usb->notices.clear();
+    usb->shim.plug();
+    for (int i = 0; i < 500 && !usb->loop->stage(); ++i) usb->run(milliseconds(1));
+    EXPECT_TRUE(usb->loop->stage()) << "call " << call;
+  }
+}
+
+TEST(UsbUnplug, AtEachCallOfTheSetUpItIsSaidAndTakenUpAgain) {
+  unplug_at_each_call<PluggedFalcon>([] { return std::make_unique<PluggedFalcon>(); });
+  unplug_at_each_call<PluggedPolhem>(
+      [] { return std::make_unique<PluggedPolhem>(test::PolhemModelOptions{}); });
+}
+
+TEST(UsbUnplug, PluggedInAgainBeforeItIsNoticedTheOldLineIsGone) {
+  PluggedFalcon usb;
+  usb.run(milliseconds(3'000));
+  ASSERT_GT(usb.model.force().z(), 0.5);
+  usb.notices.clear();
+  usb.shim.unplug();
+  usb.model.forget_line();
+  usb.shim.plug();
+  const std::uint64_t commands = usb.model.commands();
+  usb.run(milliseconds(10));
+  EXPECT_THAT(usb.notices, ::testing::ElementsAre(HasSubstr("was unplugged")));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+  EXPECT_EQ(usb.model.commands(), commands) << "nothing is told to what was not set up";
+  usb.run(milliseconds(3'000));
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+// An FTDI chip then has another speed.
+TEST(UsbUnplug, WhereItsPortIsResetItIsSetUpAgain) {
+  PluggedFalcon usb;
+  usb.run(milliseconds(3'000));
+  usb.notices.clear();
+  usb.shim.reset_port();
+  usb.model.forget_line();
+  usb.run(milliseconds(10));
+  EXPECT_TRUE(usb.last.force.isZero(0));
+  usb.run(milliseconds(3'000));
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+// It obeys once its report was fetched, and the line is closed soon after.
+TEST(UsbUnplug, TheLastZeroIsObeyedWheneverTheDeviceTakesIt) {
+  for (int phase = 0; phase < 20; ++phase) {
+    test::PolhemModelOptions options;
+    options.out_at = 0.05 * phase;
+    options.in_at = 0.95;
+    PluggedPolhem usb(options);
+    usb.run(milliseconds(3'000) + phase * std::chrono::microseconds(50));
+    ASSERT_FALSE(usb.motors_rest());
+    usb.loop.reset();
+    usb.model.pass(milliseconds(1));
+    EXPECT_TRUE(usb.motors_rest()) << phase;
+  }
+}
+
+// The numbers of runs go on.
+TEST(UsbUnplug, ASecondProgramPartOnTheSameExchangeIsReadToo) {
+  PluggedFalcon usb;
+  for (int i = 0; i < 3; ++i) {
+    usb.run(milliseconds(1'000));
+    ASSERT_TRUE(usb.last.enabled);
+    usb.shim.unplug();
+    usb.run(milliseconds(10));
+    usb.shim.plug();
+  }
+  usb.begin_thread(std::make_unique<FalconDriver>(FalconFirmware{}));
+  usb.run(milliseconds(3'000));
+  EXPECT_TRUE(usb.last.enabled);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
