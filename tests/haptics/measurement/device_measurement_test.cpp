@@ -192,15 +192,13 @@ TEST(DeviceMeasurement, StepsThatComeLateNowAndThenDoNotSpoilIt) {
   Modelled one = kGood;
   for (const int delay : {0, 6}) {
     one.delay = delay;
-    for (const auto& late : {each(53, 900us), each(61, 700us)}) {
-      SimulatedDevice device(config_of(one));
-      const Outcome run = measure(device, nullptr, late);
-      ASSERT_EQ(run.problem, MeasurementProblem::none) << delay;
-      std::printf("delay %d: b %.3f, delay %.2f ms\n", delay, run.result->damping,
-                  1e3 * run.result->delay);
-      EXPECT_NEAR(run.result->damping, 1.0, 0.1) << delay;
-      EXPECT_NEAR(1e3 * run.result->delay, delay, 0.1 * delay + 0.1);
-    }
+    SimulatedDevice device(config_of(one));
+    const Outcome run = measure(device, nullptr, delay == 0 ? each(53, 900us) : each(61, 700us));
+    ASSERT_EQ(run.problem, MeasurementProblem::none) << delay;
+    std::printf("delay %d: b %.3f, delay %.2f ms\n", delay, run.result->damping,
+                1e3 * run.result->delay);
+    EXPECT_NEAR(run.result->damping, 1.0, 0.1) << delay;
+    EXPECT_NEAR(1e3 * run.result->delay, delay, 0.1 * delay + 0.1);
   }
 }
 
