@@ -82,7 +82,7 @@ class Measured : public test::PluggedDevice<typename Kind::Model> {
   }
   void begin() {
     ASSERT_TRUE(reach(MeasuringStage::ready));
-    this->model.let_go();
+    this->model.leave();
     this->run(milliseconds(500));
     ASSERT_TRUE(measuring.begin({true, true, true}));
   }

@@ -44,7 +44,7 @@ class HeldModel : public UsbModel {
   [[nodiscard]] bool is_led() const { return led_; }
 
   void carry(double share) { carried_ = share; }  ///< of its links' weight, by the hand
-  void let_go() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
+  void leave() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
   void gain(double damping) { options_.damping = damping; }  ///< [N s/m], below 0: it is active
 
   // What goes wrong from now on.
