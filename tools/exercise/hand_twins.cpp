@@ -82,8 +82,8 @@ HandTwins::HandTwins(const peer::SceneFile& scene, Exercise& exercise)
     SimulatedHands hands = make_simulated_hands(scene, static_cast<std::uint32_t>(peer + 1));
     for (const PointerHand& pointer : hands.pointers) {
       if (twins_.size() == kMost) break;
-      twins_.push_back(std::make_unique<Twin>(
-          peer, pointer, std::move(hands.devices[pointer.held]), plan, scene, exercise));
+      twins_.push_back(std::make_unique<Twin>(peer, pointer, std::move(hands.devices[pointer.held]),
+                                              plan, scene, exercise));
     }
   }
   for (const auto& twin : twins_) twin->lines.resize(twins_.size());

@@ -281,22 +281,14 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
   ASSERT_EQ(run({"key", "new", key}).status, 0);
   const std::string scenes = test::source_dir() + "/scenes/";
   const std::map<std::string, Words> values{
-      {"--peers", {"3"}},
-      {"--for", {"4s"}},
-      {"--mesh", {corner}},
-      {"--hand", {scenes + "wall_trace.csv"}},
-      {"--impair", {"loss=30%"}},
-      {"--seed", {"7"}},
-      {"--iface", {"lo"}},
-      {"--key", {key}},
-      {"--trace", {csv_}},
-      {"--trace-bodies", {csv_}},
-      {"--trace-loop", {csv_}},
-      {"--simulated-time", {}},
-      {"--no-transfer", {}},
-      {"--json", {}},
-      {"--device", {"falcon"}},
-      {"--firmware", {corner}},
+      {"--peers", {"3"}},         {"--for", {"4s"}},
+      {"--mesh", {corner}},       {"--hand", {scenes + "wall_trace.csv"}},
+      {"--impair", {"loss=30%"}}, {"--seed", {"7"}},
+      {"--iface", {"lo"}},        {"--key", {key}},
+      {"--trace", {csv_}},        {"--trace-bodies", {csv_}},
+      {"--trace-loop", {csv_}},   {"--simulated-time", {}},
+      {"--no-transfer", {}},      {"--json", {}},
+      {"--device", {"falcon"}},   {"--firmware", {corner}},
   };
   Words flags = flags_of({"demo"});
   const std::set<std::string> refused{"--view", "--listen", "--open", "--even-if-slow"};
