@@ -124,14 +124,14 @@ class DrawnTouch {
   // On the floor, below the middle.
   void add_bodies() {
     const double floor = scene_.objects.front().pose.position.z();
-    middle_.z() = 0.027;
     for (int i = 0; i < 3; ++i) {
       const double edge = within(0.012, 0.025);
       haptics::SceneObject& cube = add("cube", haptics::BoxShape{Eigen::Vector3d::Constant(edge)});
       cube.effects.of<haptics::SpringDamper>() = {scale(50, 500), 0.0};
       cube.matter.mass = scale(0.02, 1.0);
       cube.matter.friction = 0.5;
-      cube.pose.position = {0.03 * (i - 1), within(-0.01, 0.01), floor + 0.5 * edge};
+      cube.pose.position = {0.026 * (i - 1), within(-0.01, 0.01), floor + 0.5 * edge};
+      if (i == 1) middle_.z() = floor + edge + 0.003;
     }
   }
 
