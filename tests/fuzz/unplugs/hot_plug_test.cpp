@@ -18,7 +18,7 @@
 namespace reckon::fuzz::unplugs {
 namespace {
 
-constexpr unsigned kRounds = 20;
+constexpr unsigned kRounds = 8;
 
 struct Unref {
   void operator()(UMockdevTestbed* bed) const { g_object_unref(bed); }
