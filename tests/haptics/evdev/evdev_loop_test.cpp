@@ -32,6 +32,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using test::EvdevModel;
 using test::EvdevModelOptions;
+using test::settings_for;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -63,16 +64,6 @@ Scene room() {
   scene.objects.push_back(solid("back", PlaneShape{-Vector3d::UnitY()}, {0, 0.02, 0}));
   scene.objects.push_back(solid("post", BoxShape{Vector3d::Constant(0.008)}, {0.01, 0.01, 0}));
   return scene;
-}
-
-EvdevSettings settings_for(const EvdevModelOptions& model) {
-  EvdevSettings settings;
-  settings.axes = model.axes;
-  settings.scale = {model.travel, model.full_force, model.full_stiffness};
-  settings.max_stiffness = 1500;
-  settings.max_speed = 1.0;
-  settings.chain = model.report + model.latency + 8 * model.takes + milliseconds(1);
-  return settings;
 }
 
 // Pushes into the wall of one_wall() and stays 10 mm behind it.

@@ -30,6 +30,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using test::EvdevModel;
 using test::EvdevModelOptions;
+using test::settings_for;
 using ::testing::AnyOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -85,16 +86,6 @@ Scene one_wall() {
   wall.pose.position = {-0.02, 0, 0};
   wall.effects.of<SpringDamper>().stiffness = 1'000;
   return scene;
-}
-
-EvdevSettings settings_for(const EvdevModelOptions& model) {
-  EvdevSettings settings;
-  settings.axes = model.axes;
-  settings.scale = {model.travel, model.full_force, model.full_stiffness};
-  settings.max_stiffness = 1500;
-  settings.max_speed = 1.0;
-  settings.chain = model.report + model.latency + milliseconds(1);
-  return settings;
 }
 
 // Into the wall and out of it, five times a second.

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/evdev/event_calls.hpp"
 
 namespace reckon::test {
@@ -37,6 +38,17 @@ struct EvdevModelOptions {
   int axes = 2;
   bool ends_effects = true;  ///< obeys the length of an effect
 };
+
+/// What a scene says of it, the truth, with a delay that it keeps.
+inline haptics::EvdevSettings settings_for(const EvdevModelOptions& model) {
+  haptics::EvdevSettings settings;
+  settings.axes = model.axes;
+  settings.scale = {model.travel, model.full_force, model.full_stiffness};
+  settings.max_stiffness = 1500;
+  settings.max_speed = 1.0;
+  settings.chain = model.report + model.latency + 8 * model.takes + std::chrono::milliseconds(1);
+  return settings;
+}
 
 /// All time is the model's: wait() lets it pass. Calls take none.
 class EvdevModel final : public haptics::EventCalls {
