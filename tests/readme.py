@@ -3,8 +3,9 @@
 """Runs each line of the blocks of commands of the README and of docs/first_steps, once, as a reader pastes it: in a folder
 with nothing but scenes/, with the built program in the PATH. readme.py ROOT RECKON [--planted]
 
-What speaks to a network gets --iface lo if it has none, and what does not end by itself is interrupted. With --planted lines are added
-that a reader could not run, each of which is to be found."""
+What speaks to a network gets --iface lo if it has none, and what does not end by itself is interrupted. What only computes runs
+behind the others. With --planted lines are added that a reader could not run, each of which is to be found."""
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -21,6 +22,7 @@ SKIP = {  # by the first two words: why a line is not run here
 SPEAKS = {"peer", "inspect", "record", "replay"}  # to a network; inspect not where it reads a file
 ENDLESS = {"demo", "peer", "inspect", "record"}   # until they are interrupted; so is `view` without --save
 LISTENS = {"inspect", "record"}                   # to somebody, who is started beside them
+COMPUTES = {"bench", "figures"}                   # and needs nothing that another line leaves
 SECONDS = 3                                       # that they are left running
 LONGEST = 900                                     # [s], of what ends by itself: on a busy machine
 # Of this host the doctor may have findings.
@@ -94,18 +96,29 @@ def main():
     if len(lines) < 15:
         sys.exit(f"failed: only {len(lines)} lines are found")
     failed = []
-    with tempfile.TemporaryDirectory() as folder:
-        reader = Reader(root, reckon, pathlib.Path(folder))
-        for words in planted or lines:
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as folder_behind:
+        reader, reader_behind = (Reader(root, reckon, pathlib.Path(one)) for one in (folder, folder_behind))
+
+        def try_one(reader, words):
             line, begun = shlex.join(words), time.monotonic()
             if " ".join(words[:2]) in SKIP:
                 print(f"skipped: {line}: {SKIP[' '.join(words[:2])]}")
-                continue
+                return
             problem = reader.try_line(words)
-            print(f"{time.monotonic() - begun:6.1f} s  {'FAILED' if problem else 'ok    '}  {line}", flush=True)
+            print(f"{time.monotonic() - begun:6.1f} s  {'FAILED' if problem else 'ok    '}  {line}"
+                  + (f"\n{problem}" if problem else ""), flush=True)
             if problem:
                 failed.append(words)
-                print(problem)
+
+        with concurrent.futures.ThreadPoolExecutor(1) as behind:
+            tried = []
+            for words in planted or lines:
+                if not planted and words[1] in COMPUTES:
+                    tried.append(behind.submit(try_one, reader_behind, words))
+                else:
+                    try_one(reader, words)
+            for one in tried:
+                one.result()
     if planted:
         sys.exit(0 if failed == planted else "failed: a line that cannot be run was not found")
     sys.exit(f"failed: {len(failed)} of {len(lines)} lines" if failed else 0)
