@@ -24,9 +24,12 @@ struct Outcome {
   bool told = false;        ///< a servo says that it shows less
   double unseen = -1e9;     ///< [J], most that the first hand got after 1.5 s beyond what surfaces
                             ///< did and 50 mW
-  Excess liar;              ///< of what the first hand got, beyond an honest twin of the liar
-  double late_cost = 0;     ///< [J], most that a late sample took
-  std::string violation;    ///< a sentence; empty where all promises were kept
+  double made = -1e9;  ///< [J], most that a model of a device gave under a force of 0.1 N or more,
+                       ///< by its own books less what the servo states for its encoders
+  double claimed = -1e9;  ///< [J], most that the meter of its servo had above them, less the same
+  Excess liar;            ///< of what the first hand got, beyond an honest twin of the liar
+  double late_cost = 0;   ///< [J], most that a late sample took
+  std::string violation;  ///< a sentence; empty where all promises were kept
 };
 
 /// @param seconds of simulated time
