@@ -34,7 +34,8 @@ class BoardHandle final : public ModelHandle {
             options(s), [this](double t) { return wanted(t); }, limits_, haptics::Scene()) {
     wired_.in.latency = wired_.out.latency = microseconds(100) + pdu::from_seconds(s[Shared::lag]);
     while (now() < kReady && !runs()) wired_.run(milliseconds(1));
-    wired_.run(milliseconds(20));
+    begin_books();
+    wired_.run(milliseconds(50));
     wired_.servo_runs = false;
     begin_at(now());
   }
@@ -48,7 +49,7 @@ class BoardHandle final : public ModelHandle {
     test::SerialBoardOptions options;
     options.seed = s.seed;
     options.mass = s[Shared::mass];
-    options.damping = s[Shared::damping];
+    options.damping = s[Shared::model_damping];
     options.hand_stiffness = s[Shared::grip];
     options.hand_damping = s[Shared::grip_damping];
     options.nm_per_count = static_cast<int>(1e9 * step_of(s));
@@ -57,7 +58,7 @@ class BoardHandle final : public ModelHandle {
   }
   static haptics::UsbSettings settings(const Scenario& s, nanoseconds period) {
     haptics::UsbSettings settings;
-    settings.damping = s[Shared::stated] * s[Shared::damping];
+    settings.damping = s[Shared::stated] * s[Shared::model_damping];
     settings.period = period;
     settings.chain = pdu::from_seconds(s[Shared::chain]);
     settings.max_force = 5;

@@ -35,6 +35,7 @@ class EventHandle final : public ModelHandle {
     model_ = calls.get();
     loop_ = std::make_unique<haptics::EvdevLoop>(exchange_, settings_, std::move(calls),
                                                  [this] { return model_->now(); });
+    begin_books();
     while (now() < kReady) {
       device_.state({}, now());
       pass(milliseconds(1));

@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr double kHeld = 0.1;     // [N]
 constexpr double kSettled = 1.5;  // [s]
+constexpr double kSpoken = 1e-3;  // [J], of a model's books
 // Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
 constexpr double kEstimated = 0.5;
 constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
@@ -270,17 +271,19 @@ void Hand::keep_model_books(double port, double dt) {
   least_port_ = std::min(least_port_, port);
   if (!handle_->keeps_limits()) return;
   short_ = std::min(short_, port + allowed);
-  if (handle_->force().norm() > kHeld) {
-    least_held_ = std::min(least_held_, port);
-    made_ = std::max(made_, -(port + allowed));
-  }
-  if (scenario_[Shared::drawn] != static_cast<double>(Drawn::bodies)) {
-    const double gap = snapshot_.port_energy - transferred_ - handle_->work_known();
-    meter_ = std::max(meter_, gap);
-    claimed_ = std::max(claimed_, gap - allowed);
-    meter_short_ = std::max(meter_short_, gap - allowed);
-  }
+  const bool has_bodies = scenario_[Shared::drawn] == static_cast<double>(Drawn::bodies);
+  const double known = has_bodies ? 1e9 : transferred_ + handle_->work_known();
+  const double gap = snapshot_.port_energy - known;
+  meter_ = std::max(meter_, gap);
+  meter_short_ = std::max(meter_short_, gap - allowed);
+  put_in_ = std::max(put_in_, port + allowed);
   if (scenario_.model() != Model::event) note_step(dt);
+  if (!(handle_->force().norm() > kHeld)) return;
+  least_held_ = std::min(least_held_, port);
+  books_.made = std::max(books_.made, -(port + allowed));
+  if (put_in_ < kSpoken) return;
+  books_.left = std::min(books_.left, (port + allowed) / put_in_);
+  books_.claimed = std::max(books_.claimed, gap - allowed);
 }
 
 // What surfaces put into our springs by moving, be those held or not: a hand that lacks energy
@@ -334,8 +337,7 @@ void Hand::judge(Outcome& out) const {
   out.excess = std::max(out.excess, excess_);
   out.late_cost = std::max(out.late_cost, late_cost_);
   if (index_ == 0) out.unseen = unseen_;
-  out.made = std::max(out.made, made_);
-  out.claimed = std::max(out.claimed, claimed_);
+  if (model_ != nullptr) out.model = books_;
   const std::size_t name = index_ + 1;
   if (!finite_) out.violation = fmt::format("hand {}: a force or an energy is no number", name);
   if (short_ < -kRoundOff) {

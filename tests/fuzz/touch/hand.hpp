@@ -104,7 +104,8 @@ class Hand {
   double least_port_ = 0, least_held_ = 1e9, short_ = 0, meter_ = 0, meter_short_ = 0;
   double excess_ = -1e9, late_cost_ = 0, failed_cost_ = 0;
   bool finite_ = true;
-  double made_ = -1e9, claimed_ = -1e9;
+  ModelBooks books_;
+  double put_in_ = 0;      // [J], most so far
   double speechless_ = 0;  // [s], in which the model tells that it shows nothing
 
   bool watched_ = false;

@@ -19,10 +19,13 @@ constexpr nanoseconds kKnownAgo = std::chrono::milliseconds(50);
 
 }  // namespace
 
-void ModelHandle::begin_at(nanoseconds now) {
-  begin_ = now;
+void ModelHandle::begin_books() {
   first_ = work_now();
   first_work_ = port_work_now();
+}
+
+void ModelHandle::begin_at(nanoseconds now) {
+  begin_ = now;
   next_fault_ = now + pdu::from_seconds(scenario_[Shared::fault_at]);
   is_begun_ = true;
 }

@@ -34,6 +34,8 @@ class ModelHandle : public Handle {
   /// @param scenario outlives it
   ModelHandle(const Scenario& scenario, Way way) : scenario_(scenario), way_(std::move(way)) {}
 
+  /// So long before begin_at() that no reading of the servo's is older.
+  void begin_books();
   /// A constructor's last call, when the device is ready.
   void begin_at(std::chrono::nanoseconds now);
   /// Where the hand wants it at a time of its clock [s].

@@ -162,17 +162,23 @@ double rate(const Outcome& o) { return o.excess; }
 // What is told is no violation: rather what nobody tells.
 double wrong(const Outcome& o) { return o.told ? 0.5 * o.wrong : o.wrong; }
 double hiccup(const Outcome& o) { return o.told ? 0.5 * o.lacks : o.lacks; }
-double made(const Outcome& o) { return o.made; }
-double claimed(const Outcome& o) { return o.claimed; }
+double made(const Outcome& o) { return -o.model.left; }
+double claimed(const Outcome& o) { return o.model.claimed; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
 // What a spring that was loaded slowly gives within 50 ms is told beside it.
 double liar(const Outcome& o) { return o.liar.power / kLiarPower; }
 
 std::string meter_text(const Outcome& o) { return joules(o.meter) + " above the device's books"; }
-std::string made_text(const Outcome& o) { return joules(o.made) + " made beyond what is stated"; }
+std::string made_text(const Outcome& o) {
+  if (o.model.made == ModelBooks().made) return "no force of a model's";
+  const std::string made = joules(o.model.made) + " made beyond what is stated";
+  if (o.model.left == ModelBooks().left) return made;
+  return made + fmt::format(", {:.3g} % left of what was put in", 100 * o.model.left);
+}
 std::string claimed_text(const Outcome& o) {
-  return joules(o.claimed) + " above the model's books and what is stated";
+  if (o.model.claimed == ModelBooks().claimed) return "no force of a model's";
+  return joules(o.model.claimed) + " above the model's books and what is stated";
 }
 std::string rate_text(const Outcome& o) {
   return fmt::format("{:.3g} N beyond the limit", o.excess);

@@ -88,6 +88,7 @@ constexpr Row kSharedRows[] = {
     {"lie_odd", 0, 0.3, 0, false},                   // probability of a value that is absurd
     {"lie_rename", 0, 1, 0, true},                   // another hand every 50 ms
     {"model", 0, 4, 0, true},                        // what the first hand holds
+    {"model_damping", 0, 10, 2, false},              // [N s/m], of that
     {"chain", 0.001, 0.02, 0.006, false},            // [s], stated of that
     {"phase_in", 0, 0.999, 0.5, false},              // [ms] of a frame, when it reports
     {"phase_out", 0, 0.999, 0, false},               // [ms] of a frame, when it is told
@@ -207,6 +208,7 @@ Scenario::Scenario() {
 
 void Scenario::tidy() {
   using enum Shared;
+  tidy_model();
   const auto put_out_of_play = [this](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i <= last; ++i) values[i] = genes()[i].plain;
   };
@@ -230,7 +232,6 @@ void Scenario::tidy() {
   unless(s[effect] > 0 && (s[wall] > 0 || s[solid] > 0), effect, effect_strength);
   unless(s[region] > 0, region, region_strength);
   unless(exists(s[liar]), liar, lie_rename);
-  tidy_model();
   for (std::size_t hand = 0; hand < kMostHands; ++hand) {
     const bool moves = s.path(hand, Path::amplitude) > 0 || s.path(hand, Path::side) > 0;
     if (hand >= s.hands()) {
@@ -254,12 +255,12 @@ void Scenario::tidy_model() {
   const Model what = this->model();
   const bool is_model = what != Model::simulated;
   const bool is_usb = what == Model::falcon || what == Model::polhem;
-  unless(is_model, {chain, lag, stated, drawn, fault});
+  unless(is_model, {model_damping, chain, lag, stated, drawn, fault});
   unless(is_usb, {phase_in, phase_out});
   unless(what == Model::board || what == Model::event, {report});
   // It shows flat faces that stand along its axes, and nothing else.
-  unless(what != Model::event,
-         {stated, wall_tilt, solid_tilt, effect, effect_strength, region, region_strength, drawn});
+  unless(what != Model::event, {model_damping, stated, wall_tilt, solid_tilt, effect,
+                                effect_strength, region, region_strength, drawn});
   if (what == Model::event) s[solid] = std::min(s[solid], 2.0);
   unless(s[drawn] > 0, {drawn_seed});
   unless(s[fault] > 0, {fault_at, fault_for, fault_every});

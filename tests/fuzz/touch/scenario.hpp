@@ -76,6 +76,7 @@ enum class Shared : std::size_t {
   lie_odd,
   lie_rename,
   model,
+  model_damping,
   chain,
   phase_in,
   phase_out,

@@ -21,8 +21,10 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kReady = std::chrono::seconds(8);
-constexpr nanoseconds kSettles = milliseconds(100);
+constexpr nanoseconds kSettles = milliseconds(50);
+constexpr nanoseconds kGlance = milliseconds(10);
 constexpr double kThere = 1e-3;  // [m]
+constexpr double kStill = 1e-8;  // [m] in a glance
 constexpr int kDamaged = 5;
 constexpr unsigned kErrors = 3;
 
@@ -71,7 +73,12 @@ class UsbHandle final : public ModelHandle {
         plugged_(
             options(s), [this](double t) { return wanted(t); }, Kind::driver(),
             haptics::usb_limits(Kind::facts(), settings(s, period)), haptics::Scene()) {
-    while (plugged_.model.now() < kReady && !is_ready()) plugged_.run(milliseconds(10));
+    for (Eigen::Vector3d last = plugged_.model.position(); plugged_.model.now() < kReady;) {
+      plugged_.run(kGlance);
+      const Eigen::Vector3d& place = plugged_.model.position();
+      if (is_ready() && (place - std::exchange(last, place)).norm() < kStill) break;
+    }
+    begin_books();
     plugged_.run(kSettles);
     plugged_.model.beside([this](nanoseconds now) {
       plugged_.tend();
@@ -91,7 +98,7 @@ class UsbHandle final : public ModelHandle {
     auto options = Kind::options(s);
     options.seed = s.seed;
     options.mass = s[Shared::mass];
-    options.damping = s[Shared::damping];
+    options.damping = s[Shared::model_damping];
     options.hand_stiffness = s[Shared::grip];
     options.hand_damping = s[Shared::grip_damping];
     options.out_at = s[Shared::phase_out];
@@ -99,7 +106,7 @@ class UsbHandle final : public ModelHandle {
   }
   static haptics::UsbSettings settings(const Scenario& s, nanoseconds period) {
     haptics::UsbSettings settings;
-    settings.damping = s[Shared::stated] * s[Shared::damping];
+    settings.damping = s[Shared::stated] * s[Shared::model_damping];
     settings.period = period;
     settings.chain = pdu::from_seconds(s[Shared::chain]);
     return settings;
