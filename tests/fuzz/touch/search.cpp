@@ -35,16 +35,18 @@ class Search {
       : random_(seed),
         fixed_(std::move(fixed)),
         strict_(strict),
-        end_(std::chrono::steady_clock::now() +
-             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                 std::chrono::duration<double>(seconds))) {}
+        turn_(std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(seconds / static_cast<double>(objectives().size())))),
+        end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
-  /// The first scenario that breaks a promise. @param only one objective, all where it is empty
+  /// The first scenario that breaks a promise. @param only one objective, all where it is empty: in
+  /// the first round each has its turn, however short the search is
   std::optional<Worst> climb_all(const std::string& only) {
-    while (!over()) {
-      for (std::size_t i = 0; i < objectives().size() && !over(); ++i) {
+    for (bool is_first = only.empty(); !over(end_); is_first = false) {
+      for (std::size_t i = 0; i < objectives().size() && !over(end_); ++i) {
         if (!only.empty() && objectives()[i].name != only) continue;
-        if (const auto broken = climb(i)) return broken;
+        if (const auto broken = climb(i, is_first ? Clock::now() + turn_ : end_)) return broken;
       }
     }
     return std::nullopt;
@@ -72,16 +74,18 @@ class Search {
   [[nodiscard]] const RunStatistics& statistics() const { return statistics_; }
 
  private:
-  [[nodiscard]] bool over() const { return std::chrono::steady_clock::now() >= end_; }
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] static bool over(Clock::time_point end) { return Clock::now() >= end; }
   Outcome run(const Scenario& scenario, const Objective& objective) {
     statistics_.add();
     return judged(objective, scenario, strict_);
   }
 
-  std::optional<Worst> climb(std::size_t at) {
+  std::optional<Worst> climb(std::size_t at, Clock::time_point end) {
     const Objective& objective = objectives()[at];
     Worst here;
-    for (int vain = 0; vain < kPatience && !over(); ++vain) {
+    for (int vain = 0; vain < kPatience && !over(end); ++vain) {
       Scenario next =
           here.badness > -1e300 ? neighbour(here.scenario, random_) : any_scenario(random_);
       objective.rules(next);
@@ -102,7 +106,8 @@ class Search {
   Random random_;
   std::map<std::size_t, double> fixed_;
   bool strict_;
-  std::chrono::steady_clock::time_point end_;
+  Clock::duration turn_;
+  Clock::time_point end_;
   std::vector<Worst> worst_ = std::vector<Worst>(objectives().size());
   RunStatistics statistics_;
 };

@@ -23,6 +23,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kReady = std::chrono::seconds(8);
 constexpr nanoseconds kSettles = milliseconds(50);
 constexpr nanoseconds kGlance = milliseconds(10);
+constexpr nanoseconds kMotionStep = std::chrono::microseconds(100);
 constexpr double kThere = 1e-3;  // [m]
 constexpr double kStill = 1e-8;  // [m] in a glance
 constexpr int kDamaged = 5;
@@ -102,6 +103,7 @@ class UsbHandle final : public ModelHandle {
     options.hand_stiffness = s[Shared::grip];
     options.hand_damping = s[Shared::grip_damping];
     options.out_at = s[Shared::phase_out];
+    options.motion_step = kMotionStep;
     return options;
   }
   static haptics::UsbSettings settings(const Scenario& s, nanoseconds period) {

@@ -92,6 +92,7 @@ Vector3d PolhemModel::torques() const {
 }
 
 double PolhemModel::height(const Vector3d& angles) const {
+  if (options_.upper_weight == 0 && options_.fore_weight == 0) return 0;
   return options_.upper_weight * std::cos(angles[1]) - options_.fore_weight * std::cos(angles[2]);
 }
 
