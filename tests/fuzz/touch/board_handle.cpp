@@ -42,6 +42,7 @@ class BoardHandle final : public ModelHandle {
 
   [[nodiscard]] haptics::HapticDevice& device() override { return wired_.device; }
   [[nodiscard]] Eigen::Vector3d force() const override { return wired_.board.force(); }
+  [[nodiscard]] double rounding() const override { return wired_.board.rounding(); }
   [[nodiscard]] bool tells_why() const override { return !runs(); }
 
  private:

@@ -267,7 +267,7 @@ void Hand::note_step(double dt) {
 
 // The servo's reading is older than the books, and bodies are no part of them.
 void Hand::keep_model_books(double port, double dt) {
-  const double allowed = allowance();
+  const double allowed = allowance() + handle_->rounding();
   least_port_ = std::min(least_port_, port);
   if (!handle_->keeps_limits()) return;
   short_ = std::min(short_, port + allowed);

@@ -27,6 +27,8 @@ class Handle {
   /// Most that work() was since the instant of which the servo's meter tells [J]; none where that
   /// is too long ago.
   [[nodiscard]] virtual double work_known() const { return work(); }
+  /// Most that whole steps of its forces may have put into the books of the servo [J].
+  [[nodiscard]] virtual double rounding() const { return 0; }
   /// Whether the next reading fails, at a cost that is estimated.
   [[nodiscard]] virtual bool fails() const { return false; }
   /// Of its own [N].

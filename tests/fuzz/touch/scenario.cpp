@@ -262,6 +262,8 @@ void Scenario::tidy_model() {
   unless(what != Model::event, {model_damping, stated, wall_tilt, solid_tilt, effect,
                                 effect_strength, region, region_strength, drawn});
   if (what == Model::event) s[solid] = std::min(s[solid], 2.0);
+  // Bodies that stand in a wall are thrown out of it.
+  unless(static_cast<Drawn>(s[drawn]) != Drawn::bodies, {wall, solid});
   unless(s[drawn] > 0, {drawn_seed});
   unless(s[fault] > 0, {fault_at, fault_for, fault_every});
   unless(!is_model || s[off_hand] != 1, {off_hand, off_at, off_for});

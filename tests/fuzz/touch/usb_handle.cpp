@@ -92,6 +92,7 @@ class UsbHandle final : public ModelHandle {
 
   [[nodiscard]] haptics::HapticDevice& device() override { return plugged_.device; }
   [[nodiscard]] Eigen::Vector3d force() const override { return plugged_.model.force(); }
+  [[nodiscard]] double rounding() const override { return plugged_.model.rounding(); }
   [[nodiscard]] bool tells_why() const override { return !runs(); }
 
  private:
