@@ -57,6 +57,8 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
+  if (config_.continuous_force > 0)
+    safety_.limit_heat(config_.continuous_force, config_.thermal_time / period_);
 }
 
 template <int axes>
