@@ -4,7 +4,7 @@
 //
 //     falcon_behind_usb [FIRMWARE]      without its firmware, if a file is named
 //
-// It reads a command a line: plug, unplug, home, hand X Y Z [mm], say.
+// It reads a command a line: plug, unplug, home, hand X Y Z [mm], leave (nobody holds it), say.
 #include <Eigen/Core>
 #include <cstdio>
 #include <exception>
@@ -31,6 +31,8 @@ void obey(reckon::test::UsbipFalcon& falcon, const std::string& line) {
     falcon.unplug();
   } else if (verb == "home") {
     falcon.with([](FalconModel& one) { one.home(); });
+  } else if (verb == "leave") {
+    falcon.with([](FalconModel& one) { one.leave(); });
   } else if (verb == "hand" && words >> goal.x() >> goal.y() >> goal.z()) {
     falcon.go(1e-3 * goal);
   } else if (verb != "say") {
