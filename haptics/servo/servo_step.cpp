@@ -251,6 +251,7 @@ template <int axes>
 void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
   ToolOf<axes> there = tool_;
   there.reset(pose);
+  static_.attenuate(0.0, port_);  // what the walls store may be gone too
   port_.clear();
   pressed_.place_all(static_);
   static_.reset(there);

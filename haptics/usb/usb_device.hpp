@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/usb/usb_exchange.hpp"
@@ -46,8 +47,12 @@ class UsbDevice final : public HapticDevice {
 
   UsbExchange& exchange_;
   DeviceLimits limits_;
+  // How long the servo had given the write that is `delay` old, if there is one.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> held_for() const noexcept;
+
   std::int64_t written_ = 0;
-  std::chrono::nanoseconds written_at_{0};  // last
+  std::chrono::nanoseconds written_at_{0};             // last
+  std::vector<std::chrono::nanoseconds> write_times_;  // a ring of the last delay + 2
   // Those not shown yet, a ring.
   std::array<UsbReading, 2 * UsbExchange::kReadings> waiting_{};
   std::size_t first_ = 0, count_ = 0;

@@ -4,6 +4,7 @@
 // done here, for a tty of the kernel has a clock of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -79,6 +80,32 @@ TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
     EXPECT_GE(wired.least_books, -1e-9);
   }
   EXPECT_GT(pressed, 100U) << "pulled out under a force";
+}
+
+// What the hand took until the board let go, nobody knows.
+TEST(SerialUnplug, WhereTheServoWasSilentItsMeterIsNoHigherThanTheBoardsBooks) {
+  test::SerialBoardOptions options;
+  options.damping = 2.0;
+  options.hand_stiffness = 600;
+  test::WiredBoard wired(
+      options,
+      [](double t) {
+        const double share = std::clamp(2.0 * std::min(t - 1.0, 4.0 - t), 0.0, 1.0);
+        return Vector3d(0, 0, 0.01 - share * (0.01 - 0.015 * std::sin(20 * t)));
+      },
+      limits(), test::stiff_floor());
+  while (wired.board.now() < milliseconds(4000)) {
+    wired.run(milliseconds(83));
+    wired.servo_runs = false;
+    wired.run(milliseconds(7));
+    wired.servo_runs = true;
+  }
+  wired.run(milliseconds(500));
+  EXPECT_GT(wired.last.tally.let_go, 20U) << "the board never let go";
+  EXPECT_GT(wired.board.books(), 0.001) << "nothing was touched";
+  EXPECT_LE(wired.last.port_energy - test::transferred(wired.last),
+            wired.board.books() + wired.last.encoder_allowance + 1e-9);
+  EXPECT_GE(wired.least_books, -1e-9);
 }
 
 }  // namespace

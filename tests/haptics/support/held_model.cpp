@@ -92,7 +92,9 @@ void HeldModel::move(double h) {
   }
   angles_ = joints->angles;
   if (!joints->jacobian.isZero(0)) jacobian_ = joints->jacobian;
-  if (h > 0) port_work_ -= torques().dot(angles_ - before);
+  if (!(h > 0)) return;
+  port_work_ -= torques().dot(angles_ - before);
+  rounding_ += half_steps().dot((angles_ - before).cwiseAbs());
 }
 
 void HeldModel::begin_out(std::span<const std::uint8_t> octets) {

@@ -84,6 +84,7 @@ void SerialBoard::move(double h) {
   position_ += h * velocity_;
   damping_loss_ += h * options_.damping * velocity_.squaredNorm();
   port_work_ -= h * held.dot(velocity_);
+  rounding_ += h * 0.5e-3 * velocity_.lpNorm<1>();
 }
 
 void SerialBoard::tick() {

@@ -51,6 +51,8 @@ class SerialBoard {
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
   /// [J] that the hand put in: through the motors, and what its damping took.
   [[nodiscard]] double books() const { return port_work_ + damping_loss_; }
+  /// [J], most that whole mN of its forces may have put into work that a host knows.
+  [[nodiscard]] double rounding() const { return rounding_; }
   [[nodiscard]] const Vector3d& position() const { return position_; }  ///< [m, D]
   [[nodiscard]] const Vector3d& force() const { return force_; }        ///< [N, D] that is held
 
@@ -80,7 +82,7 @@ class SerialBoard {
   std::chrono::nanoseconds now_{0}, next_tick_{0}, late_{0};
   Vector3d position_, velocity_ = Vector3d::Zero(), force_ = Vector3d::Zero();
   std::deque<Vector3d> lagging_;  // forces of the last steps
-  double port_work_ = 0, damping_loss_ = 0;
+  double port_work_ = 0, damping_loss_ = 0, rounding_ = 0;
   std::uint32_t first_stamp_;
   double clock_rate_ = 1;
   std::uint8_t buttons_ = 0;

@@ -372,6 +372,24 @@ TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
                                 Optional(nanoseconds(0)), std::nullopt));
 }
 
+// The servo is late once; that way comes to it `delay` steps later, when it is punctual again.
+TEST(UsbDevice, TellsHowLongAWayTookByTheWritesOfItsForceWhereItHasNoClock) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  const int delay = device.limits().delay_samples;
+  nanoseconds now(0);
+  for (int write = 1; write <= 3 * delay; ++write) {
+    now += milliseconds(write == delay + 1 ? 4 : 1);
+    exchange.readings.push({Vector3d::Zero(), {}, write - 1 - delay, write - delay, 1, 0});
+    const DeviceSample sample = device.read(now);
+    device.write(Vector3d::Zero(), now);
+    if (write <= delay + 1) continue;
+    ASSERT_TRUE(sample.ok) << write;
+    const int due = write - 1 - delay;
+    EXPECT_EQ(sample.took, milliseconds(due == delay ? 4 : 1)) << write;
+  }
+}
+
 TEST(UsbDevice, TellsThatTheForceWasDropped) {
   UsbExchange exchange;
   UsbDevice device(exchange, limits());
