@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/tests/fuzz/unplugs/counted_usb.hpp"
 
 namespace reckon::fuzz::unplugs {
 namespace {
@@ -21,7 +20,6 @@ constexpr nanoseconds kUnderWay = milliseconds(3);
 constexpr double kLeastBooks = -1e-9;    // [J]
 constexpr int kRamp = 100;               // steps
 constexpr std::uint64_t kSentences = 6;  // for an event
-constexpr int kTransfers = 3;            // of a line: two that listen, one that sends
 
 double ms_of(nanoseconds time) { return 1e3 * pdu::to_seconds(time); }
 
@@ -77,18 +75,6 @@ void Watch::hear(const std::string& sentence, nanoseconds now) {
   events_before_ = events_;
   if (++sentences_ > kSentences * (events_ + 1))
     fail(6, now, fmt::format("{} sentences for {} events", sentences_, events_));
-}
-
-void Watch::count(bool has_line, std::size_t outstanding, nanoseconds now) {
-  const UsbCount& usb = counted_usb();
-  const int handles = has_line ? 1 : 0;
-  if (usb.handles != handles || usb.transfers != kTransfers * handles ||
-      (!has_line && outstanding > 0)) {
-    fail(
-        7, now,
-        fmt::format("{} handles, {} transfers, {} of them under way, {} a line", usb.handles.load(),
-                    usb.transfers.load(), outstanding, has_line ? "with" : "without"));
-  }
 }
 
 }  // namespace reckon::fuzz::unplugs

@@ -38,8 +38,10 @@ class Watch {
   void hear(const std::string& sentence, nanoseconds now);
   /// So much befalls it, of each of which it may say something.
   void happens(unsigned times) { events_ += times; }
-  /// Handles and transfers of the library. @param has_line whether the thread has the device open
-  void count(bool has_line, std::size_t outstanding, nanoseconds now);
+  /// @param surplus what the thread's part holds of the host beyond its line, as a sentence
+  void owns(const std::optional<std::string>& surplus, nanoseconds now) {
+    if (surplus) fail(7, now, *surplus);
+  }
   void fail(int invariant, nanoseconds now, std::string sentence);
 
   [[nodiscard]] const std::optional<Finding>& finding() const { return finding_; }

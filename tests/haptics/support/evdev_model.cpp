@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace reckon::test {
 namespace {
@@ -44,6 +45,11 @@ void EvdevModel::pass(nanoseconds time) {
 
 // The energy that a constant model takes is the difference of its potential, whatever the step.
 void EvdevModel::run(double h) {
+  if (held_at_) {
+    place_ = *held_at_;
+    speed_ = {};
+    return;
+  }
   const double t = std::chrono::duration<double>(now_).count();
   const Places to = hand_(t), before = hand_(t - 1e-4);
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.axes); ++i) {
@@ -132,12 +138,10 @@ void EvdevModel::press(std::uint16_t key, bool down) {
 
 void EvdevModel::plug(bool in) {
   plugged_ = in;
-  erase_all();
+  effects_.clear();
   events_.clear();
   orders_.clear();
 }
-
-void EvdevModel::erase_all() { effects_.clear(); }
 
 // In the order in which it was told.
 void EvdevModel::order(int reports, std::function<void()> act) {
@@ -168,10 +172,16 @@ int EvdevModel::open(const std::string& path) {
   return kFile;
 }
 
+// Who opens it next has effects of its own.
 void EvdevModel::close(int /*file*/) noexcept {
   --open_;
   events_.clear();
-  if (open_ == 0) order(0, [this] { erase_all(); });
+  if (open_ > 0) return;
+  std::vector<int> its;
+  for (const auto& [id, effect] : effects_) its.push_back(id);
+  order(0, [this, its = std::move(its)] {
+    for (const int id : its) effects_.erase(id);
+  });
 }
 
 int EvdevModel::ask_bits(unsigned long request, void* argument) const {
@@ -214,7 +224,8 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
     const bool is_new = told.id < 0;
     if (is_new) {
       if (static_cast<int>(effects_.size()) >= most_effects) return -ENOSPC;
-      told.id = static_cast<std::int16_t>(next_id_++);
+      told.id = 0;  // the lowest that is free
+      while (effects_.contains(told.id)) ++told.id;
       effects_[told.id].numbers.replay = told.replay;
     } else if (!effects_.contains(told.id)) {
       return -EINVAL;
