@@ -173,7 +173,7 @@ void Trial::step_servo(nanoseconds now) {
   servo_.step(now);
   servo_.snapshots().update();
   const haptics::ServoSnapshot& snapshot = servo_.snapshots().read();
-  watch_.see(snapshot, tried_->books(snapshot), now);
+  watch_.see(snapshot, tried_->asked(snapshot), tried_->books(snapshot), now);
 }
 
 void Trial::home(nanoseconds now) {
@@ -353,7 +353,7 @@ Outcome Trial::run() {
   for (const Fault& fault : plan_.faults) {
     if (!watch_.finding()) play(fault);
   }
-  go([this] { return agenda_.empty(); }, seconds(10));
+  go([this] { return agenda_.empty() && now() >= frozen_until_; }, seconds(10));
   come_back();
   depth_ = kDeep;
   if (tried_->shows_after() > nanoseconds(0)) {

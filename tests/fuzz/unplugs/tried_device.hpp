@@ -82,6 +82,10 @@ class TriedDevice {
   [[nodiscard]] virtual bool rests() const = 0;              ///< its motors
   [[nodiscard]] virtual double force() const = 0;            ///< [N]
   [[nodiscard]] virtual std::uint64_t commands() const = 0;  ///< that it has obeyed
+  /// [N], of the force that a servo tells of, what it asks for.
+  [[nodiscard]] virtual double asked(const haptics::ServoSnapshot& servo) const {
+    return servo.force.norm();
+  }
   /// [J], of its own, with what the servo owes and allows for.
   [[nodiscard]] virtual double books(const haptics::ServoSnapshot& servo) const = 0;
 

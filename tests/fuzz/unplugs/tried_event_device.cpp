@@ -25,6 +25,8 @@ using test::EvdevModel;
 constexpr int kEffects = 2;  // of the loop
 // A change that it takes up while its effects end.
 constexpr nanoseconds kTakesUp = milliseconds(2);
+// A program that begins anew is not there sooner.
+constexpr nanoseconds kBegins = milliseconds(20);
 constexpr std::int32_t kCoarse = 1'023;  // steps of an axis of another device
 
 /// How another device differs.
@@ -186,6 +188,10 @@ class TriedEventDevice final : public TriedDevice {
   bool rests() const override { return force() == 0; }
   double force() const override { return std::hypot(model_.force(0), model_.force(1)); }
   std::uint64_t commands() const override { return calls_of_.commands; }
+  // It tells of what the device shows by itself, until its effects end.
+  double asked(const haptics::ServoSnapshot& servo) const override {
+    return servo.enabled ? servo.force.norm() : 0;
+  }
   // Of its springs: the device's own books owe and allow for nothing.
   double books(const haptics::ServoSnapshot&) const override { return model_.least_absorbed(); }
 
@@ -197,6 +203,7 @@ class TriedEventDevice final : public TriedDevice {
   void end_program() override {
     is_ready_ = false;
     loop_.reset();
+    model_.pass(kBegins);
   }
   bool has_program() const override { return loop_ != nullptr; }
   void step(microseconds longest) override { loop_->step(longest); }

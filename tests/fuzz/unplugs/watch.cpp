@@ -50,11 +50,16 @@ void Watch::see(const Sight& sight) {
     fail(3, sight.now, "its own watchdog leaves a force on");
 }
 
-void Watch::see(const haptics::ServoSnapshot& servo, double books, nanoseconds now) {
+void Watch::see(const haptics::ServoSnapshot& servo, double asked, double books, nanoseconds now) {
   const double force = servo.force.norm();
-  if (broken_at_ && now - *broken_at_ > kZeroWithin && force > 0) {
+  if (broken_at_ && now - *broken_at_ > kZeroWithin && asked > 0) {
     fail(1, now,
-         fmt::format("the servo asks for {:.3f} N {:.2f} ms after the line broke", force,
+         fmt::format("the servo asks for {:.3f} N {:.2f} ms after the line broke", asked,
+                     ms_of(now - *broken_at_)));
+  }
+  if (broken_at_ && now - *broken_at_ > kZeroWithin + watchdog_ && force > 0) {
+    fail(1, now,
+         fmt::format("the servo tells of {:.3f} N {:.2f} ms after the line broke", force,
                      ms_of(now - *broken_at_)));
   }
   if (runs_) ++steps_;

@@ -33,8 +33,9 @@ class Watch {
   /// What the device gets from now on is of another line.
   void plugged() { ran_at_.reset(); }
   void see(const Sight& sight);
-  /// @param books [J], of the device's own, with what is owed and allowed
-  void see(const haptics::ServoSnapshot& servo, double books, nanoseconds now);
+  /// @param asked [N], of what it shows what the servo still asks for  @param books [J], of the
+  /// device's own, with what is owed and allowed
+  void see(const haptics::ServoSnapshot& servo, double asked, double books, nanoseconds now);
   void hear(const std::string& sentence, nanoseconds now);
   /// So much befalls it, of each of which it may say something.
   void happens(unsigned times) { events_ += times; }
