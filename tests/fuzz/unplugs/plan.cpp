@@ -101,6 +101,9 @@ Fault fault_of(DeviceKind device, Draw& draw) {
     fault.phase = Phase::setting_up;
   fault.call = draw.below(60);
   fault.after = after_of(fault.phase, draw);
+  // It shows walls later.
+  if (device == DeviceKind::event_device && fault.phase == Phase::running && draw.happens(60))
+    fault.after += draw.between(100'000, 200'000);
   fault.lasts = lasts_of(draw);
   fault.loses_power = draw.happens(10);
   fault.stays = draw.happens(30);

@@ -81,6 +81,7 @@ class Trial {
   void plug();
   void end_program();
   void come_back();
+  bool comes_to_feel();
 
   [[nodiscard]] nanoseconds now() const { return tried_->now(); }
   [[nodiscard]] bool runs() const { return tried_->stage() == Stage::running; }
@@ -349,6 +350,22 @@ void Trial::play(const Fault& fault) {
   mix(tried_->commands());
 }
 
+// A hand in the wall; or one that comes into it, over and over.
+bool Trial::comes_to_feel() {
+  const nanoseconds outside = tried_->shows_after();
+  const nanoseconds end = now() + kBackWithin;
+  while (now() < end && !watch_.finding()) {
+    if (outside > nanoseconds(0)) {
+      hand_.press(tried_->place(), -HeldHand::kGap, now());
+      go([this, until = now() + 3 * outside] { return now() >= until; }, kBackWithin);
+    }
+    hand_.press(tried_->place(), kDeep, now());
+    const nanoseconds inside = outside > nanoseconds(0) ? 3 * outside : kBackWithin;
+    if (go([this] { return tried_->force() > kFelt; }, inside)) return true;
+  }
+  return false;
+}
+
 Outcome Trial::run() {
   for (const Fault& fault : plan_.faults) {
     if (!watch_.finding()) play(fault);
@@ -356,13 +373,7 @@ Outcome Trial::run() {
   go([this] { return agenda_.empty() && now() >= frozen_until_; }, seconds(10));
   come_back();
   depth_ = kDeep;
-  if (tried_->shows_after() > nanoseconds(0)) {
-    hand_.press(tried_->place(), -HeldHand::kGap, now());
-    go([this, end = now() + tried_->shows_after()] { return now() >= end; }, kBackWithin);
-  }
-  hand_.press(tried_->place(), kDeep, now());
-  const bool is_felt = go([this] { return tried_->force() > kFelt; }, kBackWithin);
-  if (!is_felt && !plan_.line.splits) watch_.fail(4, now(), "the force does not come back");
+  if (!comes_to_feel() && !plan_.line.splits) watch_.fail(4, now(), "the force does not come back");
   tried_->beside({});
   tried_->end_program();
   watch_.owns(tried_->surplus(), now());

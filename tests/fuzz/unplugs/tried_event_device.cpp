@@ -239,12 +239,13 @@ class TriedEventDevice final : public TriedDevice {
   void lose_place() override {}
   void home() override {}
   // A wall in which the hand is already would have to be paid for.
-  nanoseconds shows_after() const override { return milliseconds(250); }
+  nanoseconds shows_after() const override { return milliseconds(105); }
 
  private:
   static test::EvdevModelOptions options(const Plan& plan) {
     test::EvdevModelOptions options;
     options.seed = static_cast<unsigned>(plan.seed);
+    options.substeps = 1;
     return options;
   }
   static haptics::EvdevSettings settings() {

@@ -17,7 +17,8 @@ using std::chrono::nanoseconds;
 constexpr const char* kPath = "/dev/input/event7";
 constexpr int kFile = 7;
 constexpr microseconds kStep{50};
-constexpr int kSubsteps = 5;
+// Of a handle that is held, while nothing is shown: its time is cheap.
+constexpr microseconds kHeldStep{1000};
 constexpr std::int32_t kLeast = -32768, kMost = 32767;  // of its axes
 
 }  // namespace
@@ -29,15 +30,17 @@ EvdevModel::EvdevModel(const EvdevModelOptions& options, std::function<Places(do
 
 void EvdevModel::pass(nanoseconds time) {
   for (const nanoseconds end = now_ + time; now_ < end;) {
-    now_ += kStep;
+    const bool is_cheap = held_at_ && effects_.empty();
+    const nanoseconds step = is_cheap ? std::min<nanoseconds>(kHeldStep, end - now_) : kStep;
+    now_ += step;
     while (!orders_.empty() && orders_.front().at <= now_) {
       orders_.front().act();
       orders_.pop_front();
     }
     for (auto& [id, effect] : effects_)
       if (effect.plays && options_.ends_effects && now_ >= effect.until) effect.plays = false;
-    for (int i = 0; i < kSubsteps; ++i)
-      run(std::chrono::duration<double>(kStep).count() / kSubsteps);
+    for (int i = 0; i < options_.substeps; ++i)
+      run(std::chrono::duration<double>(step).count() / options_.substeps);
     if (plugged_ && now_ >= next_report_) report();
     if (beside_) beside_(now_);
   }
