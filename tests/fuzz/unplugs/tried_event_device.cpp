@@ -98,17 +98,14 @@ class StruckCalls final : public haptics::EventCalls {
   EvdevModel& model_;
 };
 
-// Somewhere within the time that it takes the device is told.
+// The change is on its way at once, as it has to be within the delay that is stated.
 int StruckCalls::upload(int file, void* effect) noexcept {
   if (is_busy()) return -EAGAIN;
-  const bool is_slow = calls_.slow_left > 0;
-  if (is_slow) {
-    --calls_.slow_left;
-    model_.pass(calls_.slow / 2);
-  }
-  const int result = calls_.is_dead ? -ENODEV : model_.control(file, EVIOCSFF, effect);
+  const int result = model_.control(file, EVIOCSFF, effect);
   if (result >= 0) ++calls_.commands;
-  if (is_slow) model_.pass(calls_.slow / 2);
+  if (calls_.slow_left == 0) return result;
+  --calls_.slow_left;
+  model_.pass(calls_.slow);
   return result;
 }
 
@@ -327,7 +324,7 @@ bool TriedEventDevice::strike(const Fault& fault, nanoseconds time) {
       calls_of_.busy_until = now() + time;
       return false;
     case FaultKind::slow:
-      calls_of_.slow = 4 * time / 3;
+      calls_of_.slow = time;
       calls_of_.slow_left = fault.number;
       return false;
     case FaultKind::refusal:
