@@ -242,6 +242,7 @@ void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& po
     settle();
     port_.let_go();
   } else {
+    tool_.reset(pose);  // nobody knows how long that way took
     forfeit(pose);
   }
   written_.setZero();

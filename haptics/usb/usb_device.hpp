@@ -36,6 +36,9 @@ class UsbDevice final : public HapticDevice {
   /// failed; 0: there was none. What this host and this line need, found without a force. The
   /// servo's thread, or any once that has ended.
   [[nodiscard]] int needed_delay() const noexcept { return needed_; }
+  /// Whether the report that the last read showed has a time of the device's own. The servo's
+  /// thread.
+  [[nodiscard]] bool has_clock() const noexcept { return shown_.at.has_value(); }
   /// When the host had the report that the last read showed, on the clock of the writes. The
   /// servo's thread.
   [[nodiscard]] std::chrono::nanoseconds heard() const noexcept { return shown_.heard; }

@@ -116,6 +116,7 @@ void model_at_rest(Scenario& s) {
   interrupted_rest(s);
   s[model] = std::max(1.0, model_before);
   put_out_of_play(s, {record_damping, failed, drawn, silent_hand});
+  press_slowly(s);
   s[calm_after] = std::min(s[calm_after], kLast);
   s[fault_at] = std::min(s[fault_at], kLast);
   if (s.model() == Model::event) return press_a_rendered_wall(s);

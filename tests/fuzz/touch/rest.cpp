@@ -18,6 +18,7 @@ constexpr double kOff = 0.2, kOffLeast = 0.1;     // of what is right; [N]
 constexpr double kLack = 0.1, kLackLeast = 0.05;  // of what is right; [N]
 
 constexpr double kBack = 1, kHomed = 5;  // [s]
+constexpr double kSlow = 0.5;            // [s], of a press against a soft spring
 constexpr double kReach = 0.02;          // [m], of a hand that holds a model
 
 bool is_still(const Scenario& s, std::size_t hand) {
@@ -137,6 +138,7 @@ bool is_promised(const Scenario& s) {
   const bool is_event = s.model() == Model::event;
   const bool is_in_reach = !has_model || is_event || std::abs(s.path(0, Path::press)) <= kReach;
   if (is_event && !is_told_in_time(s)) return false;
+  if (has_model && std::min(s.path(0, Path::rise), s.path(1, Path::rise)) < kSlow) return false;
   const double into = depth_of_goals(s);
   const bool wall_only = s[wall_tilt] == 0 && s[wall_gap] >= 0 && into <= 0;
   return s.hands() == 2 && quick_line && alike && is_in_reach && (s[wall] == 0 || wall_only) &&
