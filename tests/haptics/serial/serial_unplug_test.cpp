@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 
+#include "reckon/haptics/serial/serial_frames.hpp"
+#include "reckon/haptics/serial/serial_packets.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
@@ -79,6 +82,25 @@ TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
     EXPECT_GE(wired.least_books, -1e-9);
   }
   EXPECT_GT(pressed, 100U) << "pulled out under a force";
+}
+
+// Its last zero is not, and the first of the question would do as well.
+TEST(SerialUnplug, AForceThatWasAllButWholeWhenTheLineBrokeIsNeverHeld) {
+  test::SerialBoard board({}, [](double) { return Vector3d(0, 0, 0.01); });
+  const auto tell = [&](std::span<const std::uint8_t> octets) {
+    for (const std::uint8_t octet : octets) {
+      board.take(octet);
+      EXPECT_FALSE(board.will_hold());
+    }
+  };
+  const SerialFrame force = frame_of({7, {1'000, 0, 0}}, 3);
+  tell(force.span().first(force.length - 1));
+  UsbExchange exchange;
+  SerialSession session(exchange, limits(), 1, 100, milliseconds(300));
+  const auto question = session.next(milliseconds(300));
+  ASSERT_TRUE(question);
+  tell(question->span());
+  EXPECT_EQ(board.commands(), 1U) << "it was asked";
 }
 
 }  // namespace
