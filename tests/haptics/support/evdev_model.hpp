@@ -36,7 +36,7 @@ struct EvdevModelOptions {
   /// It takes one report of the host each so long; a change of an effect is two, playing it is one.
   std::chrono::microseconds takes{125};
   bool misses_turns = false;  ///< every other: it takes one in twice as long
-  int substeps = 5;  ///< of its motion, within 50 us
+  int substeps = 5;           ///< of its motion, within 50 us
   int axes = 2;
   bool ends_effects = true;  ///< obeys the length of an effect
 };
@@ -61,7 +61,8 @@ class EvdevModel final : public haptics::EventCalls {
   EvdevModel(const EvdevModelOptions& options, std::function<Places(double)> hand);
 
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
-  /// Called every 50 us of its time, or every millisecond while it is held: what runs beside the device's thread.
+  /// Called every 50 us of its time, or every millisecond while it is held: what runs beside the
+  /// device's thread.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
   void pass(std::chrono::nanoseconds time);
 

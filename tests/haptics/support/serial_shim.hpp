@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // A board behind a serial line below SerialPort: the test program answers the calls by which that
-// talks with the kernel. The linker leads them here first (--wrap, list in the CMakeLists.txt of
-// who uses it); those for other files go on to the C library. Where the program waits, the board's
-// time passes and no other.
+// talks with the kernel. The linker leads them here first (--wrap, reckon_shim_serial() of
+// tests/CMakeLists.txt); those for other files go on to the C library. Where the program waits, the
+// board's time passes and no other.
 #pragma once
 
 #include <chrono>
