@@ -4,8 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reckon::haptics {
+namespace {
+
+constexpr double kAhead = 1.1;  // times the lever of the newest report: as it goes on, so it may be
+
+}  // namespace
 
 UsbDevice::UsbDevice(UsbExchange& exchange, const DeviceLimits& limits)
     : exchange_(exchange), limits_(limits) {}
@@ -46,6 +52,7 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   while (count_ > 0 && waiting_[first_].before <= due) {
     shown_ = waiting_[first_];
     has_shown_ = true;
+    held_ = std::min(held_, shown_.held);
     first_ = (first_ + 1) % waiting_.size();
     --count_;
   }
@@ -60,9 +67,23 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   if (told_at_ && shown_.at) sample.took = *shown_.at - *told_at_;
   told_at_ = shown_.at;
   sample.buttons = shown_.buttons;
+  sample.held = std::exchange(held_, 1.0);
+  note_pose(sample);
   sample.watchdog = dropped_;
   dropped_ = false;
   return sample;
+}
+
+// Of all reports that are here: those that are not shown yet tell where the handle is by now.
+void UsbDevice::note_pose(DeviceSample& sample) noexcept {
+  if (shown_.step > 0) sample.resolution = shown_.step;
+  if (!(limits_.lever > 0) || !(shown_.lever > 0)) return;
+  double longest = shown_.lever;
+  for (std::size_t i = 0; i < count_; ++i)
+    longest = std::max(longest, waiting_[(first_ + i) % waiting_.size()].lever);
+  lever_ = std::max(limits_.lever, kAhead * longest);
+  const double ratio = limits_.lever / lever_;
+  sample.damping = ratio * ratio * limits_.damping;
 }
 
 void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept {
@@ -70,6 +91,7 @@ void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now
   newest.force = force.allFinite() ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
   newest.number = ++written_;
   newest.at = written_at_ = now;
+  newest.lever = lever_;
   exchange_.force.publish();
 }
 
