@@ -36,6 +36,7 @@ struct DeviceDescriptor {
   int axes = 3;
   double max_force = 10.0;            ///< [N]
   double damping = 0.0;               ///< [N s/m], viscous friction that one is sure of
+  double joint_damping = 0.0;         ///< [N m s/rad], of each joint, in its place; 0: unsaid
   double resolution = 0.0;            ///< [m]
   std::chrono::nanoseconds delay{0};  ///< until a force is at the handle
   double max_stiffness = 0.0;         ///< [N/m], 0: no limit of its own

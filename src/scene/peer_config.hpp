@@ -193,6 +193,7 @@ struct DeviceConfig {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
   double max_force = 10.0;                                          ///< [N] > 0
   double damping = 1.0;             ///< [N s/m] >= 0, guaranteed physical damping
+  double joint_damping = 0.0;       ///< [N m s/rad] >= 0, of a Falcon's or Polhem's; 0: unsaid
   double max_stiffness = 0.0;       ///< [N/m]; 0: the limit by its damping
   int axes = 3;                     ///< 3, or 6: it turns and shows torque
   double turn_damping = 0.01;       ///< [N m s/rad] > 0, guaranteed, about each axis
