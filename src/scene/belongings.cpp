@@ -94,6 +94,7 @@ void describe(DeviceConfig& device, const DeviceDescriptor& descriptor) {
   device.continuous_force = descriptor.continuous_force;
   device.thermal_time = descriptor.thermal_time;
   device.damping = descriptor.damping;
+  device.joint_damping = descriptor.joint_damping;
   device.resolution = descriptor.resolution;
   device.max_stiffness = descriptor.max_stiffness;
   device.max_speed = descriptor.max_speed;
@@ -121,6 +122,9 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& s
   settings.period = device.period;
   settings.damping = said.damping ? device.damping : facts->assumed_damping;
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
+  if (!(facts->lever > 0)) device.joint_damping = 0.0;
+  settings.joint_damping = device.joint_damping;
+  settings.spent_joint_damping = haptics::polhem_spent_joint_damping(polhem_weights_of(device));
   if (said.delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
   const haptics::DeviceLimits limits = haptics::usb_limits(*facts, settings);
   device.max_force = limits.max_force;
@@ -135,6 +139,8 @@ haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
   // use_driver() left what the servo gets of it.
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
   settings.damping = (device.damping + settings.spent_damping) / usb_facts_of(device)->sure_share;
+  settings.joint_damping = device.joint_damping;
+  settings.spent_joint_damping = haptics::polhem_spent_joint_damping(polhem_weights_of(device));
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.resolution = device.resolution;

@@ -98,6 +98,10 @@ const Section<DeviceDescriptor>& descriptor_section() {
            "time constant with which its motors become warm and cool down"},
           {"damping", &Device::damping, declared("N s/m", 0, 1e3),
            "its own viscous friction that one is sure of, wherever the handle is"},
+          {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),
+           "viscous friction of each of its joints that one is sure of; where its driver knows "
+           "them "
+           "(Falcon, Polhem) it goes before `damping`; 0: not said"},
           {"resolution", &Device::resolution, declared("m", 0, 1e-3),
            "step of its position sensors at the handle, along each axis; 0: exact"},
           {"delay", &Device::delay, declared("s", 0, 0.1), "until a force is at the handle"},

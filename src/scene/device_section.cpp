@@ -150,9 +150,23 @@ void check_evdev(TomlReader& table, const DeviceConfig& device) {
     table.problem("driver", fault);
 }
 
+// Friction is said of the handle or of the joints; what the table says goes before a descriptor.
+void check_joint_damping(TomlReader& table, DeviceConfig& device) {
+  const bool has_joints =
+      device.driver == DeviceDriver::falcon || device.driver == DeviceDriver::polhem;
+  if (table.has("joint_damping") && !has_joints)
+    table.problem("joint_damping",
+                  "only the joints of a Falcon or a Polhem are known: add its driver, or say the "
+                  "damping of the handle");
+  if (table.has("joint_damping") && table.has("damping"))
+    table.problem("joint_damping", "friction is said twice, of the handle too: keep one");
+  if (table.has("damping") && !table.has("joint_damping")) device.joint_damping = 0.0;
+}
+
 // What the driver knows of its device is not said once more.
 void check_driver(TomlReader& table, DeviceConfig& device) {
   check_kind(table, device);
+  check_joint_damping(table, device);
   check_evdev(table, device);
   const haptics::UsbFacts* const facts = usb_facts_of(device);
   if (facts == nullptr) return;
@@ -375,6 +389,9 @@ Section<DeviceConfig> device_section() {
        "time constant with which its motors become warm and cool down"},
       {"damping", &Device::damping, within("N s/m", 0, 1e3),
        "its own friction that one is sure of; the stiffness that it can show grows with it"},
+      {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),
+       "of a Falcon or a Polhem, in the place of `damping`: the friction of each joint that one is "
+       "sure of; the servo knows what it is at the handle, pose by pose; 0: not said"},
       {"axes", &Device::axes, within("", 3, 6),
        "3; or 6: it turns, and shows torque besides the force"},
       {"turn_damping", &Device::turn_damping, within("N m s/rad", 1e-5, 10),

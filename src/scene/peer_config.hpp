@@ -196,6 +196,7 @@ struct DeviceConfig {
   double continuous_force = 0.0;    ///< [N], that its motors hold for ever; 0: max_force
   double thermal_time = 20.0;       ///< [s] >= 1, in which they become warm
   double damping = 1.0;             ///< [N s/m] >= 0, guaranteed physical damping
+  double joint_damping = 0.0;       ///< [N m s/rad] >= 0, of a Falcon's or Polhem's; 0: unsaid
   double max_stiffness = 0.0;       ///< [N/m]; 0: the limit by its damping
   int axes = 3;                     ///< 3, or 6: it turns and shows torque
   double turn_damping = 0.01;       ///< [N m s/rad] > 0, guaranteed, about each axis
