@@ -120,7 +120,7 @@ void EnergyPortOf<axes>::clear() noexcept {
   late_ = 0.0;
   absorb(-std::max(0.0, level_));
   level_ = booked_ = unearned_ = 0.0;
-  damping_.begin();
+  sure_.begin();
   let_go();
 }
 
