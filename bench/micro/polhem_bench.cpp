@@ -62,7 +62,7 @@ BENCHMARK(polhem_inverse);
 void polhem_exchange(benchmark::State& state) {
   PolhemDriver driver({0.17, 0.055});
   std::array<std::uint8_t, 14> octets{0, 0, 0, 0, 0x78, 0xEC};
-  const Vector3d force(1, 2, 3);
+  const UsbForce force{Vector3d(1, 2, 3)};
   UsbReading reading;
   UsbStage stage = UsbStage::silent;
   const auto exchange = [&](std::uint8_t info) {

@@ -21,6 +21,9 @@ class RegionForces {
   /// @param plan outlives this object  @param stiffness_cap [N/m] of all potentials together
   RegionForces(const EffectPlan& plan, double stiffness_cap);
 
+  /// From the next settle() on the cap is this [N/m].
+  void limit(double stiffness) noexcept { cap_ = stiffness; }
+
   /// Whether the plan has none: nothing need be called then.
   [[nodiscard]] bool empty() const noexcept { return states_.empty(); }
   /// Restarts at `device` [m, S]: every region is entered anew, and its potential fades in.

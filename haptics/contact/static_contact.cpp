@@ -26,6 +26,12 @@ StaticContactOf<axes>::StaticContactOf(const EffectPlan& plan, double stiffness_
 }
 
 template <int axes>
+void StaticContactOf<axes>::limit(double stiffness) noexcept {
+  for (std::size_t i = 0; i < size(); ++i) walls_[i]->limit(stiffness);
+  regions_.limit(kRegionsOverWalls * stiffness);
+}
+
+template <int axes>
 void StaticContactOf<axes>::reset(const Tool& tool) noexcept {
   for (std::size_t i = 0; i < size(); ++i) {
     walls_[i]->reset(tool.place(i));

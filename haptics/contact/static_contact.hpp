@@ -48,6 +48,8 @@ class StaticContactOf {
   void foresee(std::size_t probe, const Eigen::Vector3d& change) noexcept {
     walls_[probe]->foresee(change);
   }
+  /// From the next settle() on the cap is this [N/m], at most that of the begin.
+  void limit(double stiffness) noexcept;
   /// Restarts where the tool is.
   void reset(const Tool& tool) noexcept;
   /// Follows the tool after a sample of `dt` [s], and books the stored or released energy.

@@ -36,6 +36,9 @@ class WallContact {
   /// Restarts at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
 
+  /// From the next settle() on no object is stiffer [N/m], and none than the cap of the begin.
+  void limit(double stiffness) noexcept { cap_ = stiffness; }
+
   /// Moves the contact to `device` [m] after a sample of `dt` [s], and books the stored or released
   /// energy. @return by how much that changed the force of the springs [N]
   Eigen::Vector3d move(const Eigen::Vector3d& device, double dt, EnergyLedger& ledger) noexcept;

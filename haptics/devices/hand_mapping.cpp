@@ -24,6 +24,7 @@ DeviceLimits mapped(DeviceLimits limits, const HandMapping& mapping) noexcept {
   limits.max_force /= scale;
   limits.max_stiffness /= square;
   limits.damping /= square;
+  limits.lever *= scale;
   limits.max_speed *= scale;
   limits.resolution *= scale;
   const Vector3d from = scale * limits.workspace_min, to = scale * limits.workspace_max;

@@ -26,7 +26,11 @@ struct DeviceLimits {
   double max_force = 0.0;      ///< [N], > 0: beyond it the output is scaled, direction kept
   double max_stiffness = 0.0;  ///< [N/m], 0 = no limit of its own (the sampled bound always holds)
   double damping = 0.0;        ///< [N s/m], >= 0: the viscous friction one is *sure* of
-  double max_speed = 1.0;      ///< [m/s], faster than this is a fault
+  /// [m/rad], the greatest way of the handle for a turn of its joints where `damping` is sure. It
+  /// is the joints' friction then, and less where the way is longer: see DeviceSample::damping. 0:
+  /// it is sure at every pose.
+  double lever = 0.0;
+  double max_speed = 1.0;  ///< [m/s], faster than this is a fault
   Eigen::Vector3d workspace_min = Eigen::Vector3d::Constant(-0.05);  ///< [m], frame D
   Eigen::Vector3d workspace_max = Eigen::Vector3d::Constant(0.05);   ///< [m], frame D
   double max_torque = 0.0;                                           ///< [N m], of 6 axes, > 0
@@ -51,6 +55,16 @@ struct DeviceSample {
   /// this is that very reading) or by when its forces were written. Absent: as the servo waited.
   std::optional<std::chrono::nanoseconds> took = {};
   std::optional<DeviceTurn> turn = {};  ///< of 6 axes; a reading of these without it failed
+  /// Of 3 axes [N s/m], >= 0: sure at this pose, and for each force written until the next reading
+  /// wherever the handle is when it is held; more than that of the limits is no more. Absent: that
+  /// of the limits.
+  std::optional<double> damping = {};
+  /// Of 3 axes [m], >= 0: step of its position sensors at this pose, along each axis. Absent: that
+  /// of the limits.
+  std::optional<double> resolution = {};
+  /// [0, 1], least share of the written force that it held since the reading before: its motors
+  /// could hold no more, or more would not have been paid for.
+  double held = 1.0;
   bool enabled = true;    ///< the operator's (dead man's) switch: force only while it is held
   bool ok = false;        ///< false: no reading this time (unplugged, transfer failed)
   bool watchdog = false;  ///< the device went to zero force by itself since the last read

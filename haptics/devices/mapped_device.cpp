@@ -37,6 +37,8 @@ void MappedDevice::map(DeviceSample& sample) const noexcept {
   sample.position = place(sample.position);
   sample.velocity = place(sample.velocity);
   if (sample.released_at) sample.released_at = place(*sample.released_at);
+  if (sample.damping) *sample.damping /= mapping_.scale * mapping_.scale;
+  if (sample.resolution) *sample.resolution *= mapping_.scale;
   if (!mapping_.mirrored) return;
   if (sample.turn) {
     sample.turn->orientation = mirrored(sample.turn->orientation);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
+#include "reckon/haptics/usb/usb_torques.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -87,7 +88,8 @@ const UsbFacts& falcon_facts() noexcept {
                                    .sure_share = 0.9,
                                    .assumed_damping = 0.3,
                                    .reach = FalconGeometry::kReach,
-                                   .resolution = FalconGeometry::kResolution};
+                                   .resolution = FalconGeometry::kResolution,
+                                   .lever = FalconGeometry::kLever};
   return kFacts;
 }
 
@@ -209,13 +211,15 @@ UsbStage FalconDriver::judge(bool follows, UsbReading& reading) noexcept {
   if (follows) turn_ = (angles - angles_).cwiseMin(kMostSweep).cwiseMax(-kMostSweep);
   angles_ = angles;
   jacobian_ = pose->jacobian;
+  reading.lever = levers_of(pose->jacobian)[2];
+  reading.step = falcon_count_step() * reading.lever;
   reading.position = device_place(pose->position);
   reading.buttons = report_.buttons;
   return UsbStage::running;
 }
 
 std::span<const std::uint8_t> FalconDriver::command(UsbStage stage,
-                                                    const Eigen::Vector3d* force) noexcept {
+                                                    const UsbForce* force) noexcept {
   FalconCommand command;
   command.homing = stage == UsbStage::homing;
   command.lights = command.homing ? kBlue : force != nullptr ? kGreen : kRed;
@@ -224,15 +228,17 @@ std::span<const std::uint8_t> FalconDriver::command(UsbStage stage,
   return octets_;
 }
 
-std::array<std::int16_t, 3> FalconDriver::motors(const Eigen::Vector3d& force) const noexcept {
+std::array<std::int16_t, 3> FalconDriver::motors(const UsbForce& force) noexcept {
   const auto ahead = falcon_pose(angles_ + kUsbAhead * turn_);
   const Eigen::Matrix3d& jacobian = ahead ? ahead->jacobian : jacobian_;
-  const Eigen::Vector3d words = kWordsPerTorque * falcon_torques(jacobian, falcon_axes(force));
+  const Eigen::Vector3d torques = falcon_torques(jacobian, falcon_axes(force.force));
+  const Eigen::Vector3d words = kWordsPerTorque * torques;
+  share_ = std::min(paid_share(force, torques),
+                    share_within(words, Eigen::Vector3d::Constant(kMostWord)));
   std::array<std::int16_t, 3> motors{};
-  for (std::size_t i = 0; i < motors.size(); ++i) {
-    const double word = std::clamp(words[static_cast<Eigen::Index>(i)], -kMostWord, kMostWord);
-    motors[i] = static_cast<std::int16_t>(std::lround(word));
-  }
+  for (std::size_t i = 0; i < motors.size(); ++i)
+    motors[i] =
+        static_cast<std::int16_t>(std::lround(share_ * words[static_cast<Eigen::Index>(i)]));
   return motors;
 }
 

@@ -51,14 +51,15 @@ class FalconDriver final : public UsbDriver {
   void restart() noexcept override { parser_.restart(); }
   [[nodiscard]] bool read(std::span<const std::uint8_t>& transfer) noexcept override;
   [[nodiscard]] UsbStage judge(bool follows, UsbReading& reading) noexcept override;
-  [[nodiscard]] std::span<const std::uint8_t> command(
-      UsbStage stage, const Eigen::Vector3d* force) noexcept override;
+  [[nodiscard]] std::span<const std::uint8_t> command(UsbStage stage,
+                                                      const UsbForce* force) noexcept override;
+  [[nodiscard]] double share() const noexcept override { return share_; }
   [[nodiscard]] std::uint64_t malformed() const noexcept override { return parser_.malformed(); }
 
  private:
   [[nodiscard]] bool answers(UsbSetUp& desk);
   [[nodiscard]] std::string load_firmware(UsbSetUp& desk);
-  [[nodiscard]] std::array<std::int16_t, 3> motors(const Eigen::Vector3d& force) const noexcept;
+  [[nodiscard]] std::array<std::int16_t, 3> motors(const UsbForce& force) noexcept;
 
   FalconFirmware firmware_;
   FalconReportParser parser_;
@@ -67,6 +68,7 @@ class FalconDriver final : public UsbDriver {
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();  // [rad], of the last report
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
+  double share_ = 1.0;  // of the last force
 };
 
 }  // namespace reckon::haptics

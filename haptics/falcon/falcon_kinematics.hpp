@@ -35,6 +35,8 @@ struct FalconGeometry {
   static constexpr double kReach = 0.040;
   /// Step of the encoders at the handle [m], the greatest in the work space; 41 um in its middle.
   static constexpr double kResolution = 90e-6;
+  /// Greatest way of the handle for a turn of the arms [m/rad], in the middle of the work space.
+  static constexpr double kLever = 0.0698126;
 };
 
 /// Angle of an arm [rad] at an encoder's count: 320 slots, read four times, on a drum of 14.25 mm

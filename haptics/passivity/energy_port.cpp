@@ -51,16 +51,27 @@ void EnergyPortOf<axes>::note_late(const Force& dx, double dt) noexcept {
 }
 
 template <int axes>
-void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took) noexcept {
+void EnergyPortOf<axes>::pose(double damping, double resolution) noexcept {
+  sure_.pose(damping, resolution);
+  dampings_[next_damping_] = damping;
+  next_damping_ = next_damping_ + 1 == dampings_.size() ? 0 : next_damping_ + 1;
+  damping_ = *std::ranges::min_element(dampings_);
+  unsure_ = std::max(here_, half_diagonal(resolution));
+  here_ = half_diagonal(resolution);
+}
+
+template <int axes>
+void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took, double held) noexcept {
   pass();
   note_late(dx, dt);
   if (missed_) {
     keep_in_mind(dt);
-    settle_missed(dx, took);
+    settle_missed(dx, took, held);
     return;
   }
-  const double work = -held_.at_handle().dot(dx);
-  const double lost = took > 0 ? damping_.move(dx, took) : 0.0;
+  const double whole = -held_.at_handle().dot(dx);
+  const double work = whole > 0 ? held * whole : whole;
+  const double lost = took > 0 ? sure_.move(dx, took) : 0.0;
   const double sure = (doubtful_ > 0 ? std::min(0.0, work) : work) + lost;
   absorb(sure);
   take_back(sure);
@@ -68,14 +79,17 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took) noexcep
 
 // Lower bound of the energy for unknown motion. Forces g_j are held for t_j each, within a time t
 // in which the hand moved by D. The least of sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D
-// - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces.
+// - sum t_j |g_j - m|^2 / (4 b), with m the mean of the forces. Of forces that were held in part it
+// is - sum t_j |g_j|^2 / (4 b), whatever the motion.
 template <int axes>
-void EnergyPortOf<axes>::settle_missed(const Force& dx, double took) noexcept {
+void EnergyPortOf<axes>::settle_missed(const Force& dx, double took, double held) noexcept {
   const double spread = squares_ - impulse_.squaredNorm() / time_;
   const double work =
       -impulse_.dot(dx) / time_ - (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
-  damping_.begin();
-  const double sure = std::min(0.0, work) + damping_.move(dx, std::max(time_, took));
+  sure_.begin();
+  const double lost = sure_.move(dx, std::max(time_, took));
+  const double in_part = damping() > 0 ? -squares_ / (4.0 * damping()) : 0.0;
+  const double sure = held < 1.0 ? in_part : std::min(0.0, work) + lost;
   absorb(sure);
   take_back(sure);
   time_ = squares_ = 0.0;
@@ -106,7 +120,7 @@ void EnergyPortOf<axes>::clear() noexcept {
   late_ = 0.0;
   absorb(-std::max(0.0, level_));
   level_ = booked_ = unearned_ = 0.0;
-  damping_.begin();
+  sure_.begin();
   let_go();
 }
 

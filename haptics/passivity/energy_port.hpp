@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "reckon/haptics/passivity/energy_ledger.hpp"
 #include "reckon/haptics/passivity/held_forces.hpp"
@@ -66,17 +68,27 @@ class EnergyPortOf : public EnergyLedger {
   /// @param delay [samples] >= 0, from a write to the force at the handle
   /// @param resolution [m] >= 0, the device's encoder step
   explicit EnergyPortOf(double damping, int delay = 0, double resolution = 0.0)
-      : damping_(damping, resolution),
+      : sure_(damping, resolution),
         held_(delay),
         samples_(1.0 + delay),
-        unsure_(0.5 * std::sqrt(axes) * resolution) {}
+        dampings_(static_cast<std::size_t>(delay) + 2, damping),
+        damping_(damping),
+        here_(half_diagonal(resolution)),
+        unsure_(here_) {}
+
+  /// The device's damping [N s/m] >= 0 and encoder step [m] >= 0 at the pose that the next settle()
+  /// leads to; until the next call. A force is paid for with the least damping of those that were
+  /// at hand when it, or one under way with it, was chosen.
+  void pose(double damping, double resolution) noexcept;
 
   /// Books the sample that ended, in which the hand moved by dx [m] in dt [s] > 0, and the missed
   /// samples before it. In missed samples it is unknown how far the hand moved under which force.
   /// So the worst case is booked, and no work of the hand is credited.
   void settle(const Force& dx, double dt) noexcept { settle(dx, dt, dt); }
   /// @param took [s] >= 0, of the way dx, where the device tells; 0 where there was none
-  void settle(const Force& dx, double dt, double took) noexcept;
+  /// @param held [0, 1], least share of the force that was at the handle: what the hand put in is
+  /// booked by it, and what it got in whole
+  void settle(const Force& dx, double dt, double took, double held = 1.0) noexcept;
   /// A sample of dt [s] > 0 ended without a reading of the handle.
   void miss(double dt) noexcept;
   /// Whether the handle is read in encoder steps; otherwise follow() does nothing.
@@ -98,7 +110,7 @@ class EnergyPortOf : public EnergyLedger {
   /// Discards all energy, for the hand may have taken it; absorbed() falls by it. The debt stays.
   void clear() noexcept;
 
-  [[nodiscard]] double damping() const noexcept { return damping_.damping(); }
+  [[nodiscard]] double damping() const noexcept { return damping_; }
   /// Held in the sample that ended last.
   [[nodiscard]] const Force& at_handle() const noexcept { return held_.at_handle(); }
   /// Greatest part of an E below 0 that samples longer than the dt of their hold() account for [J],
@@ -125,13 +137,20 @@ class EnergyPortOf : public EnergyLedger {
   void pass() noexcept;
   void note_late(const Force& dx, double dt) noexcept;
   void keep_in_mind(double dt) noexcept;
-  void settle_missed(const Force& dx, double took) noexcept;
+  void settle_missed(const Force& dx, double took, double held) noexcept;
+  [[nodiscard]] static double half_diagonal(double resolution) noexcept {
+    return 0.5 * std::sqrt(axes) * resolution;
+  }
   void commit() noexcept;
 
-  SureDampingOf<axes> damping_;
+  SureDampingOf<axes> sure_;
   HeldForcesOf<axes> held_;
-  double samples_;            // samples for which a chosen force has to be paid
-  double unsure_;             // [m], greatest error of a reading
+  double samples_;                // samples for which a chosen force has to be paid
+  std::vector<double> dampings_;  // [N s/m], of the last delay + 2 poses, a ring
+  std::size_t next_damping_ = 0;
+  double damping_;            // least of them
+  double here_;               // [m], greatest error of the last reading
+  double unsure_;             // [m], of it and of the one before
   double period_ = 0.0;       // [s], of the last hold
   double late_ = 0.0;         // of what E is below 0
   double written_off_ = 0.0;  // of late_, by clear()

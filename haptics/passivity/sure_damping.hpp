@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reckon::haptics {
 
@@ -12,41 +14,48 @@ namespace reckon::haptics {
 /// the motion (Cauchy-Schwarz). With an encoder of step h, |D| may be less by sqrt(axes) h: a
 /// handle that seems to jump a step now and then moved slowly meanwhile. So motion is divided into
 /// stretches of sixteen steps, and their loss is booked as it becomes certain. In slow motion a
-/// fifth is not credited.
+/// fifth is not credited. Damping and step may differ from pose to pose: of a stretch the worst.
 template <int axes>
 class SureDampingOf {
  public:
   /// @param damping b [N s/m] >= 0  @param resolution h [m] >= 0; 0 reads exactly
   SureDampingOf(double damping, double resolution) noexcept
-      : damping_(damping), unsure_(std::sqrt(axes) * resolution), stretch_(kSteps * resolution) {}
+      : damping_(damping), least_(damping), step_(resolution), longest_(resolution) {}
+
+  /// Those of the pose that the next move() leads to; until the next call.
+  void pose(double damping, double resolution) noexcept {
+    damping_ = damping;
+    step_ = resolution;
+    least_ = std::min(least_, damping);
+    longest_ = std::max(longest_, resolution);
+  }
 
   /// The handle moved by `dx` [m] in `dt` [s] > 0. @return the energy that became certain [J] >= 0.
   [[nodiscard]] double move(const Eigen::Matrix<double, axes, 1>& dx, double dt) noexcept {
-    if (!(unsure_ > 0)) return damping_ * dx.squaredNorm() / dt;
+    if (!(longest_ > 0)) return std::exchange(least_, damping_) * dx.squaredNorm() / dt;
     way_ += dx;
     time_ += dt;
-    const double length = way_.norm();
-    const double sure = length > unsure_ ? length - unsure_ : 0.0;
-    const double loss = damping_ * sure * sure / time_;
+    const double length = way_.norm(), unsure = std::sqrt(axes) * longest_;
+    const double sure = length > unsure ? length - unsure : 0.0;
+    const double loss = least_ * sure * sure / time_;
     const double gain = loss > booked_ ? loss - booked_ : 0.0;
     booked_ += gain;
-    if (length >= stretch_) begin();
+    if (length >= kSteps * longest_) begin();
     return gain;
   }
   /// The path of the handle is unknown: restarts.
   void begin() noexcept {
     way_.setZero();
     time_ = booked_ = 0.0;
+    least_ = damping_;
+    longest_ = step_;
   }
-
-  [[nodiscard]] double damping() const noexcept { return damping_; }
 
  private:
   static constexpr double kSteps = 16.0;
 
-  double damping_;
-  double unsure_;   // [m]
-  double stretch_;  // [m]
+  double damping_, least_;  // [N s/m], of this pose and of the stretch
+  double step_, longest_;   // [m], likewise
   Eigen::Matrix<double, axes, 1> way_ = Eigen::Matrix<double, axes, 1>::Zero();
   double time_ = 0.0;
   double booked_ = 0.0;

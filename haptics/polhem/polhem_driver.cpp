@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "reckon/haptics/usb/usb_torques.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -49,13 +49,18 @@ const UsbFacts& polhem_facts() noexcept {
                                    .sure_share = 0.9,
                                    .assumed_damping = 0.2,
                                    .reach = 0.05,
-                                   .resolution = 95e-6};
+                                   .resolution = 95e-6,
+                                   .lever = 0.196715};
   return kFacts;
 }
 
-double polhem_spent_damping(const PolhemWeights& weights) noexcept {
+double polhem_spent_joint_damping(const PolhemWeights& weights) noexcept {
   const double slope = std::max(weights.upper, weights.fore);  // [N m/rad]
-  return slope * pdu::to_seconds(kUsbExchange) / (kPolhemLeastLever * kPolhemLeastLever);
+  return slope * pdu::to_seconds(kUsbExchange);
+}
+
+double polhem_spent_damping(const PolhemWeights& weights) noexcept {
+  return polhem_spent_joint_damping(weights) / (kPolhemLeastLever * kPolhemLeastLever);
 }
 
 PolhemDriver::PolhemDriver(const PolhemWeights& weights) : weights_(weights) {
@@ -135,12 +140,8 @@ bool PolhemDriver::is_homed() noexcept {
   return homed_;
 }
 
-// Whether the arm is far from singular poses, and its motors could show the largest force here.
+// Whether its motors could show the largest force here.
 bool PolhemDriver::bears(const PolhemPose& pose, const Vector3d& angles) const noexcept {
-  const Eigen::Matrix3d levers = pose.jacobian.transpose() * pose.jacobian;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> turns;
-  turns.computeDirect(levers, Eigen::EigenvaluesOnly);
-  if (!(turns.eigenvalues()[0] > kPolhemLeastLever * kPolhemLeastLever)) return false;
   const Vector3d torques = polhem_facts().most_force * pose.jacobian.colwise().norm().transpose() +
                            polhem_hold_up(weights_, angles).cwiseAbs();
   return polhem_currents(polhem_1(), torques).cwiseAbs().maxCoeff() < polhem_1().most_current;
@@ -151,10 +152,14 @@ UsbStage PolhemDriver::judge(bool follows, UsbReading& reading) noexcept {
   const Vector3d angles = polhem_angles_at(polhem_1(), counts_);
   const auto pose = polhem_pose(polhem_1(), angles);
   if (!pose || !bears(*pose, angles)) return UsbStage::outside;
+  const Vector3d levers = levers_of(pose->jacobian);
+  if (!(levers[0] > kPolhemLeastLever)) return UsbStage::outside;
   turn_.setZero();
   if (follows) turn_ = (angles - angles_).cwiseMin(kMostAdvance).cwiseMax(-kMostAdvance);
   angles_ = angles;
   jacobian_ = pose->jacobian;
+  reading.lever = levers[2];
+  reading.step = polhem_count_steps(polhem_1()).maxCoeff() * levers[2];
   reading.position = polhem_to_device(pose->position - polhem_1().middle);
   reading.orientation = polhem_orientation(polhem_1(), angles, report_.gimbal);
   reading.buttons = report_.button ? 1 : 0;
@@ -162,7 +167,7 @@ UsbStage PolhemDriver::judge(bool follows, UsbReading& reading) noexcept {
 }
 
 std::span<const std::uint8_t> PolhemDriver::command(UsbStage stage,
-                                                    const Eigen::Vector3d* force) noexcept {
+                                                    const UsbForce* force) noexcept {
   PolhemCommand command;
   if (stage == UsbStage::homing && sets_counts_) {
     command.counts = polhem_1().home_counts;
@@ -177,17 +182,22 @@ std::span<const std::uint8_t> PolhemDriver::command(UsbStage stage,
   return octets_;
 }
 
-std::array<std::int16_t, 3> PolhemDriver::currents(const Vector3d& force) const noexcept {
+// What the links weigh is held up in whole, and the force has what the motors can hold besides.
+std::array<std::int16_t, 3> PolhemDriver::currents(const UsbForce& force) noexcept {
   const Vector3d angles = angles_ + kUsbAhead * turn_;
   const auto ahead = polhem_pose(polhem_1(), angles);
   const Eigen::Matrix3d& jacobian = ahead ? ahead->jacobian : jacobian_;
-  const Vector3d torques = polhem_torques(jacobian, device_to_polhem(force)) +
-                           held_up_ * polhem_hold_up(weights_, angles);
-  const Vector3d told = polhem_currents(polhem_1(), torques) / kMilli;
+  const Vector3d torques = polhem_torques(jacobian, device_to_polhem(force.force));
+  const Vector3d up = held_up_ * polhem_hold_up(weights_, angles);
+  const Vector3d lifts = polhem_currents(polhem_1(), up) / kMilli;
+  const Vector3d shows = polhem_currents(polhem_1(), torques) / kMilli;
   const double most = polhem_1().most_current / kMilli;
+  const Vector3d left = (most - lifts.array().abs()).max(0.0);
+  share_ = std::min(paid_share(force, torques), share_within(shows, left));
   std::array<std::int16_t, 3> currents{};
   for (std::size_t i = 0; i < currents.size(); ++i) {
-    const double current = std::clamp(told[static_cast<Eigen::Index>(i)], -most, most);
+    const auto k = static_cast<Eigen::Index>(i);
+    const double current = std::clamp(share_ * shows[k] + lifts[k], -most, most);
     currents[i] = static_cast<std::int16_t>(std::lround(current));
   }
   return currents;

@@ -29,6 +29,8 @@ inline constexpr double kPolhemLeastLever = 0.05;
 /// links will be in the middle of an exchange; where that is wrong by one, they make no more energy
 /// than this much damping takes.
 [[nodiscard]] double polhem_spent_damping(const PolhemWeights& weights) noexcept;
+/// The same about the joints [N m s/rad].
+[[nodiscard]] double polhem_spent_joint_damping(const PolhemWeights& weights) noexcept;
 
 /// One Polhem, with reports of 14 octets. Its exchange takes 2 ms: a command is there with the next
 /// USB frame, and the report that answers it with the one after.
@@ -51,14 +53,15 @@ class PolhemDriver final : public UsbDriver {
   void restart() noexcept override {}
   [[nodiscard]] bool read(std::span<const std::uint8_t>& transfer) noexcept override;
   [[nodiscard]] UsbStage judge(bool follows, UsbReading& reading) noexcept override;
-  [[nodiscard]] std::span<const std::uint8_t> command(
-      UsbStage stage, const Eigen::Vector3d* force) noexcept override;
+  [[nodiscard]] std::span<const std::uint8_t> command(UsbStage stage,
+                                                      const UsbForce* force) noexcept override;
+  [[nodiscard]] double share() const noexcept override { return share_; }
   [[nodiscard]] std::uint64_t malformed() const noexcept override { return malformed_; }
 
  private:
   [[nodiscard]] bool is_homed() noexcept;
   [[nodiscard]] bool bears(const PolhemPose& pose, const Eigen::Vector3d& angles) const noexcept;
-  [[nodiscard]] std::array<std::int16_t, 3> currents(const Eigen::Vector3d& force) const noexcept;
+  [[nodiscard]] std::array<std::int16_t, 3> currents(const UsbForce& force) noexcept;
 
   PolhemWeights weights_;
   PolhemReport report_;
@@ -73,6 +76,7 @@ class PolhemDriver final : public UsbDriver {
   Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();  // [rad], of the last report
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();    // [rad], since the one before
   Eigen::Matrix3d jacobian_ = Eigen::Matrix3d::Zero();
+  double share_ = 1.0;  // of the last force
 };
 
 }  // namespace reckon::haptics

@@ -52,7 +52,8 @@ CoefficientStep::CoefficientStep(CoefficientDevice& device, std::shared_ptr<cons
       scene_(*plan_, config_, limits_.axes, limits_.max_stiffness),
       others_(config_.max_contacts),
       safety_(step_.force_limit, config_.max_power, limits_.max_speed, kHoldSteps) {
-  static_cap_ = step_.stiffness_limit = step_.body_stiffness_limit = limits_.max_stiffness;
+  static_cap_ = remote_cap_ = body_cap_ = limits_.max_stiffness;
+  step_.stiffness_limit = step_.body_stiffness_limit = limits_.max_stiffness;
 }
 
 void CoefficientStep::step(nanoseconds now) noexcept {

@@ -40,10 +40,17 @@ double ServoCore::cap_for(double probe, double tool, double bend) noexcept {
   const auto shown = [&](double cap) {
     return limits_.max_stiffness > 0 ? std::min(cap, limits_.max_stiffness) : cap;
   };
-  step_.stiffness_limit = shown(0.5 * stiffness_per_damping_ * probe);
-  step_.body_stiffness_limit = shown(stiffness_per_damping_ * probe);
+  step_.stiffness_limit = remote_cap_ = shown(0.5 * stiffness_per_damping_ * probe);
+  step_.body_stiffness_limit = body_cap_ = shown(stiffness_per_damping_ * probe);
   step_.damping = probe;
   return static_cap_;
+}
+
+void ServoCore::use_damping(double damping) noexcept {
+  const double share = limits_.damping > 0 ? damping / limits_.damping : 1.0;
+  step_.stiffness_limit = share * remote_cap_;
+  step_.body_stiffness_limit = share * body_cap_;
+  step_.damping = damping;
 }
 
 // A sample shorter than the real one would credit too much damping.

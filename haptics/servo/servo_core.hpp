@@ -43,8 +43,8 @@ class ServoCore {
   [[nodiscard]] double force_rate_limit() const noexcept { return max_rate_; }
   [[nodiscard]] double power_limit() const noexcept { return max_power_; }
   [[nodiscard]] double force_limit() const noexcept { return step_.force_limit; }
-  [[nodiscard]] double remote_stiffness_limit() const noexcept { return step_.stiffness_limit; }
-  [[nodiscard]] double body_stiffness_limit() const noexcept { return step_.body_stiffness_limit; }
+  [[nodiscard]] double remote_stiffness_limit() const noexcept { return remote_cap_; }
+  [[nodiscard]] double body_stiffness_limit() const noexcept { return body_cap_; }
 
  protected:
   ServoCore(HapticDevice& device, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
@@ -54,6 +54,9 @@ class ServoCore {
   /// @param probe damping that meets a spring at the first probe  @param tool that meets springs
   /// at all of them [N s/m]  @param bend [1/s], see ToolOf
   double cap_for(double probe, double tool, double bend) noexcept;
+  /// Damping [N s/m] that the limits of stiffness for hands and bodies go by in this step, at most
+  /// that of cap_for(): they are less in proportion.
+  void use_damping(double damping) noexcept;
   void note_time() noexcept;
   /// While the software stop is pressed, the operator's switch counts as released.
   void obey_stop(DeviceSample& reading) noexcept;
@@ -63,11 +66,12 @@ class ServoCore {
   ServoConfig config_;
   std::shared_ptr<const EffectPlan> plan_;
   std::shared_ptr<BodyWorld> bodies_;
-  double period_;                 // [s], nominal
-  double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
-  double static_cap_ = 0.0;       // [N/m]
-  double max_rate_ = 0.0;         // [N/s], growth and rotation of the force
-  double max_power_ = 0.0;        // [W], into a yielding hand
+  double period_;                             // [s], nominal
+  double stiffness_per_damping_;              // [1/s]: K cap for 1 N s/m of damping
+  double static_cap_ = 0.0;                   // [N/m]
+  double remote_cap_ = 0.0, body_cap_ = 0.0;  // [N/m]
+  double max_rate_ = 0.0;                     // [N/s], growth and rotation of the force
+  double max_power_ = 0.0;                    // [W], into a yielding hand
 
   TripleBuffer<ContactSet> contacts_;
   TripleBuffer<ServoSnapshot> snapshots_;

@@ -51,12 +51,15 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
               config_.contact_radius, tool_.size()),
       port_(port_of(limits_, tool_)),
       hands_(config_.max_contacts),
+      resolution_(limits_.resolution),
       port_rate_(tool_.size_at_port(max_rate_)),
       safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
       turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)),
       pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
+  if (config_.continuous_force > 0)
+    safety_.limit_heat(config_.continuous_force, config_.thermal_time / period_);
 }
 
 template <int axes>
@@ -119,7 +122,7 @@ bool ServoStepOf<axes>::has_near() noexcept {
 
 template <int axes>
 double ServoStepOf<axes>::sure_speed() const noexcept {
-  return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
+  return std::max(0.0, step_.velocity.norm() - resolution_ / kReadFor);
 }
 
 // Energy has been short for a second while the hand held still in touch, so that nobody will supply
@@ -182,6 +185,8 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
   buttons_ = reading.buttons;
   step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
+  held_share_ = std::clamp(reading.held, 0.0, 1.0);
+  if constexpr (axes == 3) note_pose(reading);
   if (!std::exchange(started_, true)) {
     tool_.reset(pose);
     forfeit(pose);
@@ -192,6 +197,19 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
   step_.probe = tool_.place();
   note_velocity(reading);
   return true;
+}
+
+// Of a device whose joints have the friction that is sure, pose by pose.
+template <int axes>
+void ServoStepOf<axes>::note_pose(const DeviceSample& reading) noexcept {
+  if (!reading.damping && !reading.resolution) return;
+  resolution_ = std::max(0.0, reading.resolution.value_or(limits_.resolution));
+  port_.pose(std::clamp(reading.damping.value_or(limits_.damping), 0.0, limits_.damping),
+             resolution_);
+  if (!reading.damping) return;
+  use_damping(port_.damping());
+  static_.limit(limits_.damping > 0 ? port_.damping() / limits_.damping * static_cap_
+                                    : static_cap_);
 }
 
 template <int axes>
@@ -260,7 +278,7 @@ void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
 template <int axes>
 void ServoStepOf<axes>::settle() noexcept {
   const Force dx = tool_.motion();
-  port_.settle(dx, elapsed_, took_);
+  port_.settle(dx, elapsed_, took_, held_share_);
   if constexpr (axes == 6) port_.book(-tool_.turning_cost(port_.at_handle(), elapsed_));
   pressed_.place(tool_, static_, period_);
   static_.settle(tool_, step_.dt, port_);
@@ -320,7 +338,7 @@ void ServoStepOf<axes>::load_hands(Load& load) noexcept {
 // the ledger. So all are softened by the same factor.
 template <int axes>
 void ServoStepOf<axes>::soften_crowd(Load& load) noexcept {
-  const double whole = axes == 3 ? body_stiffness_limit() : stiffness_per_damping_;
+  const double whole = axes == 3 ? step_.body_stiffness_limit : stiffness_per_damping_;
   const double most = whole - load.walls_slope;
   const bool beyond = load.springs_slope > std::max(0.0, most);  // none has no slope
   const double goal = beyond ? std::max(0.0, most) / load.springs_slope : 1.0;

@@ -51,6 +51,7 @@ class ServoStepOf final : public ServoCore {
   void let_go(const DeviceSample& reading, const HandlePose& pose) noexcept;
   void forfeit(const HandlePose& pose) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
+  void note_pose(const DeviceSample& reading) noexcept;
   void note_velocity(const DeviceSample& reading) noexcept;
   void settle() noexcept;
   void push_bodies(double scale) noexcept;
@@ -70,6 +71,8 @@ class ServoStepOf final : public ServoCore {
   StaticContactOf<axes> static_;
   EnergyPortOf<axes> port_;
   NearHands hands_;
+  double resolution_;        // [m], of the last reading
+  double held_share_ = 1.0;  // of the force, since the reading before
   Softening softening_;
   double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
   PortHoldOf<axes> held_;     // shares of the load that the port held

@@ -4,8 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reckon::haptics {
+namespace {
+
+constexpr double kAhead = 1.1;  // times the lever of the newest report: as it goes on, so it may be
+
+}  // namespace
 
 UsbDevice::UsbDevice(UsbExchange& exchange, const DeviceLimits& limits)
     : exchange_(exchange),
@@ -58,6 +64,7 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   while (count_ > 0 && waiting_[first_].before <= due) {
     shown_ = waiting_[first_];
     has_shown_ = true;
+    held_ = std::min(held_, shown_.held);
     first_ = (first_ + 1) % waiting_.size();
     --count_;
   }
@@ -76,9 +83,23 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   }
   told_at_ = shown_.at;
   sample.buttons = shown_.buttons;
+  sample.held = std::exchange(held_, 1.0);
+  note_pose(sample);
   sample.watchdog = dropped_;
   dropped_ = false;
   return sample;
+}
+
+// Of all reports that are here: those that are not shown yet tell where the handle is by now.
+void UsbDevice::note_pose(DeviceSample& sample) noexcept {
+  if (shown_.step > 0) sample.resolution = shown_.step;
+  if (!(limits_.lever > 0) || !(shown_.lever > 0)) return;
+  double longest = shown_.lever;
+  for (std::size_t i = 0; i < count_; ++i)
+    longest = std::max(longest, waiting_[(first_ + i) % waiting_.size()].lever);
+  lever_ = std::max(limits_.lever, kAhead * longest);
+  const double ratio = limits_.lever / lever_;
+  sample.damping = ratio * ratio * limits_.damping;
 }
 
 void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept {
@@ -87,6 +108,7 @@ void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now
   newest.number = ++written_;
   newest.at = written_at_ = now;
   write_times_[static_cast<std::size_t>(written_) % write_times_.size()] = now;
+  newest.lever = lever_;
   exchange_.force.publish();
 }
 

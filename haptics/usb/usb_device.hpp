@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,10 @@ namespace reckon::haptics {
 /// tells which writes it stands between. A read shows the last report before which only forces were
 /// held that are `delay` writes old, so that the ledger books each way of the handle under the very
 /// force that was held. Where that report has not come, or the device is gone, the reading fails.
+///
+/// Where the friction of the joints is what is sure (`lever` of the limits), a reading tells the
+/// damping of the worst pose of all reports since, and of one a little worse. The driver is told
+/// how much torque that pays for, wherever the handle will be.
 class UsbDevice final : public HapticDevice {
  public:
   /// @param exchange outlives it  @param limits see usb_limits()
@@ -46,6 +51,7 @@ class UsbDevice final : public HapticDevice {
  private:
   void take_readings() noexcept;
   void forget_readings() noexcept;
+  void note_pose(DeviceSample& sample) noexcept;
   [[nodiscard]] bool is_over(std::chrono::nanoseconds now) const noexcept;
 
   UsbExchange& exchange_;
@@ -65,7 +71,9 @@ class UsbDevice final : public HapticDevice {
   std::uint32_t run_ = 0;
   bool has_shown_ = false;  // a reading of this run
   bool dropped_ = false;    // the force was, and the servo does not know
-  int needed_ = 0;          // writes, that a delay has to be
+  double held_ = 1.0;       // least share of those since the last good reading
+  double lever_ = std::numeric_limits<double>::infinity();  // [m/rad], that is paid for
+  int needed_ = 0;                                          // writes, that a delay has to be
 };
 
 }  // namespace reckon::haptics

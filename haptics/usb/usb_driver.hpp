@@ -75,13 +75,15 @@ class UsbDriver {
   /// Reads on in a transfer: takes what it reads off the front of it. @return whether a report has
   /// ended; if not, all is read
   [[nodiscard]] virtual bool read(std::span<const std::uint8_t>& transfer) noexcept = 0;
-  /// What the last report says. Of the reading it sets position, orientation and buttons.
+  /// What the last report says. Of the reading it sets position, orientation, buttons, lever, step.
   /// @param follows whether the one before was read too, and its device was running
   [[nodiscard]] virtual UsbStage judge(bool follows, UsbReading& reading) noexcept = 0;
-  /// The octets that ask for a force. @param force [N], frame D; null: none @return valid until the
-  /// next call
-  [[nodiscard]] virtual std::span<const std::uint8_t> command(
-      UsbStage stage, const Eigen::Vector3d* force) noexcept = 0;
+  /// The octets that ask for a force; null: none. Where its motors cannot hold the torques, or not
+  /// so much is paid for, all of it is less. @return valid until the next call
+  [[nodiscard]] virtual std::span<const std::uint8_t> command(UsbStage stage,
+                                                              const UsbForce* force) noexcept = 0;
+  /// Share of the last command's force that was asked for, [0, 1].
+  [[nodiscard]] virtual double share() const noexcept = 0;
   /// Octets that were no reports, since the begin.
   [[nodiscard]] virtual std::uint64_t malformed() const noexcept = 0;
 

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -22,6 +23,8 @@ struct UsbForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N], frame D
   std::int64_t number = 0;                          ///< of the write, from 1
   std::chrono::nanoseconds at{0};                   ///< of the write
+  /// [m/rad]: the torques of all joints together that are paid for are so much for each newton.
+  double lever = std::numeric_limits<double>::infinity();
 };
 
 /// A report of the device, with the forces on both sides of its instant.
@@ -37,6 +40,10 @@ struct UsbReading {
   /// By the device's own clock, where its reports have one.
   std::optional<std::chrono::nanoseconds> at = {};
   std::chrono::nanoseconds heard{0};  ///< when the host had it, on the clock of the writes
+  /// [m/rad], the greatest way of the handle for a turn of its joints at this pose; 0: not known.
+  double lever = 0.0;
+  double step = 0.0;  ///< [m], of its encoders at this pose, along each axis; 0: as anywhere
+  double held = 1.0;  ///< share of the force `before` that was held
 };
 
 /// Neither side waits for the other. Allocates once, here.

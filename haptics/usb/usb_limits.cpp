@@ -23,6 +23,12 @@ DeviceLimits usb_limits(const UsbFacts& facts, const UsbSettings& settings) {
   check(settings.damping >= 0, "damping must be 0 or more N s/m", settings.damping);
   check(settings.spent_damping >= 0, "damping that is spent must be 0 or more N s/m",
         settings.spent_damping);
+  check(settings.joint_damping >= 0, "damping of its joints must be 0 or more N m s/rad",
+        settings.joint_damping);
+  check(!(settings.joint_damping > 0) || facts.lever > 0,
+        "its joints are not known: state the damping of the handle", settings.joint_damping);
+  check(settings.spent_joint_damping >= 0, "damping that is spent must be 0 or more N m s/rad",
+        settings.spent_joint_damping);
   check(settings.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
         settings.max_stiffness);
   check(settings.max_speed > 0, "largest speed must be above 0 m/s", settings.max_speed);
@@ -34,6 +40,11 @@ DeviceLimits usb_limits(const UsbFacts& facts, const UsbSettings& settings) {
   DeviceLimits limits;
   limits.max_force = std::min(settings.max_force, facts.most_force);
   limits.damping = std::max(0.0, facts.sure_share * settings.damping - settings.spent_damping);
+  if (settings.joint_damping > 0) {
+    const double sure = facts.sure_share * settings.joint_damping - settings.spent_joint_damping;
+    limits.damping = std::max(0.0, sure) / (facts.lever * facts.lever);
+    limits.lever = facts.lever;
+  }
   limits.max_stiffness = settings.max_stiffness;
   limits.max_speed = settings.max_speed;
   limits.workspace_min = Eigen::Vector3d::Constant(-facts.reach);

@@ -28,6 +28,9 @@ struct UsbFacts {
   double assumed_damping = 0.0;
   double reach = 0.0;       ///< [m], half of the work space, along each axis of frame D
   double resolution = 0.0;  ///< [m], step of the encoders at the handle, the greatest there
+  /// [m/rad], > 0 where its joints are known: the greatest way of the handle for a turn of them, in
+  /// the middle of the work space.
+  double lever = 0.0;
 };
 
 /// What is not in the device's own data.
@@ -38,9 +41,13 @@ struct UsbSettings {
   double max_force = 1e9;      ///< [N], > 0; more than the kind's most is no more
   double damping = 0.0;        ///< [N s/m], >= 0, that one is sure of
   double spent_damping = 0.0;  ///< [N s/m], >= 0, of its share, that the driver needs for itself
-  double max_stiffness = 0.0;  ///< [N/m], 0 = as much as damping, period and delay allow
-  double max_speed = 2.0;      ///< [m/s]
-  double resolution = 0.0;     ///< [m], >= 0, of its encoders at the handle; 0 = as its kind has
+  /// [N m s/rad], >= 0, of each joint, that one is sure of, in the place of `damping`; 0: it is
+  /// that of the handle which is sure. Only of a kind with a lever.
+  double joint_damping = 0.0;
+  double spent_joint_damping = 0.0;  ///< [N m s/rad], >= 0, of its share, likewise
+  double max_stiffness = 0.0;        ///< [N/m], 0 = as much as damping, period and delay allow
+  double max_speed = 2.0;            ///< [m/s]
+  double resolution = 0.0;  ///< [m], >= 0, of its encoders at the handle; 0 = as its kind has
   std::chrono::nanoseconds period{1'000'000};  ///< of the servo
   /// Of the whole chain, > 0, rounded up to periods. Where it is too short readings fail, more
   /// often the shorter it is, and no energy is made.

@@ -25,7 +25,9 @@ void UsbSession::answer(nanoseconds now) noexcept {
   UsbReading reading;
   reading.heard = now;
   reading.before = held_;
+  reading.held = held_share_;
   held_ = sent_;
+  held_share_ = sent_share_;
   const UsbStage stage = driver_.judge(stage_ == UsbStage::running, reading);
   if (stage != UsbStage::running) return leave(stage);
   stage_ = stage;
@@ -66,7 +68,9 @@ std::optional<std::span<const std::uint8_t>> UsbSession::next(nanoseconds now) n
   sent_ = newest.number;
   sent_at_ = now;
   awaiting_ = true;
-  return driver_.command(stage_, shows ? &newest.force : nullptr);
+  const auto octets = driver_.command(stage_, shows ? &newest : nullptr);
+  sent_share_ = driver_.share();
+  return octets;
 }
 
 }  // namespace reckon::haptics

@@ -72,8 +72,9 @@ class UsbSession {
   std::uint32_t run_;
   std::chrono::nanoseconds heard_at_;
   UsbStage stage_ = UsbStage::silent;
-  std::int64_t held_ = 0;  // number of the force that the device holds
-  std::int64_t sent_ = 0;  // number of the force that was sent last
+  std::int64_t held_ = 0;                       // number of the force that the device holds
+  std::int64_t sent_ = 0;                       // number of the force that was sent last
+  double held_share_ = 1.0, sent_share_ = 1.0;  // of these forces
   std::chrono::nanoseconds sent_at_{0};
   std::chrono::nanoseconds deaf_until_{0};
   bool awaiting_ = false;

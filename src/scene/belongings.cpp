@@ -3,12 +3,14 @@
 #include "reckon/peer/scene/belongings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -82,6 +84,29 @@ haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device) {
   return {device.upper_weight, device.fore_weight};
 }
 
+int samples_of(std::chrono::nanoseconds delay, std::chrono::nanoseconds period) {
+  return static_cast<int>(std::ceil(pdu::to_seconds(delay) / pdu::to_seconds(period) - 1e-5));
+}
+
+void describe(DeviceConfig& device, const DeviceDescriptor& descriptor) {
+  device.axes = descriptor.axes;
+  device.max_force = descriptor.max_force;
+  device.continuous_force = descriptor.continuous_force;
+  device.thermal_time = descriptor.thermal_time;
+  device.damping = descriptor.damping;
+  device.joint_damping = descriptor.joint_damping;
+  device.resolution = descriptor.resolution;
+  device.max_stiffness = descriptor.max_stiffness;
+  device.max_speed = descriptor.max_speed;
+  device.max_torque = descriptor.max_torque;
+  device.turn_damping = descriptor.turn_damping;
+  device.turn_resolution = descriptor.turn_resolution;
+  device.described = {descriptor.name,    descriptor.delay,
+                      descriptor.mass,    descriptor.friction,
+                      descriptor.inertia, {descriptor.work_space.from, descriptor.work_space.to}};
+  device.delay_samples = samples_of(descriptor.delay, device.period);
+}
+
 void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said) {
   device.driver = driver;
   const haptics::UsbFacts* const facts = usb_facts_of(device);
@@ -97,6 +122,9 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& s
   settings.period = device.period;
   settings.damping = said.damping ? device.damping : facts->assumed_damping;
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
+  if (!(facts->lever > 0)) device.joint_damping = 0.0;
+  settings.joint_damping = device.joint_damping;
+  settings.spent_joint_damping = haptics::polhem_spent_joint_damping(polhem_weights_of(device));
   if (said.delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;
   const haptics::DeviceLimits limits = haptics::usb_limits(*facts, settings);
   device.max_force = limits.max_force;
@@ -111,6 +139,8 @@ haptics::UsbSettings usb_settings_of(const DeviceConfig& device) {
   // use_driver() left what the servo gets of it.
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
   settings.damping = (device.damping + settings.spent_damping) / usb_facts_of(device)->sure_share;
+  settings.joint_damping = device.joint_damping;
+  settings.spent_joint_damping = haptics::polhem_spent_joint_damping(polhem_weights_of(device));
   settings.max_stiffness = device.max_stiffness;
   settings.max_speed = device.max_speed;
   settings.resolution = device.resolution;

@@ -79,6 +79,23 @@ TEST(MappedDevice, HasThePowerOfItsDeviceAtAnyScaleMirroredOrNot) {
 }
 
 // The rate that is told is the one at which the orientation that is told turns.
+TEST(MappedDevice, DampingAndStepsOfAPoseAreScaledAsThoseOfTheLimits) {
+  Probe device;
+  device.given.damping = 2.0;
+  device.given.resolution = 1e-4;
+  device.sample.ok = true;
+  device.sample.damping = device.given.damping;
+  device.sample.resolution = device.given.resolution;
+  device.sample.held = 0.5;
+  HandMapping mapping;
+  mapping.scale = 4.0;
+  MappedDevice hand(device, mapping);
+  const DeviceSample sample = hand.read(0ns);
+  EXPECT_EQ(sample.damping, hand.limits().damping);
+  EXPECT_EQ(sample.resolution, hand.limits().resolution);
+  EXPECT_EQ(sample.held, 0.5);
+}
+
 TEST(MappedDevice, AMirroredToolTurnsAtTheRateThatIsTold) {
   Draws draws(3);
   HandMapping mapping;

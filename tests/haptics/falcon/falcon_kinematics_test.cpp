@@ -111,6 +111,15 @@ TEST(FalconKinematics, ItsJacobianIsTheSlopeOfItsPlace) {
   EXPECT_LT(most, 1e-7) << "[m/rad]";
 }
 
+TEST(FalconKinematics, ItsLeverIsTheGreatestWayForATurnInTheMiddle) {
+  const auto angles = falcon_angles(Vector3d(0, 0, G::kMiddle));
+  ASSERT_TRUE(angles);
+  const auto pose = falcon_pose(*angles);
+  ASSERT_TRUE(pose);
+  const Eigen::JacobiSVD<Matrix3d> ways(pose->jacobian);
+  EXPECT_NEAR(ways.singularValues()[0], G::kLever, 1e-6);
+}
+
 TEST(FalconKinematics, TorquesHaveThePowerOfTheForce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);

@@ -404,5 +404,57 @@ TEST(EnergyPort, AllocatesNothing) {
   EXPECT_EQ(guard.count(), 0u);
 }
 
+TEST(EnergyPort, AForceIsPaidForWithTheLeastDampingOfThosePosesThatItWasChosenIn) {
+  constexpr int kDelay = 2;
+  EnergyPort port(2.0, kDelay);
+  port.pose(0.5, 0.0);
+  EXPECT_EQ(port.damping(), 0.5) << "at once where it is less";
+  for (int i = 0; i < kDelay + 1; ++i) {
+    port.pose(2.0, 0.0);
+    EXPECT_EQ(port.damping(), 0.5) << "a force of then may be under way, " << i;
+  }
+  port.pose(2.0, 0.0);
+  EXPECT_EQ(port.damping(), 2.0);
+}
+
+TEST(EnergyPort, WhatDampingTakesOfAWayIsThatOfItsWorsePose) {
+  EnergyPort port(2.0);
+  const Vector3d dx(1e-3, 0, 0);
+  const auto loss = [&](double damping) {
+    const double before = port.absorbed();
+    port.pose(damping, 0.0);
+    port.settle(dx, kT);
+    return port.absorbed() - before;
+  };
+  EXPECT_NEAR(loss(2.0), 2e-3, 1e-15);
+  EXPECT_NEAR(loss(0.5), 0.5e-3, 1e-15) << "there";
+  EXPECT_NEAR(loss(2.0), 0.5e-3, 1e-15) << "and from there";
+  EXPECT_NEAR(loss(2.0), 2e-3, 1e-15);
+}
+
+TEST(EnergyPort, AnErrorOfTheEncodersIsThatOfThePoseInWhichTheForceChanged) {
+  EnergyPort port(1.0, 0, 1e-4);
+  PortLoad load;
+  load.extra = Vector3d(1, 0, 0);
+  static_cast<void>(port.credit(1.0));
+  static_cast<void>(port.hold(load, kT));
+  port.pose(1.0, 3e-4);
+  port.settle(Vector3d::Zero(), kT);
+  // Half the diagonal of a step, as the force came and as it may go.
+  EXPECT_NEAR(port.encoder_allowance(), 2 * 0.5 * std::sqrt(3) * 3e-4, 1e-12);
+}
+
+TEST(EnergyPort, OfAForceThatWasHeldInPartTheHandPutInThatPartAndGotAllOfIt) {
+  for (const double way : {-1e-3, 1e-3}) {
+    EnergyPort port(1.0);
+    PortLoad load;
+    load.walls = Vector3d(2, 0, 0);
+    ASSERT_EQ(port.hold(load, kT).force.x(), 2.0);
+    const double no_time = 0.0;  // in which damping takes something
+    port.settle(Vector3d(way, 0, 0), kT, no_time, 0.25);
+    EXPECT_NEAR(port.absorbed(), way < 0 ? 0.25 * 2e-3 : -2e-3, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace reckon::haptics

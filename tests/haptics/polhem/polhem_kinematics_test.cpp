@@ -96,6 +96,15 @@ TEST(PolhemKinematics, ItsJacobianIsTheSlopeOfItsPlace) {
   EXPECT_LT(most, 1e-7);
 }
 
+TEST(PolhemKinematics, TheLeverOfItsFactsIsTheGreatestWayForATurnInTheMiddle) {
+  const auto angles = polhem_angles(polhem_1(), polhem_1().middle);
+  ASSERT_TRUE(angles);
+  const auto pose = polhem_pose(polhem_1(), *angles);
+  ASSERT_TRUE(pose);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> ways(pose->jacobian);
+  EXPECT_NEAR(ways.singularValues()[0], polhem_facts().lever, 1e-6);
+}
+
 TEST(PolhemKinematics, MotorsHaveThePowerOfTheForce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> within(-1, 1);

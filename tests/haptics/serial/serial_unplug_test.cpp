@@ -8,7 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 
+#include "reckon/haptics/serial/serial_frames.hpp"
+#include "reckon/haptics/serial/serial_packets.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
@@ -106,6 +109,25 @@ TEST(SerialUnplug, WhereTheServoWasSilentItsMeterIsNoHigherThanTheBoardsBooks) {
   EXPECT_LE(wired.last.port_energy - test::transferred(wired.last),
             wired.board.books() + wired.last.encoder_allowance + 1e-9);
   EXPECT_GE(wired.least_books, -1e-9);
+}
+
+// Its last zero is not, and the first of the question would do as well.
+TEST(SerialUnplug, AForceThatWasAllButWholeWhenTheLineBrokeIsNeverHeld) {
+  test::SerialBoard board({}, [](double) { return Vector3d(0, 0, 0.01); });
+  const auto tell = [&](std::span<const std::uint8_t> octets) {
+    for (const std::uint8_t octet : octets) {
+      board.take(octet);
+      EXPECT_FALSE(board.will_hold());
+    }
+  };
+  const SerialFrame force = frame_of({7, {1'000, 0, 0}}, 3);
+  tell(force.span().first(force.length - 1));
+  UsbExchange exchange;
+  SerialSession session(exchange, limits(), 1, 100, milliseconds(300));
+  const auto question = session.next(milliseconds(300));
+  ASSERT_TRUE(question);
+  tell(question->span());
+  EXPECT_EQ(board.commands(), 1U) << "it was asked";
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
@@ -49,12 +51,16 @@ Vector3d FalconModel::half_steps() const { return Vector3d::Constant(0.5e-4); }
 std::optional<HeldModel::Joints> FalconModel::joints_at(const Vector3d& position) const {
   const auto angles = haptics::falcon_angles(place(position));
   if (!angles) return std::nullopt;
+  // The slope of the closed form: the driver's way from angles to a place may lead to another one.
+  constexpr double kStep = 1e-7;  // [m]
   Joints joints{*angles, Eigen::Matrix3d::Zero()};
-  if (const auto pose = haptics::falcon_pose(*angles)) {
-    joints.jacobian.row(0) = pose->jacobian.row(0);
-    joints.jacobian.row(1) = -pose->jacobian.row(2);
-    joints.jacobian.row(2) = pose->jacobian.row(1);
+  Eigen::Matrix3d turning;
+  for (int i = 0; i < 3; ++i) {
+    const auto there = haptics::falcon_angles(place(position + kStep * Vector3d::Unit(i)));
+    if (!there) return joints;
+    turning.col(i) = (*there - *angles) / kStep;
   }
+  if (std::abs(turning.determinant()) > 0) joints.jacobian = turning.inverse();
   return joints;
 }
 

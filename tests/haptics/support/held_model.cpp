@@ -45,6 +45,14 @@ Vector3d HeldModel::weight() const {
   return jacobian_.transpose().inverse() * -slope;
 }
 
+// By the friction of its joints, at the end of a step: near a singular pose it is stiff.
+Vector3d HeldModel::slowed(const Vector3d& velocity, double h) const {
+  if (!(options_.joint_damping > 0)) return velocity;
+  const Eigen::Matrix3d turning = jacobian_.inverse();
+  const Eigen::Matrix3d friction = options_.joint_damping * turning.transpose() * turning;
+  return (Eigen::Matrix3d::Identity() + h / options_.mass * friction).inverse() * velocity;
+}
+
 void HeldModel::pass(nanoseconds time) {
   const nanoseconds end = now_ + time;
   while (now_ < end) {
@@ -81,6 +89,7 @@ void HeldModel::move(double h) {
                           options_.hand_damping * (speed - velocity_);
     const Vector3d hangs = carried_ < 1 ? Vector3d((1 - carried_) * weight()) : Vector3d::Zero();
     velocity_ += h / options_.mass * (hand + force() + hangs - options_.damping * velocity_);
+    velocity_ = slowed(velocity_, h);
     position_ += h * velocity_;
     damping_loss_ += h * options_.damping * velocity_.squaredNorm();
   }
@@ -93,8 +102,10 @@ void HeldModel::move(double h) {
   angles_ = joints->angles;
   if (!joints->jacobian.isZero(0)) jacobian_ = joints->jacobian;
   if (!(h > 0)) return;
-  port_work_ -= torques().dot(angles_ - before);
-  rounding_ += half_steps().dot((angles_ - before).cwiseAbs());
+  const Vector3d turn = angles_ - before;
+  port_work_ -= torques().dot(turn);
+  damping_loss_ += options_.joint_damping * turn.squaredNorm() / h;
+  rounding_ += half_steps().dot(turn.cwiseAbs());
 }
 
 void HeldModel::begin_out(std::span<const std::uint8_t> octets) {

@@ -18,7 +18,8 @@ namespace reckon::test {
 struct HeldModelOptions {
   unsigned seed = 1;
   double mass = 0.15;                            ///< [kg]
-  double damping = 2.0;                          ///< [N s/m]
+  double damping = 2.0;                          ///< [N s/m], of the handle
+  double joint_damping = 0;                      ///< [N m s/rad], of each joint, besides
   double hand_stiffness = 200;                   ///< [N/m]
   double hand_damping = 3;                       ///< [N s/m]
   double out_at = 0;                             ///< [ms] of a frame, when it takes a transfer
@@ -98,6 +99,7 @@ class HeldModel : public UsbModel {
 
  private:
   void move(double h);
+  [[nodiscard]] Eigen::Vector3d slowed(const Eigen::Vector3d& velocity, double h) const;
   [[nodiscard]] Eigen::Vector3d weight() const;
 
   HeldModelOptions options_;

@@ -40,19 +40,22 @@ class PluggedDevice {
  public:
   using Hand = std::function<Eigen::Vector3d(double)>;
 
+  /// @param middle where the scene's origin is [m, frame D]
   template <class Options>
   PluggedDevice(const Options& options, Hand wanted, std::unique_ptr<haptics::UsbDriver> driver,
-                const haptics::DeviceLimits& limits, const haptics::Scene& scene = stiff_floor())
+                const haptics::DeviceLimits& limits, const haptics::Scene& scene = stiff_floor(),
+                const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
       : PluggedDevice(options, std::move(wanted), std::move(driver), limits, scene,
-                      std::make_shared<const haptics::EffectPlan>(scene)) {}
+                      std::make_shared<const haptics::EffectPlan>(scene), middle) {}
   template <class Options>
   PluggedDevice(const Options& options, Hand wanted, std::unique_ptr<haptics::UsbDriver> driver,
                 const haptics::DeviceLimits& limits, const haptics::Scene& scene,
-                std::shared_ptr<const haptics::EffectPlan> plan)
+                std::shared_ptr<const haptics::EffectPlan> plan,
+                const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
       : model(options, tended(std::move(wanted))),
         shim(model),
         device(exchange, limits),
-        servo(device, plan, servo_config(), haptics::make_bodies(*plan, scene)) {
+        servo(device, plan, servo_config(middle), haptics::make_bodies(*plan, scene)) {
     begin_thread(std::move(driver));
     model.beside([this](std::chrono::nanoseconds now) {
       tend();
@@ -115,9 +118,10 @@ class PluggedDevice {
     return [this, wanted = std::move(wanted)](double t) { return care_.hand(wanted(t)); };
   }
 
-  static haptics::ServoConfig servo_config() {
+  static haptics::ServoConfig servo_config(const Eigen::Vector3d& middle) {
     haptics::ServoConfig config;
     config.probe_radius = 0;
+    config.device_origin = -middle;
     return config;
   }
 

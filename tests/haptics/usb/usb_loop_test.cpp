@@ -346,6 +346,73 @@ TEST(UsbDevice, WhereARunIsOverNothingIsRead) {
 }
 
 // Also over readings that failed, and not over a force that was dropped.
+// Reports that are not due yet tell where the handle is by now.
+TEST(UsbDevice, TellsTheDampingOfTheWorstPoseThatIsHereAndTheDriverWhatThatPaysFor) {
+  UsbSettings settings;
+  settings.joint_damping = 0.02;
+  const UsbFacts& facts = falcon_facts();
+  UsbExchange exchange;
+  UsbDevice device(exchange, usb_limits(facts, settings));
+  const DeviceLimits limits = device.limits();
+  EXPECT_NEAR(limits.damping, facts.sure_share * 0.02 / (facts.lever * facts.lever), 1e-12);
+  const auto push = [&](std::int64_t before, double lever) {
+    UsbReading reading;
+    reading.before = before;
+    reading.after = before + 1;
+    reading.run = 1;
+    reading.lever = lever;
+    reading.step = 1e-3 * lever;
+    exchange.readings.push(reading);
+  };
+  push(0, 2 * facts.lever);
+  push(1, 3 * facts.lever);
+  DeviceSample sample = device.read(milliseconds(1));
+  ASSERT_TRUE(sample.ok && sample.damping && sample.resolution);
+  const double margin = std::sqrt(limits.damping / *sample.damping) / 3;
+  EXPECT_GT(margin, 1.0) << "it goes on meanwhile";
+  EXPECT_LT(margin, 1.2);
+  EXPECT_EQ(*sample.resolution, 2e-3 * facts.lever) << "of the place that is shown";
+  device.write(Vector3d::UnitX(), milliseconds(1));
+  exchange.force.update();
+  EXPECT_NEAR(exchange.force.read().lever, 3 * margin * facts.lever, 1e-12);
+
+  push(2, 0.1 * facts.lever);
+  for (int i = 2; i < 20; ++i) {
+    sample = device.read(milliseconds(i));
+    device.write(Vector3d::UnitX(), milliseconds(i));
+    if (!sample.ok) continue;
+    EXPECT_LE(*sample.damping, limits.damping) << "no more than is stated";
+  }
+}
+
+TEST(UsbDevice, OfADampingOfTheHandleItTellsNoneOfAPose) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  UsbReading reading;
+  reading.after = reading.run = 1;
+  reading.lever = 0.3;
+  exchange.readings.push(reading);
+  const DeviceSample sample = device.read(milliseconds(1));
+  EXPECT_TRUE(sample.ok && !sample.damping && !sample.resolution);
+  device.write(Vector3d::UnitX(), milliseconds(1));
+  exchange.force.update();
+  EXPECT_TRUE(std::isinf(exchange.force.read().lever));
+}
+
+TEST(UsbDevice, TellsTheLeastShareOfItsForceThatWasHeld) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  UsbReading reading;
+  reading.after = reading.run = 1;
+  for (const double held : {0.25, 1.0}) {
+    reading.held = held;
+    exchange.readings.push(reading);
+  }
+  EXPECT_EQ(device.read(milliseconds(1)).held, 0.25);
+  exchange.readings.push(reading);
+  EXPECT_EQ(device.read(milliseconds(1)).held, 1.0) << "told once";
+}
+
 TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
   UsbExchange exchange;
   UsbDevice device(exchange, limits());

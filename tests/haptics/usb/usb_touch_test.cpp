@@ -7,14 +7,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
-#include <utility>
+#include <string>
 
-#include "reckon/haptics/falcon/falcon_driver.hpp"
-#include "reckon/haptics/polhem/polhem_driver.hpp"
-#include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
-#include "reckon/tests/haptics/support/polhem_model.hpp"
+#include "reckon/tests/haptics/support/usb_kinds.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -26,55 +22,16 @@ using test::TouchKind;
 
 int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 1; }
 
-constexpr int kDelays = 5;
-
-struct Falcon {
-  using Model = test::FalconModel;
-  // Its chip's timer fires at other times of a frame, and the servo is told of more than there is.
-  static test::FalconModelOptions options(int delay) {
-    test::FalconModelOptions options;
-    options.tick_at = 0.1 + 0.2 * delay;
-    return options;
-  }
-  static milliseconds chain(int delay) { return milliseconds(6 + 2 * delay); }
-  static std::unique_ptr<UsbDriver> driver() {
-    return std::make_unique<FalconDriver>(FalconFirmware{});
-  }
-  static const UsbFacts& facts() { return falcon_facts(); }
-};
-
-struct Polhem {
-  using Model = test::PolhemModel;
-  // It is asked and told at other times of a frame.
-  static test::PolhemModelOptions options(int delay) {
-    test::PolhemModelOptions options;
-    options.in_at = 0.2 * delay;
-    options.out_at = 0.15 * (4 - delay);
-    return options;
-  }
-  static milliseconds chain(int delay) { return milliseconds(6 + 2 * delay); }
-  static std::unique_ptr<UsbDriver> driver() { return std::make_unique<PolhemDriver>(); }
-  static const UsbFacts& facts() { return polhem_facts(); }
-};
-
-template <class Device>
+template <class Kind>
 class UsbTouch : public testing::Test {};
-using Devices = testing::Types<Falcon, Polhem>;
-class Names {
- public:
-  template <class Device>
-  static std::string GetName(int) {
-    return std::is_same_v<Device, Falcon> ? "Falcon" : "Polhem";
-  }
-};
-TYPED_TEST_SUITE(UsbTouch, Devices, Names);
+TYPED_TEST_SUITE(UsbTouch, test::UsbKinds, test::UsbKindNames);
 
 TYPED_TEST(UsbTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch) {
   double least = 0, allowance = 0, felt = 0;
   for (const TouchKind kind : test::kTouchKinds) {
     double most_force = 0;
-    for (int run = 0; run < seeds() * kDelays; ++run) {
-      const int delay = run % kDelays;
+    for (int run = 0; run < seeds() * test::kUsbDelays; ++run) {
+      const int delay = run % test::kUsbDelays;
       const auto seed = static_cast<unsigned>(1 + run);
       DrawnTouch touch(kind, seed);
       auto options = TypeParam::options(delay);
@@ -84,7 +41,7 @@ TYPED_TEST(UsbTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch)
       options.hand_damping = run % 2 == 0 ? 0.5 : 3.0;
       UsbSettings settings;
       settings.damping = options.damping = 6.0;  // so that walls are felt
-      settings.chain = TypeParam::chain(delay);
+      settings.chain = test::usb_chain(delay);
       test::PluggedDevice<typename TypeParam::Model> plugged(
           options, [&](double t) { return touch.hand(t - 3.0); }, TypeParam::driver(),
           usb_limits(TypeParam::facts(), settings), touch.scene());

@@ -252,6 +252,37 @@ TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
   EXPECT_NEAR(limits.damping, held.damping, 1e-12);
 }
 
+TEST(DeviceSection, TakesTheFrictionOfJointsInThePlaceOfThatOfTheHandle) {
+  for (const auto& [name, facts] :
+       {std::pair("falcon", &haptics::falcon_facts()), {"polhem", &haptics::polhem_facts()}}) {
+    const DeviceConfig device =
+        device_of("driver = \"" + std::string(name) + "\"\njoint_damping = \"0.02 N m s/rad\"\n");
+    const double square = facts->lever * facts->lever;
+    EXPECT_NEAR(device.damping, 0.9 * 0.02 / square, 1e-9) << name;
+    // And its device has the same.
+    const haptics::DeviceLimits limits = haptics::usb_limits(*facts, usb_settings_of(device));
+    EXPECT_NEAR(limits.damping, device.damping, 1e-12) << name;
+    EXPECT_EQ(limits.lever, facts->lever) << name;
+  }
+  EXPECT_EQ(haptics::usb_limits(haptics::falcon_facts(),
+                                usb_settings_of(device_of("driver = \"falcon\"\n")))
+                .lever,
+            0.0)
+      << "of the handle where it is not said";
+  // To hold the links up costs the slope of the torque, an exchange late, wherever they are.
+  const DeviceConfig held = device_of(
+      "driver = \"polhem\"\njoint_damping = \"0.02 N m s/rad\"\nupper_weight = \"0.17 N m\"\n");
+  const double lever = haptics::polhem_facts().lever;
+  EXPECT_NEAR(held.damping, (0.9 * 0.02 - 0.17 * 0.002) / (lever * lever), 1e-9);
+  const auto refused = [](const std::string& lines) {
+    return refusal("[[device]]\n" + lines + kOperator);
+  };
+  const std::string joints = "joint_damping = \"0.02 N m s/rad\"\n";
+  EXPECT_THAT(refused(joints), HasSubstr("only the joints of a Falcon or a Polhem are known"));
+  EXPECT_THAT(refused("driver = \"falcon\"\ndamping = \"1 N s/m\"\n" + joints),
+              HasSubstr("friction is said twice"));
+}
+
 TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
   const std::string polhem = "[[device]]\ndriver = \"polhem\"\n";
   EXPECT_THAT(refusal(polhem + "axes = 6\n" + kOperator), HasSubstr("a Polhem has three axes"));
@@ -336,6 +367,7 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.operator_number, standard.operator_number);
   EXPECT_EQ(silent.max_force, standard.max_force);
   EXPECT_EQ(silent.damping, standard.damping);
+  EXPECT_EQ(silent.joint_damping, standard.joint_damping);
   EXPECT_EQ(silent.max_stiffness, standard.max_stiffness);
   EXPECT_EQ(silent.max_speed, standard.max_speed);
   EXPECT_EQ(silent.max_force_rate, standard.max_force_rate);
