@@ -247,10 +247,11 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
     wired[i].device = as_mapped(
         is_on_line ? plug_in_serial(device, limits) : plug_in_usb(device, limits), device);
     sentences_.push_back(fmt::format(
-        "{}: {:.2g} N s/m of damping are relied on, and forces are {:.2g} ms late; where you "
+        "{}: {:.2g} N s/m of damping{} are relied on, and forces are {:.2g} ms late; where you "
         "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
         "stiffer walls, and `reckon devices measure {}` finds them",
         is_on_line ? device.port : facts->name, limits.damping,
+        limits.lever > 0 ? " in the middle of its work space, elsewhere by its joints," : "",
         1e3 * limits.delay_samples * pdu::to_seconds(device.period),
         is_on_line ? device.port : std::string(peer::word_of(device.driver))));
   }
