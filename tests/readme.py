@@ -23,7 +23,7 @@ SPEAKS = {"peer", "inspect", "record", "replay"}  # to a network; inspect not wh
 ENDLESS = {"demo", "peer", "inspect", "record"}   # until they are interrupted; so is `view` without --save
 LISTENS = {"inspect", "record"}                   # to somebody, who is started beside them
 COMPUTES = {"bench", "figures"}                   # and needs nothing that another line leaves
-SECONDS = 3                                       # that they are left running
+SECONDS, LISTENED = 2, 3                          # that they are left running; where one listens
 LONGEST = 900                                     # [s], of what ends by itself: on a busy machine
 # Of this host the doctor may have findings.
 STATUS = {"doctor": {0, 1}}
@@ -63,11 +63,11 @@ class Reader:
         reads = verb == "inspect" and len(words) > 2
         if verb in SPEAKS and not reads and "--iface" not in words:
             words = words + ["--iface", "lo"]
-        beside = self.start(["reckon", "demo", "--for", f"{SECONDS + 3}s"]) if verb in LISTENS and not reads else None
+        beside = self.start(["reckon", "demo", "--for", f"{LISTENED + 3}s"]) if verb in LISTENS and not reads else None
         before = set(self._folder.iterdir())
         program = self.start(words)
         if verb in ENDLESS and not reads or verb == "view" and "--save" not in words:
-            time.sleep(SECONDS)
+            time.sleep(LISTENED if beside else SECONDS)
             program.send_signal(signal.SIGINT)
         try:
             out, err = program.communicate(timeout=LONGEST)
