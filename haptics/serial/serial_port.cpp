@@ -93,9 +93,12 @@ SerialOpening SerialPort::open(const std::string& path, unsigned baud) {
 }
 
 // Octets that the line did not take would keep close() for half a minute, and reach the board when
-// nobody has it any more.
+// nobody has it any more. Where there are none, a pseudo terminal would drop those that its other
+// end has not read.
 SerialPort::~SerialPort() {
-  static_cast<void>(control(descriptor_, TCFLSH, TCOFLUSH));
+  int waiting = 0;
+  if (control(descriptor_, TIOCOUTQ, &waiting) && waiting > 0)
+    static_cast<void>(control(descriptor_, TCFLSH, TCOFLUSH));
   static_cast<void>(control(descriptor_, TIOCNXCL, 0));
   close(descriptor_);
 }
