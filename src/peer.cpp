@@ -37,6 +37,8 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   config.grab_buttons = std::uint32_t{1} << device.grab_button % 32;
   // What stops all forces holds nothing.
   if (device.stop_button == static_cast<int>(device.grab_button)) config.grab_buttons = 0;
+  config.continuous_force = device.continuous_force;
+  config.thermal_time = device.thermal_time;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   if (device.received_power > 0) config.max_received_power = device.received_power;
   config.probes = device.probes;

@@ -51,8 +51,8 @@ struct DeviceSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], frame D; only with has_velocity
   bool has_velocity = false;
-  /// How long the handle took for its way since the reading before, by the device's own clock,
-  /// where it has one; 0 where this is that very reading. Absent: as long as the servo waited.
+  /// How long the handle took for its way since the reading before, by the device's own clock (0:
+  /// this is that very reading) or by when its forces were written. Absent: as the servo waited.
   std::optional<std::chrono::nanoseconds> took = {};
   std::optional<DeviceTurn> turn = {};  ///< of 6 axes; a reading of these without it failed
   /// Of 3 axes [N s/m], >= 0: sure at this pose, and for each force written until the next reading

@@ -5,6 +5,7 @@
 
 #include <linux/input.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -28,6 +29,8 @@ struct EffectScale {
 inline constexpr double kEffectSteps = 0x7FFF;
 /// Steps of a level.
 inline constexpr double kEffectLevels = 0xFFFF;
+/// After which a device ends an effect that is not played again.
+inline constexpr std::chrono::milliseconds kEffectLength{60};
 
 /// [m], of a reading, from the middle of the axis.
 [[nodiscard]] double place_of(std::int32_t reading, const EventAxis& axis,

@@ -42,12 +42,20 @@ DeviceLimits evdev_limits(const EvdevSettings& settings) {
 
 DeviceSample EvdevDevice::read(std::chrono::nanoseconds now) noexcept {
   exchange_.reading.update();
+  read_at_ = now;
   const EvdevReading& reading = exchange_.reading.read();
   DeviceSample sample;
   sample.ok = reading.is_there && now - reading.at <= kWatchdog;
   sample.position = reading.position;
   sample.buttons = reading.buttons;
   return sample;
+}
+
+// A play may be on its way for some time.
+ShownModel EvdevDevice::shown() const noexcept {
+  const EvdevReading& reading = exchange_.reading.read();
+  const bool has_ended = read_at_ - reading.at > kEffectLength + kWatchdog;
+  return has_ended ? ShownModel() : reading.shown;
 }
 
 void EvdevDevice::state(const SpringModel& wanted, std::chrono::nanoseconds now) noexcept {

@@ -67,13 +67,14 @@ class EvdevDevice final : public CoefficientDevice {
   [[nodiscard]] DeviceLimits limits() const noexcept override { return limits_; }
   [[nodiscard]] DeviceSample read(std::chrono::nanoseconds now) noexcept override;
   void state(const SpringModel& wanted, std::chrono::nanoseconds now) noexcept override;
-  [[nodiscard]] ShownModel shown() const noexcept override {
-    return exchange_.reading.read().shown;
-  }
+  /// Nothing once the device's thread has been silent for longer than an effect lasts: the device
+  /// has ended them.
+  [[nodiscard]] ShownModel shown() const noexcept override;
 
  private:
   EvdevExchange& exchange_;
   DeviceLimits limits_;
+  std::chrono::nanoseconds read_at_{0};  // last
 };
 
 }  // namespace reckon::haptics

@@ -35,8 +35,8 @@ namespace reckon::haptics {
 class EvdevLoop {
  public:
   static constexpr std::chrono::milliseconds kRetry{500};  ///< between attempts
-  /// After which the device ends an effect that is not played again, as it is a third of it later.
-  static constexpr std::chrono::milliseconds kLength{60};
+  /// Of an effect, which is played again a third of it later.
+  static constexpr std::chrono::milliseconds kLength = kEffectLength;
   static constexpr std::chrono::milliseconds kBetween{4};  ///< changes of an effect, at least
   /// Between reports that a device takes which does not tell: that of USB at full speed.
   static constexpr std::chrono::milliseconds kReport{1};

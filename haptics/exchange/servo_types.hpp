@@ -183,6 +183,11 @@ struct ServoConfig {
   /// each at most 1 m away. The first is what remote hands touch. None: the handle is the probe.
   std::vector<Eigen::Vector3d> probes{};
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
+  /// [N], force that the device's motors hold for ever; 0: their greatest. They become warm with
+  /// the time constant `thermal_time` [s], at least 1, and the limit of the force then goes down to
+  /// this.
+  double continuous_force = 0.0;
+  double thermal_time = 20.0;
   /// [N/s], limit for growth and rotation of the force; its decrease is free. At most, and by
   /// default, the rate of the stiffest surface that the device can hold at 1 m/s.
   double max_force_rate = std::numeric_limits<double>::infinity();

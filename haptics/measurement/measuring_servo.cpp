@@ -9,7 +9,9 @@ MeasuringServo::MeasuringServo(HapticDevice& device, const ForceStop& stop,
     : device_(device), stop_(stop), period_(period), reports_(reports) {}
 
 void MeasuringServo::step(std::chrono::nanoseconds now) {
-  const DeviceSample sample = device_.read(now);
+  DeviceSample sample = device_.read(now);
+  // When a report came says more than when forces were written.
+  if (reports_ != nullptr && !reports_->has_clock()) sample.took.reset();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   MeasuringStage stage = stage_;
   if (stage < MeasuringStage::pushing) stage = begin_ ? MeasuringStage::pushing : looked_at(sample);

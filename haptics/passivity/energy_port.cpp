@@ -118,7 +118,9 @@ template <int axes>
 void EnergyPortOf<axes>::clear() noexcept {
   written_off_ += std::min(late_, debt());
   late_ = 0.0;
+  absorb(-std::max(0.0, level_));
   level_ = booked_ = unearned_ = 0.0;
+  sure_.begin();
   let_go();
 }
 

@@ -107,7 +107,7 @@ class EnergyPortOf : public EnergyLedger {
   void attenuate(double factor) noexcept { chosen_ *= factor; }
   /// The device dropped the force by itself, with all forces under way.
   void let_go() noexcept;
-  /// Discards all energy, because what the hand took since is unknown. The debt stays.
+  /// Discards all energy, for the hand may have taken it; absorbed() falls by it. The debt stays.
   void clear() noexcept;
 
   [[nodiscard]] double damping() const noexcept { return damping_; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/serial/serial_frames.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace reckon::haptics {
@@ -43,6 +44,16 @@ SerialFrame serial_frame(std::span<const std::uint8_t> carried) noexcept {
   out[code] = static_cast<std::uint8_t>(next - code);
   frame.length = next + 1;  // octets begin as zeros: the first and the last stay so
   return frame;
+}
+
+// As a code the octet says that the next zero is farther away than any frame is long.
+SerialFrame spoiling(const SerialFrame& frame) noexcept {
+  assert(frame.length < kSerialLongest);
+  SerialFrame out;
+  out.octets[0] = 0xFF;
+  std::copy_n(frame.octets.begin(), frame.length, out.octets.begin() + 1);
+  out.length = frame.length + 1;
+  return out;
 }
 
 std::span<const std::uint8_t> SerialFrameParser::take(std::uint8_t octet) noexcept {

@@ -33,6 +33,11 @@ struct SerialFrame {
 /// of its own
 [[nodiscard]] SerialFrame serial_frame(std::span<const std::uint8_t> carried) noexcept;
 
+/// The frame after an octet that spoils what came before: of a frame that lost its last zero alone
+/// the first zero of this one would make a whole one, however much later it comes.
+/// @param frame of kSerialLongest - 1 octets at most
+[[nodiscard]] SerialFrame spoiling(const SerialFrame& frame) noexcept;
+
 /// Puts frames together from octets in any pieces. After octets that are lost or changed the next
 /// zero begins anew: one damaged octet costs two frames at most. No allocation; one thread.
 class SerialFrameParser {

@@ -92,7 +92,10 @@ SerialOpening SerialPort::open(const std::string& path, unsigned baud) {
   return {std::move(port), {}, {}};
 }
 
+// Octets that the line did not take would keep close() for half a minute, and reach the board when
+// nobody has it any more.
 SerialPort::~SerialPort() {
+  static_cast<void>(control(descriptor_, TCFLSH, TCOFLUSH));
   static_cast<void>(control(descriptor_, TIOCNXCL, 0));
   close(descriptor_);
 }

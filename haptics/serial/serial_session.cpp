@@ -192,7 +192,7 @@ std::optional<SerialFrame> SerialSession::next(nanoseconds now) {
     if (now < next_ask_) return std::nullopt;
     next_ask_ = now + kAsk;
     ++questions_;
-    return ask_frame(question_++);
+    return spoiling(ask_frame(question_++));
   }
   exchange_.force.update();
   const UsbForce& newest = exchange_.force.read();
@@ -208,7 +208,7 @@ std::optional<SerialFrame> SerialSession::next(nanoseconds now) {
 }
 
 SerialFrame SerialSession::farewell() noexcept {
-  if (stage_ < SerialStage::greeted) return ask_frame(question_++);
+  if (stage_ < SerialStage::greeted) return spoiling(ask_frame(question_++));
   return tell({}, false);
 }
 

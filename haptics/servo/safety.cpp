@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reckon::haptics {
 
@@ -23,6 +24,7 @@ Admission Safety::admit(const DeviceSample& sample, const Wrench& twist) noexcep
 }
 
 Admission Safety::admit(const DeviceSample& sample, bool finite, bool fast) noexcept {
+  heat_.pass(std::exchange(showing_, 0.0));
   if (held_ > 0) --held_;
   if (forgiven_ > 0 && --forgiven_ == 0) missed_ = 0;
   if (!sample.ok) {
@@ -42,10 +44,12 @@ Admission Safety::admit(const DeviceSample& sample, bool finite, bool fast) noex
 }
 
 // `excess` of force or torque over its limit.
-double Safety::within_limits(double excess, double power) const noexcept {
-  const double most = static_cast<double>(shown_) / kRampSteps;
-  const double scale = excess > most ? most / excess : 1.0;
-  return power > max_power_ ? std::min(scale, max_power_ / power) : scale;
+double Safety::within_limits(double excess, double power) noexcept {
+  const double most = std::min(static_cast<double>(shown_) / kRampSteps, heat_.most());
+  double scale = excess > most ? most / excess : 1.0;
+  if (power > max_power_) scale = std::min(scale, max_power_ / power);
+  showing_ = scale * excess;
+  return scale;
 }
 
 double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& velocity) noexcept {

@@ -9,6 +9,7 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/passivity/wrench.hpp"
+#include "reckon/haptics/servo/motor_heat.hpp"
 
 namespace reckon::haptics {
 
@@ -26,9 +27,10 @@ enum class Admission : std::uint8_t {
 /// stays, and the caller scales the storage of its contacts by the same factor to keep the energy
 /// accounts exact. After a trip the force is 0 for `hold`. Then the contacts ramp up again by
 /// themselves, paid by the port. At the start, and after each cut, the greatest force that may be
-/// shown rises from 0 to its limit over kRampSteps. A single failed reading pauses the force for
-/// that step, and the next step accounts for the motion of the hand. More than kMostMissed failed
-/// readings in half a second are a trip.
+/// shown rises from 0 to its limit over kRampSteps, and where motors become warm the limit goes
+/// down (MotorHeat). A single failed reading pauses the force for that step, and the next step
+/// accounts for the motion of the hand. More than kMostMissed failed readings in half a second are
+/// a trip.
 class Safety {
  public:
   /// @param max_force [N] > 0, magnitude of the total force
@@ -47,6 +49,12 @@ class Safety {
   void limit_turns(double max_torque, double max_turn) noexcept {
     max_torque_ = max_torque;
     max_turn_ = max_turn;
+  }
+
+  /// Of motors that do not show their greatest force for ever. @param continuous [N] > 0, that they
+  /// do  @param steps their thermal time constant in samples, see MotorHeat
+  void limit_heat(double continuous, double steps) noexcept {
+    heat_ = MotorHeat(continuous / max_force_, steps);
   }
 
   /// Call first in each step. @param velocity [m/s], of the handle, any frame.
@@ -71,7 +79,7 @@ class Safety {
 
  private:
   [[nodiscard]] Admission admit(const DeviceSample& sample, bool finite, bool fast) noexcept;
-  [[nodiscard]] double within_limits(double excess, double power) const noexcept;
+  [[nodiscard]] double within_limits(double excess, double power) noexcept;
   void trip(Trip cause) noexcept;
 
   double max_force_;
@@ -79,6 +87,8 @@ class Safety {
   double max_speed_;
   double max_torque_ = 0.0;
   double max_turn_ = 0.0;
+  MotorHeat heat_;
+  double showing_ = 0.0;  // share of the greatest force that this step shows
   int hold_steps_;
   int held_ = 0;
   int shown_ = 0;     // samples since the last cut, at most kRampSteps

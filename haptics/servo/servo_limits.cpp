@@ -29,6 +29,8 @@ ServoConfig checked_config(const ServoConfig& c, const DeviceLimits& limits) {
   require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
   require(c.contact_radius >= 0 && c.contact_radius <= 1, "contact radius must be 0 to 1 m");
   require(c.max_force > 0, "largest force must be above 0 N");
+  require(c.continuous_force >= 0, "a force that is held for ever must be 0 N (any) or more");
+  require(c.thermal_time >= 1, "the thermal time constant of motors must be 1 s or more");
   require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
   require(c.max_power > 0, "largest power of the force must be above 0 W");
   require(c.max_received_power > 0, "largest power from others must be above 0 W");

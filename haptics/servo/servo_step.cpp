@@ -58,6 +58,8 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
+  if (config_.continuous_force > 0)
+    safety_.limit_heat(config_.continuous_force, config_.thermal_time / period_);
 }
 
 template <int axes>
@@ -256,6 +258,7 @@ void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& po
     settle();
     port_.let_go();
   } else {
+    tool_.reset(pose);  // nobody knows how long that way took
     forfeit(pose);
   }
   written_.setZero();
@@ -265,6 +268,7 @@ template <int axes>
 void ServoStepOf<axes>::forfeit(const HandlePose& pose) noexcept {
   ToolOf<axes> there = tool_;
   there.reset(pose);
+  static_.attenuate(0.0, port_);  // what the walls store may be gone too
   port_.clear();
   pressed_.place_all(static_);
   static_.reset(there);

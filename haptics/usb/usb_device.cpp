@@ -14,7 +14,9 @@ constexpr double kAhead = 1.1;  // times the lever of the newest report: as it g
 }  // namespace
 
 UsbDevice::UsbDevice(UsbExchange& exchange, const DeviceLimits& limits)
-    : exchange_(exchange), limits_(limits) {}
+    : exchange_(exchange),
+      limits_(limits),
+      write_times_(static_cast<std::size_t>(limits.delay_samples) + 2) {}
 
 void UsbDevice::take_readings() noexcept {
   UsbReading reading;
@@ -44,6 +46,16 @@ void UsbDevice::forget_readings() noexcept {
   count_ = 0;
 }
 
+// The way that a read shows was made under this force, whenever the servo reads it.
+std::optional<std::chrono::nanoseconds> UsbDevice::held_for() const noexcept {
+  const std::int64_t due = written_ - limits_.delay_samples;
+  if (due < 1 || due >= written_) return std::nullopt;
+  const auto at = [this](std::int64_t number) {
+    return write_times_[static_cast<std::size_t>(number) % write_times_.size()];
+  };
+  return at(due + 1) - at(due);
+}
+
 DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   take_readings();
   if (is_over(now)) forget_readings();
@@ -64,7 +76,11 @@ DeviceSample UsbDevice::read(std::chrono::nanoseconds now) noexcept {
   needed_ = std::max(needed_, static_cast<int>(written_ + 1 - newest.after));
   sample.position = shown_.position;
   if (shown_.orientation) sample.turn = DeviceTurn{*shown_.orientation};
-  if (told_at_ && shown_.at) sample.took = *shown_.at - *told_at_;
+  if (!shown_.at) {
+    sample.took = held_for();
+  } else if (told_at_) {
+    sample.took = *shown_.at - *told_at_;
+  }
   told_at_ = shown_.at;
   sample.buttons = shown_.buttons;
   sample.held = std::exchange(held_, 1.0);
@@ -91,6 +107,7 @@ void UsbDevice::write(const Eigen::Vector3d& force, std::chrono::nanoseconds now
   newest.force = force.allFinite() ? force : Eigen::Vector3d(Eigen::Vector3d::Zero());
   newest.number = ++written_;
   newest.at = written_at_ = now;
+  write_times_[static_cast<std::size_t>(written_) % write_times_.size()] = now;
   newest.lever = lever_;
   exchange_.force.publish();
 }

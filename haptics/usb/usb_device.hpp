@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/usb/usb_exchange.hpp"
@@ -40,6 +41,9 @@ class UsbDevice final : public HapticDevice {
   /// failed; 0: there was none. What this host and this line need, found without a force. The
   /// servo's thread, or any once that has ended.
   [[nodiscard]] int needed_delay() const noexcept { return needed_; }
+  /// Whether the report that the last read showed has a time of the device's own. The servo's
+  /// thread.
+  [[nodiscard]] bool has_clock() const noexcept { return shown_.at.has_value(); }
   /// When the host had the report that the last read showed, on the clock of the writes. The
   /// servo's thread.
   [[nodiscard]] std::chrono::nanoseconds heard() const noexcept { return shown_.heard; }
@@ -52,8 +56,12 @@ class UsbDevice final : public HapticDevice {
 
   UsbExchange& exchange_;
   DeviceLimits limits_;
+  // How long the servo had given the write that is `delay` old, if there is one.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> held_for() const noexcept;
+
   std::int64_t written_ = 0;
-  std::chrono::nanoseconds written_at_{0};  // last
+  std::chrono::nanoseconds written_at_{0};             // last
+  std::vector<std::chrono::nanoseconds> write_times_;  // a ring of the last delay + 2
   // Those not shown yet, a ring.
   std::array<UsbReading, 2 * UsbExchange::kReadings> waiting_{};
   std::size_t first_ = 0, count_ = 0;

@@ -43,6 +43,11 @@ void UsbContext::wait(std::chrono::microseconds longest) noexcept {
   static_cast<void>(libusb_handle_events_timeout_completed(get(), &time, nullptr));
 }
 
+void UsbContext::look_again() noexcept {
+  libusb_context* context = nullptr;
+  if (libusb_init(&context) == 0) context_.reset(context);
+}
+
 UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor, std::uint16_t product) {
   UsbOpening opening;
   opening.problem = "none is attached: plug it in, with its power supply";
@@ -55,7 +60,7 @@ UsbOpening open_usb_device(libusb_context* context, std::uint16_t vendor, std::u
     const int code = libusb_open(list[i], &opening.handle);
     if (code == LIBUSB_ERROR_ACCESS) {
       opening.problem = "this user may not open it: see reckon devices for the rule of udev";
-    } else if (code != 0) {
+    } else if (code != 0 && code != LIBUSB_ERROR_NO_DEVICE) {
       opening.problem = "it cannot be opened: " + reason(code);
     }
   }

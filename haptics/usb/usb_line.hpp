@@ -37,6 +37,9 @@ class UsbContext {
   [[nodiscard]] libusb_context* get() const noexcept { return context_.get(); }
   /// Handles what has happened, and waits for it so long at most.
   void wait(std::chrono::microseconds longest) noexcept;
+  /// Looks for devices anew; no line may be open. Where udev does not run, as in a container, the
+  /// library finds only what was plugged in before it looked. Some ms.
+  void look_again() noexcept;
 
  private:
   struct End {

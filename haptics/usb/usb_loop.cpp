@@ -119,7 +119,10 @@ void UsbLoop::detach(const std::string& why) {
 // What is in the way, as a sentence; empty: the device is set up.
 std::string UsbLoop::open() {
   UsbOpening opening = options_.open(context_.get());
-  if (opening.handle == nullptr) return std::move(opening.problem);
+  if (opening.handle == nullptr) {
+    if (options_.discover) context_.look_again();
+    return std::move(opening.problem);
+  }
   const std::optional<UsbPipes> pipes = driver_->pipes(opening.handle);
   if (!pipes) {
     close_usb_device(opening.handle);

@@ -3,12 +3,14 @@
 #include "reckon/peer/scene/belongings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -80,6 +82,29 @@ const haptics::UsbFacts* usb_facts_of(const DeviceConfig& device) {
 
 haptics::PolhemWeights polhem_weights_of(const DeviceConfig& device) {
   return {device.upper_weight, device.fore_weight};
+}
+
+int samples_of(std::chrono::nanoseconds delay, std::chrono::nanoseconds period) {
+  return static_cast<int>(std::ceil(pdu::to_seconds(delay) / pdu::to_seconds(period) - 1e-5));
+}
+
+void describe(DeviceConfig& device, const DeviceDescriptor& descriptor) {
+  device.axes = descriptor.axes;
+  device.max_force = descriptor.max_force;
+  device.continuous_force = descriptor.continuous_force;
+  device.thermal_time = descriptor.thermal_time;
+  device.damping = descriptor.damping;
+  device.joint_damping = descriptor.joint_damping;
+  device.resolution = descriptor.resolution;
+  device.max_stiffness = descriptor.max_stiffness;
+  device.max_speed = descriptor.max_speed;
+  device.max_torque = descriptor.max_torque;
+  device.turn_damping = descriptor.turn_damping;
+  device.turn_resolution = descriptor.turn_resolution;
+  device.described = {descriptor.name,    descriptor.delay,
+                      descriptor.mass,    descriptor.friction,
+                      descriptor.inertia, {descriptor.work_space.from, descriptor.work_space.to}};
+  device.delay_samples = samples_of(descriptor.delay, device.period);
 }
 
 void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said) {

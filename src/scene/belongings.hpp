@@ -3,6 +3,7 @@
 // The devices and entities of each peer of a scene. Peers are numbered from 1.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/polhem/polhem_kinematics.hpp"
 #include "reckon/haptics/usb/usb_limits.hpp"
+#include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 
@@ -37,6 +39,13 @@ inline constexpr std::uint32_t kMostPeers = 64;
 /// The true motion of each entity, in their order; a file shared by several is read once.
 /// @throws CsvError "file:line:column: what" if a track cannot be read.
 [[nodiscard]] std::vector<EntityTrack> tracks_of(std::span<const EntityConfig> entities);
+
+/// Servo periods, whole, in which a force is there that takes so long; a hundred thousandth over is
+/// rounding of the period.
+[[nodiscard]] int samples_of(std::chrono::nanoseconds delay, std::chrono::nanoseconds period);
+
+/// The device is what a descriptor says; of what that does not say it has what a simulated one has.
+void describe(DeviceConfig& device, const DeviceDescriptor& descriptor);
 
 /// Which numbers of a device are those of the real one, not of what is simulated.
 struct SaidOfDevice {

@@ -66,6 +66,8 @@ void check_descriptor(TomlReader& file, DeviceDescriptor& device) {
   check_axes(file, device);
   if (device.axes == 6 && !(device.damping > 0))
     file.problem("damping", "a device of six axes needs damping in all of them");
+  if (device.continuous_force > device.max_force)
+    file.problem("continuous_force", "it is more than max_force: take it out, or state less");
   if (!((device.work_space.to - device.work_space.from).minCoeff() > 0))
     file.problem("work_space", "'to' must be beyond 'from' along each axis");
 }
@@ -88,7 +90,12 @@ const Section<DeviceDescriptor>& descriptor_section() {
            "place, or takes a force model; a descriptor is of the first alone"},
           {"axes", &Device::axes, within("", 1, 8),
            "3; or 6: it turns, and shows torque besides the force. Others are refused"},
-          {"max_force", &Device::max_force, declared("N", 0.01, 1e3), "it can show for long"},
+          {"max_force", &Device::max_force, declared("N", 0.01, 1e3),
+           "it can show, and for ever unless continuous_force says less"},
+          {"continuous_force", &Device::continuous_force, within("N", 0, 1e3),
+           "that its motors hold for ever: once they are warm, no more is shown; 0: max_force"},
+          {"thermal_time", &Device::thermal_time, within("s", 1, 3600),
+           "time constant with which its motors become warm and cool down"},
           {"damping", &Device::damping, declared("N s/m", 0, 1e3),
            "its own viscous friction that one is sure of, wherever the handle is"},
           {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),

@@ -35,6 +35,8 @@ struct DeviceDescriptor {
   haptics::DeviceKind kind = haptics::DeviceKind::impedance;
   int axes = 3;
   double max_force = 10.0;            ///< [N]
+  double continuous_force = 0.0;      ///< [N], that its motors hold for ever; 0: max_force
+  double thermal_time = 20.0;         ///< [s], in which they become warm
   double damping = 0.0;               ///< [N s/m], viscous friction that one is sure of
   double joint_damping = 0.0;         ///< [N m s/rad], of each joint, in its place; 0: unsaid
   double resolution = 0.0;            ///< [m]

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -30,11 +29,6 @@ constexpr double kStandardRate = 1000;  // [Hz]
 // [Hz]; a device lets go where nothing was written for kWatchdog: a servo that misses one period,
 // and is late for the next by half of one, is not to come so far.
 constexpr double kLeastRate = 2.5e3 / haptics::HapticDevice::kWatchdog.count();
-
-/// Whole servo periods, rounded up; a millionth over is rounding.
-int samples_of(std::chrono::nanoseconds delay, double rate) {
-  return static_cast<int>(std::ceil(pdu::to_seconds(delay) * rate - 1e-6));
-}
 
 void check_operator_number(TomlReader& table, std::size_t operators, const DeviceConfig& device) {
   if (device.operator_number <= operators) return;
@@ -200,23 +194,6 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
   }
 }
 
-// Of what is not said a described device has what a simulated one has.
-void describe(DeviceConfig& device, const DeviceDescriptor& descriptor) {
-  device.axes = descriptor.axes;
-  device.max_force = descriptor.max_force;
-  device.damping = descriptor.damping;
-  device.joint_damping = descriptor.joint_damping;
-  device.resolution = descriptor.resolution;
-  device.max_stiffness = descriptor.max_stiffness;
-  device.max_speed = descriptor.max_speed;
-  device.max_torque = descriptor.max_torque;
-  device.turn_damping = descriptor.turn_damping;
-  device.turn_resolution = descriptor.turn_resolution;
-  device.described = {descriptor.name,    descriptor.delay,
-                      descriptor.mass,    descriptor.friction,
-                      descriptor.inertia, {descriptor.work_space.from, descriptor.work_space.to}};
-}
-
 // Before the keys of the table, which go before it.
 void read_descriptor(TomlReader& table, DeviceConfig& device) {
   std::string name;
@@ -281,9 +258,26 @@ void check_axes(TomlReader& table, const DeviceConfig& device) {
   }
 }
 
+// Of motors that the servo leads.
+void check_motors(TomlReader& table, const DeviceConfig& device) {
+  if (table.has("thermal_time") && !(device.continuous_force > 0))
+    table.problem("thermal_time", "nothing becomes warm without continuous_force: add it");
+  if (!table.has("continuous_force")) return;
+  if (device.continuous_force > device.max_force) {
+    table.problem("continuous_force",
+                  fmt::format("{:.3g} N are more than its max_force of {:.3g} N: take it out, or "
+                              "state less",
+                              device.continuous_force, device.max_force));
+  }
+  if (device.driver == DeviceDriver::evdev || device.admittance.mass > 0)
+    table.problem("continuous_force",
+                  "such a device looks after its motors itself: take the key out");
+}
+
 void check_device(TomlReader& table, DeviceConfig& device) {
   check_marking(table, device.marking);
   check_axes(table, device);
+  device.is_placed = table.has("position");
   const auto attitude = read_attitude(table);
   if (attitude) device.orientation = device_orientation_of(*attitude);
   if (attitude && table.has("orientation")) {
@@ -297,9 +291,10 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   device.period = to_nanoseconds(1.0 / rate);
   std::chrono::nanoseconds delay = device.described.delay;
   table.read("delay", delay);
-  device.delay_samples = samples_of(delay, rate);
+  device.delay_samples = samples_of(delay, device.period);
   check_mapping(table, device);
   check_admittance(table, device);
+  check_motors(table, device);
   check_driver(table, device);
 }
 
@@ -378,7 +373,8 @@ Section<DeviceConfig> device_section() {
           {"marking", &Device::marking,
            "of its hand, at most 11 printable ASCII characters; absent: the peer's name and a "
            "number"},
-          {"position", &Device::position, within("m", -kWorld, kWorld), "of its own origin, in S"},
+          {"position", &Device::position, within("m", -kWorld, kWorld),
+           "of its own origin, in S; absent: of a real device where its operator begins"},
       },
       check_device};
   const std::vector<Row<Device>> attitude = attitude_rows<Device>();
@@ -387,6 +383,10 @@ Section<DeviceConfig> device_section() {
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
        "instead: turned about S's x, then y, then z axis"},
       {"max_force", &Device::max_force, within("N", 0.1, 1e3), "it can show"},
+      {"continuous_force", &Device::continuous_force, within("N", 0, 1e3),
+       "that its motors hold for ever: once they are warm, no more is shown; 0: max_force"},
+      {"thermal_time", &Device::thermal_time, within("s", 1, 3600),
+       "time constant with which its motors become warm and cool down"},
       {"damping", &Device::damping, within("N s/m", 0, 1e3),
        "its own friction that one is sure of; the stiffness that it can show grows with it"},
       {"joint_damping", &Device::joint_damping, within("N m s/rad", 0, 10),

@@ -190,8 +190,11 @@ struct DeviceConfig {
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes
   std::string marking;  ///< of its hand; empty: the peer's name and a number
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
+  bool is_placed = false;                              ///< the file says so
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
   double max_force = 10.0;                                          ///< [N] > 0
+  double continuous_force = 0.0;    ///< [N], that its motors hold for ever; 0: max_force
+  double thermal_time = 20.0;       ///< [s] >= 1, in which they become warm
   double damping = 1.0;             ///< [N s/m] >= 0, guaranteed physical damping
   double joint_damping = 0.0;       ///< [N m s/rad] >= 0, of a Falcon's or Polhem's; 0: unsaid
   double max_stiffness = 0.0;       ///< [N/m]; 0: the limit by its damping

@@ -23,6 +23,8 @@ struct PeerDevice {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
+  double continuous_force = 0.0;       ///< [N], that its motors hold for ever; 0: their greatest
+  double thermal_time = 20.0;          ///< [s] >= 1, see haptics::ServoConfig
   double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
   double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
   std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies

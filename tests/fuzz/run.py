@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--without NUMBER] [--strict] [--replay LINE] [--first N] [--seeds N] [--plant].
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--with LINE] [--without NUMBER] [--strict] [--replay LINE] [--first N] [--seeds N] [--plant].
 Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers, leaders and unplugs, which run seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
@@ -24,7 +24,7 @@ SECONDS_FOR_ONE_INPUT = 60
 TOUCH, PEERS, LEADERS, UNPLUGS = "touch", "peers", "leaders", "unplugs"
 SEEDED = (PEERS, LEADERS, UNPLUGS)
 SEEDS = 10_000
-TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "hiccup", "rows", "unseen", "liar"]
+TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "hiccup", "rows", "unseen", "model_energy", "model_meter", "dead", "liar"]
 TARGETS = [*MOST_OCTETS, TOUCH, *SEEDED]
 
 
@@ -74,6 +74,7 @@ def run_touch(folder, seconds, options):
     with log.open("w") as out:
         status = subprocess.run(["nice", "-n", "19", str(touch_program(folder)), "--for", str(seconds),
                                  *(["--of", options.only] if options.only else []),
+                                 *(["--with", options.fixed] if options.fixed else []),
                                  *(["--without", *options.without] if options.without else []),
                                  *(["--strict"] if options.strict else [])],
                                 stdout=out, stderr=out, check=False).returncode
@@ -135,6 +136,7 @@ def main():
                         help="of each target: 60s (default), 30m")
     parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers, leaders or unplugs alone: a seed")
     parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
+    parser.add_argument("--with", dest="fixed", metavar="LINE", help="with touch alone: numbers of scenarios that stay as given, written as in a line: 'model=2 fault=8'")
     parser.add_argument("--without", action="append", default=[], metavar="NUMBER", help="with touch alone: a number of scenarios that stays out of play, as a line names it; may be given again")
     parser.add_argument("--strict", action="store_true", help="with touch alone: a wrong force is a finding even where the servo tells it")
     parser.add_argument("--first", type=int, default=1, metavar="N", help="of peers, leaders and unplugs: seed to begin with, 1 (default)")
@@ -144,8 +146,8 @@ def main():
     for target in options.targets:
         if target not in TARGETS:
             parser.error(f"no target '{target}'; there are {', '.join(TARGETS)}")
-    if (options.only or options.without or options.strict) and options.targets != [TOUCH]:
-        parser.error("--of, --without and --strict go with touch alone")
+    if (options.only or options.fixed or options.without or options.strict) and options.targets != [TOUCH]:
+        parser.error("--of, --with, --without and --strict go with touch alone")
     if options.number < 2:
         parser.error("--seeds needs 2 or more")
     if options.first < 1:

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Boots a kernel of Debian in an emulated machine (no KVM, no network, no disk) in which Linux' own driver of force
-feedback, hid-pidff, drives a wheel that is a program, and Reckon plays at it.
-  devices_vm.py --kernel PACKAGE.deb --folder BUILD --reckon PROGRAM --tests PROGRAM [--filter PATTERN]"""
+feedback, hid-pidff, drives a wheel that is a program, and libusb a Falcon that is one; Reckon plays at both.
+  devices_vm.py --kernel PACKAGE.deb --folder BUILD --reckon PROGRAM --tests PROGRAM.. [--filter PATTERN]"""
 import argparse
 import os
 import pathlib
@@ -60,8 +60,26 @@ plane = [0.0, -1.0, 0.0]
 position = "0 7 0 mm"
 surface = {stiffness = "700 N/m"}
 """
+FLOOR = """# A hand at a Falcon
+[scene]
+name = "floor"
+origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
+
+[[device]]
+driver = "falcon"
+firmware = "/tmp/firmware.bin"
+damping = "2 N s/m"
+
+[[operator]]
+passive = true
+
+[[object]]
+name = "floor"
+plane = [0.0, 0.0, 1.0]
+surface = {stiffness = "400 N/m"}
+"""
 SCENES = {"wall": WHEEL + WALL, "corner": WHEEL.replace("event_axes = 1", "event_axes = 2") + WALL + CEILING,
-          "hands": WHEEL + HAND.format(2, 45, 65) + HAND.format(3, -65, -45)}
+          "hands": WHEEL + HAND.format(2, 45, 65) + HAND.format(3, -65, -45), "floor": FLOOR}
 
 INIT = """#!/bin/busybox sh
 /bin/busybox mount -t proc none /proc
@@ -70,8 +88,10 @@ INIT = """#!/bin/busybox sh
 for module in {modules}; do /bin/busybox insmod /modules/$module.ko || echo "no module $module"; done
 /bin/busybox ifconfig lo 127.0.0.1 up
 /bin/busybox ip link set lo multicast on
-/bin/tests --gtest_color=no --gtest_filter='{pattern}'
-echo "reckon-vm: status $?"
+for tests in {tests}; do
+  /bin/$tests --gtest_color=no --gtest_filter='{pattern}'
+  echo "reckon-vm: status $?"
+done
 /bin/busybox dmesg | /bin/busybox sed 's/^/dmesg: /'
 echo "reckon-vm: end"
 /bin/busybox poweroff -f
@@ -107,14 +127,15 @@ def make_root(arguments, drivers, folder):
         (root / name).mkdir(parents=True)
     shutil.copy("/bin/busybox", root / "bin")
     copy_program(arguments.reckon, root / "bin/reckon", root)
-    copy_program(arguments.tests, root / "bin/tests", root)
+    for tests in arguments.tests:
+        copy_program(tests, root / "bin" / tests.name, root)
     for module in MODULES:
         shutil.copy(drivers / f"{module}.ko", root / "modules")
     for name, scene in SCENES.items():
         (root / f"{name}.toml").write_text(scene)
     names = " ".join(pathlib.PurePath(module).name for module in MODULES)
     init = root / "init"
-    init.write_text(INIT.format(modules=names, pattern=arguments.filter))
+    init.write_text(INIT.format(modules=names, tests=" ".join(tests.name for tests in arguments.tests), pattern=arguments.filter))
     init.chmod(init.stat().st_mode | stat.S_IXUSR)
     archive = folder / "root.cpio.gz"
     files = subprocess.run(["find", "."], cwd=root, check=True, capture_output=True).stdout
@@ -142,8 +163,9 @@ def boot(image, archive, log):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    for name in ("kernel", "folder", "reckon", "tests"):
+    for name in ("kernel", "folder", "reckon"):
         parser.add_argument(f"--{name}", required=True, type=pathlib.Path)
+    parser.add_argument("--tests", required=True, nargs="+", type=pathlib.Path)
     parser.add_argument("--filter", default="*")
     arguments = parser.parse_args()
     image, drivers = unpacked(arguments.kernel, arguments.folder)
@@ -154,7 +176,8 @@ def main():
         print(line)
     is_whole = "reckon-vm: end" in lines
     counted = any(re.match(r"\[  PASSED  \] [1-9]", line) for line in lines)  # a pattern may match none
-    passed = counted and "reckon-vm: status 0" in lines and not any("[  SKIPPED ]" in line for line in lines)
+    good = lines.count("reckon-vm: status 0") == len(arguments.tests)
+    passed = counted and good and not any("[  SKIPPED ]" in line for line in lines)
     if not is_whole:
         print(f"the machine did not come to its end within {LONGEST} s" if status == 124 else f"the machine ended early, status {status}")
     print(f"{image.name}: {'passed' if passed and is_whole and not faults else 'FAILED'}; all that it said is in {log}")

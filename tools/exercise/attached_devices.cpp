@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -67,7 +68,7 @@ std::string problem_in(const Kind& kind, const std::vector<std::string>& said) {
 }
 
 AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
-                        const std::vector<std::string>& said) {
+                        const std::vector<std::string>& said, bool has_rule) {
   AttachedDevice device;
   device.driver = kind.driver;
   device.name = fmt::format("{}, /dev/bus/usb/{:03}/{:03}", kind.product, seen.bus, seen.address);
@@ -76,7 +77,10 @@ AttachedDevice attached(const Kind& kind, const UsbDeviceSeen& seen,
     device.problem = problem_in(kind, said);
   } else if (seen.is_denied) {
     device.problem = "this user may not open it";
-    device.remedy = "sudo reckon devices --install-rule, and plug it in again";
+    device.remedy =
+        has_rule ? "plug it in again, for the rule is installed; over ssh it opens for the group "
+                   "plugdev alone: sudo usermod -aG plugdev $USER, and log in again"
+                 : "sudo reckon devices --install-rule, and plug it in again";
   } else {
     device.problem = "it cannot be opened: " + seen.problem;
     device.remedy = "plug it in again";
@@ -118,7 +122,8 @@ std::string driver_names() {
   return names + "evdev";
 }
 
-UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std::string>& said) {
+UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std::string>& said,
+                  bool has_rule) {
   UsbLook look;
   if (seen.empty()) {
     look.problem =
@@ -127,7 +132,7 @@ UsbLook judge_usb(const std::vector<UsbDeviceSeen>& seen, const std::vector<std:
   }
   for (const UsbDeviceSeen& device : seen) {
     if (const Kind* const kind = kind_of(device)) {
-      look.devices.push_back(attached(*kind, device, said));
+      look.devices.push_back(attached(*kind, device, said, has_rule));
     } else {
       ++look.others;
     }
@@ -148,7 +153,8 @@ UsbLook look_at_usb(bool ask_them) {
       if (!ask_them || !is_here) continue;
       for (std::string& sentence : ask(kind)) said.push_back(std::move(sentence));
     }
-    return judge_usb(seen, said);
+    return judge_usb(seen, said,
+                     std::filesystem::exists(std::filesystem::path(kRuleFolder) / kRuleFile));
   } catch (const std::exception& error) {
     UsbLook look;
     look.problem = error.what();

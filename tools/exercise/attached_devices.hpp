@@ -36,10 +36,10 @@ inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";
 /// Names of all drivers, as --device has them.
 [[nodiscard]] std::string driver_names();
 
-/// What devices of USB are for us. `said` is what the drivers had to say of those that are open to
-/// us.
+/// What devices of USB are for us. @param said what the drivers had to say of those that are open
+/// to us @param has_rule the rule is installed
 [[nodiscard]] UsbLook judge_usb(const std::vector<haptics::UsbDeviceSeen>& seen,
-                                const std::vector<std::string>& said);
+                                const std::vector<std::string>& said, bool has_rule);
 /// Looks at this host. @param ask_them whether devices that can be opened are set up without any
 /// force and asked, for 2 s each at most
 [[nodiscard]] UsbLook look_at_usb(bool ask_them);

@@ -27,7 +27,7 @@ using peer::PeerView;
 constexpr auto kLeft = TextTable::Align::left;
 constexpr auto kRight = TextTable::Align::right;
 constexpr double kDegrees = 57.29577951308232;
-constexpr std::size_t kMostNotices = 3;
+constexpr std::size_t kLeastNoticeLines = 3, kMostNoticeLines = 8;
 constexpr std::size_t kRowsForNotices = 12, kRowsForKeys = 6, kRowsForTitles = 4;
 
 std::uint64_t count(const peer::Counters& counters, std::string_view name) {
@@ -82,8 +82,8 @@ bool is_felt(const haptics::ServoSnapshot& servo) {
 }
 
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {
-  return servo.stopped || servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) ||
-         is_softened(servo) || is_cut(servo);
+  return servo.stopped || !servo.enabled || servo.left_out > 0 || servo.loan > 0 ||
+         is_held_back(servo) || is_softened(servo) || is_cut(servo);
 }
 
 std::string state_text(const HandCell& cell) {
@@ -91,6 +91,7 @@ std::string state_text(const HandCell& cell) {
   if (cell.hand == nullptr) return "";
   const haptics::ServoSnapshot& servo = cell.hand->servo;
   if (servo.stopped) return "STOPPED";
+  if (!servo.enabled) return "OFF";
   if (servo.left_out > 0) return fmt::format("{} UNFELT", servo.left_out);
   if (is_cut(servo)) return fmt::format("CUT {:.0f}%", 100.0 * servo.limit_share);
   if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
@@ -240,6 +241,12 @@ class Table {
     return {{hands_.titles(), LineStyle::title}, {entities_.titles(), LineStyle::faint}};
   }
 
+  /// That it would like to have.
+  [[nodiscard]] std::size_t wanted_lines() const {
+    std::size_t lines = picture_.peers.size();
+    for (const TablePeer& peer : picture_.peers) lines += wanted(*peer.view);
+    return lines;
+  }
   /// Of all peers, in at most `room` lines.
   [[nodiscard]] std::vector<ScreenLine> lines(std::size_t room) const {
     std::vector<ScreenLine> out;
@@ -339,18 +346,25 @@ void append_head(std::string_view head, std::size_t columns, std::vector<ScreenL
   }
 }
 
+// The newest, as many as have room, and at least that one's begin.
+std::vector<ScreenLine> notice_lines(std::span<const std::string> notices, std::size_t columns,
+                                     std::size_t room) {
+  std::vector<ScreenLine> lines;
+  for (std::size_t i = notices.size(); i-- > 0;) {
+    const std::vector<std::string> wrapped = wrap(notices[i], columns);
+    if (!lines.empty() && lines.size() + wrapped.size() > room) break;
+    std::size_t at = 0;
+    for (const std::string& line : wrapped)
+      lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at++), ScreenLine{line});
+  }
+  lines.resize(std::min(lines.size(), room));
+  return lines;
+}
+
 }  // namespace
 
 std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) {
   std::vector<ScreenLine> out{{title_of(picture), LineStyle::title}};
-  std::vector<ScreenLine> foot;
-  if (size.rows >= kRowsForNotices) {
-    const auto& notices = picture.notices;
-    const auto newest = notices.last(std::min(notices.size(), kMostNotices));
-    for (const std::string& notice : newest) foot.push_back({notice});
-  }
-  if (size.rows >= kRowsForKeys) foot.push_back({keys_text(picture), LineStyle::faint});
-
   if (size.rows >= kRowsForKeys) append_head(picture.head, size.columns, out);
   const std::string softer = softer_text(picture);
   if (size.rows >= kRowsForNotices && !softer.empty()) out.push_back({softer, LineStyle::bad});
@@ -367,6 +381,14 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
   const Table table(picture, size);
   if (size.rows >= kRowsForTitles)
     for (ScreenLine& line : table.titles()) out.push_back(std::move(line));
+  std::vector<ScreenLine> foot;
+  if (size.rows >= kRowsForNotices) {
+    const std::size_t taken = out.size() + table.wanted_lines() + 1;
+    const std::size_t free = size.rows - std::min(size.rows, taken);
+    foot = notice_lines(picture.notices, size.columns,
+                        std::clamp(free, kLeastNoticeLines, kMostNoticeLines));
+  }
+  if (size.rows >= kRowsForKeys) foot.push_back({keys_text(picture), LineStyle::faint});
   const std::size_t used = out.size() + foot.size();
   for (ScreenLine& line : table.lines(size.rows > used ? size.rows - used : 0))
     out.push_back(std::move(line));

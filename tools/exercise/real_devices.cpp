@@ -17,6 +17,7 @@
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -41,8 +42,13 @@ std::vector<std::string_view> driver_words() {
 
 bool is_serial(const std::string& device) { return device.starts_with("/dev/"); }
 
+bool is_descriptor(const std::string& device) {
+  return !is_serial(device) && device.ends_with(".toml");
+}
+
 bool is_plugin(const std::string& device) {
-  return !is_serial(device) && (device.find('/') != std::string::npos || device.ends_with(".so"));
+  return !is_serial(device) && !is_descriptor(device) &&
+         (device.find('/') != std::string::npos || device.ends_with(".so"));
 }
 
 // Of LINE or LINE@BAUD.
@@ -61,7 +67,34 @@ haptics::SerialPlace place_of(const std::string& device) {
   return {device.substr(0, at), baud};
 }
 
+// The driver of what has one of these USB numbers.
+DeviceDriver driver_of(const peer::DeviceDescriptor& described, const std::string& file) {
+  DeviceConfig device;
+  std::string known;
+  for (const DeviceDriver driver : {DeviceDriver::falcon, DeviceDriver::polhem}) {
+    device.driver = driver;
+    const haptics::UsbFacts& facts = *peer::usb_facts_of(device);
+    const peer::UsbId id{facts.vendor, facts.product};
+    if (std::ranges::find(described.usb, id) != described.usb.end()) return driver;
+    known += fmt::format("{}{} has {:04x}:{:04x}", known.empty() ? "" : ", ", facts.name, id.vendor,
+                         id.product);
+  }
+  throw UsageError(fmt::format(
+      "--device: no driver is for the USB numbers of {} ({}); of a serial board, a wheel "
+      "or a driver of yours write descriptor = \"{}\" in a [[device]]",
+      file, known, file));
+}
+
+peer::DeviceDescriptor described_by(const std::string& file) {
+  try {
+    return peer::load_device_descriptor(peer::find_device_descriptor(file, ""));
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("--device: {}", error.what()));
+  }
+}
+
 DeviceDriver driver_of(const std::string& device) {
+  if (is_descriptor(device)) return driver_of(described_by(device), device);
   if (is_serial(device)) return DeviceDriver::serial;
   if (is_plugin(device)) return DeviceDriver::plugin;
   return *peer::value_of<DeviceDriver>(device);
@@ -87,11 +120,13 @@ std::unique_ptr<haptics::UsbDriver> usb_driver_of(const DeviceConfig& device) {
 }  // namespace
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
-  line.option("--device", choice.device,
-              fmt::format("a real device, by its driver, in the place of the peer's first: {} (see "
-                          "reckon devices), the line of a serial board (/dev/ttyACM0, or "
-                          "/dev/ttyUSB0@115200), or the file of a driver (DRIVER.so)",
-                          fmt::join(driver_words(), ", ")));
+  line.option(
+      "--device", choice.device,
+      fmt::format(
+          "a real device, by its driver, in the place of the peer's first: {} (see "
+          "reckon devices), the line of a serial board (/dev/ttyACM0, or "
+          "/dev/ttyUSB0@115200), its descriptor (MINE.toml), or the file of a driver (DRIVER.so)",
+          fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
 }
@@ -102,15 +137,17 @@ void check_device_choice(const DeviceChoice& choice) {
   if (name == "serial")
     throw UsageError("--device: a serial board goes by its line: --device /dev/ttyACM0");
   if (is_serial(name)) static_cast<void>(place_of(name));
-  if (!name.empty() && !is_plugin(name) && !is_serial(name) &&
+  if (is_descriptor(name)) static_cast<void>(driver_of(name));
+  if (!name.empty() && !is_plugin(name) && !is_serial(name) && !is_descriptor(name) &&
       std::ranges::find(words, name) == words.end()) {
     const std::string_view nearest = peer::nearest_word(name, words);
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
-    throw UsageError(
-        fmt::format("--device: there is no driver '{}'{}; there are {} (see reckon devices), "
-                    "lines of serial boards: /dev/ttyACM0, and files of drivers: ./DRIVER.so",
-                    name, meant, fmt::join(words, ", ")));
+    throw UsageError(fmt::format(
+        "--device: there is no driver '{}'{}; there are {} (see reckon devices), "
+        "lines of serial boards: /dev/ttyACM0, descriptors: mine.toml, and files of drivers: "
+        "./DRIVER.so",
+        name, meant, fmt::join(words, ", ")));
   }
   if (choice.firmware.empty()) return;
   try {
@@ -120,7 +157,9 @@ void check_device_choice(const DeviceChoice& choice) {
   }
 }
 
-void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint32_t number,
+namespace {
+
+void choose_driver(const DeviceChoice& choice, peer::SceneFile& scene, std::uint32_t number,
                    std::size_t peers) {
   if (!choice.device.empty()) say_devices(scene, peers);
   const auto of_peer = [&](const DeviceConfig& device) { return device.peer == number; };
@@ -138,7 +177,12 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       first->port = place.port;
       first->baud = place.baud;
     }
-    if (first->driver != chosen) peer::use_driver(*first, chosen, {});
+    if (is_descriptor(choice.device)) {
+      peer::describe(*first, described_by(choice.device));
+      peer::use_driver(*first, chosen, {true, true, true, true});
+    } else if (first->driver != chosen) {
+      peer::use_driver(*first, chosen, {});
+    }
     const std::string fault =
         chosen == DeviceDriver::evdev ? peer::evdev_fault_of(*first) : std::string();
     if (!fault.empty()) throw UsageError("--device evdev: " + fault);
@@ -150,6 +194,18 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
   if (falcon == scene.devices.end())
     throw UsageError("--firmware: no device of this peer takes one; add --device falcon");
   falcon->firmware = std::filesystem::absolute(choice.firmware);
+}
+
+}  // namespace
+
+void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint32_t number,
+                   std::size_t peers) {
+  choose_driver(choice, scene, number, peers);
+  if (scene.operators.empty()) return;
+  for (DeviceConfig& device : scene.devices) {
+    if (device.peer == number && device.driver != DeviceDriver::simulated && !device.is_placed)
+      device.position = begin_of(scene, device.operator_number);
+  }
 }
 
 haptics::HapticDevice* RealDevices::as_mapped(haptics::HapticDevice& device,
@@ -193,10 +249,11 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
     sentences_.push_back(fmt::format(
         "{}: {:.2g} N s/m of damping{} are relied on, and forces are {:.2g} ms late; where you "
         "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
-        "stiffer walls",
+        "stiffer walls, and `reckon devices measure {}` finds them",
         is_on_line ? device.port : facts->name, limits.damping,
         limits.lever > 0 ? " in the middle of its work space, elsewhere by its joints," : "",
-        1e3 * limits.delay_samples * pdu::to_seconds(device.period)));
+        1e3 * limits.delay_samples * pdu::to_seconds(device.period),
+        is_on_line ? device.port : std::string(peer::word_of(device.driver))));
   }
 }
 

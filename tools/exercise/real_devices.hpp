@@ -33,9 +33,10 @@ void add_device_flags(CommandLine& line, DeviceChoice& choice);
 /// is no firmware
 void check_device_choice(const DeviceChoice& choice);
 
-/// The first device of peer `number` gets the driver that is chosen; nothing changes without a
-/// choice. @throws UsageError for a peer without a device, and for --firmware where no device would
-/// take it
+/// The first device of peer `number` gets the driver that is chosen, if any is. Real devices of
+/// that peer which the scene puts nowhere then stand where their operators begin: in reach of what
+/// there is to touch, and not inside of it. @throws UsageError for a peer without a device, and for
+/// --firmware where no device would take it
 void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint32_t number,
                    std::size_t peers);
 

@@ -192,6 +192,12 @@ peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t num
   return config;
 }
 
+Eigen::Vector3d begin_of(const peer::SceneFile& scene, std::uint32_t number) {
+  const peer::OperatorConfig config = operator_of(scene, number);
+  if (config.kind == peer::OperatorKind::sweep) return 0.5 * (config.from + config.to);
+  return script_of(config)(pdu::to_seconds(config.start)).position;
+}
+
 std::vector<Eigen::Vector3d> probes_of(const peer::DeviceConfig& device) {
   std::vector<Eigen::Vector3d> places;
   for (const peer::ProbeConfig& probe : device.probes) places.push_back(probe.position);
@@ -286,7 +292,8 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
       wired =
           hands.mapped.emplace_back(std::make_unique<haptics::MappedDevice>(*wired, mapping)).get();
     hands.wired.push_back({wired, config.marking, config.position, config.orientation,
-                           config.period, config.max_force_rate, config.received_power,
+                           config.period, config.continuous_force / config.scale,
+                           config.thermal_time, config.max_force_rate, config.received_power,
                            config.grab_button, config.stop_button, probes_of(config)});
   }
   return hands;

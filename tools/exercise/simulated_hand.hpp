@@ -24,6 +24,10 @@ namespace reckon::tools {
 /// Operator `number` from 1 as it holds a hand; see make_simulated_hand.
 [[nodiscard]] peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t number);
 
+/// Where operator `number` begins [m] in S: of a trace the point to which the hand comes, of a
+/// sweep its middle. @throws std::runtime_error for a trace that cannot be read, with FILE:LINE
+[[nodiscard]] Eigen::Vector3d begin_of(const peer::SceneFile& scene, std::uint32_t number);
+
 /// The hand of operator `index`; a scene with fewer operators starts again at the first, a
 /// little aside, and one without any gets hands that hold still above its origin. @param script
 /// moves it in S in the place of the operator, who still holds it; none: the operator does.

@@ -90,6 +90,23 @@ std::string cut_to(std::string_view utf8, std::size_t columns) {
   return cut;
 }
 
+std::vector<std::string> wrap(std::string_view utf8, std::size_t columns) {
+  constexpr std::string_view kSetIn = "  ";
+  std::vector<std::string> lines;
+  std::string_view before;
+  while (before.size() + text_width(utf8) > columns) {
+    std::string line = cut_to(utf8, columns - before.size());
+    const std::size_t space = utf8.substr(0, line.size() + 1).rfind(' ');
+    const bool has_word = space != std::string_view::npos && space > 0;
+    if (has_word) line.resize(space);
+    utf8.remove_prefix(line.size() + (has_word ? 1 : 0));
+    lines.push_back(std::string(before) + line);
+    before = kSetIn;
+  }
+  lines.push_back(std::string(before) + cut_to(utf8, columns - before.size()));
+  return lines;
+}
+
 std::string distance_text(double metres) {
   constexpr double kSmallest = 1e-5;
   if (!(metres >= kSmallest)) return "0";

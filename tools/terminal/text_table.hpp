@@ -44,6 +44,10 @@ class TextTable {
 /// become dots.
 [[nodiscard]] std::string cut_to(std::string_view utf8, std::size_t columns);
 
+/// A sentence in lines of so many columns, cut between words where they allow it; from the second
+/// on they are set in by two. @param columns >= 8
+[[nodiscard]] std::vector<std::string> wrap(std::string_view utf8, std::size_t columns);
+
 /// A count with its noun: "1 error", "2 errors".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 

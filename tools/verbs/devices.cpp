@@ -127,7 +127,13 @@ void print_descriptor(std::FILE* out, const std::filesystem::path& file,
   const peer::DeviceStiffness can = stiffness_of(device);
   fmt::print(out, "{}  {}\n", device.name, file.string());
   line("is", fmt::format("{} axes, {}", device.axes, ids_of(device)));
-  line("limits", fmt::format("{}, {}", say(device.max_force, "N"), say(device.max_speed, "m/s")));
+  const std::string lasting =
+      device.continuous_force > 0
+          ? fmt::format(", of which {} for ever (warm in {})", say(device.continuous_force, "N"),
+                        say(device.thermal_time, "s"))
+          : "";
+  line("limits",
+       fmt::format("{}{}, {}", say(device.max_force, "N"), lasting, say(device.max_speed, "m/s")));
   line("feels like", fmt::format("{}, {} sure, dry friction {}", say(device.mass, "kg"),
                                  say(device.damping, "N s/m"), say(device.friction, "N")));
   if (device.axes == 6)
@@ -150,6 +156,8 @@ void print_descriptor_json(std::FILE* out, const std::filesystem::path& file,
       .text("file", file.string())
       .value("axes", static_cast<std::uint64_t>(device.axes))
       .value("max_force_n", number(device.max_force))
+      .value("continuous_force_n",
+             number(device.continuous_force > 0 ? device.continuous_force : device.max_force))
       .value("damping_n_s_m", number(device.damping))
       .value("friction_n", number(device.friction))
       .value("resolution_m", number(device.resolution))
@@ -222,6 +230,10 @@ int measure_device(const DevicesOptions& options, const Console& console) {
   // What was written is a descriptor in every case.
   static_cast<void>(peer::parse_device_descriptor(text, options.name));
   std::fwrite(text.data(), 1, text.size(), console.out);
+  if (options.simulate.empty())
+    fmt::print(
+        console.err, "where this is mine.toml: descriptor = \"mine.toml\" in its [[device]]{}\n",
+        text.find("\nusb = ") != std::string::npos ? ", or reckon demo --device mine.toml" : "");
   return exit_status(ExitCode::good);
 }
 

@@ -85,7 +85,10 @@ std::string spring_limits_of(const peer::DeviceConfig& device) {
 std::string limits_of(const peer::DeviceConfig& device) {
   const double period = pdu::to_seconds(device.period);
   return fmt::format(
-      "{}, {}, {}; {}; a force is there {}", peer::format_quantity(device.max_force, "N"),
+      "{}{}, {}, {}; {}; a force is there {}", peer::format_quantity(device.max_force, "N"),
+      device.continuous_force > 0
+          ? fmt::format(" ({} for ever)", peer::format_quantity(device.continuous_force, "N"))
+          : "",
       peer::format_quantity(device.max_speed, "m/s"),
       peer::format_quantity(device.damping, "N s/m"), about(1.0 / period, "Hz"),
       device.delay_samples == 0 ? "at once" : about(device.delay_samples * period, "s") + " late");

@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr double kHeld = 0.1;     // [N]
 constexpr double kSettled = 1.5;  // [s]
+constexpr double kSpoken = 1e-3;  // [J], of a model's books
 // Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
 constexpr double kEstimated = 0.5;
 constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
@@ -119,10 +120,10 @@ void Track::slow_down(double most) {
   }
 }
 
-haptics::DeviceSample FlakyDevice::read(nanoseconds now) noexcept {
+haptics::DeviceSample SimulatedHandle::read(nanoseconds now) noexcept {
   haptics::DeviceSample sample = SimulatedDevice::read(now);
-  if (failures > 0) {
-    --failures;
+  if (failures_ > 0) {
+    --failures_;
     sample.ok = false;
   }
   return sample;
@@ -143,30 +144,56 @@ Eigen::Vector3d way_of(const Scenario& s, std::size_t hand, double t) {
           in * s.path(hand, Path::side) * std::sin(angle), 0};
 }
 
-Hand::Hand(const Scenario& scenario, std::size_t index, const Track* led)
-    : scenario_(scenario),
-      index_(index),
-      period_(period_of(scenario, index)),
-      device_(device_of(scenario, index, led), [this, led](double t) {
-        if (led != nullptr) return led->at(t);
-        haptics::HandTarget target;
-        target.position =
-            home_of(scenario_, index_) * Eigen::Vector3d::UnitX() + way_of(scenario_, index_, t);
-        return target;
-      }) {
+Hand::Hand(const Scenario& scenario, std::size_t index, const Track* led, nanoseconds begin)
+    : scenario_(scenario), index_(index), period_(period_of(scenario, index)), begin_(begin) {
+  const bool has_model = index == 0 && scenario.model() != Model::simulated;
+  if (has_model) drawn_ = drawn_of(scenario);
+  make_handle(led);
+  if (model_ != nullptr) begin_ = model_->begin();
+  next_ = at_ = begin_;
   haptics::ServoConfig config;
   config.period = period_;
   config.probe_radius = kRadius;
   const Eigen::Vector3d home = home_of(scenario, index) * Eigen::Vector3d::UnitX();
-  servo_ = std::make_unique<haptics::ServoLoop>(device_, solids_of(scenario, home), config);
+  const haptics::Scene scene = solids_of(scenario, home, drawn_ ? &drawn_->scene() : nullptr);
+  const auto plan = std::make_shared<const haptics::EffectPlan>(scene);
+  servo_ = std::make_unique<haptics::ServoLoop>(handle_->device(), plan, config,
+                                                haptics::make_bodies(*plan, scene));
+}
+
+void Hand::make_handle(const Track* led) {
+  const auto way = [this](double t) -> Eigen::Vector3d {
+    const Eigen::Vector3d home = home_of(scenario_, index_) * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d place = home + way_of(scenario_, index_, t);
+    return drawn_ ? Eigen::Vector3d(place + drawn_->hand(t)) : place;
+  };
+  if (index_ == 0 && scenario_.model() != Model::simulated) {
+    std::unique_ptr<ModelHandle> handle = model_handle(scenario_, period_, way);
+    model_ = handle.get();
+    handle_ = std::move(handle);
+    return;
+  }
+  const auto target = [way, led](double t) {
+    if (led != nullptr) return led->at(t);
+    haptics::HandTarget wanted;
+    wanted.position = way(t);
+    return wanted;
+  };
+  auto handle = std::make_unique<SimulatedHandle>(device_of(scenario_, index_, led), target);
+  simulated_ = handle.get();
+  handle_ = std::move(handle);
+}
+
+double Hand::time_of(nanoseconds now) const {
+  return std::chrono::duration<double>(now - begin_).count();
 }
 
 void Hand::step(nanoseconds now, std::mt19937& random) {
   stepped_ = next_ <= now;
   if (!stepped_) return;
   const double dt = std::chrono::duration<double>(now > at_ ? now - at_ : period_).count();
-  const bool failed = device_.failures > 0;
-  const double before = device_.port_work();
+  const bool failed = handle_->fails();
+  const double before = handle_->port_work();
   servo_->step(now);
   servo_->snapshots().update();
   snapshot_ = servo_->snapshots().read();
@@ -175,25 +202,27 @@ void Hand::step(nanoseconds now, std::mt19937& random) {
   keep_books(before, dt, failed);
   note_surfaces();
   if (watched_) {
-    force_sum_ += dt * snapshot_.force.norm();
+    force_sum_ += dt * (model_ != nullptr ? handle_->force() : snapshot_.force).norm();
     force_time_ += dt;
+    if (handle_->tells_why()) speechless_ += dt;
   }
   draw_faults(now, random);
 }
 
 void Hand::draw_faults(nanoseconds now, std::mt19937& random) {
-  const double t = std::chrono::duration<double>(now).count();
+  const double t = time_of(now);
   const Scenario& s = scenario_;
-  next_ = now + period_;
+  next_ = now + period_ + handle_->silence();
   const bool calm = t >= s[Shared::calm_after];
   if (drawn(random) < s[Shared::late] && !calm) {
     next_ += nanoseconds(static_cast<std::int64_t>(1e9 * s[Shared::late_by] * drawn(random)));
   }
-  if (device_.failures == 0 && drawn(random) < s[Shared::failed] && !calm) {
-    device_.failures = static_cast<int>(s[Shared::failed_run]);
+  if (simulated_ == nullptr) return;
+  if (!simulated_->fails() && drawn(random) < s[Shared::failed] && !calm) {
+    simulated_->fail(static_cast<int>(s[Shared::failed_run]));
   }
   const bool his = s[Shared::off_hand] == static_cast<double>(index_ + 1);
-  device_.enable(!his || t < s[Shared::off_at] || t > s[Shared::off_at] + s[Shared::off_for]);
+  simulated_->enable(!his || t < s[Shared::off_at] || t > s[Shared::off_at] + s[Shared::off_for]);
 }
 
 void Hand::note_transfer() {
@@ -208,7 +237,7 @@ void Hand::note_transfer() {
 // A force held for longer than the servo reckoned may take what no servo can know in time: as much
 // as it took is open, not more. What a sample took whose reading failed is estimated.
 void Hand::keep_books(double before, double dt, bool failed) {
-  const double took = std::max(0.0, before - device_.port_work());
+  const double took = std::max(0.0, before - handle_->port_work());
   if (dt > 1.0001 * std::chrono::duration<double>(period_).count())
     late_cost_ = std::max(late_cost_, took);
   if (failed) failed_cost_ += kEstimated * took + turned_within(period_);
@@ -217,8 +246,9 @@ void Hand::keep_books(double before, double dt, bool failed) {
   if (let_go) held_.setZero();
 
   const double port = work() + transferred_ + snapshot_.loan;
-  const double allowed = allowance();
   finite_ = finite_ && std::isfinite(port) && snapshot_.force.allFinite();
+  if (model_ != nullptr) return keep_model_books(port, dt);
+  const double allowed = allowance();
   least_port_ = std::min(least_port_, port);
   short_ = std::min(short_, port + open() + allowed);
   if (snapshot_.force.norm() > kHeld) least_held_ = std::min(least_held_, port);
@@ -227,8 +257,33 @@ void Hand::keep_books(double before, double dt, bool failed) {
     meter_ = std::max(meter_, gap);
     meter_short_ = std::max(meter_short_, gap - failed_cost_ - allowed);
   }
+  note_step(dt);
+}
+
+void Hand::note_step(double dt) {
   excess_ = std::max(excess_, step_of(held_, snapshot_.force) - servo_->force_rate_limit() * dt);
   held_ = snapshot_.force;
+}
+
+// The servo's reading is older than the books, and bodies are no part of them.
+void Hand::keep_model_books(double port, double dt) {
+  const double allowed = allowance() + handle_->rounding();
+  least_port_ = std::min(least_port_, port);
+  if (!handle_->keeps_limits()) return;
+  short_ = std::min(short_, port + allowed);
+  const bool has_bodies = scenario_[Shared::drawn] == static_cast<double>(Drawn::bodies);
+  const double known = has_bodies ? 1e9 : transferred_ + handle_->work_known();
+  const double gap = snapshot_.port_energy - known;
+  meter_ = std::max(meter_, gap);
+  meter_short_ = std::max(meter_short_, gap - allowed);
+  put_in_ = std::max(put_in_, port + allowed);
+  if (scenario_.model() != Model::event) note_step(dt);
+  if (!(handle_->force().norm() > kHeld)) return;
+  least_held_ = std::min(least_held_, port);
+  books_.made = std::max(books_.made, -(port + allowed));
+  if (put_in_ < kSpoken) return;
+  books_.left = std::min(books_.left, (port + allowed) / put_in_);
+  books_.claimed = std::max(books_.claimed, gap - allowed);
 }
 
 // What surfaces put into our springs by moving, be those held or not: a hand that lacks energy
@@ -245,7 +300,7 @@ void Hand::note_surfaces() {
     if (last.known) seen_ += std::max(0.0, 0.5 * (force + last.force) * moved);
     last = {depth, force, snapshot_.device.x(), true};
   }
-  const double t = std::chrono::duration<double>(at_).count();
+  const double t = time_of(at_);
   if (t < kSettled) return;
   unseen_ = std::max(unseen_, -work() - seen_ - haptics::EnergyPort::kUnseenPower * t);
 }
@@ -262,12 +317,18 @@ double Hand::allowance() const { return encoder_allowance(snapshot_); }
 
 void Hand::watch() {
   watched_ = true;
-  told_before_ = told_in_all(snapshot_.tally);
+  told_before_ = told_so_far();
 }
 
 double Hand::mean_force() const { return force_time_ > 0 ? force_sum_ / force_time_ : 0.0; }
 
-double Hand::told() const { return told_in_all(snapshot_.tally) - told_before_; }
+double Hand::told_so_far() const {
+  const double failed =
+      std::chrono::duration<double>(period_).count() * static_cast<double>(snapshot_.tally.failed);
+  return told_in_all(snapshot_.tally) + speechless_ + (model_ != nullptr ? failed : 0.0);
+}
+
+double Hand::told() const { return told_so_far() - told_before_; }
 
 void Hand::judge(Outcome& out) const {
   out.least_port = std::min(out.least_port, least_port_);
@@ -276,6 +337,7 @@ void Hand::judge(Outcome& out) const {
   out.excess = std::max(out.excess, excess_);
   out.late_cost = std::max(out.late_cost, late_cost_);
   if (index_ == 0) out.unseen = unseen_;
+  if (model_ != nullptr) out.model = books_;
   const std::size_t name = index_ + 1;
   if (!finite_) out.violation = fmt::format("hand {}: a force or an energy is no number", name);
   if (short_ < -kRoundOff) {

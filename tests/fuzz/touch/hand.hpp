@@ -7,27 +7,21 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <random>
 #include <vector>
 
-#include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/fuzz/touch/model_handle.hpp"
 #include "reckon/tests/fuzz/touch/scenario.hpp"
 #include "reckon/tests/fuzz/touch/trial.hpp"
+#include "reckon/tests/haptics/support/drawn_touch.hpp"
 
 namespace reckon::fuzz {
 
 inline constexpr double kRadius = 0.02;    // [m], of each hand
 inline constexpr double kRoundOff = 1e-9;  // [J]
 inline constexpr double kMoved = 0.2;      // [s], that a hand nobody hears takes to go elsewhere
-
-/// Holds its force through a reading that fails, as hardware does.
-class FlakyDevice : public haptics::SimulatedDevice {
- public:
-  using SimulatedDevice::SimulatedDevice;
-  [[nodiscard]] haptics::DeviceSample read(std::chrono::nanoseconds now) noexcept override;
-  int failures = 0;  ///< of the readings to come
-};
 
 /// Where a hand was shown to be, step by step.
 struct Track {
@@ -49,8 +43,12 @@ class Hand {
  public:
   /// @param led a firm grip leads the hand along it in place of the scenario's; may be null, must
   /// outlive the hand
-  Hand(const Scenario& scenario, std::size_t index, const Track* led = nullptr);
+  /// @param begin of the run; that of the first hand's model, where it has one
+  Hand(const Scenario& scenario, std::size_t index, const Track* led = nullptr,
+       std::chrono::nanoseconds begin = {});
 
+  /// Whose clock all hands go by; null: nobody's.
+  [[nodiscard]] ModelHandle* model() const { return model_; }
   /// When its servo steps next.
   [[nodiscard]] std::chrono::nanoseconds next() const { return next_; }
   /// One servo step, if one is due. Draws what fails and what is late.
@@ -62,22 +60,26 @@ class Hand {
   /// Whether it stepped in the last call of step().
   [[nodiscard]] bool stepped() const { return stepped_; }
   /// Work at the port and damping, of the device's own books [J].
-  [[nodiscard]] double work() const { return device_.port_work() + device_.damping_loss(); }
+  [[nodiscard]] double work() const { return handle_->work(); }
   /// Most that late or failed samples may have left open [J].
   [[nodiscard]] double open() const { return late_cost_ + failed_cost_; }
   /// What the servo says that the steps of its encoder may have put into its books [J].
   [[nodiscard]] double allowance() const;
-  [[nodiscard]] const Eigen::Vector3d& position() const { return device_.position(); }
   /// Largest force of a neighbour [N].
   [[nodiscard]] double felt() const;
   /// From now on the force is averaged, and what the servo tells is looked at.
   void watch();
-  /// [N], mean of the force written since.
+  /// [N], mean since of the force written, or of that of the model.
   [[nodiscard]] double mean_force() const;
   /// [s] since, for which the servo told that a force is smaller than asked.
   [[nodiscard]] double told() const;
 
  private:
+  void make_handle(const Track* led);
+  [[nodiscard]] double time_of(std::chrono::nanoseconds now) const;
+  [[nodiscard]] double told_so_far() const;
+  void keep_model_books(double port, double dt);
+  void note_step(double dt);
   void draw_faults(std::chrono::nanoseconds now, std::mt19937& random);
   void keep_books(double before, double dt, bool failed);
   void note_transfer();
@@ -86,10 +88,13 @@ class Hand {
   const Scenario& scenario_;
   std::size_t index_;
   std::chrono::nanoseconds period_;
-  FlakyDevice device_;
+  std::optional<test::DrawnTouch> drawn_;
+  std::unique_ptr<Handle> handle_;
+  SimulatedHandle* simulated_ = nullptr;  // it, where it is one
+  ModelHandle* model_ = nullptr;          // the same
   std::unique_ptr<haptics::ServoLoop> servo_;
   haptics::ServoSnapshot snapshot_;
-  std::chrono::nanoseconds next_{0}, at_{0};
+  std::chrono::nanoseconds begin_, next_{0}, at_{0};
   bool stepped_ = false;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();
   std::uint64_t let_go_ = 0;
@@ -99,6 +104,9 @@ class Hand {
   double least_port_ = 0, least_held_ = 1e9, short_ = 0, meter_ = 0, meter_short_ = 0;
   double excess_ = -1e9, late_cost_ = 0, failed_cost_ = 0;
   bool finite_ = true;
+  ModelBooks books_;
+  double put_in_ = 0;      // [J], most so far
+  double speechless_ = 0;  // [s], in which the model tells that it shows nothing
 
   bool watched_ = false;
   double told_before_ = 0, force_sum_ = 0, force_time_ = 0;

@@ -47,6 +47,8 @@ TEST(TouchJudge, WaitsUntilAllIsOver) {
   EXPECT_NEAR(still_since(scenario_of("failed=0.001 calm_after=3")), 3, 1e-12);
   EXPECT_NEAR(still_since(scenario_of("silent_hand=2 silent_at=1 silent_for=2")), 3, 1e-12);
   EXPECT_NEAR(still_since(scenario_of("unknown_hand=1 unknown_until=2")), 2, 1e-12);
+  EXPECT_NEAR(still_since(scenario_of("model=1 fault=8 fault_at=1 fault_for=0.5")), 2.5, 1e-12);
+  EXPECT_NEAR(still_since(scenario_of("model=2 fault=8 fault_at=1 fault_for=0.5")), 6.5, 1e-12);
   EXPECT_TRUE(std::isinf(still_since(scenario_of("amplitude1=0.01"))));
 }
 
@@ -58,6 +60,11 @@ TEST(TouchJudge, PromisesNothingOverASlowLineOrWithALiar) {
   EXPECT_FALSE(is_promised(scenario_of("hands=3")));
   EXPECT_FALSE(is_promised(scenario_of("press1=0.01 wall=500")));  // at the other hand too
   EXPECT_TRUE(is_promised(scenario_of("press1=-0.01 wall=500")));
+  EXPECT_TRUE(is_promised(scenario_of("model=1 press1=0.02")));
+  EXPECT_FALSE(is_promised(scenario_of("model=1 press1=0.03")));  // may be out of its reach
+  EXPECT_FALSE(is_promised(scenario_of("model=4 press1=0.02")));  // of a hand nothing is told ahead
+  EXPECT_TRUE(is_promised(scenario_of("model=4 press1=-0.03 wall=500 wall_gap=0.02")));
+  EXPECT_FALSE(is_promised(scenario_of("model=4 press1=-0.03 wall=500 wall_gap=0.01")));
   EXPECT_FALSE(is_promised(scenario_of("press1=0.02 press2=-0.02")));  // might change sides
 }
 

@@ -21,11 +21,15 @@ void put_out_of_play(Scenario& s, std::initializer_list<Shared> shared) {
   for (const Shared gene : shared) s[gene] = genes()[static_cast<std::size_t>(gene)].plain;
 }
 
-void anything(Scenario&) {}
+// Without the models of devices, which have aims of their own.
+void anything(Scenario& s) { s[Shared::model] = 0; }
+
+void anything_through_a_model(Scenario& s) { s[Shared::model] = std::max(1.0, s[Shared::model]); }
 
 // Hands that come to rest, without effects but springs, on a line that brings all of it soon.
 void honest_rest(Scenario& s) {
   using enum Shared;
+  s[model] = 0;
   put_out_of_play(
       s, {friction, hardening, loss, overlap, duplicates, late, solid, effect, region, liar});
   s[grip] = std::clamp(s[grip], 100.0, 600.0);
@@ -94,12 +98,39 @@ void interrupted_rest(Scenario& s) {
   s[silent_hand] = 0;
 }
 
+// Which is told before the hand is in it.
+void press_a_rendered_wall(Scenario& s) {
+  using enum Shared;
+  put_out_of_play(s, {late, lag, report});
+  s[wall] = std::max(s[wall], 100.0);
+  s[chain] = std::min(s[chain], 0.004);
+  s[wall_gap] = std::max(s[wall_gap], event_way(s));
+  s.path(0, Path::press) = -std::max(std::abs(s.path(0, Path::press)), 0.03);
+}
+
+// The same, through a model, on which all has happened after 1.5 s: it may have to be homed anew.
+void model_at_rest(Scenario& s) {
+  using enum Shared;
+  constexpr double kLast = 1.5, kReach = 0.02;
+  const double model_before = s[model];
+  interrupted_rest(s);
+  s[model] = std::max(1.0, model_before);
+  put_out_of_play(s, {record_damping, failed, drawn, silent_hand});
+  press_slowly(s);
+  s[calm_after] = std::min(s[calm_after], kLast);
+  s[fault_at] = std::min(s[fault_at], kLast);
+  if (s.model() == Model::event) return press_a_rendered_wall(s);
+  s.path(0, Path::press) = std::clamp(s.path(0, Path::press), -kReach, kReach);
+  keep_sides(s);
+}
+
 // The second hand lies to the first, which holds still.
 void resting(Scenario& s) {
   using enum Shared;
   put_out_of_play(s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand,
                       wall, solid, effect, region, lie_odd, lie_rename, silent_hand, unknown_hand});
   s[liar] = 2;
+  s[model] = 0;
   s.path(0, Path::press) = s.path(0, Path::amplitude) = s.path(0, Path::side) = 0;
   s.path(1, Path::side) = 0;
 }
@@ -132,12 +163,24 @@ double rate(const Outcome& o) { return o.excess; }
 // What is told is no violation: rather what nobody tells.
 double wrong(const Outcome& o) { return o.told ? 0.5 * o.wrong : o.wrong; }
 double hiccup(const Outcome& o) { return o.told ? 0.5 * o.lacks : o.lacks; }
+double made(const Outcome& o) { return -o.model.left; }
+double claimed(const Outcome& o) { return o.model.claimed; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
 // What a spring that was loaded slowly gives within 50 ms is told beside it.
 double liar(const Outcome& o) { return o.liar.power / kLiarPower; }
 
 std::string meter_text(const Outcome& o) { return joules(o.meter) + " above the device's books"; }
+std::string made_text(const Outcome& o) {
+  if (o.model.made == ModelBooks().made) return "no force of a model's";
+  const std::string made = joules(o.model.made) + " made beyond what is stated";
+  if (o.model.left == ModelBooks().left) return made;
+  return made + fmt::format(", {:.3g} % left of what was put in", 100 * o.model.left);
+}
+std::string claimed_text(const Outcome& o) {
+  if (o.model.claimed == ModelBooks().claimed) return "no force of a model's";
+  return joules(o.model.claimed) + " above the model's books and what is stated";
+}
 std::string rate_text(const Outcome& o) {
   return fmt::format("{:.3g} N beyond the limit", o.excess);
 }
@@ -168,6 +211,9 @@ const std::vector<Objective>& objectives() {
       {"hiccup", 7.6, hiccup, hiccup_text, interrupted_rest},
       {"rows", 7, rows, rows_text, row_at_rest},
       {"unseen", 4, unseen, unseen_text, resting, kUnseen},
+      {"model_energy", 3, made, made_text, anything_through_a_model},
+      {"model_meter", 3, claimed, claimed_text, anything_through_a_model},
+      {"dead", 11, wrong, wrong_text, model_at_rest},
       {"liar", 4, liar, liar_text, resting_on_a_fair_line, 1.0, try_beside_twin},
   };
   return all;

@@ -17,6 +17,10 @@ constexpr double kFeltLeast = 0.2;                // [N], less is not spoken of
 constexpr double kOff = 0.2, kOffLeast = 0.1;     // of what is right; [N]
 constexpr double kLack = 0.1, kLackLeast = 0.05;  // of what is right; [N]
 
+constexpr double kBack = 1, kHomed = 5;  // [s]
+constexpr double kSlow = 0.5;            // [s], of a press against a soft spring
+constexpr double kReach = 0.02;          // [m], of a hand that holds a model
+
 bool is_still(const Scenario& s, std::size_t hand) {
   return s.path(hand, Path::amplitude) == 0 && s.path(hand, Path::side) == 0;
 }
@@ -70,7 +74,28 @@ bool solve_row(const Scenario& s, const std::vector<double>& goals,
   return true;
 }
 
+// A wall that a device renders is told before the hand is in it, or it begins deeper. Of hands, and
+// of what was taken off in between, the same is true.
+bool is_told_in_time(const Scenario& s) {
+  const auto fault = static_cast<Fault>(s[Shared::fault]);
+  const bool is_taken_off = fault != Fault::none && fault != Fault::damage;
+  return s[Shared::wall] > 0 && s[Shared::late] == 0 && !is_taken_off &&
+         s[Shared::wall_gap] >= event_way(s);
+}
+
+// When a model is back for sure after what befell it, homed and where its hand wants it.
+double mended_at(const Scenario& s) {
+  const double last = s[Shared::fault_every] > 0 ? s[Shared::calm_after] : s[Shared::fault_at];
+  return last + s[Shared::fault_for] + (s.model() == Model::polhem ? kHomed : kBack);
+}
+
 }  // namespace
+
+double event_way(const Scenario& s) {
+  constexpr double kMore = 0.012;  // [s], see event_handle.cpp
+  constexpr double kSpeed = 1;     // [m/s]
+  return kSpeed * (s[Shared::chain] + s[Shared::report] + s[Shared::lag] + kMore);
+}
 
 double still_since(const Scenario& s) {
   double since = 0;
@@ -83,6 +108,7 @@ double still_since(const Scenario& s) {
     since = std::max(since, s[Shared::outage_at] + s[Shared::outage_for]);
   }
   if (s[Shared::failed] > 0 || s[Shared::late] > 0) since = std::max(since, s[Shared::calm_after]);
+  if (s[Shared::fault] > 0) since = std::max(since, mended_at(s));
   if (s[Shared::unknown_hand] > 0) since = std::max(since, s[Shared::unknown_until]);
   if (s[Shared::silent_hand] > 0) {
     since = std::max(since, s[Shared::silent_at] + std::max(kMoved, s[Shared::silent_for]));
@@ -91,8 +117,8 @@ double still_since(const Scenario& s) {
 }
 
 bool is_interrupted(const Scenario& s) {
-  return s[Shared::failed] > 0 || s[Shared::off_hand] > 0 || s[Shared::outage_for] > 0 ||
-         s[Shared::unknown_hand] > 0 || s[Shared::silent_hand] > 0;
+  return s[Shared::failed] > 0 || s[Shared::fault] > 0 || s[Shared::off_hand] > 0 ||
+         s[Shared::outage_for] > 0 || s[Shared::unknown_hand] > 0 || s[Shared::silent_hand] > 0;
 }
 
 double depth_of_goals(const Scenario& s) {
@@ -102,16 +128,21 @@ double depth_of_goals(const Scenario& s) {
 
 bool is_promised(const Scenario& s) {
   using enum Shared;
-  for (const Shared gene : {friction, hardening, overlap, loss, duplicates, liar, solid}) {
+  for (const Shared gene : {friction, hardening, overlap, loss, duplicates, liar, solid, drawn}) {
     if (s[gene] > 0) return false;
   }
   const bool quick_line = s[delay] * (1 + s[jitter]) <= 0.05 + 1e-9 &&
                           (s[rate] >= 10 ? s[rate] >= 50 : s[threshold] <= 0.015);
-  const bool alike = s[record_damping] == 0 || s[other_hand] == 0;
+  const bool has_model = s.model() != Model::simulated;
+  const bool alike = s[record_damping] == 0 || (s[other_hand] == 0 && !has_model);
+  const bool is_event = s.model() == Model::event;
+  const bool is_in_reach = !has_model || is_event || std::abs(s.path(0, Path::press)) <= kReach;
+  if (is_event && !is_told_in_time(s)) return false;
+  if (has_model && std::min(s.path(0, Path::rise), s.path(1, Path::rise)) < kSlow) return false;
   const double into = depth_of_goals(s);
   const bool wall_only = s[wall_tilt] == 0 && s[wall_gap] >= 0 && into <= 0;
-  return s.hands() == 2 && quick_line && alike && (s[wall] == 0 || wall_only) && s[grip] <= 600 &&
-         s[grip_damping] >= 1 && into <= kDeepestGoals;
+  return s.hands() == 2 && quick_line && alike && is_in_reach && (s[wall] == 0 || wall_only) &&
+         s[grip] <= 600 && s[grip_damping] >= 1 && into <= kDeepestGoals;
 }
 
 std::vector<double> forces_in_a_row(const Scenario& s, const std::vector<Shows>& shows,

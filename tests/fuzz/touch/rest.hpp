@@ -22,6 +22,8 @@ struct Shows {
   double hands = 0, walls = 0;
 };
 
+/// How far a hand goes at most until an event device has a change that follows from its place [m].
+[[nodiscard]] double event_way(const Scenario& scenario);
 /// [s], from when on nothing moves or fails by itself; never, where something always does.
 [[nodiscard]] double still_since(const Scenario& scenario);
 /// Whether readings fail, a switch, an outage, a silence or a late discovery interrupts the touch.

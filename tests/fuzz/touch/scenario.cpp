@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <stdexcept>
 #include <tuple>
@@ -86,6 +87,20 @@ constexpr Row kSharedRows[] = {
     {"lie_swing", 0, 0.08, 0, false},                // [m], by which it is said to swing
     {"lie_odd", 0, 0.3, 0, false},                   // probability of a value that is absurd
     {"lie_rename", 0, 1, 0, true},                   // another hand every 50 ms
+    {"model", 0, 4, 0, true},                        // what the first hand holds
+    {"model_damping", 0, 10, 2, false},              // [N s/m], of that
+    {"chain", 0.001, 0.02, 0.006, false},            // [s], stated of that
+    {"phase_in", 0, 0.999, 0.5, false},              // [ms] of a frame, when it reports
+    {"phase_out", 0, 0.999, 0, false},               // [ms] of a frame, when it is told
+    {"lag", 0, 0.005, 0, false},                     // [s], of its line, timer or program
+    {"report", 0.0005, 0.008, 0.001, false},         // [s], between those of board and event device
+    {"stated", 0, 1, 1, false},                      // of its damping
+    {"drawn", 0, 3, 0, true},                        // beside it: walls, effects, bodies
+    {"drawn_seed", 1, 999, 1, true},                 // of those and of the hand's way
+    {"fault", 0, 10, 0, true},                       // that befalls it
+    {"fault_at", 0, 3, 1, false},                    // [s]
+    {"fault_for", 0, 0.5, 0.02, false},              // [s]
+    {"fault_every", 0, 1, 0, false},                 // [s], once more; 0 never
 };
 static_assert(std::size(kSharedRows) == kShared);
 
@@ -146,7 +161,8 @@ const Gene* gene_of(std::string_view name) {
   return found == genes().end() ? nullptr : &*found;
 }
 
-void read_word(std::string_view word, Scenario& scenario) {
+// The gene that it names; null for the seed.
+const Gene* read_word(std::string_view word, Scenario& scenario) {
   const auto equals = word.find('=');
   const std::string_view name = word.substr(0, equals);
   const Gene* gene = gene_of(name);
@@ -167,6 +183,16 @@ void read_word(std::string_view word, Scenario& scenario) {
   } else {
     scenario.values[static_cast<std::size_t>(gene - genes().data())] = value;
   }
+  return gene;
+}
+
+template <class Take>
+void each_word(std::string_view line, Take&& take) {
+  while (!line.empty()) {
+    const auto space = std::min(line.find(' '), line.size());
+    if (space > 0) take(line.substr(0, space));
+    line.remove_prefix(std::min(space + 1, line.size()));
+  }
 }
 
 }  // namespace
@@ -182,6 +208,7 @@ Scenario::Scenario() {
 
 void Scenario::tidy() {
   using enum Shared;
+  tidy_model();
   const auto put_out_of_play = [this](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i <= last; ++i) values[i] = genes()[i].plain;
   };
@@ -195,7 +222,7 @@ void Scenario::tidy() {
   unless(s[outage_for] > 0, outage_at, outage_at);
   unless(s[late] > 0, late_by, holds);
   unless(s[failed] > 0, failed_run, failed_run);
-  unless(s[late] > 0 || s[failed] > 0, calm_after, calm_after);
+  unless(s[late] > 0 || s[failed] > 0 || s[fault] > 0, calm_after, calm_after);
   unless(exists(s[other_hand]), other_hand, other_rate);
   unless(exists(s[unknown_hand]) && s[unknown_until] > 0, unknown_hand, unknown_until);
   unless(exists(s[silent_hand]) && s[silent_for] > 0, silent_hand, silent_move);
@@ -216,6 +243,33 @@ void Scenario::tidy() {
   }
 }
 
+// The switch of an operator, and another simulated device, are none of a model's.
+void Scenario::tidy_model() {
+  using enum Shared;
+  Scenario& s = *this;
+  const Scenario plain;
+  const auto unless = [&](bool used, std::initializer_list<Shared> genes) {
+    for (const Shared gene : genes)
+      if (!used) s[gene] = plain[gene];
+  };
+  const Model what = this->model();
+  const bool is_model = what != Model::simulated;
+  const bool is_usb = what == Model::falcon || what == Model::polhem;
+  unless(is_model, {model_damping, chain, lag, stated, drawn, fault});
+  unless(is_usb, {phase_in, phase_out});
+  unless(what == Model::board || what == Model::event, {report});
+  // It shows flat faces that stand along its axes, and nothing else.
+  unless(what != Model::event, {model_damping, stated, wall_tilt, solid_tilt, effect,
+                                effect_strength, region, region_strength, drawn});
+  if (what == Model::event) s[solid] = std::min(s[solid], 2.0);
+  // Bodies that stand in a wall are thrown out of it.
+  unless(static_cast<Drawn>(s[drawn]) != Drawn::bodies, {wall, solid});
+  unless(s[drawn] > 0, {drawn_seed});
+  unless(s[fault] > 0, {fault_at, fault_for, fault_every});
+  unless(!is_model || s[off_hand] != 1, {off_hand, off_at, off_for});
+  unless(!is_model || s[other_hand] != 1, {other_hand, other_delay, other_rate});
+}
+
 std::string line_of(const Scenario& scenario) {
   std::string line = fmt::format("seed={}", scenario.seed);
   for (std::size_t i = 0; i < kGenes; ++i) {
@@ -228,12 +282,18 @@ std::string line_of(const Scenario& scenario) {
 
 Scenario scenario_of(std::string_view line) {
   Scenario scenario;
-  while (!line.empty()) {
-    const auto space = std::min(line.find(' '), line.size());
-    if (space > 0) read_word(line.substr(0, space), scenario);
-    line.remove_prefix(std::min(space + 1, line.size()));
-  }
+  each_word(line, [&](std::string_view word) { read_word(word, scenario); });
   return scenario;
+}
+
+std::vector<std::size_t> genes_in(std::string_view line) {
+  Scenario scenario;
+  std::vector<std::size_t> found;
+  each_word(line, [&](std::string_view word) {
+    const Gene* gene = read_word(word, scenario);
+    if (gene != nullptr) found.push_back(static_cast<std::size_t>(gene - genes().data()));
+  });
+  return found;
 }
 
 Scenario any_scenario(Random& random) {

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace reckon::fuzz {
 
@@ -74,7 +75,40 @@ enum class Shared : std::size_t {
   lie_swing,
   lie_odd,
   lie_rename,
+  model,
+  model_damping,
+  chain,
+  phase_in,
+  phase_out,
+  lag,
+  report,
+  stated,
+  drawn,
+  drawn_seed,
+  fault,
+  fault_at,
+  fault_for,
+  fault_every,
   count
+};
+
+/// What the first hand holds.
+enum class Model { simulated, falcon, polhem, board, event };
+/// What is drawn beside the first hand, see test::DrawnTouch.
+enum class Drawn { nothing, walls, effects, bodies };
+/// What befalls the device of the first hand; what its kind does not know, is none.
+enum class Fault {
+  none,
+  hang,      ///< nothing ends on its line
+  mute,      ///< no reports
+  cut,       ///< a transfer is refused, or ends early
+  damage,    ///< of reports
+  disorder,  ///< reports in pieces, twice, swapped
+  errors,    ///< of the line
+  reset,     ///< of its port
+  unplug,
+  power,   ///< unplugged, and its power with it
+  silence  ///< the servo does not step
 };
 
 /// Of the way that the grip of one hand wants to go.
@@ -129,16 +163,22 @@ struct Scenario {
   [[nodiscard]] double of_device(std::size_t hand, Shared all, Shared other) const {
     return (*this)[(*this)[Shared::other_hand] == static_cast<double>(hand + 1) ? other : all];
   }
+  [[nodiscard]] Model model() const { return static_cast<Model>((*this)[Shared::model]); }
   [[nodiscard]] std::size_t hands() const {
     return static_cast<std::size_t>((*this)[Shared::hands]);
   }
   friend bool operator==(const Scenario&, const Scenario&) = default;
+
+ private:
+  void tidy_model();
 };
 
 /// "seed=7 stiffness=812.5 press1=0.02": what is not plain, exact to the last bit.
 [[nodiscard]] std::string line_of(const Scenario& scenario);
 /// @throws std::invalid_argument naming the word, what is wrong with it and what may stand there
 [[nodiscard]] Scenario scenario_of(std::string_view line);
+/// The genes that a line names. The same errors.
+[[nodiscard]] std::vector<std::size_t> genes_in(std::string_view line);
 
 using Random = std::mt19937_64;
 /// Any scenario: about half of the faults and lies are out of play.

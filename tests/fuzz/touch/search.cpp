@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -29,21 +30,23 @@ struct Worst {
 
 class Search {
  public:
-  /// @param without genes that stay out of play  @param strict see judged()
-  Search(std::uint64_t seed, double seconds, std::vector<std::size_t> without, bool strict)
+  /// @param fixed genes that keep a value  @param strict see judged()
+  Search(std::uint64_t seed, double seconds, std::map<std::size_t, double> fixed, bool strict)
       : random_(seed),
-        without_(std::move(without)),
+        fixed_(std::move(fixed)),
         strict_(strict),
-        end_(std::chrono::steady_clock::now() +
-             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                 std::chrono::duration<double>(seconds))) {}
+        turn_(std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(seconds / static_cast<double>(objectives().size())))),
+        end_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
-  /// The first scenario that breaks a promise. @param only one objective, all where it is empty
+  /// The first scenario that breaks a promise. @param only one objective, all where it is empty: in
+  /// the first round each has its turn, however short the search is
   std::optional<Worst> climb_all(const std::string& only) {
-    while (!over()) {
-      for (std::size_t i = 0; i < objectives().size() && !over(); ++i) {
+    for (bool is_first = only.empty(); !over(end_); is_first = false) {
+      for (std::size_t i = 0; i < objectives().size() && !over(end_); ++i) {
         if (!only.empty() && objectives()[i].name != only) continue;
-        if (const auto broken = climb(i)) return broken;
+        if (const auto broken = climb(i, is_first ? Clock::now() + turn_ : end_)) return broken;
       }
     }
     return std::nullopt;
@@ -71,20 +74,22 @@ class Search {
   [[nodiscard]] const RunStatistics& statistics() const { return statistics_; }
 
  private:
-  [[nodiscard]] bool over() const { return std::chrono::steady_clock::now() >= end_; }
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] static bool over(Clock::time_point end) { return Clock::now() >= end; }
   Outcome run(const Scenario& scenario, const Objective& objective) {
     statistics_.add();
     return judged(objective, scenario, strict_);
   }
 
-  std::optional<Worst> climb(std::size_t at) {
+  std::optional<Worst> climb(std::size_t at, Clock::time_point end) {
     const Objective& objective = objectives()[at];
     Worst here;
-    for (int vain = 0; vain < kPatience && !over(); ++vain) {
+    for (int vain = 0; vain < kPatience && !over(end); ++vain) {
       Scenario next =
           here.badness > -1e300 ? neighbour(here.scenario, random_) : any_scenario(random_);
       objective.rules(next);
-      for (const std::size_t gene : without_) next.values[gene] = genes()[gene].plain;
+      for (const auto& [gene, value] : fixed_) next.values[gene] = value;
       next.tidy();
       const Outcome outcome = run(next, objective);
       if (!outcome.violation.empty()) {
@@ -99,9 +104,10 @@ class Search {
   }
 
   Random random_;
-  std::vector<std::size_t> without_;
+  std::map<std::size_t, double> fixed_;
   bool strict_;
-  std::chrono::steady_clock::time_point end_;
+  Clock::duration turn_;
+  Clock::time_point end_;
   std::vector<Worst> worst_ = std::vector<Worst>(objectives().size());
   RunStatistics statistics_;
 };
@@ -112,7 +118,7 @@ int replay(const std::string& line, bool strict) {
   int status = 0;
   for (const Objective& objective : objectives()) {
     const Outcome outcome = judged(objective, scenario, strict);
-    fmt::print("{:<8} {}\n", objective.name, objective.text(outcome));
+    fmt::print("{:<12} {}\n", objective.name, objective.text(outcome));
     if (outcome.violation.empty()) continue;
     fmt::print("reckon fuzz: {}\n", outcome.violation);
     status = 1;
@@ -120,29 +126,34 @@ int replay(const std::string& line, bool strict) {
   return status;
 }
 
-// All whose names begin so: "press" is that of each hand.
-std::vector<std::size_t> genes_of(const std::vector<std::string>& names) {
-  std::vector<std::size_t> found;
-  for (const std::string& name : names) {
-    const std::size_t before = found.size();
+// Out of play are all whose names begin so: "press" is that of each hand. @param with a line
+std::map<std::size_t, double> fixed_by(const std::vector<std::string>& without,
+                                       const std::string& with) {
+  std::map<std::size_t, double> fixed;
+  for (const std::string& name : without) {
+    bool is_there = false;
     for (std::size_t i = 0; i < kGenes; ++i) {
-      if (genes()[i].name.starts_with(name)) found.push_back(i);
+      if (!genes()[i].name.starts_with(name)) continue;
+      fixed[i] = genes()[i].plain;
+      is_there = true;
     }
-    if (found.size() == before) {
+    if (!is_there) {
       throw std::invalid_argument(fmt::format("no number of a scenario is called '{}'", name));
     }
   }
-  return found;
+  const Scenario wanted = scenario_of(with);
+  for (const std::size_t gene : genes_in(with)) fixed[gene] = wanted.values[gene];
+  return fixed;
 }
 
 int search(std::uint64_t seed, double seconds, const std::string& only,
-           const std::vector<std::string>& without, bool strict) {
-  Search search(seed, seconds, genes_of(without), strict);
+           std::map<std::size_t, double> fixed, bool strict) {
+  Search search(seed, seconds, std::move(fixed), strict);
   const std::optional<Worst> broken = search.climb_all(only);
   for (std::size_t i = 0; i < objectives().size(); ++i) {
     const Worst& worst = search.worst(i);
     if (worst.badness == -1e300) continue;
-    fmt::print("worst {:<8} {}\n      {}\n", objectives()[i].name,
+    fmt::print("worst {:<12} {}\n      {}\n", objectives()[i].name,
                objectives()[i].text(worst.outcome), line_of(worst.scenario));
   }
   search.statistics().print();
@@ -155,18 +166,20 @@ int run(int argc, char** argv) {
   CLI::App app{"Searches for scenarios of touching hands that break what is promised."};
   double seconds = 60;
   std::uint64_t seed = 1;
-  std::string line, only;
+  std::string line, only, with;
   std::vector<std::string> names, without;
   bool strict = false;
   for (const Objective& objective : objectives()) names.push_back(objective.name);
   app.add_option("--for", seconds, "[s]");
   app.add_option("--of", only, "makes one thing worse only")->check(CLI::IsMember(names));
   app.add_option("--without", without, "numbers that stay out of play, as a line names them");
+  app.add_option("--with", with, "numbers that stay as they are given, as a line has them");
   app.add_flag("--strict", strict, "a wrong force is a finding even where the servo tells it");
   app.add_option("--seed", seed, "another one searches elsewhere");
   app.add_option("--replay", line, "a scenario as the search prints it");
   CLI11_PARSE(app, argc, argv);
-  return line.empty() ? search(seed, seconds, only, without, strict) : replay(line, strict);
+  if (!line.empty()) return replay(line, strict);
+  return search(seed, seconds, only, fixed_by(without, with), strict);
 }
 
 }  // namespace

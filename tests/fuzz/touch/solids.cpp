@@ -117,7 +117,7 @@ constexpr double kRegion = 0.03;  // [m], radius
 
 }  // namespace
 
-haptics::EffectPlan solids_of(const Scenario& s, const Vector3d& home) {
+haptics::Scene solids_of(const Scenario& s, const Vector3d& home, const haptics::Scene* drawn) {
   haptics::Scene scene;
   if (s[Shared::wall] > 0) {
     scene.objects.push_back(
@@ -141,7 +141,26 @@ haptics::EffectPlan solids_of(const Scenario& s, const Vector3d& home) {
     declare(region.effects, static_cast<std::size_t>(s[Shared::region]),
             s[Shared::region_strength]);
   }
-  return haptics::EffectPlan(scene);
+  if (drawn == nullptr) return scene;
+  for (const haptics::SceneObject& object : drawn->objects)
+    scene.objects.emplace_back(object).pose.position += home;
+  for (const haptics::SceneRegion& region : drawn->regions)
+    scene.regions.emplace_back(region).pose.position += home;
+  return scene;
+}
+
+std::optional<test::DrawnTouch> drawn_of(const Scenario& s) {
+  const auto seed = static_cast<unsigned>(s[Shared::drawn_seed]);
+  switch (static_cast<Drawn>(s[Shared::drawn])) {
+    case Drawn::walls:
+      return test::DrawnTouch(test::TouchKind::walls, seed);
+    case Drawn::effects:
+      return test::DrawnTouch(test::TouchKind::effects, seed);
+    case Drawn::bodies:
+      return test::DrawnTouch(test::TouchKind::bodies, seed);
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace reckon::fuzz

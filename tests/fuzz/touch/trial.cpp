@@ -39,16 +39,18 @@ class Trial {
         honest_(twin != nullptr || scenario[Shared::liar] == 0),
         told_(scenario.hands()) {
     for (std::size_t i = 0; i < scenario.hands(); ++i) {
-      hands_.push_back(std::make_unique<Hand>(scenario_, i, lies(i) ? twin : nullptr));
+      hands_.push_back(std::make_unique<Hand>(scenario_, i, lies(i) ? twin : nullptr, begin_));
+      if (i == 0 && hands_[0]->model() != nullptr) begin_ = hands_[0]->model()->begin();
     }
     shown_.period = 1 / scenario.of_device(liar(), Shared::servo_rate, Shared::other_rate);
   }
 
   /// Until the next time at which a servo steps.
   void step();
+  void run_until(double seconds);
   void run(double seconds);
 
-  [[nodiscard]] double time() const { return pdu::to_seconds(now_); }
+  [[nodiscard]] double time() const { return pdu::to_seconds(now_ - begin_); }
   [[nodiscard]] Outcome outcome() const;
   /// What the forces have put into the first hand and the device's damping did not take [J], every
   /// kSampled.
@@ -69,6 +71,7 @@ class Trial {
   [[nodiscard]] bool lies(std::size_t hand) const {
     return scenario_[Shared::liar] == static_cast<double>(hand + 1);
   }
+  [[nodiscard]] std::chrono::nanoseconds next() const;
   void deliver(std::size_t to);
   [[nodiscard]] bool due(std::size_t from) const;
   void send(std::size_t from);
@@ -84,15 +87,20 @@ class Trial {
   bool honest_;
   std::vector<std::unique_ptr<Hand>> hands_;
   std::vector<Told> told_;
-  std::chrono::nanoseconds now_{0};
+  std::chrono::nanoseconds begin_{0}, now_{0};
   std::vector<double> put_in_;
   Track shown_;
   double least_sum_ = 0, sum_short_ = 0;
 };
 
+std::chrono::nanoseconds Trial::next() const {
+  std::chrono::nanoseconds first = hands_[0]->next();
+  for (const auto& hand : hands_) first = std::min(first, hand->next());
+  return first;
+}
+
 void Trial::step() {
-  now_ = hands_[0]->next();
-  for (const auto& hand : hands_) now_ = std::min(now_, hand->next());
+  now_ = next();
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     if (hands_[i]->next() <= now_) deliver(i);
     hands_[i]->step(now_, random_);
@@ -104,9 +112,21 @@ void Trial::step() {
 }
 
 void Trial::run(double seconds) {
-  while (time() < seconds - kWatched) step();
+  run_until(seconds - kWatched);
   for (const auto& hand : hands_) hand->watch();
-  while (time() < seconds) step();
+  run_until(seconds);
+}
+
+// All go by the clock of the first hand's model, where there is one.
+void Trial::run_until(double seconds) {
+  ModelHandle* const model = hands_[0]->model();
+  if (model == nullptr) {
+    while (time() < seconds) step();
+    return;
+  }
+  model->run(begin_ + pdu::from_seconds(seconds), [this](std::chrono::nanoseconds now) {
+    while (next() <= now) step();
+  });
 }
 
 void Trial::deliver(std::size_t to) {

@@ -10,6 +10,14 @@
 
 namespace reckon::fuzz {
 
+/// Of the model of a device, beside what its servo states that its encoders may hide. Under a force
+/// of 0.1 N or more.
+struct ModelBooks {
+  double made = -1e9;     ///< [J], most that it gave beyond what the hand put in
+  double left = 1e9;      ///< least share of the most put in so far that was there still, from 1 mJ
+  double claimed = -1e9;  ///< [J], most that the meter of its servo had above its books, from 1 mJ
+};
+
 /// What a run came to. Energies are those of the devices' own books, not of the servos' meters.
 struct Outcome {
   double least_port = 0;    ///< [J], of work + damping + received - given + loan, any port
@@ -24,9 +32,10 @@ struct Outcome {
   bool told = false;        ///< a servo says that it shows less
   double unseen = -1e9;     ///< [J], most that the first hand got after 1.5 s beyond what surfaces
                             ///< did and 50 mW
-  Excess liar;              ///< of what the first hand got, beyond an honest twin of the liar
-  double late_cost = 0;     ///< [J], most that a late sample took
-  std::string violation;    ///< a sentence; empty where all promises were kept
+  ModelBooks model;
+  Excess liar;            ///< of what the first hand got, beyond an honest twin of the liar
+  double late_cost = 0;   ///< [J], most that a late sample took
+  std::string violation;  ///< a sentence; empty where all promises were kept
 };
 
 /// @param seconds of simulated time

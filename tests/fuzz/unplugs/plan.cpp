@@ -14,20 +14,27 @@ namespace {
 
 using std::chrono::microseconds;
 
-constexpr std::array<const char*, kDeviceKinds> kDeviceNames{"Falcon", "Polhem"};
-constexpr std::array<const char*, kFaultKinds> kFaultNames{"unplug",
-                                                           "loose plug",
-                                                           "bounce",
-                                                           "other device",
-                                                           "end of the program",
-                                                           "reset of the port",
-                                                           "errors",
-                                                           "stall",
-                                                           "cut",
-                                                           "hang",
-                                                           "mute",
-                                                           "damage",
-                                                           "silent servo"};
+constexpr std::array<const char*, kDeviceKinds> kDeviceNames{"Falcon", "Polhem", "serial board",
+                                                             "event device"};
+constexpr std::array<const char*, kFaultKinds> kFaultNames{
+    "unplug",        "loose plug",     "bounce",
+    "other device",  "opening denied", "end of the program",
+    "freeze",        "silent servo",   "reset of the port",
+    "errors",        "stall",          "cut",
+    "hang",          "mute",           "damage",
+    "loss",          "bunches",        "restart",
+    "busy",          "slow calls",     "refusal",
+    "dropped events"};
+
+using enum FaultKind;
+constexpr std::array kUsb{unplug, loose, bounce, other_device, end_program, reset_port,  errors,
+                          stall,  cut,   hang,   mute,         damage,      silent_servo};
+constexpr std::array kSerial{unplug,      loose,  bounce,  other_device, denied,
+                             end_program, freeze, errors,  hang,         mute,
+                             damage,      loss,   bunches, restart,      silent_servo};
+constexpr std::array kEvent{unplug, loose, bounce, other_device, denied, end_program, freeze,
+                            errors, busy,  slow,   refusal,      drop,   silent_servo};
+
 constexpr std::array<const char*, kPhases> kPhaseNames{"at once", "opening", "setting up", "homing",
                                                        "running"};
 
@@ -56,9 +63,10 @@ class Draw {
 };
 
 // Half of them are plain.
-FaultKind kind_of(Draw& draw) {
-  if (draw.happens(50)) return FaultKind::unplug;
-  return static_cast<FaultKind>(1 + draw.below(kFaultKinds - 1));
+FaultKind kind_of(DeviceKind device, Draw& draw) {
+  const std::span<const FaultKind> kinds = faults_of(device);
+  if (draw.happens(50)) return kinds[0];
+  return kinds[1 + draw.below(static_cast<unsigned>(kinds.size()) - 1)];
 }
 
 nanoseconds after_of(Phase phase, Draw& draw) {
@@ -83,13 +91,19 @@ nanoseconds lasts_of(Draw& draw) {
   }
 }
 
-Fault fault_of(Draw& draw) {
+Fault fault_of(DeviceKind device, Draw& draw) {
   Fault fault;
-  fault.kind = kind_of(draw);
+  fault.kind = kind_of(device, draw);
   constexpr std::array kPhaseParts{8U, 14U, 12U, 6U};
   fault.phase = static_cast<Phase>(draw.part(kPhaseParts));
+  // It knows its place.
+  if (device == DeviceKind::event_device && fault.phase == Phase::homing)
+    fault.phase = Phase::setting_up;
   fault.call = draw.below(60);
   fault.after = after_of(fault.phase, draw);
+  // It shows walls later.
+  if (device == DeviceKind::event_device && fault.phase == Phase::running && draw.happens(60))
+    fault.after += draw.between(100'000, 200'000);
   fault.lasts = lasts_of(draw);
   fault.loses_power = draw.happens(10);
   fault.stays = draw.happens(30);
@@ -102,6 +116,12 @@ double milliseconds_of(nanoseconds time) { return 1e3 * pdu::to_seconds(time); }
 
 }  // namespace
 
+std::span<const FaultKind> faults_of(DeviceKind kind) noexcept {
+  if (kind == DeviceKind::serial_board) return kSerial;
+  if (kind == DeviceKind::event_device) return kEvent;
+  return kUsb;
+}
+
 Plan plan_of(std::uint64_t seed) {
   Draw draw(seed);
   Plan plan;
@@ -109,8 +129,10 @@ Plan plan_of(std::uint64_t seed) {
   plan.device = static_cast<DeviceKind>(draw.below(kDeviceKinds));
   plan.line.out_at = 0.05 * draw.below(20);
   plan.line.in_at = 0.05 * draw.below(20);
-  plan.line.splits = plan.device == DeviceKind::falcon && draw.happens(20);
-  for (std::size_t i = 0; i < kFaults; ++i) plan.faults.push_back(fault_of(draw));
+  const bool is_of_octets =
+      plan.device == DeviceKind::falcon || plan.device == DeviceKind::serial_board;
+  plan.line.splits = is_of_octets && draw.happens(20);
+  for (std::size_t i = 0; i < kFaults; ++i) plan.faults.push_back(fault_of(plan.device, draw));
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,30 +15,44 @@ namespace reckon::fuzz::unplugs {
 
 using std::chrono::nanoseconds;
 
-enum class DeviceKind : std::uint8_t { falcon, polhem };
-inline constexpr std::size_t kDeviceKinds = 2;
+enum class DeviceKind : std::uint8_t { falcon, polhem, serial_board, event_device };
+inline constexpr std::size_t kDeviceKinds = 4;
 
 enum class FaultKind : std::uint8_t {
+  // Of the plug.
   unplug,
-  loose,         ///< transfers fail for a while before it is gone, as a hub tells it
+  loose,         ///< the line fails for a while before it is gone, as a hub tells it
   bounce,        ///< out and in, several times within milliseconds
   other_device,  ///< unplugged; another one is in its place for a while
-  end_program,   ///< the thread's part ends, and begins anew
-  reset_port,    ///< its hub calls off what is under way
-  errors,        ///< some transfers end with an error
-  stall,         ///< the next transfer to it is refused
-  cut,           ///< the next transfer to it is cut short
-  hang,          ///< no transfer to it ends for a while
-  mute,          ///< no reports for a while
-  damage,        ///< its next reports are damaged, so that it can be seen: they have no checksum
+  denied,        ///< unplugged; plugged in again, it may not be opened for a while
+  // Of the program.
+  end_program,  ///< the thread's part ends, and begins anew
+  freeze,       ///< the thread stands still for a while
   silent_servo,
+  // Of the line and the device.
+  reset_port,  ///< its hub calls off what is under way
+  errors,      ///< some transfers or calls end with an error
+  stall,       ///< the next transfer to it is refused
+  cut,         ///< the next transfer to it is cut short
+  hang,        ///< nothing that is sent to it ends, or goes out, for a while
+  mute,        ///< no reports for a while
+  damage,      ///< its next reports are damaged, so that it can be seen
+  loss,        ///< octets are lost both ways for a while
+  bunches,     ///< what it sends comes in bunches, or octet by octet
+  restart,     ///< its program begins anew
+  busy,        ///< calls are to be made again, for a while
+  slow,        ///< the next calls take their time
+  refusal,     ///< effects are refused, or not played, or not erased
+  drop,        ///< the kernel drops events
 };
-inline constexpr std::size_t kFaultKinds = 13;
+inline constexpr std::size_t kFaultKinds = 22;
 
 /// Whether its plug is pulled.
 [[nodiscard]] constexpr bool is_unplug(FaultKind kind) noexcept {
-  return kind <= FaultKind::other_device;
+  return kind <= FaultKind::denied;
 }
+/// Those that befall a kind of device; the first is a plain unplug.
+[[nodiscard]] std::span<const FaultKind> faults_of(DeviceKind kind) noexcept;
 
 /// What the device's thread is at when the fault comes.
 enum class Phase : std::uint8_t {
@@ -57,14 +72,14 @@ struct Fault {
   nanoseconds lasts{};       ///< until it is plugged in again, or over
   bool loses_power = false;  ///< unplugged: what it forgets without power
   bool stays = false;        ///< the hand stays in the wall
-  unsigned number = 0;       ///< of errors, bounces, reports; of milliseconds with failures
+  unsigned number = 0;       ///< of errors, bounces, reports, calls; of milliseconds with failures
   double depth = 0.01;       ///< [m], of the hand in the wall when it is taken up again
 };
 
 struct Line {
   bool splits = false;  ///< reports come in pieces
-  double out_at = 0;    ///< [ms] of a frame, when the device takes a transfer
-  double in_at = 0.5;   ///< [ms] of a frame, when its report comes
+  double out_at = 0;    ///< [ms], when in a frame of USB the device takes a transfer; or its way
+  double in_at = 0.5;   ///< [ms], when in a frame of USB its report comes; or its way
 
   friend bool operator==(const Line&, const Line&) = default;
 };
@@ -80,7 +95,7 @@ struct Plan {
 inline constexpr std::size_t kFaults = 100;
 
 [[nodiscard]] Plan plan_of(std::uint64_t seed);
-/// The same with reports in one piece, in the middle of a frame.
+/// The same with reports in one piece, half a millisecond on their way.
 [[nodiscard]] Plan calmed(Plan plan);
 [[nodiscard]] std::string text_of(const Plan& plan);
 [[nodiscard]] std::string text_of(const Fault& fault);

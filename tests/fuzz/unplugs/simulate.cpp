@@ -9,7 +9,7 @@ namespace {
 
 int run(int argc, char** argv) {
   const SeededSimulation<Plan, Outcome> unplugs{
-      "unplugs", "Unplugs devices on USB at random instants, and breaks their lines otherwise.",
+      "unplugs", "Unplugs devices at random instants, and breaks their lines otherwise.",
       "U",       9,
       plan_of,   try_out,
       calmed,    "times unplugged"};

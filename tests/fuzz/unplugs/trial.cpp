@@ -15,29 +15,19 @@
 #include <memory>
 #include <utility>
 
-#include "reckon/haptics/falcon/falcon_driver.hpp"
-#include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
-#include "reckon/haptics/usb/usb_device.hpp"
-#include "reckon/haptics/usb/usb_loop.hpp"
-#include "reckon/tests/fuzz/unplugs/held_hand.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/unplugs/tried_device.hpp"
 #include "reckon/tests/fuzz/unplugs/watch.hpp"
-#include "reckon/tests/haptics/support/falcon_model.hpp"
-#include "reckon/tests/haptics/support/plugged_device.hpp"
-#include "reckon/tests/haptics/support/polhem_model.hpp"
-#include "reckon/tests/haptics/support/usb_shim.hpp"
 
 namespace reckon::fuzz::unplugs {
 namespace {
 
 using Eigen::Vector3d;
-using haptics::UsbStage;
-using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kServoStep = milliseconds(1);
-constexpr nanoseconds kMotionStep = microseconds(100);
 // Set up anew, with a firmware to load and homed, and the force is back.
 constexpr nanoseconds kBackWithin = seconds(5);
 constexpr double kFelt = 0.1;    // [N]
@@ -48,60 +38,23 @@ constexpr nanoseconds kHurts = milliseconds(600);       // a line, and what came
 constexpr nanoseconds kPersonTakes = milliseconds(20);  // to home it
 constexpr nanoseconds kPersonTriesAgain = milliseconds(500);
 
-struct Falcon {
-  using Model = test::FalconModel;
-  static constexpr nanoseconds kWatchdog = milliseconds(100);
-  static Vector3d start() { return {0, 0, HeldHand::kGap}; }
-  static std::vector<std::uint8_t> firmware() { return std::vector<std::uint8_t>(1'000, 0x5A); }
-  static test::FalconModelOptions options(const Plan& plan) {
-    test::FalconModelOptions options;
-    options.seed = static_cast<unsigned>(plan.seed);
-    options.out_at = plan.line.out_at;
-    options.motion_step = kMotionStep;
-    options.tick_at = plan.line.in_at;
-    options.firmware = firmware();
-    return options;
-  }
-  static std::unique_ptr<haptics::UsbDriver> driver() {
-    return std::make_unique<haptics::FalconDriver>(haptics::FalconFirmware{firmware()});
-  }
-  static const haptics::UsbFacts& facts() { return haptics::falcon_facts(); }
-  static constexpr bool kCanBeHomedAnywhere = true;
-  static void home(Model& model) { model.home(); }
-  static void damage(Model& model, int count) { model.damage_visibly(count); }
-  // It does not answer.
-  static void be_another(Model& model, nanoseconds time) { model.mute(time); }
-  static void be_itself(Model&) {}
-};
+std::unique_ptr<TriedDevice> tried_device(const Plan& plan, const HeldHand& hand) {
+  if (plan.device == DeviceKind::serial_board) return tried_serial_board(plan, hand);
+  if (plan.device == DeviceKind::event_device) return tried_event_device(plan, hand);
+  return tried_usb_device(plan, hand);
+}
 
-struct Polhem {
-  using Model = test::PolhemModel;
-  static constexpr nanoseconds kWatchdog = milliseconds(500);
-  static Vector3d start() { return Model::start(); }
-  static test::PolhemModelOptions options(const Plan& plan) {
-    test::PolhemModelOptions options;
-    options.seed = static_cast<unsigned>(plan.seed);
-    options.out_at = plan.line.out_at;
-    options.motion_step = kMotionStep;
-    options.in_at = plan.line.in_at;
-    return options;
-  }
-  static std::unique_ptr<haptics::UsbDriver> driver() {
-    return std::make_unique<haptics::PolhemDriver>();
-  }
-  static const haptics::UsbFacts& facts() { return haptics::polhem_facts(); }
-  static constexpr bool kCanBeHomedAnywhere = false;
-  static void home(Model& model) { model.press(); }
-  static void damage(Model& model, int count) { model.merge(count); }
-  static void be_another(Model& model, nanoseconds) { model.disguise(true); }
-  static void be_itself(Model& model) { model.disguise(false); }
-};
+haptics::ServoConfig servo_config(const TriedDevice& tried) {
+  haptics::ServoConfig config;
+  config.probe_radius = 0;
+  config.device_origin = tried.origin();
+  return config;
+}
 
-template <class Kind>
 class Trial {
  public:
   Trial(const Plan& plan, bool keep_log);
-  ~Trial() { model_.beside({}); }
+  ~Trial() { tried_->beside({}); }
   [[nodiscard]] Outcome run();
 
  private:
@@ -111,10 +64,9 @@ class Trial {
   void pass_beside(nanoseconds now);
   void step_servo(nanoseconds now);
   void hold_handle(nanoseconds now);
-  void book_own_work(nanoseconds now);
   void home(nanoseconds now);
   void in(nanoseconds time, std::function<void()> act) {
-    agenda_.emplace(model_.now() + time, std::move(act));
+    agenda_.emplace(now() + time, std::move(act));
   }
 
   // What befalls it.
@@ -123,146 +75,87 @@ class Trial {
   void open_anew();
   bool wait_and_strike(const Fault& fault);
   void strike(const Fault& fault);
-  void strike_line(const Fault& fault);
+  void strike_plug(const Fault& fault, nanoseconds short_time);
   void pull(bool loses_power);
   void bounce(const Fault& fault, unsigned left);
   void plug();
-  void begin_program();
   void end_program();
   void come_back();
+  bool comes_to_feel();
 
-  [[nodiscard]] std::optional<UsbStage> stage() const {
-    return loop_ ? loop_->stage() : std::nullopt;
-  }
-  [[nodiscard]] bool runs() const { return stage() == UsbStage::running; }
-  [[nodiscard]] bool motors_rest() const { return model_.motors() == decltype(model_.motors()){}; }
-  /// Without what the device gave by itself.
-  [[nodiscard]] double books() const {
-    return model_.port_work() + model_.damping_loss() - own_work_;
-  }
+  [[nodiscard]] nanoseconds now() const { return tried_->now(); }
+  [[nodiscard]] bool runs() const { return tried_->stage() == Stage::running; }
   void log(const std::string& sentence);
   void mix(std::uint64_t number) { hash_ = (hash_ ^ number) * 0x100000001B3U; }
 
   const Plan& plan_;
-  HeldHand hand_{Kind::start()};
-  typename Kind::Model model_;
-  test::UsbShim shim_{model_};
-  haptics::UsbExchange exchange_;
-  haptics::UsbDevice device_;
+  HeldHand hand_{start_of(plan_.device)};
+  std::unique_ptr<TriedDevice> tried_{tried_device(plan_, hand_)};
   haptics::ServoLoop servo_;
-  std::unique_ptr<haptics::UsbLoop> loop_;
   Watch watch_;
   std::multimap<nanoseconds, std::function<void()>> agenda_;
   nanoseconds next_step_ = kServoStep;
   bool servo_runs_ = true, is_homed_by_hand_ = true, stays_ = false, ends_ = false;
+  nanoseconds frozen_until_{};
   double depth_ = 0.01;
-  std::optional<nanoseconds> opened_at_;  // since the last look
-  nanoseconds ran_at_{}, commanded_at_{};
-  std::uint64_t commands_ = 0;
-  double own_work_ = 0, work_ = 0;  // [J], of the motors
+  nanoseconds ran_at_{};
   std::optional<nanoseconds> homing_since_, hurt_at_;
-  std::optional<unsigned> calls_left_;
-  std::function<void()> at_call_;
   std::uint64_t hash_ = 0xCBF29CE484222325U;
   std::optional<std::vector<std::string>> log_;
   Outcome outcome_;
 };
 
-// A report in pieces takes a tick of the chip's timer more.
-haptics::DeviceLimits limits_of(const haptics::UsbFacts& facts, const Line& line) {
-  haptics::UsbSettings settings;
-  settings.damping = 2.0;
-  if (line.splits) settings.chain *= 2;
-  return haptics::usb_limits(facts, settings);
-}
-
-// The wall lies where the hand's way begins.
-haptics::ServoConfig servo_config(const Vector3d& start) {
-  haptics::ServoConfig config;
-  config.probe_radius = 0;
-  config.device_origin = HeldHand::kGap * Vector3d::UnitZ() - start;
-  return config;
-}
-
-template <class Kind>
-Trial<Kind>::Trial(const Plan& plan, bool keep_log)
+Trial::Trial(const Plan& plan, bool keep_log)
     : plan_(plan),
-      model_(Kind::options(plan), [this](double t) { return hand_(t); }),
-      device_(exchange_, limits_of(Kind::facts(), plan.line)),
-      servo_(device_, haptics::EffectPlan(test::stiff_floor()), servo_config(Kind::start())),
-      watch_(Kind::kWatchdog, servo_.force_limit()) {
+      servo_(tried_->device(), haptics::EffectPlan(tried_->scene()), servo_config(*tried_)),
+      watch_(tried_->watchdog(), servo_.force_limit()) {
   if (keep_log) log_.emplace();
-  model_.split(plan.line.splits);
-  model_.lead(hand_.start());
-  model_.beside([this](nanoseconds now) { pass_beside(now); });
-  shim_.at_each_call([this] {
-    if (calls_left_ && (*calls_left_)-- == 0) {
-      calls_left_.reset();
-      std::exchange(at_call_, {})();
-    }
-  });
-  begin_program();
-}
-
-template <class Kind>
-void Trial<Kind>::begin_program() {
-  haptics::UsbLoopOptions options;
-  options.clock = [this] { return model_.now(); };
-  options.discover = false;
-  options.open = [this](libusb_context* context) {
-    haptics::UsbOpening opening{shim_.open(context), {}};
-    if (opening.handle == nullptr) opening.problem = "none is attached";
-    opened_at_ = model_.now();
-    return opening;
-  };
-  loop_ = std::make_unique<haptics::UsbLoop>(exchange_, Kind::driver(), std::move(options));
+  tried_->lead(hand_.start());
+  tried_->beside([this](nanoseconds now) { pass_beside(now); });
+  tried_->begin_program();
 }
 
 // It may have been told to stop while it was setting the device up.
-template <class Kind>
-void Trial<Kind>::end_program() {
+void Trial::end_program() {
   ends_ = false;
-  const bool is_sound = !hurt_at_ || model_.now() - *hurt_at_ > kHurts;
-  const bool takes_it = is_sound && shim_.is_plugged() && runs();
-  loop_.reset();
-  watch_.count(false, shim_.outstanding(), model_.now());
+  const bool is_sound = !hurt_at_ || now() - *hurt_at_ > kHurts;
+  const bool takes_it = is_sound && tried_->is_plugged() && runs();
+  tried_->end_program();
+  watch_.owns(tried_->surplus(), now());
   if (takes_it) {
-    model_.pass(milliseconds(2));
-    if (!motors_rest()) watch_.fail(2, model_.now(), "the end of the program leaves a force on");
+    tried_->pass(tried_->obeys_within());
+    if (!tried_->rests()) watch_.fail(2, now(), "the end of the program leaves a force on");
   }
   watch_.happens(1);  // who is new says all of it anew
-  begin_program();
+  tried_->begin_program();
 }
 
-template <class Kind>
-void Trial<Kind>::log(const std::string& sentence) {
-  if (log_) log_->push_back(fmt::format("{:.4f} s {}", pdu::to_seconds(model_.now()), sentence));
+void Trial::log(const std::string& sentence) {
+  if (log_) log_->push_back(fmt::format("{:.4f} s {}", pdu::to_seconds(now()), sentence));
 }
 
-template <class Kind>
-void Trial<Kind>::step() {
-  loop_->step(stage() ? milliseconds(1) : milliseconds(10));
-  for (const std::string& notice : loop_->take_notices()) {
+void Trial::step() {
+  if (now() < frozen_until_) return tried_->pass(milliseconds(1));
+  tried_->step(tried_->stage() != Stage::away ? milliseconds(1) : milliseconds(10));
+  for (const std::string& notice : tried_->take_notices()) {
     log(notice);
-    watch_.hear(notice, model_.now());
+    watch_.hear(notice, now());
     mix(std::hash<std::string>{}(notice));
   }
-  watch_.count(stage().has_value(), shim_.outstanding(), model_.now());
+  watch_.owns(tried_->surplus(), now());
   if (ends_) end_program();
 }
 
-template <class Kind>
-bool Trial<Kind>::go(const std::function<bool()>& until, nanoseconds longest) {
-  const nanoseconds end = model_.now() + longest;
+bool Trial::go(const std::function<bool()>& until, nanoseconds longest) {
+  const nanoseconds end = now() + longest;
   while (!until()) {
-    if (watch_.finding() || model_.now() >= end) return false;
+    if (watch_.finding() || now() >= end) return false;
     step();
   }
   return true;
 }
 
-template <class Kind>
-void Trial<Kind>::pass_beside(nanoseconds now) {
+void Trial::pass_beside(nanoseconds now) {
   while (!agenda_.empty() && agenda_.begin()->first <= now) {
     const std::function<void()> act = std::move(agenda_.begin()->second);
     agenda_.erase(agenda_.begin());
@@ -270,79 +163,61 @@ void Trial<Kind>::pass_beside(nanoseconds now) {
   }
   home(now);
   hold_handle(now);
-  book_own_work(now);
-  watch_.see({now, runs(), motors_rest(), model_.commands()});
+  watch_.see({now, runs(), tried_->rests(), tried_->commands()});
   while (now >= next_step_) {
     next_step_ += kServoStep;
     if (servo_runs_) step_servo(now);
   }
 }
 
-template <class Kind>
-void Trial<Kind>::step_servo(nanoseconds now) {
+void Trial::step_servo(nanoseconds now) {
   servo_.step(now);
   servo_.snapshots().update();
   const haptics::ServoSnapshot& snapshot = servo_.snapshots().read();
-  watch_.see(snapshot, books() + snapshot.loan + snapshot.encoder_allowance, now);
+  watch_.see(snapshot, tried_->asked(snapshot), tried_->books(snapshot), now);
 }
 
-template <class Kind>
-void Trial<Kind>::home(nanoseconds now) {
-  if (stage() != UsbStage::homing) return homing_since_.reset();
+void Trial::home(nanoseconds now) {
+  if (tried_->stage() != Stage::homing) return homing_since_.reset();
   if (!homing_since_) homing_since_ = now;
-  if (!is_homed_by_hand_ || now - *homing_since_ < kPersonTakes || !model_.is_led()) return;
-  Kind::home(model_);
+  if (!is_homed_by_hand_ || now - *homing_since_ < kPersonTakes || !tried_->is_led()) return;
+  tried_->home();
   homing_since_ = now + kPersonTriesAgain;
 }
 
 // Where its places are known it stays where it is; else it is brought to where it can be homed.
-template <class Kind>
-void Trial<Kind>::hold_handle(nanoseconds now) {
+void Trial::hold_handle(nanoseconds now) {
   if (runs()) {
     ran_at_ = now;
-    if (!model_.is_led()) return;
-    hand_.press(model_.position(), depth_, now);
-    return model_.let_go();
+    if (!tried_->is_led()) return;
+    hand_.press(tried_->place(), depth_, now + tried_->shows_after());
+    return tried_->let_go();
   }
-  const bool is_loose = now - ran_at_ < kLoose || !motors_rest();
-  if (!model_.is_led() && !is_loose) model_.lead(model_.position());
-  const bool may_go = !shim_.is_plugged() || stage() == UsbStage::homing;
-  const bool stays = stays_ && Kind::kCanBeHomedAnywhere;
-  if (model_.is_led() && may_go && !stays) model_.lead(hand_.start());
+  const bool is_loose = now - ran_at_ < kLoose || !tried_->rests();
+  if (!tried_->is_led() && !is_loose) tried_->lead(tried_->place());
+  const bool may_go = !tried_->is_plugged() || tried_->stage() == Stage::homing;
+  const bool stays = stays_ && tried_->can_be_homed_anywhere();
+  if (tried_->is_led() && may_go && !stays) tried_->lead(hand_.start());
 }
 
-// A device that is pulled out holds its last force until its own watchdog acts. Its driver can do
-// nothing about it, and the servo relies on 10 ms: what comes later is not of its books.
-template <class Kind>
-void Trial<Kind>::book_own_work(nanoseconds now) {
-  if (model_.commands() != std::exchange(commands_, model_.commands())) commanded_at_ = now;
-  const double work = model_.port_work() - std::exchange(work_, model_.port_work());
-  if (now - commanded_at_ > haptics::HapticDevice::kWatchdog) own_work_ += work;
-}
-
-template <class Kind>
-void Trial<Kind>::pull(bool loses_power) {
+void Trial::pull(bool loses_power) {
   log(fmt::format("unplugged{} at {:.3f} N", loses_power ? ", without power" : "",
-                  model_.force().norm()));
+                  tried_->force()));
   ++outcome_.received;
-  if (!motors_rest()) ++outcome_.pressed;
-  shim_.unplug();
+  if (!tried_->rests()) ++outcome_.pressed;
   watch_.happens(1);
-  watch_.broken(model_.now());
-  model_.forget_line();
-  if (loses_power) model_.forget();
+  watch_.broken(now());
+  tried_->pull(loses_power);
 }
 
-template <class Kind>
-void Trial<Kind>::plug() {
-  if (shim_.is_plugged()) return;
+void Trial::plug() {
+  if (tried_->is_plugged()) return;
   log("plugged in");
-  shim_.plug();
+  tried_->plug();
   watch_.plugged();
 }
 
-template <class Kind>
-void Trial<Kind>::bounce(const Fault& fault, unsigned left) {
+void Trial::bounce(const Fault& fault, unsigned left) {
   pull(fault.loses_power);
   in(fault.lasts % milliseconds(5), [this, &fault, left] {
     plug();
@@ -351,39 +226,10 @@ void Trial<Kind>::bounce(const Fault& fault, unsigned left) {
   });
 }
 
-// A line that breaks and is there still.
-template <class Kind>
-void Trial<Kind>::strike_line(const Fault& fault) {
-  static constexpr std::array kErrors{EPROTO, EILSEQ, EOVERFLOW, ETIME, EPIPE, ENOSR, ENOENT};
-  if (fault.kind == FaultKind::stall) {
-    model_.stall();
-  } else if (fault.kind == FaultKind::cut) {
-    model_.cut();
-  } else if (fault.kind == FaultKind::errors) {
-    shim_.fail(kErrors[fault.call % kErrors.size()], fault.number);
-  } else {
-    shim_.reset_port();
-    model_.forget_line();
-  }
-  // A transfer that is called off is none that failed.
-  const bool is_called_off =
-      fault.kind == FaultKind::reset_port ||
-      (fault.kind == FaultKind::errors && kErrors[fault.call % kErrors.size()] == ENOENT);
-  if (runs() && !is_called_off) watch_.broken(model_.now());
-}
-
-template <class Kind>
-void Trial<Kind>::strike(const Fault& fault) {
-  watch_.happens(is_unplug(fault.kind) ? 1 : fault.number);
-  if (!is_unplug(fault.kind) && fault.kind != FaultKind::end_program) hurt_at_ = model_.now();
-  const nanoseconds short_time = fault.lasts % milliseconds(300);
+void Trial::strike_plug(const Fault& fault, nanoseconds short_time) {
   switch (fault.kind) {
-    case FaultKind::unplug:
-      pull(fault.loses_power);
-      return in(fault.lasts, [this] { plug(); });
     case FaultKind::loose:
-      shim_.fail(EPROTO, 1'000'000);
-      if (runs()) watch_.broken(model_.now());
+      if (tried_->loosen() && runs()) watch_.broken(now());
       return in(milliseconds(fault.number), [this, &fault] {
         pull(fault.loses_power);
         in(fault.lasts, [this] { plug(); });
@@ -392,50 +238,64 @@ void Trial<Kind>::strike(const Fault& fault) {
       return bounce(fault, fault.number);
     case FaultKind::other_device:
       pull(fault.loses_power);
-      return in(fault.lasts, [this, short_time] {
-        Kind::be_another(model_, short_time);
+      return in(fault.lasts, [this, &fault, short_time] {
+        tried_->be_another(fault, short_time);
         plug();
         in(short_time, [this] {
           pull(false);
-          Kind::be_itself(model_);
+          tried_->be_itself();
           in(milliseconds(1), [this] { plug(); });
         });
       });
+    case FaultKind::denied:
+      pull(fault.loses_power);
+      return in(fault.lasts, [this, &fault, short_time] {
+        static constexpr std::array kErrors{EACCES, EBUSY, EIO, ENXIO, EPERM};
+        tried_->deny(kErrors[fault.call % kErrors.size()]);
+        plug();
+        in(short_time, [this] { tried_->deny(0); });
+      });
+    default:
+      pull(fault.loses_power);
+      return in(fault.lasts, [this] { plug(); });
+  }
+}
+
+void Trial::strike(const Fault& fault) {
+  watch_.happens(is_unplug(fault.kind) ? 1 : fault.number);
+  if (!is_unplug(fault.kind) && fault.kind != FaultKind::end_program) hurt_at_ = now();
+  const nanoseconds short_time = fault.lasts % milliseconds(300);
+  if (is_unplug(fault.kind)) return strike_plug(fault, short_time);
+  switch (fault.kind) {
     case FaultKind::end_program:
-      if (!loop_) return;  // it is ending
-      loop_->stop();
+      if (!tried_->has_program()) return;  // it is ending
+      tried_->stop();
       ends_ = true;
       return;
-    case FaultKind::hang:
-      return model_.hang(short_time);
-    case FaultKind::mute:
-      return model_.mute(short_time);
-    case FaultKind::damage:
-      return Kind::damage(model_, static_cast<int>(fault.number));
+    case FaultKind::freeze:
+      frozen_until_ = now() + short_time;
+      return;
     case FaultKind::silent_servo:
       servo_runs_ = false;
       return in(short_time, [this] { servo_runs_ = true; });
-    case FaultKind::reset_port:
-    case FaultKind::errors:
-    case FaultKind::stall:
-    case FaultKind::cut:
-      return strike_line(fault);
+    default: {
+      const bool breaks = tried_->strike(fault, short_time);
+      if (breaks && runs()) watch_.broken(now());
+    }
   }
 }
 
 // So that it is set up from the begin.
-template <class Kind>
-void Trial<Kind>::open_anew() {
-  if (shim_.is_plugged() && stage()) {
+void Trial::open_anew() {
+  if (tried_->is_plugged() && tried_->stage() != Stage::away) {
     pull(false);
-    go([this] { return !stage(); }, milliseconds(100));
+    go([this] { return tried_->stage() == Stage::away; }, milliseconds(100));
   }
   plug();
 }
 
 // Lets time pass until it is struck; at once is left to who calls.
-template <class Kind>
-bool Trial<Kind>::reach(const Fault& fault) {
+bool Trial::reach(const Fault& fault) {
   if (fault.phase == Phase::any) return true;
   if (!go([this] { return agenda_.empty(); }, seconds(10))) return false;
   if (fault.phase == Phase::running) {
@@ -445,30 +305,27 @@ bool Trial<Kind>::reach(const Fault& fault) {
   open_anew();
   if (fault.phase == Phase::opening) {
     bool is_there = false;
-    calls_left_ = fault.call;
-    at_call_ = [&] {
+    tried_->calls().arm(fault.call, [&] {
       is_there = true;
       strike(fault);
-    };
+    });
     const bool is_struck = go([&] { return is_there; }, kBackWithin);
-    calls_left_.reset();
+    tried_->calls().disarm();
     return is_struck;
   }
-  opened_at_.reset();
   if (fault.phase == Phase::homing) {
     is_homed_by_hand_ = false;
-    model_.forget();
-    const bool homes = go([this] { return stage() == UsbStage::homing; }, kBackWithin);
+    tried_->lose_place();
+    const bool homes = go([this] { return tried_->stage() == Stage::homing; }, kBackWithin);
     is_homed_by_hand_ = true;
-    if (!homes) watch_.fail(4, model_.now(), "it is not taken up to be homed");
+    if (!homes) watch_.fail(4, now(), "it is not taken up to be homed");
   } else {
-    go([this] { return opened_at_.has_value(); }, kBackWithin);
+    go([this, tries = tried_->tries()] { return tried_->tries() != tries; }, kBackWithin);
   }
   return wait_and_strike(fault);
 }
 
-template <class Kind>
-bool Trial<Kind>::wait_and_strike(const Fault& fault) {
+bool Trial::wait_and_strike(const Fault& fault) {
   bool is_there = false;
   in(fault.after, [&] {
     is_there = true;
@@ -477,38 +334,49 @@ bool Trial<Kind>::wait_and_strike(const Fault& fault) {
   return go([&] { return is_there; }, kBackWithin);
 }
 
-template <class Kind>
-void Trial<Kind>::come_back() {
+void Trial::come_back() {
   if (!go([this] { return runs(); }, kBackWithin))
-    watch_.fail(4, model_.now(), "it is not taken up again");
+    watch_.fail(4, now(), "it is not taken up again");
 }
 
-template <class Kind>
-void Trial<Kind>::play(const Fault& fault) {
+void Trial::play(const Fault& fault) {
   log("-- " + text_of(fault));
   stays_ = fault.stays;
   depth_ = fault.depth;
   if (!reach(fault)) return;
   if (fault.phase == Phase::any) strike(fault);
-  mix(static_cast<std::uint64_t>(model_.now().count()));
-  mix(std::bit_cast<std::uint64_t>(model_.position().z()));
-  mix(model_.commands());
+  mix(static_cast<std::uint64_t>(now().count()));
+  mix(std::bit_cast<std::uint64_t>(tried_->place().z()));
+  mix(tried_->commands());
 }
 
-template <class Kind>
-Outcome Trial<Kind>::run() {
+// A hand in the wall; or one that comes into it, over and over.
+bool Trial::comes_to_feel() {
+  const nanoseconds outside = tried_->shows_after();
+  const nanoseconds end = now() + kBackWithin;
+  while (now() < end && !watch_.finding()) {
+    if (outside > nanoseconds(0)) {
+      hand_.press(tried_->place(), -HeldHand::kGap, now());
+      go([this, until = now() + 3 * outside] { return now() >= until; }, kBackWithin);
+    }
+    hand_.press(tried_->place(), kDeep, now());
+    const nanoseconds inside = outside > nanoseconds(0) ? 3 * outside : kBackWithin;
+    if (go([this] { return tried_->force() > kFelt; }, inside)) return true;
+  }
+  return false;
+}
+
+Outcome Trial::run() {
   for (const Fault& fault : plan_.faults) {
     if (!watch_.finding()) play(fault);
   }
-  go([this] { return agenda_.empty(); }, seconds(10));
+  go([this] { return agenda_.empty() && now() >= frozen_until_; }, seconds(10));
   come_back();
   depth_ = kDeep;
-  hand_.press(model_.position(), kDeep, model_.now());
-  const bool is_felt = go([this] { return model_.force().norm() > kFelt; }, kBackWithin);
-  if (!is_felt && !plan_.line.splits) watch_.fail(4, model_.now(), "the force does not come back");
-  model_.beside({});
-  loop_.reset();
-  watch_.count(false, shim_.outstanding(), model_.now());
+  if (!comes_to_feel() && !plan_.line.splits) watch_.fail(4, now(), "the force does not come back");
+  tried_->beside({});
+  tried_->end_program();
+  watch_.owns(tried_->surplus(), now());
   outcome_.finding = watch_.finding();
   outcome_.hash = hash_;
   if (log_) outcome_.log = std::move(*log_);
@@ -537,8 +405,7 @@ std::optional<std::string> growth() {
 }  // namespace
 
 Outcome try_out(const Plan& plan, bool keep_log) {
-  Outcome outcome = plan.device == DeviceKind::polhem ? Trial<Polhem>(plan, keep_log).run()
-                                                      : Trial<Falcon>(plan, keep_log).run();
+  Outcome outcome = Trial(plan, keep_log).run();
   if (outcome.finding || keep_log) return outcome;
   if (std::optional<std::string> sentence = growth())
     outcome.finding = Finding{7, {}, std::move(*sentence)};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs a plan: one thread, the real libusb, the kernel's calls answered by a model of the device,
-// a servo, a hand that presses into a wall, and a clock that is the model's.
+// Runs a plan: one thread, the kernel's calls answered by a model of the device, a servo, a hand
+// that presses into a wall, and a clock that is the model's.
 #pragma once
 
 #include <cstdint>

@@ -6,43 +6,68 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "reckon/tests/fuzz/unplugs/trial.hpp"
 
 namespace reckon::fuzz::unplugs {
 namespace {
 
-// Others than the first ones of the verb. Each has 100 faults, most of them unplugs.
-constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 20;
+// Others than the first ones of the verb, five for each kind of device. Each has 100 faults, most
+// of them unplugs.
+constexpr std::uint64_t kFirst = 1'000'114, kSeeds = 20;
 
 TEST(Unplugs, LeaveNoForceAndTheDeviceIsTakenUpAgain) {
-  std::uint64_t pulled = 0, pressed = 0;
+  std::array<std::uint64_t, kDeviceKinds> seeds{}, pulled{}, pressed{};
   for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {
-    const Outcome outcome = try_out(plan_of(seed));
+    const Plan plan = plan_of(seed);
+    const Outcome outcome = try_out(plan);
     ASSERT_FALSE(outcome.finding) << fmt::format("U{}: {}; again: ./run fuzz unplugs --replay {}",
                                                  outcome.finding->invariant,
                                                  outcome.finding->sentence, seed);
-    pulled += outcome.received;
-    pressed += outcome.pressed;
+    const auto kind = static_cast<std::size_t>(plan.device);
+    ++seeds[kind];
+    pulled[kind] += outcome.received;
+    pressed[kind] += outcome.pressed;
   }
-  EXPECT_GT(pulled, 70 * kSeeds);
-  EXPECT_GT(pressed, 8 * kSeeds) << "unplugged under a force";
+  for (std::size_t kind = 0; kind < kDeviceKinds; ++kind) {
+    SCOPED_TRACE(kind);
+    EXPECT_EQ(seeds[kind], kSeeds / kDeviceKinds);
+    EXPECT_GT(pulled[kind], 70 * seeds[kind]);
+    EXPECT_GT(pressed[kind], 4 * seeds[kind]) << "unplugged under a force";
+  }
 }
 
 TEST(Unplugs, RunTheSameFromTheSameSeed) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
-    EXPECT_EQ(try_out(plan_of(seed)).hash, try_out(plan_of(seed)).hash) << "seed " << seed;
+  std::array<bool, kDeviceKinds> is_tried{};
+  for (std::uint64_t seed = 1; std::ranges::count(is_tried, false) > 0; ++seed) {
+    const Plan plan = plan_of(seed);
+    if (std::exchange(is_tried[static_cast<std::size_t>(plan.device)], true)) continue;
+    EXPECT_EQ(try_out(plan).hash, try_out(plan).hash) << "seed " << seed;
+  }
   EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
 }
 
-TEST(UnplugsPlan, DrawsEveryKindOfFaultInEveryPhase) {
-  std::array<std::array<unsigned, kPhases>, kFaultKinds> drawn{};
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
-    for (const Fault& fault : plan_of(seed).faults)
-      ++drawn[static_cast<std::size_t>(fault.kind)][static_cast<std::size_t>(fault.phase)];
+TEST(UnplugsPlan, DrawsEveryFaultOfADeviceInEveryPhase) {
+  std::map<std::tuple<DeviceKind, FaultKind, Phase>, unsigned> drawn;
+  for (std::uint64_t seed = 1; seed <= 1'000; ++seed) {
+    const Plan plan = plan_of(seed);
+    for (const Fault& fault : plan.faults) ++drawn[{plan.device, fault.kind, fault.phase}];
   }
-  for (const auto& phases : drawn) EXPECT_GT(*std::ranges::min_element(phases), 20U);
+  for (const DeviceKind device : {DeviceKind::falcon, DeviceKind::polhem, DeviceKind::serial_board,
+                                  DeviceKind::event_device}) {
+    for (const FaultKind kind : faults_of(device)) {
+      for (const Phase phase :
+           {Phase::any, Phase::opening, Phase::setting_up, Phase::homing, Phase::running}) {
+        if (phase == Phase::homing && device == DeviceKind::event_device) continue;
+        EXPECT_GT((drawn[{device, kind, phase}]), 20U) << text_of(Fault{kind, phase});
+      }
+    }
+  }
 }
 
 }  // namespace

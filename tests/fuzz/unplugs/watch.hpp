@@ -33,13 +33,16 @@ class Watch {
   /// What the device gets from now on is of another line.
   void plugged() { ran_at_.reset(); }
   void see(const Sight& sight);
-  /// @param books [J], of the device's own, with what is owed and allowed
-  void see(const haptics::ServoSnapshot& servo, double books, nanoseconds now);
+  /// @param asked [N], of what it shows what the servo still asks for  @param books [J], of the
+  /// device's own, with what is owed and allowed
+  void see(const haptics::ServoSnapshot& servo, double asked, double books, nanoseconds now);
   void hear(const std::string& sentence, nanoseconds now);
   /// So much befalls it, of each of which it may say something.
   void happens(unsigned times) { events_ += times; }
-  /// Handles and transfers of the library. @param has_line whether the thread has the device open
-  void count(bool has_line, std::size_t outstanding, nanoseconds now);
+  /// @param surplus what the thread's part holds of the host beyond its line, as a sentence
+  void owns(const std::optional<std::string>& surplus, nanoseconds now) {
+    if (surplus) fail(7, now, *surplus);
+  }
   void fail(int invariant, nanoseconds now, std::string sentence);
 
   [[nodiscard]] const std::optional<Finding>& finding() const { return finding_; }

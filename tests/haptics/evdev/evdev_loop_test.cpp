@@ -428,6 +428,18 @@ TEST(EvdevLoop, AProgramThatHangsLeavesNoWallsAfterTheLengthOfAnEffect) {
   EXPECT_GE(plugged.model->least_absorbed(), -1e-9);
 }
 
+TEST(EvdevLoop, WhereItsThreadStandsStillNothingIsShownAfterTheLengthOfAnEffect) {
+  Plugged plugged;
+  plugged.run(milliseconds(2000));
+  plugged.model->pass(milliseconds(12));
+  EXPECT_FALSE(plugged.last().enabled);
+  EXPECT_GT(plugged.model->force(0), 1);
+  EXPECT_GT(plugged.last().force.x(), 1) << "the device shows it still";
+  plugged.model->pass(EvdevLoop::kLength);
+  EXPECT_EQ(plugged.model->force(0), 0);
+  EXPECT_EQ(plugged.last().force, Vector3d::Zero());
+}
+
 TEST(EvdevLoop, AProgramThatEndsTakesItsEffectsWithIt) {
   const EvdevModelOptions options;
   const auto calls = std::make_unique<EvdevModel>(options, pressing);

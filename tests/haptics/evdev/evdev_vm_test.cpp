@@ -3,24 +3,16 @@
 // The program itself at a wheel that the kernel drives: usbhid and hid-pidff on one side, the event
 // device on the other. One wheel and one boot serve all tests, in their order. Time is that of an
 // emulated machine, which is slow and uneven: what takes long is told, and judged by seconds alone.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,16 +20,15 @@
 
 #include "reckon/haptics/evdev/evdev_loop.hpp"
 #include "reckon/tests/haptics/support/usbip_wheel.hpp"
+#include "reckon/tests/haptics/support/vm_program.hpp"
 
 namespace reckon::test {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using std::chrono::steady_clock;
 using ::testing::HasSubstr;
 
-constexpr const char* kProgram = "/bin/reckon";
 // Of that scene: a wall whose outside is where x is greater, and where the hand goes [m].
 constexpr double kStiffness = 700;  // [N/m]
 constexpr double kWall = -0.00513, kOutside = 0.04, kInside = -0.035;
@@ -48,78 +39,10 @@ constexpr double kRest = kWall + (kInside - kWall) * 300 / (300 + kStiffness);
 // coefficient is a whole number of ten thousandths of 2,000 N/m, or 0.2 N/m.
 constexpr double kPlaceStep = 12.5e-6, kStiffnessStep = 0.2;
 
-std::string text_of(const std::string& file) {
-  std::ifstream in(file);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-bool comes_true(const std::function<bool()>& what, seconds longest = seconds(30)) {
-  const auto end = steady_clock::now() + longest;
-  while (steady_clock::now() < end) {
-    if (what()) return true;
-    std::this_thread::sleep_for(milliseconds(2));
-  }
-  return false;
-}
-
-double milliseconds_of(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double, std::milli>(time).count();
-}
-
-double milliseconds_until(const std::function<bool()>& what) {
-  const auto begin = steady_clock::now();
-  EXPECT_TRUE(comes_true(what));
-  return milliseconds_of(steady_clock::now() - begin);
-}
-
-/// The program, with what it says in a file.
-class Program {
- public:
-  explicit Program(std::vector<std::string> words) : words_(std::move(words)) {
-    std::filesystem::remove(file_);
-    id_ = ::fork();
-    if (id_ == 0) run();
-  }
-  ~Program() {
-    if (id_ <= 0) return;
-    send(SIGKILL);
-    static_cast<void>(wait());
-  }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
-  void send(int signal) const { ::kill(id_, signal); }
-  /// @return its status, as a shell says it
-  int wait() {
-    int status = 0;
-    ::waitpid(std::exchange(id_, 0), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  [[nodiscard]] std::string said() const { return text_of(file_); }
-
- private:
-  [[noreturn]] void run() {
-    const int file = ::open(file_.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
-    ::dup2(file, STDOUT_FILENO);
-    ::dup2(file, STDERR_FILENO);
-    std::vector<char*> arguments;
-    for (std::string& word : words_) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    ::execv(arguments[0], arguments.data());
-    std::_Exit(127);
-  }
-
-  std::vector<std::string> words_;
-  std::string file_ = "/tmp/said";
-  pid_t id_ = 0;
-};
-
 class EvdevVm : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    if (!std::filesystem::exists(UsbipWheel::kBus) || !std::filesystem::exists(kProgram)) return;
+    if (!std::filesystem::exists(UsbipDevice::kBus) || !std::filesystem::exists(kProgram)) return;
     wheel = std::make_unique<UsbipWheel>(PidWheelOptions{});
     go(kOutside);
     wheel->plug_in();
@@ -171,7 +94,6 @@ class EvdevVm : public ::testing::Test {
   }
   static std::unique_ptr<Program> start(std::vector<std::string> words = {"peer", "/wall.toml",
                                                                           "--iface", "lo"}) {
-    words.insert(words.begin(), kProgram);
     words.insert(words.end(), {"--device", "evdev", "--json", "--for", "600s"});
     auto program = std::make_unique<Program>(std::move(words));
     EXPECT_TRUE(comes_true([] { return playing() == 2; })) << program->said();
@@ -186,7 +108,7 @@ std::unique_ptr<UsbipWheel> EvdevVm::wheel;
 
 TEST_F(EvdevVm, TheKernelDrivesItAndReckonSaysHowItIsUsed) {
   ASSERT_TRUE(comes_true([] { return std::filesystem::exists("/dev/input/event0"); }));
-  Program program({kProgram, "devices"});
+  Program program({"devices"});
   EXPECT_EQ(program.wait(), 0);
   const std::string said = program.said();
   std::printf("%s", said.c_str());
@@ -249,7 +171,7 @@ TEST_F(EvdevVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
   wheel->unplug();
   EXPECT_EQ(force(), 0);
   const double said = milliseconds_until(
-      [&] { return program->said().find("was unplugged") != std::string::npos; });
+      [&] { return program->has_said("was unplugged"); });
   std::printf("  unplugged: said after %.1f ms\n", said);
   retreat();
   wheel->plug_in();
@@ -296,22 +218,22 @@ TEST_F(EvdevVm, AChangeComesWithinItsDelayHoweverManyThereAre) {
   settings.scale = {0.25, 15, 2000};
   settings.max_stiffness = 800;
   haptics::EvdevDevice device(exchange, haptics::evdev_limits(settings));
-  haptics::EvdevLoop loop(exchange, settings, haptics::kernel_event_calls(), UsbipWheel::now);
+  haptics::EvdevLoop loop(exchange, settings, haptics::kernel_event_calls(), UsbipDevice::now);
   ASSERT_TRUE(comes_true([&] {
     loop.step(milliseconds(1));
     return playing() == 2;
   }));
   const int before = wheel->with([](PidWheel& one) { return one.changes(); });
-  const auto begin = UsbipWheel::now();
-  while (UsbipWheel::now() - begin < seconds(4)) {
-    const double time = std::chrono::duration<double>(UsbipWheel::now() - begin).count();
+  const auto begin = UsbipDevice::now();
+  while (UsbipDevice::now() - begin < seconds(4)) {
+    const double time = std::chrono::duration<double>(UsbipDevice::now() - begin).count();
     haptics::SpringModel model;
     model.wall(0, haptics::WallSide::below) = {-0.07 - 0.02 * std::sin(40 * time), 700, 10};
     model.wall(0, haptics::WallSide::above) = {0.07 + 0.02 * std::cos(40 * time), 700, 10};
-    device.state(model, UsbipWheel::now());
+    device.state(model, UsbipDevice::now());
     loop.step(milliseconds(1));
   }
-  const auto last = UsbipWheel::now();
+  const auto last = UsbipDevice::now();
   std::this_thread::sleep_for(seconds(1));
   wheel->with([&](PidWheel& one) {
     std::printf("  %d changes in 4 s, the last of them there %.1f ms after it was told\n",

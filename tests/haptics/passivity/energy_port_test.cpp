@@ -316,6 +316,16 @@ TEST(EnergyPort, WhatIsOwedStaysOwedUntilItIsPaid) {
   EXPECT_NEAR(port.level(), 0.007, 1e-15);
 }
 
+// A hand of 1 N s/m that comes 2 mm in a millisecond: 4 mJ. What is left of it is unknown.
+TEST(EnergyPort, WhatIsDiscardedWasNotAbsorbed) {
+  EnergyPort port(1.0);
+  static_cast<void>(port.hold({}, kT));
+  port.settle(Vector3d(0.002, 0, 0), kT);
+  EXPECT_NEAR(port.absorbed(), 0.004, 1e-12);
+  port.clear();
+  EXPECT_NEAR(port.absorbed(), 0.0, 1e-12);
+}
+
 // A surface that was fed for long and goes away: 50 mJ were in its spring.
 EnergyPort fed_by_others() {
   EnergyPort port(2.0);
@@ -420,6 +430,16 @@ TEST(EnergyPort, WhatDampingTakesOfAWayIsThatOfItsWorsePose) {
   EXPECT_NEAR(loss(0.5), 0.5e-3, 1e-15) << "there";
   EXPECT_NEAR(loss(2.0), 0.5e-3, 1e-15) << "and from there";
   EXPECT_NEAR(loss(2.0), 2e-3, 1e-15);
+}
+
+TEST(EnergyPort, WhatDampingTakesOfAWayWithoutReadingsIsThatOfItsWorseEnd) {
+  EnergyPort port(2.0);
+  port.pose(0.5, 0.0);
+  port.settle(Vector3d::Zero(), kT);
+  port.miss(kT);
+  port.pose(2.0, 0.0);
+  port.settle(Vector3d(1e-3, 0, 0), kT);
+  EXPECT_NEAR(port.absorbed(), 0.5 * 1e-6 / (2 * kT), 1e-15);
 }
 
 TEST(EnergyPort, AnErrorOfTheEncodersIsThatOfThePoseInWhichTheForceChanged) {

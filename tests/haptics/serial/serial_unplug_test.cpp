@@ -4,10 +4,14 @@
 // done here, for a tty of the kernel has a clock of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 
+#include "reckon/haptics/serial/serial_frames.hpp"
+#include "reckon/haptics/serial/serial_packets.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
@@ -79,6 +83,51 @@ TEST(SerialUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
     EXPECT_GE(wired.least_books, -1e-9);
   }
   EXPECT_GT(pressed, 100U) << "pulled out under a force";
+}
+
+// What the hand took until the board let go, nobody knows.
+TEST(SerialUnplug, WhereTheServoWasSilentItsMeterIsNoHigherThanTheBoardsBooks) {
+  test::SerialBoardOptions options;
+  options.damping = 2.0;
+  options.hand_stiffness = 600;
+  test::WiredBoard wired(
+      options,
+      [](double t) {
+        const double share = std::clamp(2.0 * std::min(t - 1.0, 4.0 - t), 0.0, 1.0);
+        return Vector3d(0, 0, 0.01 - share * (0.01 - 0.015 * std::sin(20 * t)));
+      },
+      limits(), test::stiff_floor());
+  while (wired.board.now() < milliseconds(4000)) {
+    wired.run(milliseconds(83));
+    wired.servo_runs = false;
+    wired.run(milliseconds(7));
+    wired.servo_runs = true;
+  }
+  wired.run(milliseconds(500));
+  EXPECT_GT(wired.last.tally.let_go, 20U) << "the board never let go";
+  EXPECT_GT(wired.board.books(), 0.001) << "nothing was touched";
+  EXPECT_LE(wired.last.port_energy - test::transferred(wired.last),
+            wired.board.books() + wired.last.encoder_allowance + 1e-9);
+  EXPECT_GE(wired.least_books, -1e-9);
+}
+
+// Its last zero is not, and the first of the question would do as well.
+TEST(SerialUnplug, AForceThatWasAllButWholeWhenTheLineBrokeIsNeverHeld) {
+  test::SerialBoard board({}, [](double) { return Vector3d(0, 0, 0.01); });
+  const auto tell = [&](std::span<const std::uint8_t> octets) {
+    for (const std::uint8_t octet : octets) {
+      board.take(octet);
+      EXPECT_FALSE(board.will_hold());
+    }
+  };
+  const SerialFrame force = frame_of({7, {1'000, 0, 0}}, 3);
+  tell(force.span().first(force.length - 1));
+  UsbExchange exchange;
+  SerialSession session(exchange, limits(), 1, 100, milliseconds(300));
+  const auto question = session.next(milliseconds(300));
+  ASSERT_TRUE(question);
+  tell(question->span());
+  EXPECT_EQ(board.commands(), 1U) << "it was asked";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kRight = 0.9;           // of the force of the springs in a row
+constexpr double kRight = 0.9;  // of the force of the springs in a row
 
 struct Cell {
   double press, delay, loss;

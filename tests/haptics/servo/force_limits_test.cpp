@@ -114,6 +114,35 @@ TEST(ForceRate, WhatLagsIsBookedAndTold) {
   EXPECT_NEAR(bench.snapshot().force.z(), right, 1e-3 * right);
 }
 
+// Pressed for long, let go of, pressed again: what the limit takes from the wall is in the books.
+TEST(ForceHeat, WarmMotorsShowWhatTheyHoldAndNoEnergyIsMade) {
+  ServoConfig warm;
+  warm.continuous_force = 2.0;
+  warm.thermal_time = 10.0;
+  Bench bench(
+      floor(1425), {0, 0, 0.02},
+      [](double t) {
+        HandTarget hand;
+        const bool away = t > 4 && t < 34;
+        hand.position = {0.01 * std::sin(3 * t), 0, away ? 0.02 : std::max(-0.03, 0.02 - 0.5 * t)};
+        return hand;
+      },
+      warm);
+  bench.run(4s);
+  EXPECT_GT(bench.peak, 7.0) << "while they were cold";
+  EXPECT_NEAR(bench.snapshot().force.z(), 2.0, 1e-3);
+  EXPECT_LT(bench.snapshot().limit_share, 0.1) << "of what the wall asks that far inside";
+  EXPECT_GT(bench.snapshot().tally.limit.seconds, 2.0);
+  bench.run(30s);
+  EXPECT_EQ(bench.snapshot().force.z(), 0.0);
+  bench.peak = 0;
+  bench.run(300ms);
+  EXPECT_GT(bench.peak, 7.0) << "they are cold again";
+  EXPECT_GE(bench.least, -1e-9);
+  EXPECT_EQ(bench.too_fast, 0);
+  EXPECT_EQ(bench.snapshot().trips, 0U);
+}
+
 // Pressed into a wall, then pulled off it at up to 1.2 m/s: the wall pushes that way too.
 HandTarget pulled_off(double t) {
   HandTarget hand;

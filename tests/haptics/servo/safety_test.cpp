@@ -39,6 +39,48 @@ TEST(Safety, SaturatesWithoutTurningTheForce) {
   EXPECT_EQ(safety.trips(), 0u);
 }
 
+// The time until the limit begins to fall, and the way down, by the law's closed forms.
+TEST(Safety, WarmMotorsShowTheirContinuousForceAndNoMore) {
+  constexpr double kMost = 8.0, kContinuous = 2.0, kTau = 20e3;  // [N], [N], [samples]
+  Safety safety = ready(kMost, 100.0, 1.0, 10);
+  safety.limit_heat(kContinuous, kTau);
+  const Vector3d wanted(0, 0, kMost);
+  const double load = std::pow(kMost / kContinuous, 2);
+  // F_c^2 (h + q (1 - h)) = F^2
+  const double warm = (MotorHeat::kQuick - load) / (MotorHeat::kQuick - 1);
+  const double full = -kTau * std::log(1 - warm / load);
+  int at_full = 0;
+  double shown = 1, before = 1, squares = 0;
+  const int steps = static_cast<int>(5 * kTau);
+  for (int i = 0; i < steps; ++i) {
+    (void)safety.admit(good(), kStill);
+    shown = safety.scale(wanted, kStill);
+    ASSERT_LE(shown, before) << i;
+    before = shown;
+    if (shown == 1.0) ++at_full;
+    squares += std::pow(shown * kMost, 2);
+  }
+  EXPECT_NEAR(at_full, full, 2);
+  EXPECT_NEAR(shown * kMost, kContinuous, 1e-6);
+  // What it may show beyond is the warmth of one time constant.
+  EXPECT_LE(squares / (kContinuous * kContinuous), steps + kTau);
+  EXPECT_GE(squares / (kContinuous * kContinuous), steps + 0.95 * kTau);
+  // It cools while nothing is shown, trips or not.
+  for (int i = 0; i < static_cast<int>(kTau); ++i) (void)safety.admit({}, kStill);
+  for (int i = 0; i < 20 + Safety::kRampSteps; ++i) (void)safety.admit(good(), kStill);
+  EXPECT_EQ(safety.scale(wanted, kStill), 1.0);
+  EXPECT_EQ(safety.scale(0.1 * wanted, kStill), 1.0);
+}
+
+TEST(Safety, AForceThatMotorsHoldForEverIsNeverCut) {
+  Safety safety = ready(8.0, 100.0, 1.0, 10);
+  safety.limit_heat(2.0, 1000);
+  for (int i = 0; i < 20'000; ++i) {
+    (void)safety.admit(good(), kStill);
+    ASSERT_EQ(safety.scale(Vector3d(0, 1.2, 1.59), kStill), 1.0) << i;
+  }
+}
+
 Wrench wrench(const Vector3d& force, const Vector3d& torque) {
   Wrench both;
   both << force, torque;

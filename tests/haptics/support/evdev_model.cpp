@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace reckon::test {
 namespace {
@@ -16,7 +17,8 @@ using std::chrono::nanoseconds;
 constexpr const char* kPath = "/dev/input/event7";
 constexpr int kFile = 7;
 constexpr microseconds kStep{50};
-constexpr int kSubsteps = 5;
+// Of a handle that is held, while nothing is shown: its time is cheap.
+constexpr microseconds kHeldStep{1000};
 constexpr std::int32_t kLeast = -32768, kMost = 32767;  // of its axes
 
 }  // namespace
@@ -28,15 +30,17 @@ EvdevModel::EvdevModel(const EvdevModelOptions& options, std::function<Places(do
 
 void EvdevModel::pass(nanoseconds time) {
   for (const nanoseconds end = now_ + time; now_ < end;) {
-    now_ += kStep;
+    const bool is_cheap = held_at_ && effects_.empty();
+    const nanoseconds step = is_cheap ? std::min<nanoseconds>(kHeldStep, end - now_) : kStep;
+    now_ += step;
     while (!orders_.empty() && orders_.front().at <= now_) {
       orders_.front().act();
       orders_.pop_front();
     }
     for (auto& [id, effect] : effects_)
       if (effect.plays && options_.ends_effects && now_ >= effect.until) effect.plays = false;
-    for (int i = 0; i < kSubsteps; ++i)
-      run(std::chrono::duration<double>(kStep).count() / kSubsteps);
+    for (int i = 0; i < options_.substeps; ++i)
+      run(std::chrono::duration<double>(step).count() / options_.substeps);
     if (plugged_ && now_ >= next_report_) report();
     if (beside_) beside_(now_);
   }
@@ -44,6 +48,11 @@ void EvdevModel::pass(nanoseconds time) {
 
 // The energy that a constant model takes is the difference of its potential, whatever the step.
 void EvdevModel::run(double h) {
+  if (held_at_) {
+    place_ = *held_at_;
+    speed_ = {};
+    return;
+  }
   const double t = std::chrono::duration<double>(now_).count();
   const Places to = hand_(t), before = hand_(t - 1e-4);
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.axes); ++i) {
@@ -132,12 +141,10 @@ void EvdevModel::press(std::uint16_t key, bool down) {
 
 void EvdevModel::plug(bool in) {
   plugged_ = in;
-  erase_all();
+  effects_.clear();
   events_.clear();
   orders_.clear();
 }
-
-void EvdevModel::erase_all() { effects_.clear(); }
 
 // In the order in which it was told.
 void EvdevModel::order(int reports, std::function<void()> act) {
@@ -168,10 +175,16 @@ int EvdevModel::open(const std::string& path) {
   return kFile;
 }
 
+// Who opens it next has effects of its own.
 void EvdevModel::close(int /*file*/) noexcept {
   --open_;
   events_.clear();
-  if (open_ == 0) order(0, [this] { erase_all(); });
+  if (open_ > 0) return;
+  std::vector<int> its;
+  for (const auto& [id, effect] : effects_) its.push_back(id);
+  order(0, [this, its = std::move(its)] {
+    for (const int id : its) effects_.erase(id);
+  });
 }
 
 int EvdevModel::ask_bits(unsigned long request, void* argument) const {
@@ -214,7 +227,8 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
     const bool is_new = told.id < 0;
     if (is_new) {
       if (static_cast<int>(effects_.size()) >= most_effects) return -ENOSPC;
-      told.id = static_cast<std::int16_t>(next_id_++);
+      told.id = 0;  // the lowest that is free
+      while (effects_.contains(told.id)) ++told.id;
       effects_[told.id].numbers.replay = told.replay;
     } else if (!effects_.contains(told.id)) {
       return -EINVAL;

@@ -13,6 +13,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct EvdevModelOptions {
   /// It takes one report of the host each so long; a change of an effect is two, playing it is one.
   std::chrono::microseconds takes{125};
   bool misses_turns = false;  ///< every other: it takes one in twice as long
+  int substeps = 5;           ///< of its motion, within 50 us
   int axes = 2;
   bool ends_effects = true;  ///< obeys the length of an effect
 };
@@ -59,18 +61,27 @@ class EvdevModel final : public haptics::EventCalls {
   EvdevModel(const EvdevModelOptions& options, std::function<Places(double)> hand);
 
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
-  /// Called every 50 us of its time: what runs beside the device's thread.
+  /// Called every 50 us of its time, or every millisecond while it is held: what runs beside the
+  /// device's thread.
   void beside(std::function<void(std::chrono::nanoseconds)> call) { beside_ = std::move(call); }
   void pass(std::chrono::nanoseconds time);
 
+  /// A hand that is stronger than all holds the handle here, at rest, until it is released. That
+  /// is not booked.
+  void hold(const Places& place) { held_at_ = place; }
+  void release() { held_at_.reset(); }
+  [[nodiscard]] bool is_held() const { return held_at_.has_value(); }
+
   // What goes wrong.
   void plug(bool in);
+  [[nodiscard]] bool is_plugged() const { return plugged_; }
   void fail(unsigned long request, int error) { failing_[request] = error; }  ///< 0: no more
   void fail_writes(int error) { failing_write_ = error; }
   void drop_events() { drops_ = true; }  ///< of the next report
   void press(std::uint16_t key, bool down);
-  std::vector<int> without;         ///< bits of EV_FF that it has not
-  int most_effects = 16;            ///< at once
+  std::vector<int> without;  ///< bits of EV_FF that it has not
+  static constexpr int kEffects = 16;
+  int most_effects = kEffects;      ///< at once
   int opening = 0;                  ///< what open() returns where it is below 0
   bool tells_interval = true;       ///< how often it takes a report
   std::vector<std::string> others;  ///< paths before its own, which are no devices
@@ -115,7 +126,6 @@ class EvdevModel final : public haptics::EventCalls {
   void run(double h);
   void report();
   void send(std::uint16_t type, std::uint16_t code, std::int32_t value);
-  void erase_all();
   [[nodiscard]] int ask_bits(unsigned long request, void* argument) const;
   [[nodiscard]] std::int32_t reading(std::size_t axis) const;
   [[nodiscard]] double force_at(std::size_t axis, double x) const;
@@ -129,6 +139,7 @@ class EvdevModel final : public haptics::EventCalls {
   std::mt19937 random_;
   std::chrono::nanoseconds now_{0}, next_report_{0}, last_order_{0}, slowest_change_{0};
   Places place_{}, speed_{};
+  std::optional<Places> held_at_;
   std::map<int, Effect> effects_;
   std::deque<Order> orders_;
   std::deque<input_event> events_;
@@ -137,7 +148,7 @@ class EvdevModel final : public haptics::EventCalls {
   std::map<unsigned long, int> failing_;
   int failing_write_ = 0;
   bool plugged_ = true, drops_ = false;
-  int open_ = 0, next_id_ = 0, uploads_ = 0;
+  int open_ = 0, uploads_ = 0;
   std::int32_t gain_ = -1, autocenter_ = -1;
   double absorbed_ = 0, least_ = 0, fastest_ = 0, greatest_ = 0;
 };

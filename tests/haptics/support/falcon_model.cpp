@@ -46,6 +46,8 @@ Vector3d FalconModel::torques() const {
   return torques;
 }
 
+Vector3d FalconModel::half_steps() const { return Vector3d::Constant(0.5e-4); }
+
 std::optional<HeldModel::Joints> FalconModel::joints_at(const Vector3d& position) const {
   const auto angles = haptics::falcon_angles(place(position));
   if (!angles) return std::nullopt;

@@ -60,6 +60,7 @@ class FalconModel final : public HeldModel {
  private:
   [[nodiscard]] std::optional<Joints> joints_at(const Eigen::Vector3d& position) const override;
   [[nodiscard]] Eigen::Vector3d torques() const override;
+  [[nodiscard]] Eigen::Vector3d half_steps() const override;
   void run_line() override;
   void take_transfer(std::span<const std::uint8_t> octets) override;
   void take(std::uint8_t octet);

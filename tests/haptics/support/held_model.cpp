@@ -101,11 +101,11 @@ void HeldModel::move(double h) {
   }
   angles_ = joints->angles;
   if (!joints->jacobian.isZero(0)) jacobian_ = joints->jacobian;
-  if (h > 0) {
-    const Vector3d turn = angles_ - before;
-    port_work_ -= torques().dot(turn);
-    damping_loss_ += options_.joint_damping * turn.squaredNorm() / h;
-  }
+  if (!(h > 0)) return;
+  const Vector3d turn = angles_ - before;
+  port_work_ -= torques().dot(turn);
+  damping_loss_ += options_.joint_damping * turn.squaredNorm() / h;
+  rounding_ += half_steps().dot(turn.cwiseAbs());
 }
 
 void HeldModel::begin_out(std::span<const std::uint8_t> octets) {

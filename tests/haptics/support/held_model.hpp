@@ -60,6 +60,8 @@ class HeldModel : public UsbModel {
   [[nodiscard]] double port_work() const { return port_work_; }        ///< [J], of the motors
   [[nodiscard]] double damping_loss() const { return damping_loss_; }  ///< [J]
   [[nodiscard]] double lifted() const;  ///< [J], of its links since the begin
+  /// [J], most that whole steps of its motors' torques may have put into work that a driver knows.
+  [[nodiscard]] double rounding() const { return rounding_; }
   [[nodiscard]] const Eigen::Vector3d& position() const { return position_; }  ///< [m]
   [[nodiscard]] Eigen::Vector3d force() const;  ///< [N], of the motors
 
@@ -79,6 +81,8 @@ class HeldModel : public UsbModel {
   [[nodiscard]] virtual std::optional<Joints> joints_at(const Eigen::Vector3d& position) const = 0;
   /// Of the motors, about the joints [N m].
   [[nodiscard]] virtual Eigen::Vector3d torques() const = 0;
+  /// Of a step of each torque, half [N m].
+  [[nodiscard]] virtual Eigen::Vector3d half_steps() const = 0;
   /// Energy of its links' weight [J].
   [[nodiscard]] virtual double height(const Eigen::Vector3d& /*angles*/) const { return 0; }
   virtual void run_line() = 0;
@@ -106,7 +110,7 @@ class HeldModel : public UsbModel {
   double carried_ = 1;
   bool led_ = false;
   std::chrono::nanoseconds moved_{0};  // less, since its last motion
-  double port_work_ = 0, damping_loss_ = 0, first_height_ = 0;
+  double port_work_ = 0, damping_loss_ = 0, rounding_ = 0, first_height_ = 0;
   std::vector<std::uint8_t> out_;
   std::chrono::nanoseconds out_at_{0};  // a transfer ends
 };

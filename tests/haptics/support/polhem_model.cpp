@@ -91,7 +91,12 @@ Vector3d PolhemModel::torques() const {
   return torques;
 }
 
+Vector3d PolhemModel::half_steps() const {
+  return 0.5e-3 * kTorque * Vector3d(kRatios[0], kRatios[1], kRatios[2]);
+}
+
 double PolhemModel::height(const Vector3d& angles) const {
+  if (options_.upper_weight == 0 && options_.fore_weight == 0) return 0;
   return options_.upper_weight * std::cos(angles[1]) - options_.fore_weight * std::cos(angles[2]);
 }
 

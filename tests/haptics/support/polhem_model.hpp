@@ -72,6 +72,7 @@ class PolhemModel final : public HeldModel {
  private:
   [[nodiscard]] std::optional<Joints> joints_at(const Eigen::Vector3d& position) const override;
   [[nodiscard]] Eigen::Vector3d torques() const override;
+  [[nodiscard]] Eigen::Vector3d half_steps() const override;
   [[nodiscard]] double height(const Eigen::Vector3d& angles) const override;
   [[nodiscard]] bool has_room() const override { return !command_; }
   void take_transfer(std::span<const std::uint8_t> octets) override;

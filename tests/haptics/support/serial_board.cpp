@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/haptics/support/serial_board.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,7 +50,16 @@ void SerialBoard::forget() {
 }
 
 void SerialBoard::take(std::uint8_t octet) {
-  if (!hangs_) reckon_board_take(&program, octet);
+  if (hangs_) return;
+  const std::uint8_t was_told = std::exchange(program.was_told, std::uint8_t{0});
+  reckon_board_take(&program, octet);
+  if (program.was_told != 0) ++commands_;
+  program.was_told = static_cast<std::uint8_t>(program.was_told | was_told);
+}
+
+bool SerialBoard::will_hold() const {
+  if (program.has_next == 0) return program.drops == 0 && !force_.isZero(0);
+  return std::ranges::any_of(program.next_force, [](std::int16_t force) { return force != 0; });
 }
 
 std::vector<std::vector<std::uint8_t>> SerialBoard::pass() {
@@ -66,6 +76,11 @@ std::vector<std::vector<std::uint8_t>> SerialBoard::pass() {
 
 // Velocity first: each book with the velocity that moves the handle.
 void SerialBoard::move(double h) {
+  if (held_at_) {
+    position_ = *held_at_;
+    velocity_.setZero();
+    return;
+  }
   const double t = pdu::to_seconds(now_);
   const Vector3d speed = (hand_(t + 1e-4) - hand_(t)) / 1e-4;
   if (options_.is_led) {
@@ -84,6 +99,7 @@ void SerialBoard::move(double h) {
   position_ += h * velocity_;
   damping_loss_ += h * options_.damping * velocity_.squaredNorm();
   port_work_ -= h * held.dot(velocity_);
+  rounding_ += h * 0.5e-3 * velocity_.lpNorm<1>();
 }
 
 void SerialBoard::tick() {

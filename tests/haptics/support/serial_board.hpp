@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -51,6 +52,8 @@ class SerialBoard {
   [[nodiscard]] std::chrono::nanoseconds now() const { return now_; }
   /// [J] that the hand put in: through the motors, and what its damping took.
   [[nodiscard]] double books() const { return port_work_ + damping_loss_; }
+  /// [J], most that whole mN of its forces may have put into work that a host knows.
+  [[nodiscard]] double rounding() const { return rounding_; }
   [[nodiscard]] const Vector3d& position() const { return position_; }  ///< [m, D]
   [[nodiscard]] const Vector3d& force() const { return force_; }        ///< [N, D] that is held
 
@@ -61,8 +64,17 @@ class SerialBoard {
     Vector3d force;  // [N, D] from then on
   };
   [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
+  /// Frames that asked it or told it a force.
+  [[nodiscard]] std::uint64_t commands() const { return commands_; }
+  /// Whether it holds a force, or will by what it was told, from its next tick on.
+  [[nodiscard]] bool will_hold() const;
 
   void let_go() { options_.hand_stiffness = options_.hand_damping = 0; }  ///< nobody holds it
+  /// A hand that is stronger than all holds the handle here, at rest, until it is released. That
+  /// is not booked.
+  void hold(const Vector3d& place) { held_at_ = place; }
+  void release() { held_at_.reset(); }
+  [[nodiscard]] bool is_held() const { return held_at_.has_value(); }
   void forget();  ///< as after its reset: counters, force, what it was told
   void hold_button(bool on) { buttons_ = on ? 1 : 0; }
   void lose_place(bool on) { homed_ = !on; }  ///< its counts are no places
@@ -80,9 +92,11 @@ class SerialBoard {
   std::chrono::nanoseconds now_{0}, next_tick_{0}, late_{0};
   Vector3d position_, velocity_ = Vector3d::Zero(), force_ = Vector3d::Zero();
   std::deque<Vector3d> lagging_;  // forces of the last steps
-  double port_work_ = 0, damping_loss_ = 0;
+  double port_work_ = 0, damping_loss_ = 0, rounding_ = 0;
   std::uint32_t first_stamp_;
   double clock_rate_ = 1;
+  std::optional<Vector3d> held_at_;
+  std::uint64_t commands_ = 0;
   std::uint8_t buttons_ = 0;
   bool homed_ = true, hangs_ = false;
   std::vector<std::vector<std::uint8_t>> sent_;

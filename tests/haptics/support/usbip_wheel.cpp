@@ -2,33 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/haptics/support/usbip_wheel.hpp"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <linux/usb/ch9.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 #include <utility>
 
 namespace reckon::test {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::nanoseconds;
-
-constexpr std::size_t kWords = 12;  // of a head of USB/IP
-constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
-constexpr unsigned kFullSpeed = 2;
 constexpr std::uint8_t kHid = 0x21, kReport = 0x22;  // descriptors of the class HID
 constexpr std::uint8_t kGetReport = 0x01, kSetReport = 0x09;
-constexpr milliseconds kFrame{1};
 
 std::uint8_t low(std::size_t value) { return static_cast<std::uint8_t>(value); }
 std::uint8_t high(std::size_t value) { return static_cast<std::uint8_t>(value >> 8); }
@@ -43,152 +26,9 @@ std::vector<std::uint8_t> text_descriptor(std::string_view text) {
 
 }  // namespace
 
-UsbipWheel::UsbipWheel(const PidWheelOptions& options)
-    : wheel_(options), thread_([this] { serve(); }) {}
-
-UsbipWheel::~UsbipWheel() {
-  ends_ = true;
-  thread_.join();
-  unplug();
-}
-
-nanoseconds UsbipWheel::now() { return std::chrono::steady_clock::now().time_since_epoch(); }
-
-void UsbipWheel::plug_in() {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw std::runtime_error("no sockets");
-  const std::string order = "0 " + std::to_string(ends[0]) + " 65538 " + std::to_string(kFullSpeed);
-  const int attach = ::open((std::string(kBus) + "/attach").c_str(), O_WRONLY | O_CLOEXEC);
-  bool is_taken = false;
-  for (int tries = 0; tries < 200 && attach >= 0 && !is_taken; ++tries) {
-    is_taken = ::write(attach, order.data(), order.size()) >= 0;  // a call is an order
-    if (!is_taken) std::this_thread::sleep_for(milliseconds(20));
-  }
-  ::close(attach);
-  ::close(ends[0]);
-  if (!is_taken) {
-    ::close(ends[1]);
-    throw std::runtime_error("vhci_hcd takes no device");
-  }
-  const std::lock_guard lock(having_);
-  socket_ = ends[1];
-}
-
-void UsbipWheel::unplug() {
-  const std::lock_guard lock(having_);
-  wheel_.lose_power();
-  in_.clear();
-  out_.clear();
-  sent_.clear();
-  if (socket_ >= 0) ::close(std::exchange(socket_, -1));
-}
-
-void UsbipWheel::serve() {
-  nanoseconds frame = now();  // that is over
-  while (!ends_) {
-    int socket = -1;
-    {
-      const std::lock_guard lock(having_);
-      socket = socket_;
-    }
-    pollfd one{socket, POLLIN, 0};
-    const nanoseconds left = std::max(frame + kFrame - now(), nanoseconds(0));
-    const timespec longest{0, left.count()};
-    ::ppoll(&one, 1, &longest, nullptr);
-    const std::lock_guard lock(having_);
-    wheel_.run_until(now());
-    if (socket != socket_) continue;
-    if ((one.revents & POLLIN) != 0 && !take_request()) ::close(std::exchange(socket_, -1));
-    if (now() < frame + kFrame) continue;
-    frame = std::max(frame + kFrame, now() - kFrame);
-    move_reports();
-  }
-}
-
-void UsbipWheel::move_reports() {
-  if (!out_.empty()) {
-    wheel_.take(out_.front().data);
-    answer(out_.front(), 0, {});
-    out_.pop_front();
-  }
-  std::vector<std::uint8_t> report = wheel_.input();
-  if (in_.empty() || report == sent_) return;
-  answer(in_.front(), 0, report);
-  in_.pop_front();
-  sent_ = std::move(report);
-}
-
-bool UsbipWheel::receive(std::span<std::uint8_t> into) {
-  while (!into.empty()) {
-    const auto octets = ::recv(socket_, into.data(), into.size(), 0);
-    if (octets < 0 && errno == EINTR) continue;
-    if (octets <= 0) return false;
-    into = into.subspan(static_cast<std::size_t>(octets));
-  }
-  return true;
-}
-
-// Numbers are in the order of the network; the setup packet is as on the line.
-bool UsbipWheel::take_request() {
-  std::array<std::uint8_t, 4 * kWords> octets{};
-  if (!receive(octets)) return false;
-  std::array<std::uint32_t, kWords> head{};
-  std::memcpy(head.data(), octets.data(), octets.size());
-  Request request;
-  std::memcpy(request.setup.data(), &octets[40], request.setup.size());
-  for (std::uint32_t& word : head) word = ntohl(word);
-  request.number = head[1];
-  if (head[0] == kUnlink) {
-    cancel(head[1], head[5]);
-    return true;
-  }
-  if (head[0] != kSubmit) return false;
-  request.is_in = head[3] == 1;
-  request.endpoint = head[4];
-  request.length = head[6];
-  if (!request.is_in) {
-    request.data.resize(request.length);
-    if (!receive(request.data)) return false;
-  }
-  if (request.endpoint == 0) {
-    control(request);
-  } else {
-    (request.is_in ? in_ : out_).push_back(std::move(request));
-  }
-  return true;
-}
-
-void UsbipWheel::cancel(std::uint32_t number, std::uint32_t victim) {
-  const auto is_victim = [&](const Request& one) { return one.number == victim; };
-  const std::size_t erased = std::erase_if(in_, is_victim) + std::erase_if(out_, is_victim);
-  std::array<std::uint32_t, kWords> head{kUnlinked, number};
-  head[5] = erased > 0 ? static_cast<std::uint32_t>(-ECONNRESET) : 0;
-  send(head, {});
-}
-
-void UsbipWheel::answer(const Request& request, int status, std::span<const std::uint8_t> data) {
-  data = data.first(std::min<std::size_t>(data.size(), request.length));
-  std::array<std::uint32_t, kWords> head{kSubmitted, request.number};
-  head[5] = static_cast<std::uint32_t>(status);
-  if (status == 0)
-    head[6] = request.is_in ? static_cast<std::uint32_t>(data.size()) : request.length;
-  send(head, data);
-}
-
-void UsbipWheel::send(std::span<const std::uint32_t> head, std::span<const std::uint8_t> data) {
-  std::vector<std::uint8_t> octets(4 * kWords);
-  for (std::size_t i = 0; i < kWords; ++i) {
-    const std::uint32_t word = htonl(head[i]);
-    std::memcpy(&octets[4 * i], &word, sizeof word);
-  }
-  octets.insert(octets.end(), data.begin(), data.end());
-  // A kernel that has let go of it closes the socket, which the next read tells.
-  static_cast<void>(::send(socket_, octets.data(), octets.size(), MSG_NOSIGNAL));
-}
-
-std::vector<std::uint8_t> UsbipWheel::descriptor(std::uint8_t kind, std::uint8_t index) const {
-  const std::size_t length = wheel_.descriptor().size();
+std::vector<std::uint8_t> UsbipWheel::Model::descriptor(std::uint8_t kind,
+                                                        std::uint8_t index) const {
+  const std::size_t length = wheel.descriptor().size();
   switch (kind) {
     case USB_DT_DEVICE:  // of OpenFFBoard's number
       return {18, kind, 0, 2, 0, 0, 0, 64, 0x09, 0x12, 0xB0, 0xFF, 0, 1, 1, 2, 0, 1};
@@ -238,31 +78,37 @@ std::vector<std::uint8_t> UsbipWheel::descriptor(std::uint8_t kind, std::uint8_t
       if (index == 0) return {4, kind, 0x09, 0x04};
       return text_descriptor(index == 1 ? kMaker : kProduct);
     case kReport:
-      return wheel_.descriptor();
+      return wheel.descriptor();
     default:
       return {};
   }
 }
 
-void UsbipWheel::control(const Request& request) {
-  const auto [type, what, index, kind, interface, none, length, more] = request.setup;
-  const bool is_of_class = (type & USB_TYPE_MASK) == USB_TYPE_CLASS;
-  std::vector<std::uint8_t> out;
-  bool is_known = !request.is_in;  // what it is told to be, it is: it has one configuration
-  if (!is_of_class && what == USB_REQ_GET_DESCRIPTOR) {
-    out = descriptor(kind, index);
-    is_known = !out.empty();
-  } else if (!is_of_class && what == USB_REQ_GET_STATUS) {
-    out = {0, 0};
-    is_known = true;
-  } else if (is_of_class && what == kGetReport) {
-    const auto report = kind == 1 ? std::optional(wheel_.input()) : wheel_.feature(index);
-    is_known = report.has_value();
-    if (report) out = *report;
-  } else if (is_of_class && what == kSetReport) {
-    wheel_.take(request.data);
-  }
-  answer(request, is_known ? 0 : -EPIPE, out);
+std::optional<std::vector<std::uint8_t>> UsbipWheel::Model::control(
+    std::span<const std::uint8_t, 8> setup, std::span<const std::uint8_t> data) {
+  if ((setup[0] & USB_TYPE_MASK) != USB_TYPE_CLASS) return std::nullopt;
+  const std::uint8_t what = setup[1], index = setup[2], kind = setup[3];
+  if (what == kGetReport) return kind == 1 ? std::optional(wheel.input()) : wheel.feature(index);
+  if (what == kSetReport) wheel.take(data);
+  if ((setup[0] & USB_DIR_IN) != 0) return std::nullopt;
+  return std::vector<std::uint8_t>{};
+}
+
+bool UsbipWheel::Model::take(std::span<const std::uint8_t> octets) {
+  wheel.take(octets);
+  return true;
+}
+
+std::optional<std::vector<std::uint8_t>> UsbipWheel::Model::give() {
+  std::vector<std::uint8_t> report = wheel.input();
+  if (report == sent_) return std::nullopt;
+  sent_ = report;
+  return report;
+}
+
+void UsbipWheel::Model::lose_power() {
+  wheel.lose_power();
+  sent_.clear();
 }
 
 }  // namespace reckon::test

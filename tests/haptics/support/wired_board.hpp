@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <optional>
 #include <random>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,34 +18,10 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/haptics/usb/usb_device.hpp"
 #include "reckon/tests/haptics/support/drawn_touch.hpp"
+#include "reckon/tests/haptics/support/line_way.hpp"
 #include "reckon/tests/haptics/support/serial_board.hpp"
 
 namespace reckon::test {
-
-/// One way of a line: each octet takes its time, and comes so much later.
-class LineWay {
- public:
-  std::chrono::nanoseconds latency{100'000};
-  std::chrono::nanoseconds octet{10'000};  // 1 Mbaud
-
-  void send(std::span<const std::uint8_t> octets, std::chrono::nanoseconds now) {
-    for (const std::uint8_t one : octets) {
-      free_at_ = std::max(free_at_, now) + octet;
-      under_way_.emplace_back(free_at_ + latency, one);
-    }
-  }
-  [[nodiscard]] bool is_sending(std::chrono::nanoseconds now) const { return free_at_ > now; }
-  [[nodiscard]] std::vector<std::uint8_t> take(std::chrono::nanoseconds now) {
-    std::vector<std::uint8_t> octets;
-    for (; !under_way_.empty() && under_way_.front().first <= now; under_way_.pop_front())
-      octets.push_back(under_way_.front().second);
-    return octets;
-  }
-
- private:
-  std::deque<std::pair<std::chrono::nanoseconds, std::uint8_t>> under_way_;
-  std::chrono::nanoseconds free_at_{0};
-};
 
 /// How often frames of the board go wrong, each of a thousand.
 struct LineFaults {

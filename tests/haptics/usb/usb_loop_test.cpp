@@ -439,6 +439,67 @@ TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
                                 Optional(nanoseconds(0)), std::nullopt));
 }
 
+// The servo is late once; that way comes to it `delay` steps later, when it is punctual again.
+TEST(UsbDevice, TellsHowLongAWayTookByTheWritesOfItsForceWhereItHasNoClock) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  const int delay = device.limits().delay_samples;
+  nanoseconds now(0);
+  for (int write = 1; write <= 3 * delay; ++write) {
+    now += milliseconds(write == delay + 1 ? 4 : 1);
+    exchange.readings.push({Vector3d::Zero(), {}, write - 1 - delay, write - delay, 1, 0});
+    const DeviceSample sample = device.read(now);
+    device.write(Vector3d::Zero(), now);
+    if (write <= delay + 1) continue;
+    ASSERT_TRUE(sample.ok) << write;
+    const int due = write - 1 - delay;
+    EXPECT_EQ(sample.took, milliseconds(due == delay ? 4 : 1)) << write;
+  }
+}
+
+// 3 mm that a handle went while nobody read it: over a period it would be 16 mJ of damping.
+TEST(UsbDevice, AWayBetweenTwoRunsCountsForNoDamping) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  ServoLoop servo(device, EffectPlan(Scene()), ServoConfig());
+  nanoseconds now(0);
+  const auto rest_at = [&](double x, std::uint32_t run) {
+    for (int i = 0; i < 20; ++i) {
+      now += milliseconds(1);
+      exchange.readings.push({Vector3d(x, 0, 0), {}, 0, 1000, run, 0});
+      servo.step(now);
+    }
+    servo.snapshots().update();
+    return servo.snapshots().read();
+  };
+  EXPECT_EQ(rest_at(0, 1).port_energy, 0);
+  const ServoSnapshot after = rest_at(0.003, 2);
+  EXPECT_EQ(after.tally.let_go, 1U);
+  EXPECT_NEAR(after.device.x(), 0.003, 1e-12);
+  EXPECT_LE(after.port_energy, 1e-12);
+}
+
+// A hand that presses slowly, and of which nobody knows how it came out.
+TEST(UsbDevice, WhereTheForceWasDroppedTheMeterLosesWhatTheWallStored) {
+  UsbExchange exchange;
+  UsbDevice device(exchange, limits());
+  ServoLoop servo(device, EffectPlan(test::stiff_floor()), ServoConfig());
+  const int delay = device.limits().delay_samples;
+  int write = 0;
+  const auto read_at = [&](double z, std::uint32_t run) {
+    const std::int64_t held = std::max(0, write++ - delay);
+    exchange.readings.push({Vector3d(0, 0, z), {}, held, held + 1, run, 0});
+    servo.step(milliseconds(write));
+    servo.snapshots().update();
+    return servo.snapshots().read();
+  };
+  for (int i = 0; i < 400; ++i) read_at(0.001 - 1e-5 * i, 1);
+  const ServoSnapshot pressed = read_at(-0.003, 1);
+  const double stored = 0.5 * pressed.force.z() * 0.003;
+  ASSERT_GT(stored, 1e-4) << "no wall is felt";
+  EXPECT_LE(read_at(0.001, 2).port_energy, pressed.port_energy - stored + 1e-12);
+}
+
 TEST(UsbDevice, TellsThatTheForceWasDropped) {
   UsbExchange exchange;
   UsbDevice device(exchange, limits());

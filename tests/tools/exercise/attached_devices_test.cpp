@@ -46,7 +46,7 @@ UsbDeviceSeen falcon(bool open) {
 }
 
 TEST(AttachedDevices, SayHowAFalconWouldBeUsed) {
-  const UsbLook look = judge_usb({hub(), falcon(true)}, {"Falcon: ready: forces are shown"});
+  const UsbLook look = judge_usb({hub(), falcon(true)}, {"Falcon: ready: forces are shown"}, false);
   EXPECT_THAT(look.problem, IsEmpty());
   EXPECT_EQ(look.others, 1U);
   ASSERT_EQ(look.devices.size(), 1U);
@@ -67,22 +67,24 @@ UsbDeviceSeen polhem(bool open) {
 }
 
 TEST(AttachedDevices, SayHowAPolhemWouldBeUsedAndWhatIsInTheWay) {
-  const UsbLook ready = judge_usb({polhem(true)}, {"Polhem: ready: forces are shown"});
+  const UsbLook ready = judge_usb({polhem(true)}, {"Polhem: ready: forces are shown"}, false);
   ASSERT_EQ(ready.devices.size(), 1U);
   EXPECT_EQ(ready.devices[0].driver, "polhem");
   EXPECT_EQ(ready.devices[0].name, "Polhem, /dev/bus/usb/002/017");
   EXPECT_THAT(ready.devices[0].use, HasSubstr("--device polhem"));
   EXPECT_THAT(ready.devices[0].problem, IsEmpty());
   // Beside a Falcon, each has its own.
-  const UsbLook both =
-      judge_usb({falcon(true), polhem(true)},
-                {"Falcon: ready: forces are shown", "Polhem: not homed: hold it straight ahead"});
+  const UsbLook both = judge_usb(
+      {falcon(true), polhem(true)},
+      {"Falcon: ready: forces are shown", "Polhem: not homed: hold it straight ahead"}, false);
   ASSERT_EQ(both.devices.size(), 2U);
   EXPECT_THAT(both.devices[0].problem, IsEmpty());
   EXPECT_THAT(both.devices[1].problem, HasSubstr("not homed"));
   UsbDeviceSeen denied = polhem(false);
   denied.is_denied = true;
-  EXPECT_THAT(judge_usb({denied}, {}).devices.at(0).remedy, HasSubstr("--install-rule"));
+  EXPECT_THAT(judge_usb({denied}, {}, false).devices.at(0).remedy, HasSubstr("--install-rule"));
+  EXPECT_THAT(judge_usb({denied}, {}, true).devices.at(0).remedy,
+              HasSubstr("over ssh it opens for the group plugdev alone"));
 }
 
 haptics::EventDeviceSeen wheel() {
@@ -128,7 +130,7 @@ TEST(AttachedDevices, ABoardWithoutItsKernelsDriverIsTold) {
 TEST(AttachedDevices, SayWhoMayNotOpenItAndTheRemedy) {
   UsbDeviceSeen seen = falcon(false);
   seen.is_denied = true;
-  const UsbLook look = judge_usb({seen}, {});
+  const UsbLook look = judge_usb({seen}, {}, false);
   ASSERT_EQ(look.devices.size(), 1U);
   EXPECT_EQ(look.devices[0].problem, "this user may not open it");
   EXPECT_THAT(look.devices[0].remedy, HasSubstr("--install-rule"));
@@ -137,9 +139,9 @@ TEST(AttachedDevices, SayWhoMayNotOpenItAndTheRemedy) {
 TEST(AttachedDevices, SayWhatElseIsInTheWay) {
   UsbDeviceSeen seen = falcon(false);
   seen.problem = "Input/Output Error";
-  EXPECT_THAT(judge_usb({seen}, {}).devices.at(0).problem, HasSubstr("Input/Output Error"));
+  EXPECT_THAT(judge_usb({seen}, {}, false).devices.at(0).problem, HasSubstr("Input/Output Error"));
   const auto said = [](const std::string& sentence) {
-    return judge_usb({falcon(true)}, {sentence}).devices.at(0).problem;
+    return judge_usb({falcon(true)}, {sentence}, false).devices.at(0).problem;
   };
   EXPECT_THAT(said("Falcon: it has no firmware, which it forgets"), HasSubstr("no firmware"));
   EXPECT_THAT(said("Falcon: another program has it: Resource busy"), HasSubstr("another program"));
@@ -147,8 +149,8 @@ TEST(AttachedDevices, SayWhatElseIsInTheWay) {
 }
 
 TEST(AttachedDevices, AHostWithoutUsbIsNoHostWithoutDevices) {
-  EXPECT_THAT(judge_usb({}, {}).problem, HasSubstr("/dev/bus/usb"));
-  EXPECT_THAT(judge_usb({hub()}, {}).problem, IsEmpty());
+  EXPECT_THAT(judge_usb({}, {}, false).problem, HasSubstr("/dev/bus/usb"));
+  EXPECT_THAT(judge_usb({hub()}, {}, false).problem, IsEmpty());
 }
 
 // The numbers of the rule are those of the driver, and udev writes them in lower case.

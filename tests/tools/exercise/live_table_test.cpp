@@ -29,8 +29,10 @@ class Peers {
       auto view = std::make_unique<peer::PeerView>();
       view->own = {1, static_cast<std::uint16_t>(i + 1), 1};
       view->hand_count = hands;
-      for (std::size_t h = 0; h < hands; ++h)
+      for (std::size_t h = 0; h < hands; ++h) {
         view->hands[h].id = {1, view->own.application, static_cast<std::uint16_t>(h + 1)};
+        view->hands[h].servo.enabled = true;
+      }
       view->entities = entities;
       view->count = std::min(entities, peer::PeerView::kRows);
       for (std::size_t e = 0; e < view->count; ++e) {
@@ -277,6 +279,33 @@ TEST(LiveTable, KeepsTheNewestNoticesAboveTheKeys) {
   EXPECT_EQ(lines[22], "four");
   EXPECT_THAT(lines[23], HasSubstr("[q] quit"));
   EXPECT_THAT(peers.shown(5, 80), Not(Contains("four")));
+}
+
+// What a person is to do stands at the end of a sentence.
+TEST(LiveTable, WrapsANoticeAndShowsMoreOfThemWhereThereIsRoom) {
+  Peers peers(1, 1);
+  peers.notices_ = {
+      "an old one that is far too long to be shown beside all the others: " + std::string(500, 'x'),
+      "Falcon: it has no firmware, which it forgets without power: name the file of "
+      "it (firmware = FILE)",
+      "one", "two", "three"};
+  auto lines = peers.shown(24, 60);
+  const std::vector<std::string> foot(lines.end() - 7, lines.end() - 1);
+  EXPECT_THAT(foot, ::testing::ElementsAre(
+                        "", "Falcon: it has no firmware, which it forgets without power:",
+                        "  name the file of it (firmware = FILE)", "one", "two", "three"));
+  peers.notices_.push_back(std::string(2000, 'y'));  // too long for all that is free
+  lines = peers.shown(24, 60);
+  EXPECT_EQ(lines_with(lines, "yyy"), 8U);
+  EXPECT_EQ(lines_with(lines, "1:1:1"), 1U);
+}
+
+TEST(LiveTable, SaysWhereAHandsForceIsOff) {
+  Peers peers(1, 1, 2);
+  peers.view(0).hands[1].servo.enabled = false;
+  const auto lines = peers.shown(24, 100);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("free"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:2"), HasSubstr("OFF"))));
 }
 
 TEST(LiveTable, HasAStatusOfOneLine) {

@@ -58,6 +58,62 @@ TEST(RealDevices, WhatTheFileSaysOfItsFalconStays) {
   EXPECT_NEAR(scene.devices.at(0).damping, 1.8, 1e-12);
 }
 
+TEST(RealDevices, ADescriptorChoosesTheDriverByItsUsbNumbersAndSaysWhatTheDeviceCan) {
+  const test::ScratchFolder folder;
+  const std::string mine = folder.file("mine.toml");
+  const auto write = [&](const std::string& ids) {
+    std::ofstream(mine) << "name = \"mine\"\n"
+                        << ids
+                        << "max_force = \"4 N\"\ndamping = \"3 N s/m\"\n"
+                           "resolution = \"0.09 mm\"\ndelay = \"3.5 ms\"\n";
+  };
+  write("usb = [\"0403:cb48\"]\n");
+  EXPECT_EQ(usage_error([&] { check_device_choice({mine, ""}); }), "");
+  peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+  choose_device({mine, ""}, scene, 1, 2);
+  EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::falcon);
+  EXPECT_NEAR(scene.devices[0].damping, 2.7, 1e-12);
+  EXPECT_EQ(scene.devices[0].max_force, 4.0);
+  EXPECT_EQ(scene.devices[0].delay_samples, 4);
+  write("usb = [\"0403:0001\"]\n");
+  EXPECT_THAT(usage_error([&] {
+                check_device_choice({mine, ""});
+              }),
+              AllOf(HasSubstr("no driver is for the USB numbers"), HasSubstr("0403:cb48")));
+  EXPECT_THAT(usage_error([&] {
+                check_device_choice({folder.file("none.toml"), ""});
+              }),
+              AllOf(HasSubstr("--device"), HasSubstr("none.toml")));
+}
+
+// Of a handle in the middle of a stone its user would feel no surface.
+TEST(RealDevices, ADeviceThatTheFilePutsNowhereStandsWhereItsOperatorBegins) {
+  const auto place = [](const std::string& device, const std::string& hands) {
+    const test::ScratchFolder folder;
+    std::ofstream(folder.file("trace.csv")) << "t_s,px_m,py_m,pz_m\n0,0,0,0\n1,0.1,0.2,0.3\n"
+                                            << "2,0.1,0.2,0.5\n";
+    std::ofstream(folder.file("x.toml")) << device + hands;
+    peer::SceneFile scene = peer::load_scene_file(folder.file("x.toml"));
+    choose_device({"falcon", ""}, scene, 1, 1);
+    return scene.devices.at(0).position;
+  };
+  const std::string passive = "[[operator]]\npassive = true\nposition = \"0.1 0 0 m\"\n";
+  const std::string sweep =
+      "[[operator]]\nsweep = {from = \"0 0 20 mm\", to = \"0 20 0 mm\", period = \"1 s\"}\n";
+  const std::string trace =
+      "[[operator]]\ntrace = \"trace.csv\"\nbegin = \"1 s\"\nstart = \"3 s\"\n"
+      "approach = \"0 -60 0 mm\"\n";
+  EXPECT_EQ(place("", passive), Eigen::Vector3d(0.1, 0, 0));
+  EXPECT_EQ(place("", sweep), Eigen::Vector3d(0, 0.01, 0.01));
+  EXPECT_LT((place("", trace) - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), 1e-12);
+  EXPECT_EQ(place("", ""), Eigen::Vector3d(0, 0, 0)) << "nobody is there to begin";
+  EXPECT_EQ(place("[[device]]\nposition = [0.0, 0.0, 0.0]\n", passive), Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(place("[[device]]\ndriver = \"falcon\"\n", passive), Eigen::Vector3d(0.1, 0, 0));
+  peer::SceneFile simulated = peer::parse_scene_file("[[device]]\n" + passive, "x.toml");
+  choose_device({}, simulated, 1, 1);
+  EXPECT_EQ(simulated.devices.at(0).position, Eigen::Vector3d(0, 0, 0));
+}
+
 TEST(RealDevices, NothingChangesWithoutAChoice) {
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   choose_device({}, scene, 1, 2);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -46,6 +49,17 @@ TEST(DurationText, WritesAUnitThatSuits) {
   EXPECT_EQ(duration_text(200s), "3 min 20 s");
   EXPECT_EQ(duration_text(3min), "3 min");
   EXPECT_EQ(duration_text(125min), "2 h 5 min");
+}
+
+TEST(Wrap, CutsBetweenWordsOrWithinOneThatIsTooLong) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(wrap("", 10), Lines{""});
+  EXPECT_EQ(wrap("ten or ten", 10), Lines{"ten or ten"});
+  EXPECT_EQ(wrap("ten or eleven", 10), (Lines{"ten or", "  eleven"}));
+  EXPECT_EQ(wrap("0123456789 0123456789", 10), (Lines{"0123456789", "  01234567", "  89"}));
+  EXPECT_EQ(wrap("\u00e4\u00e4\u00e4\u00e4\u00e4 \u00e4\u00e4\u00e4\u00e4", 8),
+            (Lines{"\u00e4\u00e4\u00e4\u00e4\u00e4", "  \u00e4\u00e4\u00e4\u00e4"}));
+  EXPECT_EQ(wrap("to \033[2J", 20), Lines{"to .[2J"});
 }
 
 TEST(TextTable, AlignsColumnsByWidthInCodePoints) {
