@@ -17,9 +17,10 @@ namespace {
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-constexpr double kHeld = 0.1;     // [N]
-constexpr double kSettled = 1.5;  // [s]
-constexpr double kSpoken = 1e-3;  // [J], of a model's books
+constexpr double kHeld = 0.1;      // [N]
+constexpr double kSettled = 1.5;   // [s]
+constexpr double kTakenOff = 100;  // steps
+constexpr double kSpoken = 1e-3;   // [J], of a model's books
 // Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
 constexpr double kEstimated = 0.5;
 constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
@@ -322,10 +323,12 @@ void Hand::watch() {
 
 double Hand::mean_force() const { return force_time_ > 0 ? force_sum_ / force_time_ : 0.0; }
 
+// A failed reading, which is counted, takes the force off for so many steps.
 double Hand::told_so_far() const {
-  const double failed =
-      std::chrono::duration<double>(period_).count() * static_cast<double>(snapshot_.tally.failed);
-  return told_in_all(snapshot_.tally) + speechless_ + (model_ != nullptr ? failed : 0.0);
+  const double told = told_in_all(snapshot_.tally) + speechless_;
+  if (model_ == nullptr) return told;
+  const double period = std::chrono::duration<double>(period_).count();
+  return told + kTakenOff * period * static_cast<double>(snapshot_.tally.failed);
 }
 
 double Hand::told() const { return told_so_far() - told_before_; }
