@@ -20,12 +20,17 @@ class SureDampingOf {
  public:
   /// @param damping b [N s/m] >= 0  @param resolution h [m] >= 0; 0 reads exactly
   SureDampingOf(double damping, double resolution) noexcept
-      : damping_(damping), least_(damping), step_(resolution), longest_(resolution) {}
+      : damping_(damping),
+        before_(damping),
+        least_(damping),
+        step_(resolution),
+        step_before_(resolution),
+        longest_(resolution) {}
 
   /// Those of the pose that the next move() leads to; until the next call.
   void pose(double damping, double resolution) noexcept {
-    damping_ = damping;
-    step_ = resolution;
+    before_ = std::exchange(damping_, damping);
+    step_before_ = std::exchange(step_, resolution);
     least_ = std::min(least_, damping);
     longest_ = std::max(longest_, resolution);
   }
@@ -43,19 +48,19 @@ class SureDampingOf {
     if (length >= kSteps * longest_) begin();
     return gain;
   }
-  /// The path of the handle is unknown: restarts.
+  /// The path of the handle is unknown: restarts, with the way from the pose before still to come.
   void begin() noexcept {
     way_.setZero();
     time_ = booked_ = 0.0;
-    least_ = damping_;
-    longest_ = step_;
+    least_ = std::min(before_, damping_);
+    longest_ = std::max(step_before_, step_);
   }
 
  private:
   static constexpr double kSteps = 16.0;
 
-  double damping_, least_;  // [N s/m], of this pose and of the stretch
-  double step_, longest_;   // [m], likewise
+  double damping_, before_, least_;      // [N s/m], of this pose, the one before, the stretch
+  double step_, step_before_, longest_;  // [m], likewise
   Eigen::Matrix<double, axes, 1> way_ = Eigen::Matrix<double, axes, 1>::Zero();
   double time_ = 0.0;
   double booked_ = 0.0;

@@ -432,6 +432,16 @@ TEST(EnergyPort, WhatDampingTakesOfAWayIsThatOfItsWorsePose) {
   EXPECT_NEAR(loss(2.0), 2e-3, 1e-15);
 }
 
+TEST(EnergyPort, WhatDampingTakesOfAWayWithoutReadingsIsThatOfItsWorseEnd) {
+  EnergyPort port(2.0);
+  port.pose(0.5, 0.0);
+  port.settle(Vector3d::Zero(), kT);
+  port.miss(kT);
+  port.pose(2.0, 0.0);
+  port.settle(Vector3d(1e-3, 0, 0), kT);
+  EXPECT_NEAR(port.absorbed(), 0.5 * 1e-6 / (2 * kT), 1e-15);
+}
+
 TEST(EnergyPort, AnErrorOfTheEncodersIsThatOfThePoseInWhichTheForceChanged) {
   EnergyPort port(1.0, 0, 1e-4);
   PortLoad load;
