@@ -53,6 +53,8 @@ struct SaidOfDevice {
   bool delay = false;
   bool max_force = false;
   bool resolution = false;
+  /// The damping is that of every pose; false: it was found in the middle of the work space.
+  bool everywhere = false;
 };
 
 /// The device gets this driver, and with it the limits of what the driver drives, as far as they

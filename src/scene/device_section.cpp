@@ -185,7 +185,8 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
   const bool described = !device.described.name.empty();
   const auto said = [&](const char* key) { return described || table.has(key); };
   use_driver(device, device.driver,
-             {said("damping"), said("delay"), said("max_force"), said("resolution")});
+             {said("damping"), said("delay"), said("max_force"), said("resolution"),
+              table.has("damping")});
   if (device.upper_weight + device.fore_weight > 0 && !(device.damping > 0)) {
     table.problem("damping", fmt::format("to hold the links up costs {:.2g} N s/m of damping, and "
                                          "none is left for walls: state more, if you are sure of "

@@ -179,7 +179,7 @@ void choose_driver(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
     }
     if (is_descriptor(choice.device)) {
       peer::describe(*first, described_by(choice.device));
-      peer::use_driver(*first, chosen, {true, true, true, true});
+      peer::use_driver(*first, chosen, {true, true, true, true, false});
     } else if (first->driver != chosen) {
       peer::use_driver(*first, chosen, {});
     }

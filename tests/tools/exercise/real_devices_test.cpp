@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
@@ -56,6 +57,19 @@ TEST(RealDevices, WhatTheFileSaysOfItsFalconStays) {
       "x.toml");
   choose_device({"falcon", ""}, scene, 1, 2);
   EXPECT_NEAR(scene.devices.at(0).damping, 1.8, 1e-12);
+  EXPECT_EQ(scene.devices[0].joint_damping, 0.0) << "it is that of every pose";
+}
+
+// What nobody has stated is believed of the joints, which give less far out.
+TEST(RealDevices, AnAssumedDampingIsThatOfTheMiddle) {
+  for (const auto& [name, damping, square] :
+       {std::tuple("falcon", 0.3, 0.0049), std::tuple("polhem", 0.2, 0.0364)}) {
+    peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
+    choose_device({name, ""}, scene, 1, 2);
+    EXPECT_NEAR(scene.devices.at(0).joint_damping, damping * square, 0.01 * damping * square);
+    EXPECT_LE(scene.devices[0].damping, 0.9 * damping);
+    EXPECT_GT(scene.devices[0].damping, 0.8 * damping);
+  }
 }
 
 TEST(RealDevices, ADescriptorChoosesTheDriverByItsUsbNumbersAndSaysWhatTheDeviceCan) {
@@ -72,7 +86,8 @@ TEST(RealDevices, ADescriptorChoosesTheDriverByItsUsbNumbersAndSaysWhatTheDevice
   peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
   choose_device({mine, ""}, scene, 1, 2);
   EXPECT_EQ(scene.devices.at(0).driver, DeviceDriver::falcon);
-  EXPECT_NEAR(scene.devices[0].damping, 2.7, 1e-12);
+  EXPECT_NEAR(scene.devices[0].damping, 2.7, 0.01) << "in the middle";
+  EXPECT_NEAR(scene.devices[0].joint_damping, 3 * 0.07 * 0.07, 2e-4);
   EXPECT_EQ(scene.devices[0].max_force, 4.0);
   EXPECT_EQ(scene.devices[0].delay_samples, 4);
   write("usb = [\"0403:0001\"]\n");
