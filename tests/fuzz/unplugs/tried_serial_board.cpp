@@ -99,7 +99,10 @@ class TriedSerialBoard final : public TriedDevice {
     board_.forget();
     board_.lose_place(true);
   }
-  void plug() override { shim_.plug(false_); }
+  void plug() override {
+    shim_.lose(0, {});  // it sits
+    shim_.plug(false_);
+  }
   bool is_plugged() const override { return shim_.is_plugged(); }
   // Some octets come through.
   bool loosen() override {
