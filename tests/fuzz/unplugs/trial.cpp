@@ -263,7 +263,8 @@ void Trial::strike_plug(const Fault& fault, nanoseconds short_time) {
 
 void Trial::strike(const Fault& fault) {
   watch_.happens(is_unplug(fault.kind) ? 1 : fault.number);
-  if (!is_unplug(fault.kind) && fault.kind != FaultKind::end_program) hurt_at_ = now();
+  const bool hurts = !is_unplug(fault.kind) || fault.kind == FaultKind::loose;
+  if (hurts && fault.kind != FaultKind::end_program) hurt_at_ = now();
   const nanoseconds short_time = fault.lasts % milliseconds(300);
   if (is_unplug(fault.kind)) return strike_plug(fault, short_time);
   switch (fault.kind) {
