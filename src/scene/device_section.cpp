@@ -188,10 +188,13 @@ void check_driver(TomlReader& table, DeviceConfig& device) {
              {said("damping"), said("delay"), said("max_force"), said("resolution"),
               table.has("damping")});
   if (device.upper_weight + device.fore_weight > 0 && !(device.damping > 0)) {
-    table.problem("damping", fmt::format("to hold the links up costs {:.2g} N s/m of damping, and "
-                                         "none is left for walls: state more, if you are sure of "
-                                         "it, or less weight",
-                                         usb_settings_of(device).spent_damping));
+    const haptics::UsbSettings settings = usb_settings_of(device);
+    const bool by_joints = settings.joint_damping > 0;
+    table.problem("damping",
+                  fmt::format("to hold the links up costs {:.2g} {}, and none is left for walls: "
+                              "state more, if you are sure of it, or less weight",
+                              by_joints ? settings.spent_joint_damping : settings.spent_damping,
+                              by_joints ? "N m s/rad of joint_damping" : "N s/m of damping"));
   }
 }
 

@@ -170,8 +170,7 @@ TEST_F(EvdevVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
   press();
   wheel->unplug();
   EXPECT_EQ(force(), 0);
-  const double said = milliseconds_until(
-      [&] { return program->has_said("was unplugged"); });
+  const double said = milliseconds_until([&] { return program->has_said("was unplugged"); });
   std::printf("  unplugged: said after %.1f ms\n", said);
   retreat();
   wheel->plug_in();

@@ -250,7 +250,10 @@ TEST_F(DescribedDeviceSection, AFalconGetsTheDampingAndTheDelayOfItsDescriptor) 
         "delay = \"3 ms\"\n");
   const DeviceConfig described = device_of("driver = \"falcon\"\ndescriptor = \"mine\"\n");
   const DeviceConfig said = device_of("driver = \"falcon\"\ndamping = 1\ndelay = \"3 ms\"\n");
-  EXPECT_EQ(described.damping, said.damping);
+  // Of the middle and by the joints, where the table says nothing.
+  EXPECT_NEAR(described.damping, said.damping, 1e-3);
+  EXPECT_NEAR(described.joint_damping, 0.00487, 1e-12);
+  EXPECT_EQ(said.joint_damping, 0.0);
   EXPECT_EQ(described.delay_samples, said.delay_samples);
 }
 

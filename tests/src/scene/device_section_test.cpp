@@ -150,7 +150,9 @@ TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_EQ(plain.driver, DeviceDriver::falcon);
   EXPECT_EQ(plain.max_force, 8.9);
   EXPECT_EQ(plain.delay_samples, 6);
-  EXPECT_NEAR(plain.damping, 0.9 * 0.3, 1e-12) << "assumed, less a tenth";
+  // Assumed of the middle, less a tenth; elsewhere it is that of the joints.
+  EXPECT_NEAR(plain.damping, 0.9 * 0.3, 3e-4);
+  EXPECT_NEAR(plain.joint_damping, 0.00487 * 0.3, 1e-12);
   EXPECT_EQ(plain.resolution, 90e-6);
 
   const DeviceConfig known = device_of(
@@ -236,7 +238,8 @@ TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
   EXPECT_EQ(plain.driver, DeviceDriver::polhem);
   EXPECT_EQ(plain.max_force, 5.0);
   EXPECT_EQ(plain.delay_samples, 6);
-  EXPECT_NEAR(plain.damping, 0.9 * 0.2, 1e-12) << "assumed, less a tenth";
+  const double lever = haptics::polhem_facts().lever;
+  EXPECT_NEAR(plain.damping, 0.9 * 0.0364 * 0.2 / (lever * lever), 1e-12) << "assumed";
   EXPECT_EQ(plain.resolution, 95e-6);
 
   // To hold the links up costs damping: the slope of the torque, an exchange late, at 50 mm.
@@ -265,10 +268,10 @@ TEST(DeviceSection, TakesTheFrictionOfJointsInThePlaceOfThatOfTheHandle) {
     EXPECT_EQ(limits.lever, facts->lever) << name;
   }
   EXPECT_EQ(haptics::usb_limits(haptics::falcon_facts(),
-                                usb_settings_of(device_of("driver = \"falcon\"\n")))
+                                usb_settings_of(device_of("driver = \"falcon\"\ndamping = 1\n")))
                 .lever,
             0.0)
-      << "of the handle where it is not said";
+      << "of the handle where that is said";
   // To hold the links up costs the slope of the torque, an exchange late, wherever they are.
   const DeviceConfig held = device_of(
       "driver = \"polhem\"\njoint_damping = \"0.02 N m s/rad\"\nupper_weight = \"0.17 N m\"\n");
@@ -291,8 +294,10 @@ TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
               HasSubstr("a person holds a Polhem"));
   EXPECT_THAT(refusal(polhem + "firmware = \"x.bin\"\n" + kOperator),
               HasSubstr("only a Falcon has one"));
-  EXPECT_THAT(refusal(polhem + "upper_weight = \"0.5 N m\"\n" + kOperator),
+  EXPECT_THAT(refusal(polhem + "damping = 0.2\nupper_weight = \"0.5 N m\"\n" + kOperator),
               HasSubstr("costs 0.4 N s/m of damping"));
+  EXPECT_THAT(refusal(polhem + "joint_damping = 0.001\nupper_weight = \"0.5 N m\"\n" + kOperator),
+              HasSubstr("costs 0.001 N m s/rad of joint_damping"));
   for (const std::string key : {"upper_weight", "fore_weight"}) {
     EXPECT_THAT(refusal("[[device]]\n" + key + " = \"0.1 N m\"\n" + kOperator),
                 HasSubstr("only a Polhem has links"));
