@@ -11,14 +11,15 @@ SpringWall WallBooks::payable(std::size_t axis, WallSide side, const SpringWall&
                               PlaceRange places) const noexcept {
   constexpr int kHalvings = 30;
   const SpringWall& old = shown_.wall(axis, side);
-  const auto costs = [&](double at) {
-    return worst_rise(old, {at, wanted.stiffness, wanted.most}, side, places);
+  const double there = std::max(0.0, energy_);
+  const auto is_paid = [&](double at) {
+    return worst_rise(old, {at, wanted.stiffness, wanted.most}, side, places) <= there;
   };
-  if (costs(wanted.at) <= energy_) return wanted;
+  if (is_paid(wanted.at)) return wanted;
   double paid = side == WallSide::below ? places.from : places.to, unpaid = wanted.at;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (paid + unpaid);
-    (costs(middle) <= energy_ ? paid : unpaid) = middle;
+    (is_paid(middle) ? paid : unpaid) = middle;
   }
   return {paid, wanted.stiffness, wanted.most};
 }

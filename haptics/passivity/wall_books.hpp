@@ -22,7 +22,8 @@ class WallBooks {
   /// [J]: more is not kept, lest a later change draw on all that a long session put by.
   static constexpr double kMost = 0.02;
 
-  /// The nearest wall to `wanted` that can be paid for: as wanted, or it begins deeper. About 2 us.
+  /// The nearest wall to `wanted` that can be paid for: as wanted, or it begins deeper. Where more
+  /// is owed than is there, what costs nothing. About 2 us.
   /// @param places where the handle may be until the device has it
   [[nodiscard]] SpringWall payable(std::size_t axis, WallSide side, const SpringWall& wanted,
                                    PlaceRange places) const noexcept;
@@ -31,7 +32,7 @@ class WallBooks {
   /// The device may have let go by itself, or may not have: what it stores is written off.
   void forget() noexcept { shown_ = {}; }
 
-  /// [J] >= 0 but for rounding, in no wall.
+  /// [J], in no wall; below 0 where a change reached the device later than its places answer for.
   [[nodiscard]] double energy() const noexcept { return energy_; }
   [[nodiscard]] const SpringModel& shown() const noexcept { return shown_; }
 
