@@ -65,11 +65,12 @@ TEST(WallBooks, WhereMoreIsOwedThanIsThereWhatCostsNothingIsShownAsWanted) {
   books.book(0, WallSide::below, wall, {-0.002, 0.01});
   const double owed = 0.5 * 1000 * 0.002 * 0.002;
   EXPECT_NEAR(books.energy(), -owed, 1e-12);
-  // In front of the hand it costs nothing; where the hand may be nothing is paid for.
-  EXPECT_EQ(books.payable(0, WallSide::below, wall, {0.001, 0.01}).at, 0.0);
-  EXPECT_NEAR(books.payable(0, WallSide::below, wall, {-0.003, 0.01}).at, -0.003, 1e-9);
+  // In front of the hand a stiffer one costs nothing; where the hand may be it begins deeper.
+  const SpringWall stiffer{0.0, 2000, 10};
+  EXPECT_EQ(books.payable(0, WallSide::below, stiffer, {0.001, 0.01}).at, 0.0);
+  EXPECT_NEAR(books.payable(0, WallSide::below, stiffer, {-0.003, 0.01}).at,
+              0.003 / std::sqrt(2.0) - 0.003, 1e-9);
   // Taken away while the hand is surely in it, it pays back what it stored.
-  books.book(0, WallSide::below, wall, {0.001, 0.01});
   books.book(0, WallSide::below, {}, {-0.004, -0.003});
   EXPECT_NEAR(books.energy(), 0.5 * 1000 * 0.003 * 0.003 - owed, 1e-12);
 }
