@@ -53,12 +53,11 @@ class UsbDevice final : public HapticDevice {
   void forget_readings() noexcept;
   void note_pose(DeviceSample& sample) noexcept;
   [[nodiscard]] bool is_over(std::chrono::nanoseconds now) const noexcept;
-
-  UsbExchange& exchange_;
-  DeviceLimits limits_;
   // How long the servo had given the write that is `delay` old, if there is one.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> held_for() const noexcept;
 
+  UsbExchange& exchange_;
+  DeviceLimits limits_;
   std::int64_t written_ = 0;
   std::chrono::nanoseconds written_at_{0};             // last
   std::vector<std::chrono::nanoseconds> write_times_;  // a ring of the last delay + 2
