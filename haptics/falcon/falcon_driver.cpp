@@ -89,7 +89,8 @@ const UsbFacts& falcon_facts() noexcept {
                                    .assumed_damping = 0.3,
                                    .reach = FalconGeometry::kReach,
                                    .resolution = FalconGeometry::kResolution,
-                                   .lever = FalconGeometry::kLever};
+                                   .lever = FalconGeometry::kLever,
+                                   .joints_per_damping = 0.0048738};
   return kFacts;
 }
 

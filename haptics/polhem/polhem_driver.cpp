@@ -50,7 +50,8 @@ const UsbFacts& polhem_facts() noexcept {
                                    .assumed_damping = 0.2,
                                    .reach = 0.05,
                                    .resolution = 95e-6,
-                                   .lever = 0.196715};
+                                   .lever = 0.196715,
+                                   .joints_per_damping = 0.036443};
   return kFacts;
 }
 

@@ -31,6 +31,9 @@ struct UsbFacts {
   /// [m/rad], > 0 where its joints are known: the greatest way of the handle for a turn of them, in
   /// the middle of the work space.
   double lever = 0.0;
+  /// [m2], friction of each joint for each N s/m of the handle in the middle of the work space,
+  /// along the axis of frame D that has least; of a kind with a lever.
+  double joints_per_damping = 0.0;
 };
 
 /// What is not in the device's own data.

@@ -107,17 +107,6 @@ void describe(DeviceConfig& device, const DeviceDescriptor& descriptor) {
   device.delay_samples = samples_of(descriptor.delay, device.period);
 }
 
-namespace {
-
-// Friction of the joints for each N s/m that is least of the three axes in the middle of the work
-// space [m2]. A Falcon's joints have their greatest lever along an axis there, a Polhem's do not.
-double joints_per_damping(DeviceDriver driver) {
-  if (driver == DeviceDriver::falcon) return 0.00487;
-  return driver == DeviceDriver::polhem ? 0.0364 : 0.0;
-}
-
-}  // namespace
-
 void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& said) {
   device.driver = driver;
   const haptics::UsbFacts* const facts = usb_facts_of(device);
@@ -135,7 +124,7 @@ void use_driver(DeviceConfig& device, DeviceDriver driver, const SaidOfDevice& s
   settings.spent_damping = haptics::polhem_spent_damping(polhem_weights_of(device));
   if (!(facts->lever > 0)) device.joint_damping = 0.0;
   if (!said.everywhere && !(device.joint_damping > 0))
-    device.joint_damping = joints_per_damping(driver) * settings.damping;
+    device.joint_damping = facts->joints_per_damping * settings.damping;
   settings.joint_damping = device.joint_damping;
   settings.spent_joint_damping = haptics::polhem_spent_joint_damping(polhem_weights_of(device));
   if (said.delay && device.delay_samples > 0) settings.chain = device.delay_samples * device.period;

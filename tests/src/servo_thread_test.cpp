@@ -175,22 +175,33 @@ TEST(ServoThread, GivesThePriorityUpWhereOrdinaryThreadsStarve) {
   }
 }
 
-// A step that takes long by itself, as when the process was stopped, is no such thing.
-TEST(ServoThread, KeepsThePriorityAfterOneLongStep) {
-  ServoThread thread(kClock, {.starvation = 80ms});
+// Stopped in the third step, as by a debugger: no beat came for long, yet nobody had the time.
+TEST(ServoThread, KeepsThePriorityWhereTheProcessWasStopped) {
+  ManualClock clock;
+  ServoThread thread(clock);
   if (!thread.real_time()) GTEST_SKIP() << "needs the right to SCHED_FIFO";
+  const std::string before = thread.describe();
+  DutyCycle duty(1ms);
   std::atomic<int> steps{0};
+  WakeSignal told;
   Servo servo;
-  servo.period = 1ms;
-  servo.step = [&steps](nanoseconds begin) {
-    while (steps == 3 && kClock.now() - begin < 60ms) {
-    }
+  servo.duty = &duty;
+  servo.is_urgent = [] { return false; };  // to spin would take the time that nobody had
+  servo.step = [&](nanoseconds) {
+    if (steps == 2) clock.advance(60s);
+  };
+  servo.tell = [&] {  // the thread has judged itself since the last step
     ++steps;
+    told.notify();
   };
   const std::size_t number = thread.add(std::move(servo));
-  while (steps < 10) std::this_thread::yield();
-  EXPECT_TRUE(thread.real_time());
+  for (int step = 1; step <= 10; ++step) {
+    clock.advance(1ms);
+    while (steps < step) told.wait(nanoseconds::max());
+  }
   thread.remove(number);
+  EXPECT_GT(duty.missed(), 59'000u);
+  EXPECT_EQ(thread.describe(), before);
 }
 
 TEST(ServoThread, SaysHowItKeepsTime) {

@@ -6,11 +6,14 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -118,6 +121,22 @@ TEST(FalconKinematics, ItsLeverIsTheGreatestWayForATurnInTheMiddle) {
   ASSERT_TRUE(pose);
   const Eigen::JacobiSVD<Matrix3d> ways(pose->jacobian);
   EXPECT_NEAR(ways.singularValues()[0], G::kLever, 1e-6);
+}
+
+// A way of 1 m along an axis turns the joints, and their friction takes its power from each turn.
+TEST(FalconKinematics, ItsJointsHaveThatFrictionForEachOfTheHandleInTheMiddle) {
+  const auto angles = falcon_angles(Vector3d(0, 0, G::kMiddle));
+  ASSERT_TRUE(angles);
+  double least = std::numeric_limits<double>::infinity();
+  constexpr double kWay = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d way = falcon_axes(kWay * Vector3d::Unit(axis));
+    const auto more = falcon_angles(Vector3d(0, 0, G::kMiddle) + way);
+    const auto less = falcon_angles(Vector3d(0, 0, G::kMiddle) - way);
+    ASSERT_TRUE(more && less);
+    least = std::min(least, (*more - *less).squaredNorm() / (4 * kWay * kWay));
+  }
+  EXPECT_NEAR(falcon_facts().joints_per_damping * least, 1.0, 1e-5) << "the facts' last digit";
 }
 
 TEST(FalconKinematics, TorquesHaveThePowerOfTheForce) {

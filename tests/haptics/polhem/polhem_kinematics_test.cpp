@@ -105,6 +105,20 @@ TEST(PolhemKinematics, TheLeverOfItsFactsIsTheGreatestWayForATurnInTheMiddle) {
   EXPECT_NEAR(ways.singularValues()[0], polhem_facts().lever, 1e-6);
 }
 
+// A way of 1 m along an axis turns the joints, and their friction takes its power from each turn.
+TEST(PolhemKinematics, ItsJointsHaveThatFrictionForEachOfTheHandleInTheMiddle) {
+  double least = std::numeric_limits<double>::infinity();
+  constexpr double kWay = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d way = kWay * Vector3d::Unit(axis);  // its axes are those of frame D
+    const auto more = polhem_angles(polhem_1(), polhem_1().middle + way);
+    const auto less = polhem_angles(polhem_1(), polhem_1().middle - way);
+    ASSERT_TRUE(more && less);
+    least = std::min(least, (*more - *less).squaredNorm() / (4 * kWay * kWay));
+  }
+  EXPECT_NEAR(polhem_facts().joints_per_damping * least, 1.0, 1e-5) << "the facts' last digit";
+}
+
 TEST(PolhemKinematics, MotorsHaveThePowerOfTheForce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> within(-1, 1);
