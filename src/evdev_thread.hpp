@@ -10,6 +10,7 @@
 #include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/evdev/evdev_loop.hpp"
 #include "reckon/haptics/evdev/event_calls.hpp"
+#include "reckon/haptics/hid/hid_events.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/device_thread.hpp"
 
@@ -22,7 +23,7 @@ class EvdevThread {
   /// @throws std::invalid_argument as haptics::evdev_limits(), std::system_error if no thread can
   /// be made
   EvdevThread(const Clock& clock, const haptics::EvdevSettings& settings,
-              std::unique_ptr<haptics::EventCalls> calls = haptics::kernel_event_calls());
+              std::unique_ptr<haptics::EventCalls> calls = haptics::force_feedback_calls());
   EvdevThread(const EvdevThread&) = delete;
   EvdevThread& operator=(const EvdevThread&) = delete;
 

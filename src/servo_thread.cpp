@@ -155,7 +155,8 @@ void ServoThread::step(Seat& seat) noexcept {
   // Missed periods are counted, not made up for: a burst of steps would be a lie about time.
   seat.due += seat.servo.period;
   if (seat.due < finished) {
-    seat.due += ((finished - seat.due) / seat.servo.period + 1) * seat.servo.period;
+    constexpr nanoseconds kOne{1};  // one that is due just now is not left out
+    seat.due += ((finished - seat.due - kOne) / seat.servo.period + 1) * seat.servo.period;
   }
 }
 

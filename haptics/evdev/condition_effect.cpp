@@ -43,6 +43,11 @@ SpringWall wall_of(const ff_condition_effect& condition, WallSide side,
           level / kEffectLevels * scale.full_force};
 }
 
+bool is_same_condition(const ff_condition_effect& a, const ff_condition_effect& b) noexcept {
+  return a.center == b.center && a.left_coeff == b.left_coeff && a.right_coeff == b.right_coeff &&
+         a.left_saturation == b.left_saturation && a.right_saturation == b.right_saturation;
+}
+
 SpringWall as_told(const SpringWall& wall, WallSide side, const EffectScale& scale) noexcept {
   return wall_of(condition_of(wall, side, scale), side, scale);
 }

@@ -47,6 +47,10 @@ inline constexpr std::chrono::milliseconds kEffectLength{60};
 [[nodiscard]] SpringWall wall_of(const ff_condition_effect& condition, WallSide side,
                                  const EffectScale& scale) noexcept;
 
+/// Whether a device that is told one renders what it renders of the other.
+[[nodiscard]] bool is_same_condition(const ff_condition_effect& a,
+                                     const ff_condition_effect& b) noexcept;
+
 /// What rounding makes of a wall.
 [[nodiscard]] SpringWall as_told(const SpringWall& wall, WallSide side,
                                  const EffectScale& scale) noexcept;

@@ -29,11 +29,8 @@ constexpr int kTurns = 2;  // of the endpoint, until a report is surely there
 std::size_t index_of(WallSide side) noexcept { return static_cast<std::size_t>(side); }
 
 bool are_equal(const ff_effect& a, const ff_effect& b) noexcept {
-  const auto same = [](const ff_condition_effect& x, const ff_condition_effect& y) {
-    return x.center == y.center && x.left_coeff == y.left_coeff && x.right_coeff == y.right_coeff &&
-           x.left_saturation == y.left_saturation && x.right_saturation == y.right_saturation;
-  };
-  return same(a.u.condition[0], b.u.condition[0]) && same(a.u.condition[1], b.u.condition[1]);
+  return is_same_condition(a.u.condition[0], b.u.condition[0]) &&
+         is_same_condition(a.u.condition[1], b.u.condition[1]);
 }
 
 // Whether a wall begins less deep than another of the same spring.
@@ -118,8 +115,7 @@ SpringWall EvdevLoop::next_wall(std::size_t axis, WallSide side,
   return is_alike && is_short && !is_nearer(next, shown, side) ? shown : next;
 }
 
-// What is booked is what may have become of it while the call took its time, and until the device
-// has it where the line was too long.
+// What is booked is what may have become of it until the device has it.
 int EvdevLoop::tell_side(WallSide side, const SpringModel& model, nanoseconds now) noexcept {
   ff_effect& told = effects_[index_of(side)];
   ff_effect next = effect_of(model, side, settings_.scale, told.id, kLengthInEffect);
@@ -130,11 +126,10 @@ int EvdevLoop::tell_side(WallSide side, const SpringModel& model, nanoseconds no
     changed_[index_of(side)] = now;
     line_up(kReportsOfAChange, now);
   }
-  const nanoseconds took = std::max(clock_() - now, nanoseconds(0)) +
-                           std::max(drained_ - now - settings_.chain, nanoseconds(0));
+  const nanoseconds longer = later_than_stated(now);
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
     if (books_.shown().wall(axis, side) != model.wall(axis, side))
-      books_.book(axis, side, model.wall(axis, side), places_of(axis, took));
+      books_.book(axis, side, model.wall(axis, side), places_of(axis, longer));
   }
   return 0;
 }
@@ -153,7 +148,18 @@ int EvdevLoop::play(std::int32_t value) noexcept {
   return result;
 }
 
+// Of what was told since a reading. Where the kernel sends it by and by, the stated time begins
+// when the call returns; where the call waits for the device, a reading is two turns old at most.
+nanoseconds EvdevLoop::later_than_stated(nanoseconds now) const noexcept {
+  constexpr nanoseconds kNone{0};
+  const nanoseconds calls = std::max(clock_() - now, kNone);
+  if (calls_->waits_for_device(file_))
+    return std::max(calls + kTurns * interval_ - settings_.chain, kNone);
+  return calls + std::max(drained_ - now - settings_.chain, kNone);
+}
+
 void EvdevLoop::line_up(int reports, nanoseconds now) noexcept {
+  if (calls_->waits_for_device(file_)) return;
   drained_ = std::max(drained_, now) + kTurns * reports * interval_;
 }
 
@@ -277,7 +283,7 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
   if (is_gone_already && !by_path) return "none";
   if (file < 0 && !is_named(calls_->closed_name(path))) return "none";
   if (file == -EACCES || file == -EPERM)
-    return "this user may not open " + path + ": " + kEventRemedy;
+    return "this user may not open " + path + ": " + calls_->denied_remedy(path);
   if (file < 0) return path + " cannot be opened: " + std::strerror(-file);
   auto facts = event_facts(*calls_, file);
   const bool is_meant = is_named(facts ? facts->name : std::string());

@@ -75,6 +75,8 @@ class EvdevLoop {
   [[nodiscard]] int play(std::int32_t value) noexcept;
   [[nodiscard]] std::string learn_interval(const std::string& path);
   void line_up(int reports, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] std::chrono::nanoseconds later_than_stated(
+      std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] bool is_soon_there(std::chrono::nanoseconds now) const noexcept;
   void publish(std::chrono::nanoseconds now) noexcept;
   void tell(std::string sentence);

@@ -13,6 +13,11 @@
 
 namespace reckon::haptics {
 
+/// For a user who may not open a device.
+inline constexpr const char* kEventRemedy =
+    "sudo reckon devices --install-rule, and plug it in again; or sudo usermod -aG input $USER, "
+    "and log in again";
+
 /// What fails returns -errno; an interrupted call is made again. Nothing throws but where strings
 /// do.
 class EventCalls {
@@ -25,9 +30,19 @@ class EventCalls {
   [[nodiscard]] virtual std::string closed_name(const std::string& path) = 0;
   /// Between two reports that a device takes of this host, by its USB endpoint; 0: unknown.
   [[nodiscard]] virtual std::chrono::microseconds report_interval(const std::string& path) = 0;
+  /// For a user who may not open it.
+  [[nodiscard]] virtual std::string denied_remedy(const std::string& /*path*/) {
+    return kEventRemedy;
+  }
   /// For reading and writing, without waiting. @return a descriptor
   [[nodiscard]] virtual int open(const std::string& path) = 0;
   virtual void close(int file) noexcept = 0;
+  /// Why one that gives force feedback cannot be used, beyond what control() tells of it, as a
+  /// sentence; empty: nothing is known.
+  [[nodiscard]] virtual std::string fault(int /*file*/) { return {}; }
+  /// Whether the device has what it is told when control() or write() returns; else the kernel has,
+  /// which sends it by and by.
+  [[nodiscard]] virtual bool waits_for_device(int /*file*/) const noexcept { return false; }
   /// ioctl. @return its result
   [[nodiscard]] virtual int control(int file, unsigned long request, void* argument) noexcept = 0;
   /// @return events that were read, the first of `events`; -EAGAIN: there are none

@@ -55,6 +55,7 @@ std::optional<EventFacts> event_facts(EventCalls& calls, int file) {
     gives_force = gives_force || forces.has(bit);
   if (!gives_force) return std::nullopt;
   facts.name = name_of(calls, file);
+  facts.fault = calls.fault(file);
   const Bits<ABS_MAX> axes(calls, file, EVIOCGBIT(EV_ABS, kOctetsOfAbs));
   for (std::size_t axis = 0; axis < facts.axes.size(); ++axis) {
     if (!axes.has(ABS_X + axis)) continue;
@@ -79,6 +80,7 @@ std::string fault_of(const EventFacts& facts, int axes) {
   if (facts.most_effects < kEffects)
     return "it holds " + std::to_string(facts.most_effects) +
            " effects at once, and walls on both sides are two";
+  if (!facts.fault.empty()) return facts.fault;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes); ++axis) {
     const char* const name = axis == 0 ? "ABS_X" : "ABS_Y";
     if (!facts.axes[axis]) {
@@ -115,13 +117,14 @@ std::vector<EventDeviceSeen> event_devices(EventCalls& calls) {
       EventFacts facts;
       facts.name = calls.closed_name(path);
       if (facts.name.empty()) continue;
-      all.push_back({std::move(path), std::move(facts), is_denied,
-                     is_denied ? std::string() : std::strerror(-file)});
+      std::string remedy = is_denied ? calls.denied_remedy(path) : std::string();
+      std::string problem = is_denied ? std::string() : std::strerror(-file);
+      all.push_back({std::move(path), std::move(facts), std::move(remedy), std::move(problem)});
       continue;
     }
     auto facts = event_facts(calls, file);
     calls.close(file);
-    if (facts) all.push_back({std::move(path), std::move(*facts), false, {}});
+    if (facts) all.push_back({std::move(path), std::move(*facts), {}, {}});
   }
   return all;
 }

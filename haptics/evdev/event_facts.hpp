@@ -24,6 +24,7 @@ struct EventFacts {
   bool has_springs = false, has_constant_forces = false;
   bool has_gain = false, has_autocenter = false;
   int most_effects = 0;  ///< at once
+  std::string fault;     ///< what else keeps it from being used, as a sentence
 };
 
 /// @return nothing where it gives no force feedback, or does not answer
@@ -38,16 +39,10 @@ struct EventFacts {
 /// A device of this host with force feedback.
 struct EventDeviceSeen {
   std::string path;
-  EventFacts facts;        ///< where it does not open, of its name alone
-  bool is_denied = false;  ///< this user may not open it
-  std::string problem;     ///< another reason why it does not open
+  EventFacts facts;     ///< where it does not open, of its name alone
+  std::string remedy;   ///< not empty: this user may not open it
+  std::string problem;  ///< another reason why it does not open
 };
-
-/// For a user who may not open one.
-inline constexpr const char* kEventRemedy =
-    "sudo reckon devices --install-rule, and plug it in again; or sudo usermod -aG input $USER, "
-    "and "
-    "log in again";
 
 /// Opens each event device of this host, and closes it again. No force is asked for.
 [[nodiscard]] std::vector<EventDeviceSeen> event_devices(EventCalls& calls);

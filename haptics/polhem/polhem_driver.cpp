@@ -51,7 +51,7 @@ const UsbFacts& polhem_facts() noexcept {
                                    .reach = 0.05,
                                    .resolution = 95e-6,
                                    .lever = 0.196715,
-                                   .joints_per_damping = 0.036443};
+                                   .joints_per_damping = 0.036477};
   return kFacts;
 }
 

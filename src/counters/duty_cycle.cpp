@@ -62,10 +62,12 @@ void DutyCycle::record(std::chrono::nanoseconds scheduled, std::chrono::nanoseco
   const std::chrono::nanoseconds late = std::max(started - scheduled, std::chrono::nanoseconds{0});
   lateness_.add(late);
   step_time_.add(finished - started);
-  if (late >= period_) {
-    missed_.fetch_add(static_cast<std::uint64_t>(late / period_), std::memory_order_relaxed);
-  }
-  if (finished - scheduled > period_) overruns_.fetch_add(1, std::memory_order_relaxed);
+  const std::chrono::nanoseconds taken = finished - scheduled;
+  if (taken <= period_) return;
+  overruns_.fetch_add(1, std::memory_order_relaxed);
+  // One that is due just now has a step of its own.
+  const auto left_out = (taken - std::chrono::nanoseconds{1}) / period_;
+  missed_.fetch_add(static_cast<std::uint64_t>(left_out), std::memory_order_relaxed);
 }
 
 std::uint64_t DutyCycle::missed() const noexcept { return missed_.load(std::memory_order_relaxed); }

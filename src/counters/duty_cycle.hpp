@@ -49,8 +49,8 @@ class DutyCycle {
   explicit DutyCycle(std::chrono::nanoseconds period) noexcept;
 
   /// Records one step that was due at `scheduled`, began at `started` and ended at `finished`. Its
-  /// lateness is started - scheduled; each whole period of lateness is a missed step. A step that
-  /// ends after the next one was due is an overrun, and missed too. Only by the loop's thread.
+  /// lateness is started - scheduled. One that ends after the next was due is an overrun, and each
+  /// that was due before it ended is missed: the loop leaves it out. Only by the loop's thread.
   void record(std::chrono::nanoseconds scheduled, std::chrono::nanoseconds started,
               std::chrono::nanoseconds finished) noexcept;
 

@@ -328,9 +328,8 @@ Section<DeviceConfig> device_section() {
            "it at first"},
           {"driver", &Device::driver,
            "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
-           "which a person holds; evdev, a wheel or stick with force feedback that Linux drives; "
-           "or "
-           "a plugin, a driver of yours; in simulated time its operator stands in"},
+           "which a person holds; evdev, a wheel or stick with force feedback; or a plugin, a "
+           "driver of yours; in simulated time its operator stands in"},
           {"descriptor", no_descriptor,
            "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
            "before it: docs/devices.md"},
@@ -349,9 +348,8 @@ Section<DeviceConfig> device_section() {
            "motors while forces are shown, which costs damping"},
           {"fore_weight", &Device::fore_weight, within("N m", 0, 2), "the same of its fore link"},
           {"event", &Device::event,
-           "of evdev: path of its event device, or a part of its name; absent: the first that "
-           "gives "
-           "force feedback"},
+           "of evdev: its path (/dev/input/event7, /dev/hidraw0), or a part of its name; absent: "
+           "the first that gives force feedback"},
           {"event_axes", &Device::event_axes, within("", 1, 2),
            "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is y"},
           {"travel", &Device::travel, declared("m", 0.01, 10),

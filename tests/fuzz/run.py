@@ -19,7 +19,7 @@ from search import plant  # noqa: E402
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 4096,
                "capture": 8192, "fragments": 600, "envelope": 600, "key_file": 1024, "compression": 1400,
                "presence": 2048, "tracker": 2048, "membership": 8192, "leading": 4096, "unicast": 2048,
-               "viewer": 16384, "image": 4096, "falcon": 512, "polhem": 512, "serial": 1024}
+               "viewer": 16384, "image": 4096, "falcon": 512, "polhem": 512, "serial": 1024, "hid": 1024}
 SECONDS_FOR_ONE_INPUT = 60
 TOUCH, PEERS, LEADERS, UNPLUGS = "touch", "peers", "leaders", "unplugs"
 SEEDED = (PEERS, LEADERS, UNPLUGS)

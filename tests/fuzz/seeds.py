@@ -266,6 +266,11 @@ def main(folder):
     reports = [b"\xd9" + struct.pack("<BHIHHBBiii", 0x82, i, 1000 * i, max(0, i - 2), max(0, i - 1), 3, 0, 5 * i, -7, i) for i in range(12)]
     write(seeds / "serial", [b"".join(reports), b"".join(reports[:5] + reports[7:]), b"".join(reports[:4]) + b"\x60" + b"".join(reports[4:]),
                              b"\x00\x03\x07\x01\x09\x00", b"\x05\x11\x22\x00\x33\x00", bytes(9)])
+    mouse = bytes.fromhex("05010902a1010901a100050919012903150025019503750181029501750581010501"
+                          "093009311581257f750895028106c0c0")
+    places = b"\x05\x01\x00\xff\x7f\x00\x80" * 3
+    write(seeds / "hid", [b"\x00" + struct.pack("<H", len(mouse)) + mouse + places, b"\x01" + places, b"\x03" + places,
+                          b"\x43\x20\x00\x66\x30\x00\x01" + places, b"\x05\x04\x0a\x01\x01\x00\x00"])
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
                                b"\nepoch 2 from 2026-12-01T06:00:00Z secret " + digits + b"\n"])

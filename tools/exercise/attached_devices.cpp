@@ -105,15 +105,25 @@ std::vector<std::string> ask(const Kind& kind) {
 
 }  // namespace
 
-std::string_view udev_rule() noexcept {
-  return "# Devices that Reckon drives, for whoever sits at this host.\n"
-         "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", "
-         "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
-         "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\", "
-         "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
-         "# Event devices that give force feedback.\n"
-         "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{capabilities/ff}==\"*[1-9a-f]*\", "
-         "TAG+=\"uaccess\"\n";
+std::string udev_rule(const std::vector<peer::UsbId>& undriven) {
+  std::string rule =
+      "# Devices that Reckon drives, for whoever sits at this host.\n"
+      "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", "
+      "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
+      "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\", "
+      "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
+      "# Event devices that give force feedback.\n"
+      "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{capabilities/ff}==\"*[1-9a-f]*\", "
+      "TAG+=\"uaccess\"\n";
+  if (!undriven.empty())
+    rule += "# Wheels and sticks whose force feedback the kernel leaves alone.\n";
+  for (const peer::UsbId& id : undriven) {
+    rule += fmt::format(
+        "SUBSYSTEM==\"hidraw\", ATTRS{{idVendor}}==\"{:04x}\", ATTRS{{idProduct}}==\"{:04x}\", "
+        "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n",
+        id.vendor, id.product);
+  }
+  return rule;
 }
 
 std::string driver_names() {

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "reckon/haptics/usb/usb_list.hpp"
+#include "reckon/peer/scene/device_descriptor.hpp"
 
 namespace reckon::tools {
 
@@ -28,7 +28,8 @@ struct UsbLook {
 };
 
 /// The rule of udev by which the person who sits at this host may open the devices.
-[[nodiscard]] std::string_view udev_rule() noexcept;
+/// @param undriven see undriven_devices(): those of this host are named one by one
+[[nodiscard]] std::string udev_rule(const std::vector<peer::UsbId>& undriven);
 /// Name of the rule's file in its folder.
 inline constexpr const char* kRuleFile = "70-reckon.rules";
 inline constexpr const char* kRuleFolder = "/etc/udev/rules.d";

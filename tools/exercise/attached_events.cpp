@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "reckon/haptics/evdev/event_calls.hpp"
+#include "reckon/haptics/hid/hid_events.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -29,10 +29,10 @@ AttachedDevice judged(const haptics::EventDeviceSeen& seen) {
       "renders walls by itself along {}: driver = \"evdev\" in a [[device]] that states travel, "
       "full_force, full_stiffness and max_stiffness",
       axes == 2 ? "two axes" : "an axis, event_axes = 1");
-  if (seen.is_denied) {
+  if (!seen.remedy.empty()) {
     device.use = "has force feedback; what it renders is known once it can be opened";
     device.problem = "this user may not open it";
-    device.remedy = haptics::kEventRemedy;
+    device.remedy = seen.remedy;
   } else if (!seen.problem.empty()) {
     device.use = "has force feedback; what it renders is known once it can be opened";
     device.problem = "it cannot be opened: " + seen.problem;
@@ -60,14 +60,23 @@ std::vector<AttachedDevice> judge_events(const std::vector<haptics::EventDeviceS
     AttachedDevice device;
     device.driver = "evdev";
     device.name = fmt::format("OpenFFBoard, /dev/bus/usb/{:03}/{:03}", board->bus, board->address);
-    device.use = "renders walls by itself, once the kernel drives its force feedback";
-    device.problem = "the kernel gives it no event device with force feedback";
+    device.use = "renders walls by itself, once it is a game controller";
+    device.problem = "it has no interface of the class PID";
     device.remedy =
-        "a kernel with CONFIG_HID_PID, and a game controller (main class FFB wheel or "
-        "joystick) chosen in the board's own configurator";
+        "choose a game controller (main class FFB wheel or joystick) in the board's own "
+        "configurator";
     devices.push_back(std::move(device));
   }
   return devices;
+}
+
+std::vector<peer::UsbId> undriven_devices() {
+  std::vector<peer::UsbId> found;
+  for (const haptics::HidSeen& seen : haptics::undriven_devices(*haptics::kernel_hid_calls())) {
+    const peer::UsbId id{seen.vendor, seen.product};
+    if (std::ranges::find(found, id) == found.end()) found.push_back(id);
+  }
+  return found;
 }
 
 std::vector<AttachedDevice> look_at_events() {
@@ -78,7 +87,7 @@ std::vector<AttachedDevice> look_at_events() {
   } catch (const std::exception&) {
     // Without USB there is none that lacks a driver.
   }
-  const auto calls = haptics::kernel_event_calls();
+  const auto calls = haptics::force_feedback_calls();
   return judge_events(haptics::event_devices(*calls), usb);
 }
 

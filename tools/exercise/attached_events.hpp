@@ -11,11 +11,15 @@
 
 namespace reckon::tools {
 
-/// @param usb devices of USB: one that is known to give force feedback, and has no event device
-/// that does, lacks its kernel's driver
+/// @param usb devices of USB: one that is known to give force feedback, and is not seen, is set up
+/// as something else
 [[nodiscard]] std::vector<AttachedDevice> judge_events(
     const std::vector<haptics::EventDeviceSeen>& seen,
     const std::vector<haptics::UsbDeviceSeen>& usb);
+
+/// Devices of this host of the class HID PID that are no event devices with force feedback, each
+/// kind once.
+[[nodiscard]] std::vector<peer::UsbId> undriven_devices();
 
 /// Looks at this host. No force is asked for.
 [[nodiscard]] std::vector<AttachedDevice> look_at_events();

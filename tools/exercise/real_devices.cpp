@@ -40,14 +40,16 @@ std::vector<std::string_view> driver_words() {
   return words;
 }
 
-bool is_serial(const std::string& device) { return device.starts_with("/dev/"); }
+bool is_serial(const std::string& device) {
+  return device.starts_with("/dev/") && !is_event_device(device);
+}
 
 bool is_descriptor(const std::string& device) {
   return !is_serial(device) && device.ends_with(".toml");
 }
 
 bool is_plugin(const std::string& device) {
-  return !is_serial(device) && !is_descriptor(device) &&
+  return !device.starts_with("/dev/") && !is_descriptor(device) &&
          (device.find('/') != std::string::npos || device.ends_with(".so"));
 }
 
@@ -95,6 +97,7 @@ peer::DeviceDescriptor described_by(const std::string& file) {
 
 DeviceDriver driver_of(const std::string& device) {
   if (is_descriptor(device)) return driver_of(described_by(device), device);
+  if (is_event_device(device)) return DeviceDriver::evdev;
   if (is_serial(device)) return DeviceDriver::serial;
   if (is_plugin(device)) return DeviceDriver::plugin;
   return *peer::value_of<DeviceDriver>(device);
@@ -119,13 +122,18 @@ std::unique_ptr<haptics::UsbDriver> usb_driver_of(const DeviceConfig& device) {
 
 }  // namespace
 
+bool is_event_device(const std::string& device) {
+  return device.starts_with("/dev/input/") || device.starts_with("/dev/hidraw");
+}
+
 void add_device_flags(CommandLine& line, DeviceChoice& choice) {
   line.option(
       "--device", choice.device,
       fmt::format(
           "a real device, by its driver, in the place of the peer's first: {} (see "
-          "reckon devices), the line of a serial board (/dev/ttyACM0, or "
-          "/dev/ttyUSB0@115200), its descriptor (MINE.toml), or the file of a driver (DRIVER.so)",
+          "reckon devices), the line of a serial board (/dev/ttyACM0, or /dev/ttyUSB0@115200), a "
+          "wheel or stick (/dev/input/event7, /dev/hidraw0), its descriptor (MINE.toml), or the "
+          "file of a driver (DRIVER.so)",
           fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
@@ -139,7 +147,7 @@ void check_device_choice(const DeviceChoice& choice) {
   if (is_serial(name)) static_cast<void>(place_of(name));
   if (is_descriptor(name)) static_cast<void>(driver_of(name));
   if (!name.empty() && !is_plugin(name) && !is_serial(name) && !is_descriptor(name) &&
-      std::ranges::find(words, name) == words.end()) {
+      !is_event_device(name) && std::ranges::find(words, name) == words.end()) {
     const std::string_view nearest = peer::nearest_word(name, words);
     const std::string meant =
         nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest);
@@ -177,6 +185,7 @@ void choose_driver(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
       first->port = place.port;
       first->baud = place.baud;
     }
+    if (is_event_device(choice.device)) first->event = choice.device;
     if (is_descriptor(choice.device)) {
       peer::describe(*first, described_by(choice.device));
       peer::use_driver(*first, chosen, {true, true, true, true, false});

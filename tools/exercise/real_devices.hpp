@@ -22,10 +22,13 @@ namespace reckon::tools {
 
 /// --device and --firmware of a demo or a peer.
 struct DeviceChoice {
-  std::string device;    ///< name of a driver, file of one, or line of a board, with @BAUD where
-                         ///< it is not the usual; empty: as the scene says
+  std::string device;    ///< name of a driver, file of one, line of a board, with @BAUD where it
+                         ///< is not the usual, or path of a wheel; empty: as the scene says
   std::string firmware;  ///< file; empty: as the scene says
 };
+
+/// Whether a --device is the path of one that renders springs by itself.
+[[nodiscard]] bool is_event_device(const std::string& device);
 
 void add_device_flags(CommandLine& line, DeviceChoice& choice);
 

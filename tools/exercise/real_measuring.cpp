@@ -46,7 +46,7 @@ constexpr std::chrono::seconds kPatience{60};  // until it is ready, where nobod
 
 void check_measurable(const RealMeasuring& wanted) {
   const std::string& name = wanted.choice.device;
-  if (name == "evdev" || name.starts_with("/dev/input/")) {
+  if (name == "evdev" || is_event_device(name)) {
     throw UsageError(fmt::format(
         "{}: it renders springs by itself and takes no force, so it cannot be pushed: measure "
         "'travel', 'full_force', 'full_stiffness' and 'max_stiffness' with a ruler and a spring "

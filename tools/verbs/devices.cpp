@@ -46,14 +46,15 @@ int install_rule(const DevicesOptions& options, const Console& console) {
   const auto file = std::filesystem::path(options.folder) / kRuleFile;
   errno = 0;
   std::ofstream out(file);
-  out << udev_rule();
+  out << udev_rule(undriven_devices());
   if (!out.flush()) {
     throw EnvironmentError(fmt::format("{}: {}; run it with sudo", file.string(),
                                        std::generic_category().message(errno)));
   }
   fmt::print(console.out,
              "{} is written; plug the device in again, or: sudo udevadm control --reload && sudo "
-             "udevadm trigger --subsystem-match=usb --subsystem-match=input\n",
+             "udevadm trigger --subsystem-match=usb --subsystem-match=input "
+             "--subsystem-match=hidraw\n",
              file.string());
   return exit_status(ExitCode::good);
 }
@@ -97,7 +98,8 @@ int list_devices(const DevicesOptions& options, const Console& console) {
     return device.remedy.find("--install-rule") != std::string::npos;
   });
   if (needs_rule && !options.json)
-    fmt::print(console.err, "the rule that --install-rule writes:\n{}", udev_rule());
+    fmt::print(console.err, "the rule that --install-rule writes:\n{}",
+               udev_rule(undriven_devices()));
   return exit_status(any ? ExitCode::findings : ExitCode::good);
 }
 

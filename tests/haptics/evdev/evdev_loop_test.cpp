@@ -620,7 +620,7 @@ TEST(EventDevices, AreThoseWithForceFeedbackAndThoseThatMayNotBeOpened) {
   model.opening = -EACCES;
   seen = event_devices(model);
   ASSERT_EQ(seen.size(), 1U);
-  EXPECT_TRUE(seen[0].is_denied);
+  EXPECT_EQ(seen[0].remedy, kEventRemedy);
   EXPECT_EQ(seen[0].facts.name, "Model wheel");
 }
 

@@ -40,6 +40,8 @@ constexpr int kVariable = 2, kArray = 0, kConstant = 3;
 /// Items of a report descriptor.
 class Items {
  public:
+  explicit Items(std::vector<int> without) : without_(std::move(without)) {}
+
   Items& item(int tag, int value) {
     const bool is_one = value >= -128 && value <= 127, is_two = value >= -32768 && value <= 32767;
     const int octets = is_one ? 1 : is_two ? 2 : 4;
@@ -65,11 +67,13 @@ class Items {
     return item(0x74, bits).item(0x94, count).item(main, kind);
   }
   Items& number(int main, int use, int least, int most, int bits) {
+    if (lacks(use)) return unused(main, bits);
     return usage(use).numbers(main, least, most, bits, 1, kVariable);
   }
   Items& unused(int main, int bits) { return item(0x74, bits).item(0x94, 1).item(main, kConstant); }
   /// One of a list, from 1.
   Items& choice(int main, int use, std::initializer_list<int> list) {
+    if (lacks(use)) return unused(main, 8);
     open(use, 2);
     for (const int one : list) usage(one);
     return numbers(main, 1, static_cast<int>(list.size()), 8, 1, kArray).close();
@@ -79,7 +83,11 @@ class Items {
 
  private:
   void add(int octet) { octets_.push_back(static_cast<std::uint8_t>(octet)); }
+  [[nodiscard]] bool lacks(int use) const {
+    return std::ranges::find(without_, use) != without_.end();
+  }
 
+  std::vector<int> without_;
   std::vector<std::uint8_t> octets_;
 };
 
@@ -116,7 +124,7 @@ std::size_t size_of(std::uint8_t number) {
 
 std::vector<std::uint8_t> PidWheel::descriptor() const {
   constexpr int kMost = static_cast<int>(kSteps);
-  Items d;
+  Items d(options_.without);
   d.page(kDesktop).open(0x04, 1);  // joystick
   d.item(0x84, kPlaces).page(kButtons).item(0x18, 1).item(0x28, 8);
   d.numbers(kInput, 0, 1, 1, 8, kVariable).page(kDesktop).usage(0x30);
@@ -204,7 +212,7 @@ void PidWheel::create(std::uint8_t type) {
   load_status_ = kLoadFull;
   loaded_ = 0;
   if (type != 1) ++strange_;
-  for (std::uint8_t number = 1; number <= kMostEffects && loaded_ == 0; ++number)
+  for (std::uint8_t number = 1; number <= options_.most_effects && loaded_ == 0; ++number)
     if (!effects_.contains(number)) loaded_ = number;
   if (loaded_ == 0) return;
   load_status_ = kLoadedWell;
@@ -269,8 +277,8 @@ std::optional<std::vector<std::uint8_t>> PidWheel::feature(std::uint8_t number) 
     add_word(out, 1000);
   } else if (number == kPool) {
     add_word(out, 1000);
-    out.push_back(kMostEffects);
-    out.push_back(1);  // it manages its memory by itself
+    out.push_back(static_cast<std::uint8_t>(options_.most_effects));
+    out.push_back(options_.has_room_of_its_own ? 1 : 0);
   } else {
     return std::nullopt;
   }

@@ -24,13 +24,17 @@ struct PidWheelOptions {
   double hand_stiffness = 300;   ///< [N/m]
   double hand_damping = 10;      ///< [N s/m]
   double hand_speed = 0.1;       ///< [m/s], of the place where the hand wants the handle
+  int most_effects = 16;         ///< at once
+  bool has_room_of_its_own = true;
+  /// Usages of the page PID that its descriptor leaves out: what stands there is told as padding.
+  std::vector<int> without = {};
 };
 
 /// Pure: time is passed in. Reports begin with their number. One thread at a time.
 class PidWheel {
  public:
   static constexpr std::size_t kAxes = 2;
-  static constexpr int kMostEffects = 16;
+  static constexpr int kMostEffects = 16;  ///< that reports can name
   /// Of a coefficient, a saturation, and half the travel, in a report.
   static constexpr double kSteps = 10000;
 

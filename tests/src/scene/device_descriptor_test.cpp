@@ -11,6 +11,7 @@
 #include <iterator>
 #include <string>
 
+#include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/support/places.hpp"
@@ -252,7 +253,7 @@ TEST_F(DescribedDeviceSection, AFalconGetsTheDampingAndTheDelayOfItsDescriptor) 
   const DeviceConfig said = device_of("driver = \"falcon\"\ndamping = 1\ndelay = \"3 ms\"\n");
   // Of the middle and by the joints, where the table says nothing.
   EXPECT_NEAR(described.damping, said.damping, 1e-3);
-  EXPECT_NEAR(described.joint_damping, 0.00487, 1e-12);
+  EXPECT_NEAR(described.joint_damping, haptics::falcon_facts().joints_per_damping, 1e-12);
   EXPECT_EQ(said.joint_damping, 0.0);
   EXPECT_EQ(described.delay_samples, said.delay_samples);
 }

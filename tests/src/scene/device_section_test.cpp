@@ -152,7 +152,7 @@ TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
   EXPECT_EQ(plain.delay_samples, 6);
   // Assumed of the middle, less a tenth; elsewhere it is that of the joints.
   EXPECT_NEAR(plain.damping, 0.9 * 0.3, 3e-4);
-  EXPECT_NEAR(plain.joint_damping, 0.00487 * 0.3, 1e-12);
+  EXPECT_NEAR(plain.joint_damping, haptics::falcon_facts().joints_per_damping * 0.3, 1e-12);
   EXPECT_EQ(plain.resolution, 90e-6);
 
   const DeviceConfig known = device_of(
@@ -239,7 +239,9 @@ TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
   EXPECT_EQ(plain.max_force, 5.0);
   EXPECT_EQ(plain.delay_samples, 6);
   const double lever = haptics::polhem_facts().lever;
-  EXPECT_NEAR(plain.damping, 0.9 * 0.0364 * 0.2 / (lever * lever), 1e-12) << "assumed";
+  EXPECT_NEAR(plain.damping,
+              0.9 * haptics::polhem_facts().joints_per_damping * 0.2 / (lever * lever), 1e-12)
+      << "assumed";
   EXPECT_EQ(plain.resolution, 95e-6);
 
   // To hold the links up costs damping: the slope of the torque, an exchange late, at 50 mm.

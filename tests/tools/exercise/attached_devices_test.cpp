@@ -110,19 +110,20 @@ TEST(AttachedDevices, SayHowAnEventDeviceWouldBeUsedAndWhatIsInTheWay) {
   seen.facts.has_springs = false;
   EXPECT_THAT(said(seen).problem, HasSubstr("only forces that it is told"));
   seen = wheel();
-  seen.is_denied = true;
-  EXPECT_THAT(said(seen).remedy, HasSubstr("--install-rule"));
+  seen.remedy = "sudo reckon devices --install-rule";
+  EXPECT_EQ(said(seen).problem, "this user may not open it");
+  EXPECT_EQ(said(seen).remedy, seen.remedy);
   seen = wheel();
   seen.problem = "Input/output error";
   EXPECT_THAT(said(seen).problem, HasSubstr("Input/output error"));
 }
 
-TEST(AttachedDevices, ABoardWithoutItsKernelsDriverIsTold) {
+TEST(AttachedDevices, ABoardThatIsNoGameControllerIsTold) {
   UsbDeviceSeen board;
   board.vendor = 0x1209;
   board.product = 0xffb0;
   ASSERT_EQ(judge_events({}, {hub(), board}).size(), 1U);
-  EXPECT_THAT(judge_events({}, {board}).at(0).remedy, HasSubstr("CONFIG_HID_PID"));
+  EXPECT_THAT(judge_events({}, {board}).at(0).remedy, HasSubstr("game controller"));
   EXPECT_EQ(judge_events({wheel()}, {board}).size(), 1U);
   EXPECT_THAT(judge_events({}, {hub()}), IsEmpty());
 }
@@ -160,11 +161,18 @@ TEST(AttachedDevices, TheRuleIsWrittenWhereItIsAskedFor) {
   EXPECT_EQ(written.status, 0) << written.err;
   std::ifstream file(folder.file(kRuleFile));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, udev_rule());
+  EXPECT_EQ(text, udev_rule(undriven_devices()));
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\""));
   EXPECT_THAT(text, HasSubstr("ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\""));
   EXPECT_THAT(text, HasSubstr("TAG+=\"uaccess\""));
   EXPECT_THAT(text, HasSubstr("ATTRS{capabilities/ff}==\"*[1-9a-f]*\""));
+}
+
+TEST(AttachedDevices, ADeviceThatTheKernelDoesNotDriveIsNamedInTheRule) {
+  EXPECT_THAT(udev_rule({}), Not(HasSubstr("hidraw")));
+  EXPECT_THAT(udev_rule({{0x346E, 0x0006}}),
+              HasSubstr("SUBSYSTEM==\"hidraw\", ATTRS{idVendor}==\"346e\", "
+                        "ATTRS{idProduct}==\"0006\", MODE="));
 }
 
 TEST(AttachedDevices, ARuleThatCannotBeWrittenSaysWhy) {

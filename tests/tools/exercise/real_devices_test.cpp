@@ -63,7 +63,7 @@ TEST(RealDevices, WhatTheFileSaysOfItsFalconStays) {
 // What nobody has stated is believed of the joints, which give less far out.
 TEST(RealDevices, AnAssumedDampingIsThatOfTheMiddle) {
   for (const auto& [name, damping, square] :
-       {std::tuple("falcon", 0.3, 0.0049), std::tuple("polhem", 0.2, 0.0364)}) {
+       {std::tuple("falcon", 0.3, 0.0049), std::tuple("polhem", 0.2, 0.0365)}) {
     peer::SceneFile scene = peer::parse_scene_file(kTwoHands, "x.toml");
     choose_device({name, ""}, scene, 1, 2);
     EXPECT_NEAR(scene.devices.at(0).joint_damping, damping * square, 0.01 * damping * square);
@@ -209,6 +209,12 @@ TEST(RealDevices, AnEventDeviceIsChosenWhereTheSceneSaysWhatItsNumbersMean) {
   EXPECT_EQ(limits.max_stiffness, 1500);
   EXPECT_THAT(real.take_notices(),
               ::testing::Contains(HasSubstr("pushes no hand that does not press")));
+  for (const char* path : {"/dev/input/event7", "/dev/hidraw0"}) {
+    choose_device({path, ""}, scene, 1, 2);
+    EXPECT_EQ(scene.devices[0].driver, DeviceDriver::evdev);
+    EXPECT_EQ(scene.devices[0].event, path);
+    EXPECT_EQ(scene.devices[0].port, "") << "it is no serial line";
+  }
 }
 
 TEST(RealDevices, WhatIsExplainedOfAnEventDeviceIsWhatItsServoRefuses) {

@@ -71,7 +71,7 @@ TEST(RealMeasuring, RemarksAreNoPartOfTheDescriptor) {
 }
 
 TEST(RealMeasuring, WhatTakesNoForceIsRefusedByName) {
-  for (const char* name : {"evdev", "/dev/input/event4"}) {
+  for (const char* name : {"evdev", "/dev/input/event4", "/dev/hidraw0"}) {
     const test::ProgramResult result = test::run_reckon({"devices", "measure", name, "--yes"});
     EXPECT_EQ(result.status, 2) << name;
     EXPECT_THAT(result.err, AllOf(HasSubstr(name), HasSubstr("renders springs by itself")));

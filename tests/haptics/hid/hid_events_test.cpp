@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A wheel or stick that the kernel does not drive, with its thread and its servo: what the hand
+// feels, what fails, and the wheel's own books. All time is the wheel's; a report takes some of it.
+#include "reckon/haptics/hid/hid_events.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/evdev/evdev_loop.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/haptics/support/hid_wheel.hpp"
+#include "reckon/tests/haptics/support/servo_bench.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using test::HidWheel;
+using test::HidWheelOptions;
+using test::settings_for;
+using ::testing::AnyOf;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Hand = std::function<HidWheel::Places(double)>;
+
+constexpr double kStiffness = 1000.0;
+
+// Free from -20 to 20 mm along x and y.
+Scene room() {
+  Scene scene;
+  const auto add = [&](const Vector3d& normal, const Vector3d& at) {
+    SceneObject& wall = scene.objects.emplace_back();
+    wall.name = "wall " + std::to_string(scene.objects.size());
+    wall.shape = PlaneShape{normal};
+    wall.pose.position = at;
+    wall.effects.of<SpringDamper>().stiffness = kStiffness;
+  };
+  add(Vector3d::UnitX(), {-0.02, 0, 0});
+  add(-Vector3d::UnitX(), {0.02, 0, 0});
+  add(Vector3d::UnitY(), {0, -0.02, 0});
+  add(-Vector3d::UnitY(), {0, 0.02, 0});
+  return scene;
+}
+
+// Pushes into two walls and stays 10 mm behind each, once they stand.
+HidWheel::Places pressing(double t) {
+  const double share = std::clamp(2 * t - 1, 0.0, 1.0);
+  return {-0.03 * share, 0.03 * share};
+}
+
+class Plugged {
+ public:
+  explicit Plugged(const HidWheelOptions& options = {}, Hand hand = pressing)
+      : wheel(options, std::move(hand)),
+        settings(settings_for(options)),
+        device(exchange, evdev_limits(settings)),
+        servo(device, EffectPlan(room()), servo_config()) {
+    wheel.beside([this](nanoseconds now) {
+      if (now < next_step_) return;
+      next_step_ += milliseconds(1);
+      if (!servo_runs) return;
+      servo.step(now);
+      servo.snapshots().update();
+      if (!last().enabled) ++steps_without_;
+    });
+    start();
+  }
+  void start() {
+    loop = std::make_unique<EvdevLoop>(exchange, settings, test::calls_of(wheel),
+                                       [this] { return wheel.now(); });
+  }
+  void run(nanoseconds time) {
+    for (const nanoseconds end = wheel.now() + time; wheel.now() < end;) {
+      const nanoseconds before = wheel.now();
+      loop->step(milliseconds(1));
+      for (std::string& notice : loop->take_notices()) notices.push_back(std::move(notice));
+      if (wheel.now() == before) wheel.pass(microseconds(100));  // it looked for the device
+    }
+  }
+  [[nodiscard]] const ServoSnapshot& last() { return servo.snapshots().read(); }
+  [[nodiscard]] int steps_without() { return std::exchange(steps_without_, 0); }
+
+  ForceStop stop;
+  HidWheel wheel;
+  EvdevSettings settings;
+  EvdevExchange exchange;
+  EvdevDevice device;
+  ServoLoop servo;
+  std::unique_ptr<EvdevLoop> loop;
+  std::vector<std::string> notices;
+  bool servo_runs = true;
+
+ private:
+  ServoConfig servo_config() {
+    ServoConfig config;
+    config.stop = &stop;
+    return config;
+  }
+  nanoseconds next_step_{0};
+  int steps_without_ = 0;  // shown the hand where it is
+};
+
+TEST(HidEvents, WallsAreFeltWhereTheyAreAlongBothAxes) {
+  Plugged plugged;
+  plugged.run(milliseconds(300));
+  static_cast<void>(plugged.steps_without());
+  plugged.run(milliseconds(3000));
+  EXPECT_THAT(plugged.notices, ElementsAre(HasSubstr("Reckon FFBoard model: ready")));
+  for (const std::size_t axis : {0U, 1U}) {
+    const double depth = std::abs(plugged.wheel.wheel.place(axis)) - 0.02;
+    EXPECT_NEAR(depth, 0.01 * 300 / 1300, 1e-4);
+    const double sign = axis == 0 ? 1 : -1;
+    // A step of the place (12.5 um) and of the coefficient (0.2 N/m) of the device, and of the
+    // event device's numbers.
+    const double within = kStiffness * 17e-6 + 0.3 * depth;
+    EXPECT_NEAR(plugged.wheel.wheel.force(axis), sign * kStiffness * depth, within);
+    EXPECT_NEAR(plugged.last().force[static_cast<Eigen::Index>(axis)],
+                plugged.wheel.wheel.force(axis), within);
+  }
+  EXPECT_EQ(plugged.wheel.wheel.strange(), 0);
+  EXPECT_EQ(plugged.steps_without(), 0) << "its own reports keep the readings from ageing";
+}
+
+TEST(HidEvents, AWheelOfOneAxisFeelsTheWallsAlongIt) {
+  HidWheelOptions options;
+  options.wheel.axes = 1;
+  Plugged plugged(options);
+  plugged.run(milliseconds(2000));
+  EXPECT_NEAR(plugged.wheel.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
+}
+
+TEST(HidEvents, AWallThatStandsIsToldOnceAndOnlyTheAxisThatChanges) {
+  const Hand rests = [](double) { return HidWheel::Places{0, 0}; };
+  Plugged plugged({}, rests);
+  plugged.run(milliseconds(1000));
+  const int before = plugged.wheel.wheel.changes();
+  plugged.run(milliseconds(1000));
+  EXPECT_EQ(plugged.wheel.wheel.changes(), before);
+}
+
+TEST(HidEvents, WhatTheKernelDrivesIsLeftToItButByItsPath) {
+  HidWheelOptions options;
+  HidWheel wheel(options, pressing);
+  wheel.seen.kernel_has_springs = true;
+  EXPECT_THAT(test::calls_of(wheel)->paths(), IsEmpty());
+  wheel.seen.kernel_has_springs = false;
+  EXPECT_THAT(test::calls_of(wheel)->paths(), ElementsAre(HidWheel::kPath));
+  wheel.seen.descriptor = {0x05, 0x01, 0x09, 0x02, 0xA1, 0x01, 0xC0};  // a mouse
+  EXPECT_THAT(test::calls_of(wheel)->paths(), IsEmpty());
+}
+
+TEST(HidEvents, AProgramThatEndsTakesItsEffectsWithIt) {
+  Plugged plugged;
+  plugged.run(milliseconds(1000));
+  EXPECT_EQ(plugged.wheel.wheel.effects(), 2U);
+  plugged.loop.reset();
+  EXPECT_EQ(plugged.wheel.wheel.effects(), 0U);
+  EXPECT_EQ(plugged.wheel.open_files(), 0);
+}
+
+// Nothing of the host is done any more: the device ends them, and the next program frees them.
+TEST(HidEvents, OneThatIsKilledLeavesNoForceOnceItsEffectsEndAndTheNextBeginsAnew) {
+  Plugged plugged;
+  plugged.run(milliseconds(1000));
+  ASSERT_GT(plugged.wheel.wheel.force(0), 1);
+  plugged.wheel.pass(EvdevLoop::kLength + milliseconds(1));
+  EXPECT_EQ(plugged.wheel.wheel.force(0), 0);
+  EXPECT_EQ(plugged.wheel.wheel.effects(), 2U);
+  EvdevExchange exchange;
+  EvdevLoop next(exchange, plugged.settings, test::calls_of(plugged.wheel),
+                 [&] { return plugged.wheel.now(); });
+  next.step(milliseconds(1));
+  EXPECT_THAT(next.take_notices(), ElementsAre(HasSubstr("ready")));
+  EXPECT_EQ(plugged.wheel.wheel.effects(), 2U) << "its own";
+}
+
+TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
+  const Hand quick = [](double t) { return HidWheel::Places{0.03 * std::sin(12 * t), 0.02}; };
+  Plugged plugged({}, quick);
+  plugged.run(milliseconds(300));
+  static_cast<void>(plugged.steps_without());
+  plugged.run(milliseconds(3000));
+  EXPECT_EQ(plugged.steps_without(), 0);
+  EXPECT_LT(plugged.wheel.longest_call(), milliseconds(2));
+}
+
+// Strokes that press every wall, stops, hands of others and stands of the program.
+struct Roaming {
+  explicit Roaming(unsigned seed) : random(seed) {
+    for (auto& axis : strokes)
+      for (auto& stroke : axis) stroke = {within(0.006, 0.018), within(2, 8), within(0, 6.3)};
+  }
+  double within(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  }
+  HidWheel::Places operator()(double t) const {
+    HidWheel::Places place{};
+    const double share = std::clamp(4.0 - t, 0.0, 1.0);
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const auto& [size, rate, phase] : strokes[i])
+        place[i] += share * size * std::sin(rate * t + phase);
+    return place;
+  }
+  std::mt19937 random;
+  std::array<std::array<std::array<double, 3>, 3>, 2> strokes{};
+};
+
+// RECKON_SOAK=1 draws 200 of each.
+TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
+  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 200 : 4;
+  double least = 0, lead = 0, greatest = 0;
+  for (const auto takes : {microseconds(100), microseconds(1000), microseconds(2000)}) {
+    for (unsigned seed = 1; seed <= seeds; ++seed) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << takes.count() << " us");
+      HidWheelOptions options;
+      options.takes = takes;
+      options.answers = microseconds(seed % 3 * 400 + 100);
+      options.reports = microseconds(seed % 2 == 0 ? 1000 : 4000);
+      options.wheel.hand_stiffness = seed % 2 == 0 ? 300 : 900;
+      Roaming hand(seed);
+      Plugged plugged(options, hand);
+      for (std::uint32_t i = 0; i < 16; ++i) {
+        const Vector3d other(hand.within(-0.05, 0.05), hand.within(-0.05, 0.05), 0);
+        plugged.servo.contacts().write(i < 13 ? bench::only(bench::sphere(other, 500, i + 1))
+                                              : ContactSet());
+        plugged.run(microseconds(static_cast<int>(hand.within(50e3, 350e3))));
+        greatest = std::max(greatest, std::abs(plugged.wheel.wheel.force(0)));
+        if (i % 3 == 0) plugged.stop.press(StopCause::program);
+        if (i % 3 == 1) plugged.stop.release(StopCause::program);
+        if (i % 5 == 2) plugged.wheel.pass(microseconds(static_cast<int>(hand.within(5e3, 90e3))));
+      }
+      plugged.run(milliseconds(4500) - plugged.wheel.now());
+      ASSERT_LT(plugged.wheel.wheel.fastest(), 1.0) << "the hand is faster than stated";
+      ASSERT_GE(plugged.wheel.wheel.least_absorbed(), -1e-9);
+      least = std::min(least, plugged.wheel.wheel.least_absorbed());
+      lead = std::max(lead, plugged.last().port_energy - plugged.wheel.wheel.absorbed());
+    }
+  }
+  std::printf("  least %.3g J, the meter's lead %.3g J\n", least, lead);
+  EXPECT_LE(lead, 1e-6) << "what the reports round off";
+  EXPECT_GT(greatest, 3.0) << "no wall was ever pressed";
+}
+
+TEST(HidEvents, PulledOutBeforeAnyCallItIsSaidAndTakenUpAgain) {
+  constexpr unsigned kCalls = 90;  // those of the set-up, and some of its use
+  for (unsigned call = 0; call < kCalls; ++call) {
+    SCOPED_TRACE(call);
+    Plugged plugged;
+    unsigned made = 0;
+    bool is_pulled = false;
+    plugged.wheel.at_each_call = [&] {
+      if (is_pulled || made++ != call) return;
+      is_pulled = true;
+      plugged.wheel.plug(false);
+    };
+    while (!is_pulled) plugged.run(microseconds(100));
+    plugged.run(milliseconds(12));
+    EXPECT_EQ(plugged.last().force, Vector3d::Zero());
+    EXPECT_FALSE(plugged.last().enabled);
+    EXPECT_EQ(plugged.wheel.open_files(), 0);
+    EXPECT_THAT(plugged.notices,
+                Each(AnyOf(HasSubstr("was unplugged"), HasSubstr("attached"), HasSubstr("ready"))));
+    EXPECT_LE(plugged.notices.size(), 2U);
+    plugged.notices.clear();
+    plugged.wheel.plug(true);
+    plugged.run(EvdevLoop::kRetry + milliseconds(30));
+    EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
+  }
+}
+
+TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
+  const auto said = [](const std::function<void(HidWheel&)>& spoil, HidWheelOptions options = {}) {
+    Plugged plugged(options);
+    spoil(plugged.wheel);
+    plugged.run(milliseconds(200));
+    return plugged.notices.empty() ? std::string("nothing") : plugged.notices.front();
+  };
+  const auto with = [&](const std::function<void(test::PidWheelOptions&)>& change) {
+    HidWheelOptions options;
+    change(options.wheel);
+    return said([](HidWheel&) {}, options);
+  };
+  EXPECT_THAT(said([](HidWheel& wheel) { wheel.opening = -EACCES; }),
+              HasSubstr("this user may not open /dev/hidraw3: sudo reckon devices --install-rule "
+                        "while it is plugged in"));
+  EXPECT_THAT(said([](HidWheel& wheel) { wheel.is_taken = true; }),
+              HasSubstr("another program has it"));
+  EXPECT_THAT(said([](HidWheel& wheel) { wheel.fail(HidWheel::Call::set_feature, -EPIPE); }),
+              HasSubstr("it takes no spring: Broken pipe"));
+  EXPECT_THAT(said([](HidWheel& wheel) { wheel.fail(HidWheel::Call::write, -EPIPE); }),
+              HasSubstr("it cannot be taken: Broken pipe"));
+  EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x64}; }), HasSubstr("Saturation"));
+  EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x23}; }), HasSubstr("event_axes = 1"));
+  EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x25}; }), HasSubstr("renders no springs"));
+  EXPECT_THAT(with([](auto& wheel) { wheel.has_room_of_its_own = false; }),
+              HasSubstr("no Device Managed Pool"));
+  EXPECT_THAT(with([](auto& wheel) { wheel.most_effects = 1; }),
+              HasSubstr("it holds 1 effects at once"));
+  EXPECT_THAT(with([](auto& wheel) { wheel.most_effects = 1, wheel.without = {0x83}; }),
+              HasSubstr("it has no room for two effects"));
+}
+
+TEST(HidEvents, WhatIsLeftOutThatNothingDependsOnIsNotMissed) {
+  HidWheelOptions options;
+  options.wheel.without = {0x65, 0x51, 0x53, 0x54, 0xA7, 0x83, 0xA9, 0xAC};
+  Plugged plugged(options);
+  plugged.run(milliseconds(2000));
+  EXPECT_NEAR(plugged.wheel.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
+}
+
+TEST(HidEvents, OneThatDoesNotAnswerWhereItIsIsAskedToMove) {
+  HidWheelOptions options;
+  options.says_where = false;
+  bool moves = false;
+  Plugged plugged(options, [&moves](double t) {
+    return HidWheel::Places{moves ? 0.01 * std::sin(10 * t) : 0, 0};
+  });
+  plugged.run(milliseconds(1000));
+  EXPECT_THAT(plugged.notices, ElementsAre(HasSubstr("move it, and it is tried again")));
+  moves = true;
+  plugged.run(milliseconds(1000));
+  EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
+}
+
+TEST(HidEvents, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
+  Plugged plugged;
+  plugged.run(milliseconds(1000));
+  plugged.notices.clear();
+  plugged.wheel.fail(HidWheel::Call::write, -ETIMEDOUT);
+  plugged.run(milliseconds(100));
+  EXPECT_THAT(plugged.notices, Contains(HasSubstr("refuses an effect (Connection timed out)")));
+  EXPECT_FALSE(plugged.last().enabled);
+  plugged.notices.clear();
+  plugged.wheel.fail(HidWheel::Call::write, 0);
+  plugged.run(milliseconds(1000));
+  EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
+  EXPECT_GE(plugged.wheel.wheel.least_absorbed(), -1e-9);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
