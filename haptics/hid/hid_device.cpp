@@ -34,16 +34,21 @@ HidDevice::HidDevice(HidCalls& calls, int file, std::string name, PidReports rep
 
 // Some do not answer, and say it by themselves.
 void HidDevice::ask_for_places() noexcept {
-  if (!reports_.axes()[0]) return;
-  HidReport report = reports_.places();
-  const int octets = calls_.get_input(file_, report.span());
-  HidPlaces places;
-  if (octets > 0 && reports_.take(front(report, octets), places)) {
-    places_ = places;
-    return;
+  for (std::size_t axis = 0; axis < reports_.axes().size(); ++axis) {
+    if (!reports_.axes()[axis] || places_.is_known[axis]) continue;
+    HidReport report = reports_.place_report(axis);
+    if (const int octets = calls_.get_input(file_, report.span()); octets > 0)
+      static_cast<void>(reports_.take(front(report, octets), places_));
   }
+  if (says_where()) return;
   calls_.wait(file_, kFirstReport);
   static_cast<void>(read());
+}
+
+bool HidDevice::says_where() const noexcept {
+  for (std::size_t axis = 0; axis < reports_.axes().size(); ++axis)
+    if (reports_.axes()[axis] && !places_.is_known[axis]) return false;
+  return true;
 }
 
 std::string HidDevice::fault() const {
@@ -51,7 +56,7 @@ std::string HidDevice::fault() const {
   if (!has_room_of_its_own_)
     return "it wants its effects at addresses that the host chooses (no Device Managed Pool), and "
            "Reckon chooses none";
-  if (reports_.axes()[0] && !places_)
+  if (!says_where())
     return "it does not say where it is before it moves: move it, and it is tried again";
   return {};
 }
@@ -68,21 +73,18 @@ int HidDevice::take() noexcept {
   return 0;
 }
 
-// Places are whole in each report. What came before the newest does not matter.
+// What came before the newest report of each number does not matter.
 int HidDevice::read() noexcept {
   constexpr int kMostAtOnce = 256;
-  HidPlaces places = places_.value_or(HidPlaces{});
   bool says_any = false;
   for (int i = 0; i < kMostAtOnce; ++i) {
     HidReport report(0, HidReport::kMost);
     const int octets = calls_.read(file_, report.span());
     if (octets == -EAGAIN) break;
     if (octets < 0) return calls_.is_there(file_) ? octets : -ENODEV;
-    says_any = reports_.take(front(report, octets), places) || says_any;
+    says_any = reports_.take(front(report, octets), places_) || says_any;
   }
-  if (!says_any) return -EAGAIN;
-  places_ = places;
-  return 0;
+  return says_any ? 0 : -EAGAIN;
 }
 
 HidDevice::Effect* HidDevice::effect_of(int id) noexcept {

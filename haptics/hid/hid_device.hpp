@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -35,8 +34,8 @@ class HidDevice {
   [[nodiscard]] const PidReports& reports() const noexcept { return reports_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] int most_effects() const noexcept { return most_effects_; }
-  /// Nothing: it has not said so yet.
-  [[nodiscard]] const std::optional<HidPlaces>& places() const noexcept { return places_; }
+  /// Of each axis that it has, unless fault() says otherwise.
+  [[nodiscard]] const HidPlaces& places() const noexcept { return places_; }
   /// Why it gives no springs as walls need them, as a sentence; empty: it does.
   [[nodiscard]] std::string fault() const;
 
@@ -63,6 +62,7 @@ class HidDevice {
   [[nodiscard]] Effect* effect_of(int id) noexcept;
   [[nodiscard]] std::size_t axes() const noexcept { return reports_.axes()[1] ? 2 : 1; }
   void ask_for_places() noexcept;
+  [[nodiscard]] bool says_where() const noexcept;
 
   HidCalls& calls_;
   int file_;
@@ -70,7 +70,7 @@ class HidDevice {
   PidReports reports_;
   int most_effects_ = kMostEffects;
   bool has_room_of_its_own_ = true;
-  std::optional<HidPlaces> places_;
+  HidPlaces places_;
   std::array<Effect, kMostEffects> effects_;
 };
 

@@ -75,15 +75,14 @@ int answer_axis(const HidDevice& device, std::size_t axis, void* to) noexcept {
   info = {};
   info.minimum = range[axis]->minimum;
   info.maximum = range[axis]->maximum;
-  if (device.places()) info.value = device.places()->axes[axis];
+  info.value = device.places().axes[axis];
   return 0;
 }
 
 int answer_keys(const HidDevice& device, void* to, std::size_t length) noexcept {
   BitAnswer bits(to, length);
-  if (!device.places()) return -EAGAIN;
   for (std::size_t i = 0; i < device.reports().buttons(); ++i)
-    bits.set(kFirstButton + i, (device.places()->buttons >> i & 1U) != 0);
+    bits.set(kFirstButton + i, (device.places().buttons >> i & 1U) != 0);
   return bits.length();
 }
 
@@ -197,7 +196,7 @@ class HidEvents final : public EventCalls {
     if (opened == nullptr) return events_->read(file, events);
     if (!opened->device) return -ENOTTY;
     if (const int result = opened->device->read(); result < 0) return result;
-    const HidPlaces& now = *opened->device->places();
+    const HidPlaces& now = opened->device->places();
     const int count = events_between(opened->sent, now, events);
     opened->sent = now;
     return count;

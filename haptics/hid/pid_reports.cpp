@@ -150,11 +150,11 @@ void PidReports::find_places(const Finder& finder) {
   constexpr std::array kUsages{kX, kY};
   for (std::size_t axis = 0; axis < kUsages.size(); ++axis) {
     places_[axis] = finder.input(kUsages[axis]);
-    if (places_[axis]) ranges_[axis] = range_of(*places_[axis]);
+    if (!places_[axis]) continue;
+    ranges_[axis] = range_of(*places_[axis]);
+    const std::uint8_t report = places_[axis]->report;
+    place_forms_[axis] = {report, finder.reports().size(HidKind::input, report), HidKind::input};
   }
-  if (places_[0])
-    x_ = {places_[0]->report, finder.reports().size(HidKind::input, places_[0]->report),
-          HidKind::input};
   for (const HidField& field : finder.reports().fields) {
     const bool is_button = field.kind == HidKind::input && field.usage >> 16 == kButtons;
     if (is_button && buttons_.size() < EventState::kMostButtons) buttons_.push_back(field);
@@ -220,9 +220,9 @@ std::string PidReports::fault_of() const {
   const auto lacks = [](const char* what) {
     return std::string("its reports have no ") + what + ", without which no wall of it is sure";
   };
-  for (const Form* const form :
-       std::initializer_list<const Form*>{&x_, &create_, &load_, &pool_, &effect_, &condition_,
-                                          &operation_, &free_, &control_, &gain_}) {
+  for (const Form* const form : std::initializer_list<const Form*>{
+           &place_forms_[0], &place_forms_[1], &create_, &load_, &pool_, &effect_, &condition_,
+           &operation_, &free_, &control_, &gain_}) {
     if (form->octets > 0 && form->number == 0) return "its reports have no numbers";
     if (form->octets > HidReport::kMost) return "one of its reports is longer than 256 octets";
   }
@@ -351,9 +351,11 @@ bool PidReports::take(Octets report, HidPlaces& places) const noexcept {
   };
   for (std::size_t axis = 0; axis < places_.size(); ++axis) {
     if (!places_[axis] || !ranges_[axis]) continue;
-    if (const auto number = read(*places_[axis]))
-      places.axes[axis] = static_cast<std::int32_t>(
-          std::clamp<std::int64_t>(*number, ranges_[axis]->minimum, ranges_[axis]->maximum));
+    const auto number = read(*places_[axis]);
+    if (!number) continue;
+    places.axes[axis] = static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(*number, ranges_[axis]->minimum, ranges_[axis]->maximum));
+    places.is_known[axis] = true;
   }
   for (std::size_t i = 0; i < buttons_.size(); ++i) {
     const std::uint32_t bit = 1U << i;

@@ -45,6 +45,7 @@ class HidReport {
 /// What a report of the device says that it is.
 struct HidPlaces {
   std::array<std::int32_t, EventState::kAxes> axes{};  ///< readings
+  std::array<bool, EventState::kAxes> is_known{};      ///< a report has said where the axis is
   std::uint32_t buttons = 0;                           ///< bit i: button i + 1 is down
   bool operator==(const HidPlaces&) const = default;
 };
@@ -78,8 +79,10 @@ class PidReports {
     return ranges_;
   }
   [[nodiscard]] std::size_t buttons() const noexcept { return buttons_.size(); }
-  /// The input report that has its X.
-  [[nodiscard]] HidReport places() const noexcept { return {x_.number, x_.octets}; }
+  /// The input report that has an axis, which axes() has.
+  [[nodiscard]] HidReport place_report(std::size_t axis) const noexcept {
+    return {place_forms_[axis].number, place_forms_[axis].octets};
+  }
   /// Of the report of what it holds; nothing: it has none.
   [[nodiscard]] std::optional<HidReport> pool() const noexcept;
 
@@ -131,7 +134,7 @@ class PidReports {
 
   bool gives_forces_ = false, has_constant_forces_ = false;
   std::string fault_;
-  Form x_;
+  std::array<Form, EventState::kAxes> place_forms_;
   std::array<Field, EventState::kAxes> places_;
   std::array<std::optional<EventAxis>, EventState::kAxes> ranges_;
   std::vector<HidField> buttons_;

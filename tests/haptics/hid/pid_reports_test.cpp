@@ -127,7 +127,7 @@ TEST_F(Told, NoWallIsNearerStifferOrStrongerThanItIsMeant) {
 }
 
 TEST_F(Told, WhereItIsAndWhatIsDown) {
-  HidPlaces places{{5, 5}, 3};
+  HidPlaces places{{5, 5}, {}, 3};
   press(0, 0.0625);
   press(1, -0.025);
   EXPECT_TRUE(reports.take(wheel.input(), places));
@@ -207,6 +207,29 @@ TEST(PidReports, WhatIsNoSuchDeviceGivesNoForces) {
   const PidReports reports(*hid_reports(mouse));
   EXPECT_FALSE(reports.gives_forces());
   EXPECT_FALSE(reports.has_springs());
+}
+
+// X in report 1, Y in report 2.
+TEST(PidReports, AnAxisIsKnownOnceItsReportHasCome) {
+  const std::vector<std::uint8_t> descriptor{0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0x15, 0x00, 0x26,
+                                             0xFF, 0x03, 0x75, 0x10, 0x95, 0x01, 0x85, 0x01, 0x09,
+                                             0x30, 0x81, 0x02, 0x85, 0x02, 0x09, 0x31, 0x81, 0x02,
+                                             // A condition that names its axis.
+                                             0x05, 0x0F, 0x09, 0x5F, 0xA1, 0x02, 0x85, 0x03, 0x09,
+                                             0x23, 0x25, 0x01, 0x75, 0x08, 0x91, 0x02, 0xC0, 0xC0};
+  const auto read = hid_reports(descriptor);
+  ASSERT_TRUE(read);
+  const PidReports reports(*read);
+  EXPECT_EQ(reports.place_report(1).span()[0], 2);
+  EXPECT_EQ(reports.place_report(1).span().size(), 3U);
+  HidPlaces places;
+  EXPECT_TRUE(reports.take(std::vector<std::uint8_t>{1, 0x34, 0x02}, places));
+  EXPECT_EQ(places.axes[0], 0x234);
+  EXPECT_TRUE(places.is_known[0]);
+  EXPECT_FALSE(places.is_known[1]);
+  EXPECT_TRUE(reports.take(std::vector<std::uint8_t>{2, 0xFF, 0x03}, places));
+  EXPECT_TRUE(places.is_known[1]);
+  EXPECT_EQ(places.axes[0], 0x234);
 }
 
 // A length is in the unit of its field: 60 ms are 600 of a tenth of a millisecond.
