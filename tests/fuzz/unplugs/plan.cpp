@@ -15,7 +15,7 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr std::array<const char*, kDeviceKinds> kDeviceNames{"Falcon", "Polhem", "serial board",
-                                                             "event device"};
+                                                             "event device", "HID device"};
 constexpr std::array<const char*, kFaultKinds> kFaultNames{
     "unplug",        "loose plug",     "bounce",
     "other device",  "opening denied", "end of the program",
@@ -34,6 +34,8 @@ constexpr std::array kSerial{unplug,      loose,  bounce,  other_device, denied,
                              damage,      loss,   bunches, restart,      silent_servo};
 constexpr std::array kEvent{unplug, loose, bounce, other_device, denied, end_program, freeze,
                             errors, busy,  slow,   refusal,      drop,   silent_servo};
+constexpr std::array kHid{unplug, loose,  bounce, other_device, denied,      end_program,
+                          freeze, errors, slow,   refusal,      silent_servo};
 
 constexpr std::array<const char*, kPhases> kPhaseNames{"at once", "opening", "setting up", "homing",
                                                        "running"};
@@ -96,13 +98,10 @@ Fault fault_of(DeviceKind device, Draw& draw) {
   fault.kind = kind_of(device, draw);
   constexpr std::array kPhaseParts{8U, 14U, 12U, 6U};
   fault.phase = static_cast<Phase>(draw.part(kPhaseParts));
-  // It knows its place.
-  if (device == DeviceKind::event_device && fault.phase == Phase::homing)
-    fault.phase = Phase::setting_up;
+  if (renders_springs(device) && fault.phase == Phase::homing) fault.phase = Phase::setting_up;
   fault.call = draw.below(60);
   fault.after = after_of(fault.phase, draw);
-  // It shows walls later.
-  if (device == DeviceKind::event_device && fault.phase == Phase::running && draw.happens(60))
+  if (renders_springs(device) && fault.phase == Phase::running && draw.happens(60))
     fault.after += draw.between(100'000, 200'000);
   fault.lasts = lasts_of(draw);
   fault.loses_power = draw.happens(10);
@@ -119,6 +118,7 @@ double milliseconds_of(nanoseconds time) { return 1e3 * pdu::to_seconds(time); }
 std::span<const FaultKind> faults_of(DeviceKind kind) noexcept {
   if (kind == DeviceKind::serial_board) return kSerial;
   if (kind == DeviceKind::event_device) return kEvent;
+  if (kind == DeviceKind::hid_device) return kHid;
   return kUsb;
 }
 

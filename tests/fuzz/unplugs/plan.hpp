@@ -15,8 +15,13 @@ namespace reckon::fuzz::unplugs {
 
 using std::chrono::nanoseconds;
 
-enum class DeviceKind : std::uint8_t { falcon, polhem, serial_board, event_device };
-inline constexpr std::size_t kDeviceKinds = 4;
+enum class DeviceKind : std::uint8_t { falcon, polhem, serial_board, event_device, hid_device };
+inline constexpr std::size_t kDeviceKinds = 5;
+
+/// Whether it renders springs by itself: it knows its place, and shows walls later.
+[[nodiscard]] constexpr bool renders_springs(DeviceKind kind) noexcept {
+  return kind >= DeviceKind::event_device;
+}
 
 enum class FaultKind : std::uint8_t {
   // Of the plug.

@@ -41,6 +41,7 @@ constexpr nanoseconds kPersonTriesAgain = milliseconds(500);
 std::unique_ptr<TriedDevice> tried_device(const Plan& plan, const HeldHand& hand) {
   if (plan.device == DeviceKind::serial_board) return tried_serial_board(plan, hand);
   if (plan.device == DeviceKind::event_device) return tried_event_device(plan, hand);
+  if (plan.device == DeviceKind::hid_device) return tried_hid_device(plan, hand);
   return tried_usb_device(plan, hand);
 }
 

@@ -137,5 +137,6 @@ class TriedDevice {
                                                               const HeldHand& hand);
 [[nodiscard]] std::unique_ptr<TriedDevice> tried_event_device(const Plan& plan,
                                                               const HeldHand& hand);
+[[nodiscard]] std::unique_ptr<TriedDevice> tried_hid_device(const Plan& plan, const HeldHand& hand);
 
 }  // namespace reckon::fuzz::unplugs

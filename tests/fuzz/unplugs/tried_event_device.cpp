@@ -1,32 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A force feedback device of Linux, the kernel's calls answered by a model. Its x is the trial's z.
-#include <fmt/format.h>
-
+// A force feedback device of Linux, the kernel's calls answered by a model.
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <utility>
 
-#include "reckon/haptics/evdev/evdev_device.hpp"
-#include "reckon/haptics/evdev/evdev_loop.hpp"
-#include "reckon/tests/fuzz/unplugs/tried_device.hpp"
+#include "reckon/tests/fuzz/unplugs/tried_event_loop.hpp"
 #include "reckon/tests/haptics/support/evdev_model.hpp"
 
 namespace reckon::fuzz::unplugs {
 namespace {
 
-using haptics::EvdevLoop;
 using std::chrono::microseconds;
-using std::chrono::milliseconds;
 using test::EvdevModel;
 
-constexpr int kEffects = 2;  // of the loop
-// A change that it takes up while its effects end.
-constexpr nanoseconds kTakesUp = milliseconds(2);
-// A program that begins anew is not there sooner.
-constexpr nanoseconds kBegins = milliseconds(20);
 constexpr std::int32_t kCoarse = 1'023;  // steps of an axis of another device
 
 /// How another device differs.
@@ -159,19 +148,16 @@ int StruckCalls::write(int file, const input_event& event) noexcept {
   return result;
 }
 
-class TriedEventDevice final : public TriedDevice {
+class TriedEventDevice final : public TriedEventLoop {
  public:
   TriedEventDevice(const Plan& plan, const HeldHand& hand)
-      : model_(options(plan),
-               [&hand](double t) {
-                 return EvdevModel::Places{hand(t).z(), 0};
-               }),
-        device_(exchange_, haptics::evdev_limits(settings_)) {}
-  ~TriedEventDevice() override { model_.beside({}); }
-
-  haptics::HapticDevice& device() override { return device_; }
-  haptics::Scene scene() const override;
-  Vector3d origin() const override { return Vector3d::Zero(); }
+      : TriedEventLoop(settings()), model_(options(plan), [&hand](double t) {
+          return EvdevModel::Places{hand(t).z(), 0};
+        }) {}
+  ~TriedEventDevice() override {
+    end_loop();
+    model_.beside({});
+  }
 
   nanoseconds now() const override { return model_.now(); }
   void pass(nanoseconds time) override { model_.pass(time); }
@@ -181,36 +167,11 @@ class TriedEventDevice final : public TriedDevice {
   void let_go() override { model_.release(); }
   bool is_led() const override { return model_.is_held(); }
 
-  nanoseconds watchdog() const override { return EvdevLoop::kLength + kTakesUp; }
-  bool rests() const override { return force() == 0; }
   double force() const override { return std::hypot(model_.force(0), model_.force(1)); }
   std::uint64_t commands() const override { return calls_of_.commands; }
-  // It tells of what the device shows by itself, until its effects end.
-  double asked(const haptics::ServoSnapshot& servo) const override {
-    return servo.enabled ? servo.force.norm() : 0;
-  }
   // Of its springs: the device's own books owe and allow for nothing.
   double books(const haptics::ServoSnapshot&) const override { return model_.least_absorbed(); }
 
-  void begin_program() override {
-    loop_ =
-        std::make_unique<EvdevLoop>(exchange_, settings_, std::make_unique<StruckCalls>(calls_of_),
-                                    [this] { return model_.now(); });
-  }
-  void end_program() override {
-    is_ready_ = false;
-    loop_.reset();
-    model_.pass(kBegins);
-  }
-  bool has_program() const override { return loop_ != nullptr; }
-  void step(microseconds longest) override { loop_->step(longest); }
-  std::vector<std::string> take_notices() override;
-  Stage stage() const override {
-    if (model_.open_files() == 0) return Stage::away;
-    return is_ready_ ? Stage::running : Stage::opened;
-  }
-  nanoseconds obeys_within() const override { return milliseconds(2); }
-  std::optional<std::string> surplus() const override;
   unsigned tries() const override { return calls_of_.tries; }
 
   void pull(bool) override {
@@ -233,10 +194,13 @@ class TriedEventDevice final : public TriedDevice {
   }
   void deny(int error) override { model_.opening = -error; }
   bool strike(const Fault& fault, nanoseconds time) override;
-  void lose_place() override {}
-  void home() override {}
-  // A wall in which the hand is already would have to be paid for.
-  nanoseconds shows_after() const override { return milliseconds(105); }
+
+ protected:
+  std::unique_ptr<haptics::EventCalls> make_calls() override {
+    return std::make_unique<StruckCalls>(calls_of_);
+  }
+  int open_files() const override { return model_.open_files(); }
+  std::size_t effects() const override { return model_.effects(); }
 
  private:
   static test::EvdevModelOptions options(const Plan& plan) {
@@ -259,36 +223,7 @@ class TriedEventDevice final : public TriedDevice {
 
   EvdevModel model_;
   Calls calls_of_{model_, calls_};
-  haptics::EvdevSettings settings_ = settings();
-  haptics::EvdevExchange exchange_;
-  haptics::EvdevDevice device_;
-  bool is_ready_ = false;  // the loop said so
-  std::unique_ptr<EvdevLoop> loop_;
 };
-
-haptics::Scene TriedEventDevice::scene() const {
-  haptics::Scene scene;
-  haptics::SceneObject& wall = scene.objects.emplace_back();
-  wall.name = "wall";
-  wall.shape = haptics::PlaneShape{Vector3d::UnitX()};
-  wall.effects.of<haptics::SpringDamper>().stiffness = 1'000;
-  return scene;
-}
-
-std::vector<std::string> TriedEventDevice::take_notices() {
-  std::vector<std::string> notices = loop_->take_notices();
-  for (const std::string& notice : notices) is_ready_ = notice.find(": ready") != std::string::npos;
-  return notices;
-}
-
-std::optional<std::string> TriedEventDevice::surplus() const {
-  const int files = model_.open_files();
-  if (files > 1) return fmt::format("{} files are open", files);
-  if (files == 1 && loop_ == nullptr) return "a file is left open";
-  const auto effects = static_cast<int>(model_.effects());
-  if (files == 1 && effects > 2 * kEffects) return fmt::format("{} effects are held", effects);
-  return {};
-}
 
 void TriedEventDevice::be_another(const Fault& fault, nanoseconds) {
   switch (fault.call % 5) {

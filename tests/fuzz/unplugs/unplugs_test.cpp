@@ -17,9 +17,9 @@
 namespace reckon::fuzz::unplugs {
 namespace {
 
-// Others than the first ones of the verb, five for each kind of device. Each has 100 faults, most
+// Others than the first ones of the verb, four for each kind of device. Each has 100 faults, most
 // of them unplugs.
-constexpr std::uint64_t kFirst = 1'000'114, kSeeds = 20;
+constexpr std::uint64_t kFirst = 1'000'654, kSeeds = 20;
 
 TEST(Unplugs, LeaveNoForceAndTheDeviceIsTakenUpAgain) {
   std::array<std::uint64_t, kDeviceKinds> seeds{}, pulled{}, pressed{};
@@ -59,11 +59,11 @@ TEST(UnplugsPlan, DrawsEveryFaultOfADeviceInEveryPhase) {
     for (const Fault& fault : plan.faults) ++drawn[{plan.device, fault.kind, fault.phase}];
   }
   for (const DeviceKind device : {DeviceKind::falcon, DeviceKind::polhem, DeviceKind::serial_board,
-                                  DeviceKind::event_device}) {
+                                  DeviceKind::event_device, DeviceKind::hid_device}) {
     for (const FaultKind kind : faults_of(device)) {
       for (const Phase phase :
            {Phase::any, Phase::opening, Phase::setting_up, Phase::homing, Phase::running}) {
-        if (phase == Phase::homing && device == DeviceKind::event_device) continue;
+        if (phase == Phase::homing && renders_springs(device)) continue;
         EXPECT_GT((drawn[{device, kind, phase}]), 20U) << text_of(Fault{kind, phase});
       }
     }

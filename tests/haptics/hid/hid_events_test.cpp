@@ -351,7 +351,7 @@ TEST(HidEvents, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("refuses an effect (Connection timed out)")));
   EXPECT_FALSE(plugged.last().enabled);
   plugged.notices.clear();
-  plugged.wheel.fail(HidWheel::Call::write, 0);
+  plugged.wheel.fail(HidWheel::Call::write, 0, 0);
   plugged.run(milliseconds(1000));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
   EXPECT_GE(plugged.wheel.wheel.least_absorbed(), -1e-9);

@@ -16,6 +16,7 @@ using std::chrono::nanoseconds;
 
 constexpr int kFile = 40;
 constexpr microseconds kTick{100};
+constexpr std::chrono::milliseconds kHeldTick{1};
 constexpr std::size_t kKept = 64;  // reports, by the kernel, of one who does not read
 
 /// A host without event devices.
@@ -101,7 +102,8 @@ HidWheel::HidWheel(const HidWheelOptions& options, std::function<Places(double)>
 
 void HidWheel::pass(nanoseconds time) {
   for (const nanoseconds end = now_ + time; now_ < end;) {
-    now_ += kTick;
+    const bool is_cheap = wheel.is_held() && wheel.effects() == 0;
+    now_ += is_cheap ? std::min<nanoseconds>(kHeldTick, end - now_) : kTick;
     const Places wanted = hand_(std::chrono::duration<double>(now_).count());
     for (std::size_t axis = 0; axis < wanted.size(); ++axis) wheel.want(axis, wanted[axis]);
     wheel.run_until(now_);
@@ -118,7 +120,7 @@ void HidWheel::pass(nanoseconds time) {
 }
 
 void HidWheel::plug(bool in) {
-  if (!in || !plugged_) {
+  if (!in) {
     wheel.lose_power();
     is_dead_ = true;  // the file that was open stays so
     reports_.clear();
@@ -143,6 +145,7 @@ microseconds HidWheel::report_interval(const std::string&) {
 
 int HidWheel::open(const std::string& path) {
   at_each_call();
+  ++tries_;
   if (path != kPath || !plugged_) return -ENOENT;
   if (opening < 0) return opening;
   ++open_;
@@ -168,12 +171,19 @@ int HidWheel::made(Call call, microseconds time) noexcept {
   pass(time);
   longest_call_ = std::max(longest_call_, now_ - begin);
   if (is_dead_) return -ENODEV;
-  return failing_[call];
+  Failure& failure = failing_[call];
+  if (failure.left == 0) return 0;
+  --failure.left;
+  return failure.error;
 }
 
 int HidWheel::read(int, std::span<std::uint8_t> report) noexcept {
   at_each_call();
   if (is_dead_) return -EIO;  // as hidraw says it
+  if (failing_reads_ > 0) {
+    --failing_reads_;
+    return -EIO;
+  }
   if (reports_.empty()) return -EAGAIN;
   const int octets = copied(reports_.front(), report);
   reports_.pop_front();
@@ -181,7 +191,9 @@ int HidWheel::read(int, std::span<std::uint8_t> report) noexcept {
 }
 
 int HidWheel::write(int, std::span<const std::uint8_t> report) noexcept {
-  const int result = made(Call::write, options_.takes);
+  const bool is_slow = slow_.left > 0;
+  if (is_slow) --slow_.left;
+  const int result = made(Call::write, options_.takes + (is_slow ? slow_.each : microseconds(0)));
   if (result == 0) wheel.take(report);
   return result;
 }

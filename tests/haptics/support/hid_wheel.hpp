@@ -51,13 +51,19 @@ class HidWheel final : public haptics::HidCalls {
   // What goes wrong.
   void plug(bool in);
   enum class Call : std::uint8_t { write, set_feature, get_feature };
-  void fail(Call call, int error) { failing_[call] = error; }  ///< 0: no more
+  /// The next calls of that kind, 0: no more.
+  void fail(Call call, int error, unsigned count = ~0U) { failing_[call] = {error, count}; }
+  void fail_reads(unsigned count) { failing_reads_ = count; }
+  /// The next writes take so much longer.
+  void slow_down(std::chrono::microseconds each, unsigned count) { slow_ = {each, count}; }
   std::function<void()> at_each_call = [] {};
   int opening = 0;        ///< what open() returns where it is below 0
   bool is_taken = false;  ///< by another program
   haptics::HidSeen seen;  ///< what the kernel tells of it
 
   PidWheel wheel;
+  [[nodiscard]] bool is_plugged() const { return plugged_; }
+  [[nodiscard]] unsigned tries() const { return tries_; }  ///< to open it
   [[nodiscard]] int open_files() const { return open_; }
   [[nodiscard]] std::chrono::nanoseconds longest_call() const { return longest_call_; }
 
@@ -84,9 +90,20 @@ class HidWheel final : public haptics::HidCalls {
   std::chrono::nanoseconds now_{0}, next_report_{0}, longest_call_{0};
   std::deque<std::vector<std::uint8_t>> reports_;
   std::vector<std::uint8_t> sent_;
-  std::map<Call, int> failing_;
+  struct Failure {
+    int error = 0;
+    unsigned left = 0;
+  };
+  struct Slowness {
+    std::chrono::microseconds each{0};
+    unsigned left = 0;
+  };
+  std::map<Call, Failure> failing_;
+  Slowness slow_;
+  unsigned failing_reads_ = 0;
   bool plugged_ = true, is_dead_ = false;
   int open_ = 0;
+  unsigned tries_ = 0;
 };
 
 /// The wheel is the only force feedback device of its host, and outlives them.

@@ -235,6 +235,7 @@ void PidWheel::set_condition(Octets report) {
   next.stiffness = {share(7) * options_.full_stiffness, share(5) * options_.full_stiffness};
   next.most = {share(11) * options_.full_force, share(9) * options_.full_force};
   next.half_dead = share(13) * options_.travel / 2;
+  ++orders_;
   Condition& condition = effect->conditions[report[2]];
   if (condition != next) ++changes_;
   condition = next;
@@ -246,6 +247,7 @@ void PidWheel::operate(Octets report) {
   if (report[2] == kStartAlone)
     for (auto& [number, other] : effects_) other.plays = false;
   effect->plays = report[2] != kStop;
+  if (effect->plays) ++orders_;
   effect->until = effect->length.count() == 0 ? nanoseconds::max() : now_ + effect->length;
   if (report[2] < kStart || report[2] > kStop) ++strange_;
 }
@@ -311,6 +313,11 @@ void PidWheel::run_until(nanoseconds now) {
 
 // The energy that constant springs take is the difference of their potential, whatever the step.
 void PidWheel::run(double h) {
+  if (held_) {
+    place_ = wanted_ = *held_;
+    speed_ = {};
+    return;
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.axes); ++i) {
     const double way =
         std::clamp(goal_[i] - wanted_[i], -h * options_.hand_speed, h * options_.hand_speed);

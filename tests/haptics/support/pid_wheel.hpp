@@ -53,6 +53,10 @@ class PidWheel {
 
   /// Where the hand wants the handle [m]; it goes there at hand_speed.
   void want(std::size_t axis, double place) { goal_[axis] = place; }
+  /// A hand that is stronger than all holds the handle here [m], at rest, until nothing does. That
+  /// is not booked.
+  void hold(const std::optional<std::array<double, kAxes>>& place) { held_ = place; }
+  [[nodiscard]] bool is_held() const { return held_.has_value(); }
   /// Lets time pass until then.
   void run_until(std::chrono::nanoseconds now);
 
@@ -69,6 +73,8 @@ class PidWheel {
   [[nodiscard]] std::size_t playing() const;
   /// Conditions so far that changed an effect.
   [[nodiscard]] int changes() const { return changes_; }
+  /// Conditions and starts so far.
+  [[nodiscard]] std::uint64_t orders() const { return orders_; }
   /// Reports so far that it does not know, or of an effect that is not there.
   [[nodiscard]] int strange() const { return strange_; }
   /// When a report of the host came last.
@@ -110,7 +116,9 @@ class PidWheel {
   std::chrono::nanoseconds now_{0}, told_{0};
   std::array<double, kAxes> goal_{}, wanted_{}, place_{}, speed_{};
   double absorbed_ = 0, least_ = 0, fastest_ = 0;
+  std::optional<std::array<double, kAxes>> held_;
   int changes_ = 0, strange_ = 0;
+  std::uint64_t orders_ = 0;
 };
 
 }  // namespace reckon::test
