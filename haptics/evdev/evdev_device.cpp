@@ -48,6 +48,9 @@ DeviceSample EvdevDevice::read(std::chrono::nanoseconds now) noexcept {
   sample.ok = reading.is_there && now - reading.at <= kWatchdog;
   sample.position = reading.position;
   sample.buttons = reading.buttons;
+  if (!sample.ok) return sample;
+  if (placed_at_.count() > 0) sample.took = reading.placed_at - placed_at_;
+  placed_at_ = reading.placed_at;
   return sample;
 }
 

@@ -46,6 +46,7 @@ struct EvdevReading {
   std::uint32_t buttons = 0;
   bool is_there = false;
   std::chrono::nanoseconds at{0};
+  std::chrono::nanoseconds placed_at{0};  ///< when the handle was there
   ShownModel shown;
 };
 
@@ -74,7 +75,8 @@ class EvdevDevice final : public CoefficientDevice {
  private:
   EvdevExchange& exchange_;
   DeviceLimits limits_;
-  std::chrono::nanoseconds read_at_{0};  // last
+  std::chrono::nanoseconds read_at_{0};    // last
+  std::chrono::nanoseconds placed_at_{0};  // of the last good reading
 };
 
 }  // namespace reckon::haptics

@@ -25,6 +25,8 @@ constexpr std::int32_t kFullGain = 0xFFFF;
 constexpr int kReportsOfAChange = 2;
 constexpr int kReportsOfANewEffect = 3;
 constexpr int kTurns = 2;  // of the endpoint, until a report is surely there
+// In which nothing is read: a reading that is older is none.
+constexpr nanoseconds kLongestCall = HapticDevice::kWatchdog - std::chrono::milliseconds(2);
 
 std::size_t index_of(WallSide side) noexcept { return static_cast<std::size_t>(side); }
 
@@ -68,8 +70,13 @@ void EvdevLoop::step(microseconds longest) {
   }
   calls_->wait(file_, longest);
   if (!read_events()) return detach("was unplugged");
-  const nanoseconds now = clock_();
-  show(now);
+  nanoseconds now = clock_();
+  if (calls_->waits_for_device(file_)) {
+    publish(now);
+    judge(show_in_turn(now));
+  } else {
+    judge(show(now));
+  }
   publish(now);
 }
 
@@ -81,6 +88,7 @@ bool EvdevLoop::read_events() noexcept {
     if (count == -EAGAIN) break;
     if (count < 0) return false;
     for (int i = 0; i < count; ++i) state_.take(events[static_cast<std::size_t>(i)]);
+    placed_at_ = clock_();
     if (count < static_cast<int>(events.size())) break;
   }
   return !state_.wants_all() || ask_state(*calls_, file_, state_);
@@ -134,16 +142,35 @@ int EvdevLoop::tell_side(WallSide side, const SpringModel& model, nanoseconds no
   return 0;
 }
 
+int EvdevLoop::tell_wall(std::size_t axis, WallSide side, const SpringWall& wall,
+                         nanoseconds now) noexcept {
+  ff_effect& told = effects_[index_of(side)];
+  ff_effect next = told;
+  next.u.condition[axis] = condition_of(wall, side, settings_.scale);
+  if (!are_equal(next, told)) {
+    const int result = calls_->control(file_, EVIOCSFF, &next);
+    if (result < 0) return result;
+    told = next;
+    changed_[index_of(side)] = now;
+  }
+  if (books_.shown().wall(axis, side) != wall)
+    books_.book(axis, side, wall, places_of(axis, later_than_stated(now)));
+  return 0;
+}
+
+int EvdevLoop::play_one(const ff_effect& effect, std::int32_t value) noexcept {
+  if (effect.id < 0) return 0;
+  input_event event{};
+  event.type = EV_FF;
+  event.code = static_cast<std::uint16_t>(effect.id);
+  event.value = value;
+  return calls_->write(file_, event);
+}
+
 int EvdevLoop::play(std::int32_t value) noexcept {
   int result = 0;
-  for (const ff_effect& effect : effects_) {
-    if (effect.id < 0) continue;
-    input_event event{};
-    event.type = EV_FF;
-    event.code = static_cast<std::uint16_t>(effect.id);
-    event.value = value;
-    if (const int one = calls_->write(file_, event); one < 0) result = one;
-  }
+  for (const ff_effect& effect : effects_)
+    if (const int one = play_one(effect, value); one < 0) result = one;
   line_up(static_cast<int>(effects_.size()), clock_());
   return result;
 }
@@ -168,12 +195,16 @@ bool EvdevLoop::is_soon_there(nanoseconds now) const noexcept {
 }
 
 // Why the device is too slow for the delay that is stated, as a sentence.
-std::string EvdevLoop::learn_interval(const std::string& path) {
+std::string EvdevLoop::learn_interval(const std::string& path, int file) {
   const microseconds told = calls_->report_interval(path);
   constexpr int kIntervals = kTurns * kReportsOfAChange;
   interval_ = told.count() > 0 ? nanoseconds(told)
                                : std::min<nanoseconds>(kReport, settings_.chain / kIntervals);
   drained_ = {};
+  if (calls_->waits_for_device(file) && kReportsOfAChange * interval_ > kLongestCall) {
+    return "it takes a report each " + std::to_string(told.count()) +
+           " us and each is waited for, so that it would not be read for too long";
+  }
   const nanoseconds change = kIntervals * interval_;
   if (change <= settings_.chain) return {};
   return "it takes a report each " + std::to_string(told.count()) +
@@ -184,14 +215,12 @@ std::string EvdevLoop::learn_interval(const std::string& path) {
 
 // An effect that was played too long ago may have ended, or not: the next one is paid for as if it
 // had, before it is played again.
-void EvdevLoop::show(nanoseconds now) {
+int EvdevLoop::show(nanoseconds now) noexcept {
   const SpringModel asked = wanted(now);
   const bool may_have_ended = now - played_ > kLength / 2;
   if (may_have_ended) books_.forget();
   int result = 0;
-  auto sides = kSides;  // which waits longest is first
-  if (changed_[index_of(sides[1])] < changed_[index_of(sides[0])]) std::swap(sides[0], sides[1]);
-  for (const WallSide side : sides) {
+  for (const WallSide side : sides_in_turn()) {
     SpringModel next;
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
       next.wall(axis, side) = next_wall(axis, side, asked.wall(axis, side));
@@ -203,15 +232,71 @@ void EvdevLoop::show(nanoseconds now) {
     result = play(1);
     if (result >= 0) played_ = now;
   }
+  return result;
+}
+
+// Where each call waits for the device, any of them may take long. So each report follows a
+// reading, and effects that may have ended are played again without walls.
+int EvdevLoop::show_in_turn(nanoseconds& now) noexcept {
+  const SpringModel asked = wanted(now);
+  const bool may_have_ended = now - played_ > kLength / 2;
+  if (may_have_ended) books_.forget();
+  const bool is_play_due = now - played_ >= kLength / 3;
+  int result = is_play_due && !may_have_ended ? play_in_turn(now, true) : 0;
+  for (const WallSide side : sides_in_turn()) {
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
+      if (result < 0) return result;
+      if (!may_have_ended && now - played_ >= kLength / 3) return result;  // to play is first
+      const SpringWall next = next_wall(axis, side, asked.wall(axis, side));
+      result = tell_wall(axis, side, may_have_ended ? SpringWall() : next, now);
+      if (result >= 0) result = look_again(now);
+    }
+  }
+  return may_have_ended && result >= 0 ? play_in_turn(now, false) : result;
+}
+
+// Which waits longest is first.
+std::array<WallSide, SpringModel::kSides> EvdevLoop::sides_in_turn() const noexcept {
+  auto sides = kSides;
+  if (changed_[index_of(sides[1])] < changed_[index_of(sides[0])]) std::swap(sides[0], sides[1]);
+  return sides;
+}
+
+// Readings would age meanwhile.
+int EvdevLoop::look_again(nanoseconds& now) noexcept {
+  if (clock_() == now) return 0;
+  if (!read_events()) return -ENODEV;
+  now = clock_();
+  publish(now);
+  return 0;
+}
+
+// @param has_walls one that may have ended meanwhile is not played
+int EvdevLoop::play_in_turn(nanoseconds& now, bool has_walls) noexcept {
+  const nanoseconds begin = now;
+  for (const ff_effect& effect : effects_) {
+    if (has_walls && now - played_ > kLength / 2) return 0;
+    int result = play_one(effect, 1);
+    if (result >= 0) result = look_again(now);
+    if (result < 0) return result;
+  }
+  played_ = begin;
+  return 0;
+}
+
+void EvdevLoop::judge(int result) {
   if (result == -EAGAIN) return;  // it is asked again in the next step
   if (result == -ENODEV) return detach("was unplugged");
   if (result < 0) detach(std::string("refuses an effect (") + std::strerror(-result) + ")");
 }
 
+// A handle that moves says where it is in each turn of its endpoint.
 void EvdevLoop::publish(nanoseconds now) noexcept {
+  if (now - placed_at_ > kTurns * interval_) placed_at_ = now;
   EvdevReading& reading = exchange_.reading.write_slot();
   reading = {};
   reading.at = now;
+  reading.placed_at = placed_at_;
   reading.is_there = file_ >= 0;
   if (reading.is_there) {
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
@@ -292,7 +377,7 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
     fault = is_meant ? path + " gives no force feedback" : "none";
   } else {
     fault = fault_of(*facts, settings_.axes);
-    if (fault.empty()) fault = learn_interval(path);
+    if (fault.empty()) fault = learn_interval(path, file);
   }
   if (!fault.empty()) {
     const bool was_pulled = is_gone(file);

@@ -64,7 +64,10 @@ class EvdevLoop {
   void let_go() noexcept;
   void detach(const std::string& why);
   [[nodiscard]] bool read_events() noexcept;
-  void show(std::chrono::nanoseconds now);
+  [[nodiscard]] int show(std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] int show_in_turn(std::chrono::nanoseconds& now) noexcept;
+  void judge(int result);
+  [[nodiscard]] std::array<WallSide, SpringModel::kSides> sides_in_turn() const noexcept;
   [[nodiscard]] SpringModel wanted(std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] PlaceRange places_of(std::size_t axis,
                                      std::chrono::nanoseconds longer) const noexcept;
@@ -72,8 +75,13 @@ class EvdevLoop {
                                      const SpringWall& wanted) const noexcept;
   [[nodiscard]] int tell_side(WallSide side, const SpringModel& model,
                               std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] int tell_wall(std::size_t axis, WallSide side, const SpringWall& wall,
+                              std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] int play(std::int32_t value) noexcept;
-  [[nodiscard]] std::string learn_interval(const std::string& path);
+  [[nodiscard]] int look_again(std::chrono::nanoseconds& now) noexcept;
+  [[nodiscard]] int play_one(const ff_effect& effect, std::int32_t value) noexcept;
+  [[nodiscard]] int play_in_turn(std::chrono::nanoseconds& now, bool has_walls) noexcept;
+  [[nodiscard]] std::string learn_interval(const std::string& path, int file);
   void line_up(int reports, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] std::chrono::nanoseconds later_than_stated(
       std::chrono::nanoseconds now) const noexcept;
@@ -92,6 +100,7 @@ class EvdevLoop {
   std::array<ff_effect, SpringModel::kSides> effects_{};  // as uploaded
   std::array<std::chrono::nanoseconds, SpringModel::kSides> changed_{};
   std::chrono::nanoseconds played_{0};
+  std::chrono::nanoseconds placed_at_{0};       // of the newest place
   std::chrono::nanoseconds interval_{kReport};  // of reports that the device takes
   std::chrono::nanoseconds drained_{0};         // when it has all of them
   std::chrono::nanoseconds next_try_{0};

@@ -18,7 +18,7 @@ constexpr std::uint32_t kX = hid_usage(kDesktop, 0x30), kY = hid_usage(kDesktop,
 enum : std::uint32_t {
   kSetEffect = 0x21,
   kBlock = 0x22,
-  kAxis = 0x23,
+  kAxisNumber = 0x23,
   kEffectType = 0x25,
   kConstantForce = 0x26,
   kSpring = 0x40,
@@ -175,7 +175,7 @@ void PidReports::find_effect(const Finder& finder) {
 void PidReports::find_condition(const Finder& finder) {
   static_cast<Form&>(condition_) = finder.form(HidKind::output, kSetCondition);
   condition_.block = finder.field(condition_, kBlock);
-  condition_.axis = finder.field(condition_, kAxis);
+  condition_.axis = finder.field(condition_, kAxisNumber);
   condition_.at = finder.field(condition_, kMiddle);
   condition_.above = finder.field(condition_, kAbove);
   condition_.below = finder.field(condition_, kBelow);

@@ -19,7 +19,7 @@ enum GlobalTag : unsigned {
   kExponent = 5,
   kUnit = 6,
   kBits = 7,
-  kReport = 8,
+  kReportNumber = 8,
   kCount = 9,
   kPush = 10,
   kPop = 11
@@ -111,7 +111,7 @@ class Reader {
       case kBits:
         now_.bits = item.value;
         return item.value <= HidReports::kMostBits;
-      case kReport:
+      case kReportNumber:
         now_.report = static_cast<std::uint8_t>(item.value);
         return item.value >= 1 && item.value <= 255;
       case kCount:

@@ -83,10 +83,11 @@ bool CoefficientStep::sample(const DeviceSample& reading) noexcept {
   }
   step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
+  placed_at_ = started_ && reading.took ? placed_at_ + *reading.took : step_.now;
   started_ = true;
   place_ = reading.position;
   step_.probe = config_.device_origin + config_.device_orientation * place_;
-  motion_.add(step_.probe, pdu::to_seconds(step_.now));
+  motion_.add(step_.probe, pdu::to_seconds(placed_at_));
   step_.velocity = motion_.velocity();
   return true;
 }
@@ -113,7 +114,7 @@ void CoefficientStep::publish(bool enabled) noexcept {
   out.step = count_;
   out.device = step_.probe;
   out.scp = config_.device_origin + to_scene(now.surface);
-  scp_motion_.add(out.scp, pdu::to_seconds(step_.now));
+  scp_motion_.add(out.scp, pdu::to_seconds(placed_at_));
   const bool touches = now.surface != place_;
   const bool of_others = touches && others_.touching();
   out.in_mesh_contact = touches && !of_others;

@@ -41,7 +41,7 @@ class CoefficientStep final : public ServoCore {
   MotionFilter motion_, scp_motion_;
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();  // [m], frame D
   Eigen::Vector3d asked_ = Eigen::Vector3d::Zero();  // [N], of the walls stated, frame D
-  std::chrono::nanoseconds sampled_at_{0};
+  std::chrono::nanoseconds sampled_at_{0}, placed_at_{0};
   bool started_ = false;
   double port_min_ = 0.0;
 };

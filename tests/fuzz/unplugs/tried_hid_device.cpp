@@ -17,6 +17,8 @@ using std::chrono::microseconds;
 using test::HidWheel;
 
 constexpr unsigned kUntilPulled = 1'000'000;
+// Calls; each may cost an attempt, and these are half a second apart.
+constexpr unsigned kMostRefused = 4;
 
 class TriedHidDevice final : public TriedEventLoop {
  public:
@@ -82,7 +84,7 @@ class TriedHidDevice final : public TriedEventLoop {
     static constexpr std::array kCalls{HidWheel::Call::write, HidWheel::Call::set_feature,
                                        HidWheel::Call::get_feature};
     model_.fail(kCalls[fault.call % kCalls.size()], -kErrors[fault.call % kErrors.size()],
-                fault.number);
+                1 + fault.number % kMostRefused);
     return false;
   }
 
@@ -95,8 +97,8 @@ class TriedHidDevice final : public TriedEventLoop {
   static test::HidWheelOptions options(const Plan& plan) {
     test::HidWheelOptions options;
     options.wheel.hand_speed = 2.0;
-    options.takes = microseconds(plan.seed % 2 == 0 ? 1000 : 500);
-    options.says_where = true;
+    options.takes = microseconds(plan.seed % 2 == 0 ? 250 : 125);
+    options.answers = microseconds(125);
     return options;
   }
   static haptics::EvdevSettings settings(const Plan& plan) {

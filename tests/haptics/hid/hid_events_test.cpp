@@ -196,12 +196,26 @@ TEST(HidEvents, OneThatIsKilledLeavesNoForceOnceItsEffectsEndAndTheNextBeginsAne
 
 TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
   const Hand quick = [](double t) { return HidWheel::Places{0.03 * std::sin(12 * t), 0.02}; };
-  Plugged plugged({}, quick);
-  plugged.run(milliseconds(300));
-  static_cast<void>(plugged.steps_without());
-  plugged.run(milliseconds(3000));
-  EXPECT_EQ(plugged.steps_without(), 0);
-  EXPECT_LT(plugged.wheel.longest_call(), milliseconds(2));
+  for (const auto takes : {microseconds(1000), microseconds(2000), microseconds(4000)}) {
+    SCOPED_TRACE(takes.count());
+    HidWheelOptions options;
+    options.takes = takes;
+    Plugged plugged(options, quick);
+    plugged.run(milliseconds(400));
+    static_cast<void>(plugged.steps_without());
+    double most = 0;
+    const int before = plugged.wheel.wheel.changes();
+    for (std::uint32_t i = 0; i < 300; ++i) {
+      const double way = 0.02 * std::sin(0.1 * i);  // a hand of another that never rests
+      plugged.servo.contacts().write(bench::only(bench::sphere({way, -0.045, 0}, 500, i + 1)));
+      plugged.run(milliseconds(10));
+      most = std::max(most, std::abs(plugged.wheel.wheel.force(0)));
+      ASSERT_EQ(plugged.wheel.wheel.playing(), 2U);
+    }
+    EXPECT_EQ(plugged.steps_without(), 0);
+    EXPECT_GT(most, 1.0);
+    EXPECT_GT(plugged.wheel.wheel.changes() - before, 60);
+  }
 }
 
 // Strokes that press every wall, stops, hands of others and stands of the program.

@@ -191,10 +191,12 @@ int HidWheel::read(int, std::span<std::uint8_t> report) noexcept {
 }
 
 int HidWheel::write(int, std::span<const std::uint8_t> report) noexcept {
-  const bool is_slow = slow_.left > 0;
-  if (is_slow) --slow_.left;
-  const int result = made(Call::write, options_.takes + (is_slow ? slow_.each : microseconds(0)));
+  const int result = made(Call::write, options_.takes);
   if (result == 0) wheel.take(report);
+  if (slow_.left > 0) {
+    --slow_.left;
+    pass(slow_.each);
+  }
   return result;
 }
 

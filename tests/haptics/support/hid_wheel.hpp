@@ -54,7 +54,7 @@ class HidWheel final : public haptics::HidCalls {
   /// The next calls of that kind, 0: no more.
   void fail(Call call, int error, unsigned count = ~0U) { failing_[call] = {error, count}; }
   void fail_reads(unsigned count) { failing_reads_ = count; }
-  /// The next writes take so much longer.
+  /// The next writes come back so much later than the device has the report.
   void slow_down(std::chrono::microseconds each, unsigned count) { slow_ = {each, count}; }
   std::function<void()> at_each_call = [] {};
   int opening = 0;        ///< what open() returns where it is below 0
