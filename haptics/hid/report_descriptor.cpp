@@ -10,21 +10,21 @@ namespace {
 using Octets = std::span<const std::uint8_t>;
 
 // 6.2.2.2: the type and the tag of a short item.
-enum Type : unsigned { kMain = 0, kGlobal = 1, kLocal = 2 };
-enum MainTag : unsigned { kInput = 8, kOutput = 9, kCollection = 10, kFeature = 11, kEnd = 12 };
-enum GlobalTag : unsigned {
-  kPage = 0,
-  kLeast = 1,
-  kMost = 2,
-  kExponent = 5,
-  kUnit = 6,
-  kBits = 7,
-  kReportNumber = 8,
-  kCount = 9,
-  kPush = 10,
-  kPop = 11
+enum class Type : std::uint8_t { main, global, local };
+enum class MainTag : std::uint8_t { input = 8, output, collection, feature, end };
+enum class GlobalTag : std::uint8_t {
+  page = 0,
+  least = 1,
+  most = 2,
+  exponent = 5,
+  unit = 6,
+  bits = 7,
+  report = 8,
+  count = 9,
+  push = 10,
+  pop = 11
 };
-enum LocalTag : unsigned { kUsage = 0, kFirstUsage = 1, kLastUsage = 2, kDelimiter = 10 };
+enum class LocalTag : std::uint8_t { usage = 0, first = 1, last = 2, delimiter = 10 };
 constexpr std::uint8_t kLongItem = 0xFE;
 constexpr std::uint32_t kIsConstant = 1, kIsVariable = 2;
 constexpr std::uint32_t kSeconds = 0x1001;  // 6.2.2.7, of the system SI linear
@@ -81,9 +81,9 @@ class Reader {
     for (unsigned i = 0; i < item.octets; ++i)
       item.value |= static_cast<std::uint32_t>(rest_[1 + i]) << 8 * i;
     rest_ = rest_.subspan(1 + item.octets);
-    if (item.type == kGlobal) return take_global(item);
-    if (item.type == kLocal) return take_local(item);
-    if (item.type != kMain) return false;
+    if (static_cast<Type>(item.type) == Type::global) return take_global(item);
+    if (static_cast<Type>(item.type) == Type::local) return take_local(item);
+    if (static_cast<Type>(item.type) != Type::main) return false;
     const bool is_good = take_main(item);
     usages_.clear();
     first_.reset();
@@ -91,37 +91,37 @@ class Reader {
   }
 
   bool take_global(const Item& item) {
-    switch (item.tag) {
-      case kPage:
+    switch (static_cast<GlobalTag>(item.tag)) {
+      case GlobalTag::page:
         now_.page = item.value;
         return item.value <= 0xFFFF;
-      case kLeast:
+      case GlobalTag::least:
         now_.least = item.with_sign();
         return true;
-      case kMost:
+      case GlobalTag::most:
         now_.most = item;
         return true;
-      case kExponent:  // of four bits with a sign; some write it as an octet
+      case GlobalTag::exponent:  // of four bits with a sign; some write it as an octet
         now_.exponent = static_cast<int>(item.value & 0xF);
         if (now_.exponent > 7) now_.exponent -= 16;
         return true;
-      case kUnit:
+      case GlobalTag::unit:
         now_.unit = item.value;
         return true;
-      case kBits:
+      case GlobalTag::bits:
         now_.bits = item.value;
         return item.value <= HidReports::kMostBits;
-      case kReportNumber:
+      case GlobalTag::report:
         now_.report = static_cast<std::uint8_t>(item.value);
         return item.value >= 1 && item.value <= 255;
-      case kCount:
+      case GlobalTag::count:
         now_.count = item.value;
         return item.value <= HidReports::kMostBits;
-      case kPush:
+      case GlobalTag::push:
         if (pushed_.size() == kMostPushed) return false;
         pushed_.push_back(now_);
         return true;
-      case kPop:
+      case GlobalTag::pop:
         if (pushed_.empty()) return false;
         now_ = pushed_.back();
         pushed_.pop_back();
@@ -132,19 +132,19 @@ class Reader {
   }
 
   bool take_local(const Item& item) {
-    switch (item.tag) {
-      case kUsage:
+    switch (static_cast<LocalTag>(item.tag)) {
+      case LocalTag::usage:
         return add_usages(item, item.value, item.value);
-      case kFirstUsage:
+      case LocalTag::first:
         first_ = item;
         return true;
-      case kLastUsage: {
+      case LocalTag::last: {
         if (!first_ || first_->value > item.value) return false;
         const Item first = *first_;
         first_.reset();
         return add_usages(first, first.value, item.value);
       }
-      case kDelimiter:
+      case LocalTag::delimiter:
         return false;  // sets of usages to choose from: no such device is known
       default:
         return true;  // what is said of them in words
@@ -164,23 +164,23 @@ class Reader {
   }
 
   bool take_main(const Item& item) {
-    switch (item.tag) {
-      case kCollection: {
+    switch (static_cast<MainTag>(item.tag)) {
+      case MainTag::collection: {
         if (open_.size() == kDeepest) return false;
         const std::size_t place = out_.collections.size();
         out_.collections.push_back({usage_at(0), open_.empty() ? place : open_.back()});
         open_.push_back(place);
         return true;
       }
-      case kEnd:
+      case MainTag::end:
         if (open_.empty()) return false;
         open_.pop_back();
         return true;
-      case kInput:
+      case MainTag::input:
         return add_fields(HidKind::input, item.value);
-      case kOutput:
+      case MainTag::output:
         return add_fields(HidKind::output, item.value);
-      case kFeature:
+      case MainTag::feature:
         return add_fields(HidKind::feature, item.value);
       default:
         return true;
