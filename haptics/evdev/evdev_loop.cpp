@@ -22,6 +22,14 @@ constexpr std::int32_t kFullGain = 0xFFFF;
 // In which nothing is read: a reading that is older is none.
 constexpr nanoseconds kLongestCall = HapticDevice::kWatchdog - std::chrono::milliseconds(2);
 
+// What of USB ends so does so because nobody answers.
+std::string refusal_of(int result) {
+  const std::string error = std::strerror(-result);
+  const bool is_silent = result == -EPROTO || result == -EILSEQ || result == -ETIME;
+  return is_silent ? "does not answer (" + error + "), as one that was unplugged"
+                   : "refuses an effect (" + error + ")";
+}
+
 }  // namespace
 
 EvdevLoop::EvdevLoop(EvdevExchange& exchange, const EvdevSettings& settings,
@@ -60,8 +68,7 @@ void EvdevLoop::step(microseconds longest) {
   if (calls_->waits_for_device(file_)) publish(now);
   const int result = walls_.show(wanted(now), now);
   if (result == -ENODEV) return detach("was unplugged");
-  if (result < 0 && result != -EAGAIN)  // that is asked again in the next step
-    return detach(std::string("refuses an effect (") + std::strerror(-result) + ")");
+  if (result < 0 && result != -EAGAIN) return detach(refusal_of(result));  // that is asked again
   publish(now);
 }
 

@@ -368,6 +368,10 @@ TEST(HidEvents, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
   plugged.wheel.fail(HidWheel::Call::write, 0, 0);
   plugged.run(milliseconds(1000));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
+  plugged.wheel.fail(HidWheel::Call::write, -EPROTO);
+  plugged.run(milliseconds(100));
+  EXPECT_THAT(plugged.notices, Contains(HasSubstr("does not answer (Protocol error), as one that "
+                                                  "was unplugged")));
   EXPECT_GE(plugged.wheel.wheel.least_absorbed(), -1e-9);
 }
 

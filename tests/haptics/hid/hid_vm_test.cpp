@@ -157,6 +157,7 @@ TEST_F(HidVm, UnpluggedItShowsNothingAndIsTakenUpAgain) {
   press();
   wheel->unplug();
   const double said = milliseconds_until([&] { return program->has_said("was unplugged"); });
+  if (!program->has_said("was unplugged")) std::printf("%s", program->said().c_str());
   std::printf("  unplugged: said after %.1f ms\n", said);
   retreat();
   wheel->plug_in();
