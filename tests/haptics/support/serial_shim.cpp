@@ -295,9 +295,10 @@ int __wrap_flock(int file, int what) {
 
 long __wrap_syscall(long number, ...) {
   std::array<long, 6> all{};
+  const std::size_t passed = number == SYS_ioctl ? 3 : all.size();  // no more is there to be read
   std::va_list arguments;
   va_start(arguments, number);
-  for (long& one : all) one = va_arg(arguments, long);
+  for (std::size_t i = 0; i < passed; ++i) all[i] = va_arg(arguments, long);
   va_end(arguments);
   SerialShim* const shim = number == SYS_ioctl ? shim_of(static_cast<int>(all[0])) : nullptr;
   if (shim == nullptr)
