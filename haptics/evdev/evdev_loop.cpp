@@ -68,7 +68,8 @@ void EvdevLoop::step(microseconds longest) {
   if (calls_->waits_for_device(file_)) publish(now);
   const int result = walls_.show(wanted(now), now);
   if (result == -ENODEV) return detach("was unplugged");
-  if (result < 0 && result != -EAGAIN) return detach(refusal_of(result));  // that is asked again
+  const bool is_asked_again = result == -EAGAIN;  // in the next step
+  if (result < 0 && !is_asked_again) return detach(refusal_of(result));
   publish(now);
 }
 
@@ -109,7 +110,8 @@ std::string EvdevLoop::learn_interval(const std::string& path, int file) {
                                : std::min<nanoseconds>(kReport, settings_.chain / kIntervals);
   if (calls_->waits_for_device(file) && WallEffects::kReportsOfAChange * interval_ > kLongestCall) {
     return "it takes a report each " + std::to_string(told.count()) +
-           " us and each is waited for, so that it would not be read for too long";
+           " us, and each would be waited for while nothing is read: only Linux' own driver "
+           "(CONFIG_HID_PID) can drive it";
   }
   const nanoseconds change = kIntervals * interval_;
   if (change <= settings_.chain) return {};

@@ -62,7 +62,8 @@ int WallEffects::play() noexcept {
   return play_all(1);
 }
 
-// What cannot be told does not matter: the kernel erases what a closed file had.
+// What cannot be told does not matter: the kernel erases what a closed file had, and a device of
+// reports ends it by itself.
 void WallEffects::end() noexcept {
   if (file_ < 0) return;
   static_cast<void>(play_all(0));

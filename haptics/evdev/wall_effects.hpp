@@ -22,8 +22,9 @@ namespace reckon::haptics {
 
 /// Walls are two effects, one for each side, which stay on the device and are changed in place. The
 /// device ends them by itself kLength after they were last played, so that a program that hangs
-/// leaves none; one that ends leaves none because the kernel erases the effects of a closed file. A
-/// driver or a device that ignores the length of an effect keeps them until then.
+/// leaves none; one that ends leaves none because the kernel erases the effects of a closed file,
+/// but of a device that it does not drive. A driver or a device that ignores the length of an
+/// effect keeps them until then.
 ///
 /// The kernel takes a change at once and sends it as reports, one in each interval of the device's
 /// endpoint or, where it is late with the next, in every other one; how many wait, it does not

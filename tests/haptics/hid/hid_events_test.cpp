@@ -324,6 +324,9 @@ TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
   EXPECT_THAT(said([](HidWheel& wheel) { wheel.fail(HidWheel::Call::write, -EPIPE); }),
               HasSubstr("it cannot be taken: Broken pipe"));
   EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x64}; }), HasSubstr("Saturation"));
+  HidWheelOptions seldom;
+  seldom.takes = milliseconds(5);
+  EXPECT_THAT(said([](HidWheel&) {}, seldom), HasSubstr("it takes a report each 5000 us"));
   EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x23}; }), HasSubstr("event_axes = 1"));
   EXPECT_THAT(with([](auto& wheel) { wheel.without = {0x25}; }), HasSubstr("renders no springs"));
   EXPECT_THAT(with([](auto& wheel) { wheel.has_room_of_its_own = false; }),
