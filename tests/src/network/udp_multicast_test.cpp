@@ -76,9 +76,9 @@ TEST(UdpMulticast, HearsNoGroupThatOnlyOthersJoined) {
 TEST(UdpMulticast, HearsItsGroupOnItsOwnInterfaceOnly) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(
-        test::run("ip link set lo up && ip link add v0 type veth peer name v1 && "
-                  "ip addr add 10.1.0.1/24 dev v0 && ip link set v0 up && "
-                  "ip link set v1 up"));
+        test::bring_up("ip link set lo up && ip link add v0 type veth peer name v1 && "
+                       "ip addr add 10.1.0.1/24 dev v0 && ip link set v0 up && "
+                       "ip link set v1 up"));
     UdpMulticast on_lo(on("lo"), kClock), on_veth(on("v0"), kClock), sender(on("v0"), kClock);
     ASSERT_FALSE(on_lo.join(group(1)));
     ASSERT_FALSE(on_veth.join(group(1)));
@@ -186,10 +186,10 @@ TEST(UdpMulticast, AllocatesNothingPerDatagram) {
 
 TEST(UdpMulticast, RefusesToFragment) {
   RECKON_IN_OWN_NETWORK([] {
-    ASSERT_TRUE(
-        test::run("ip link set lo up && ip link add v0 type veth peer name v1 && "
-                  "ip addr add 10.1.0.1/24 dev v0 && ip -6 addr add fd77::1/64 dev v0 nodad && "
-                  "ip link set v0 mtu 1400 up && ip link set v1 up"));
+    ASSERT_TRUE(test::bring_up(
+        "ip link set lo up && ip link add v0 type veth peer name v1 && "
+        "ip addr add 10.1.0.1/24 dev v0 && ip -6 addr add fd77::1/64 dev v0 nodad && "
+        "ip link set v0 mtu 1400 up && ip link set v1 up"));
     ASSERT_TRUE(test::wait_for_ipv6("v0"));
     UdpMulticastOptions v6 = on("v0");
     v6.ipv6 = true;
@@ -210,9 +210,9 @@ TEST(UdpMulticast, RefusesToFragment) {
 TEST(UdpMulticast, SpeaksIpv6) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(
-        test::run("ip link set lo up && ip link add v0 type veth peer name v1 && "
-                  "ip -6 addr add fd77::1/64 dev v0 nodad && ip link set v0 up && "
-                  "ip link set v1 up && ip -6 addr add fd78::1/64 dev v1 nodad"));
+        test::bring_up("ip link set lo up && ip link add v0 type veth peer name v1 && "
+                       "ip -6 addr add fd77::1/64 dev v0 nodad && ip link set v0 up && "
+                       "ip link set v1 up && ip -6 addr add fd78::1/64 dev v1 nodad"));
     ASSERT_TRUE(test::wait_for_ipv6("v0"));
     UdpMulticastOptions v6 = on("v0");
     v6.ipv6 = true;
@@ -239,12 +239,12 @@ TEST(UdpMulticast, SpeaksIpv6) {
 TEST(UdpMulticast, ReachesAllOfTheLanWhereMulticastIsDisabled) {
   RECKON_IN_OWN_NETWORK([] {
     test::make_cable();
-    ASSERT_TRUE(
-        test::run("ip link set a0 multicast off && ip link set b0 multicast off && "
-                  "cd /proc/sys/net/ipv4/conf && echo 1 > b0/accept_local && "
-                  "echo 0 > b0/rp_filter && echo 0 > all/rp_filter && "
-                  "ip link add c0 type veth peer name d0 && ip addr add 10.67.0.1/24 dev c0 && "
-                  "ip link set c0 up && ip link set d0 up"));
+    ASSERT_TRUE(test::bring_up(
+        "ip link set a0 multicast off && ip link set b0 multicast off && "
+        "cd /proc/sys/net/ipv4/conf && echo 1 > b0/accept_local && "
+        "echo 0 > b0/rp_filter && echo 0 > all/rp_filter && "
+        "ip link add c0 type veth peer name d0 && ip addr add 10.67.0.1/24 dev c0 && "
+        "ip link set c0 up && ip link set d0 up"));
     const GroupAddress everybody = IpEndpoint::v4(0xffffffffu, group(0).port);
     UdpMulticastOptions near = on("a0"), far = on("b0"), elsewhere = on("c0");
     near.broadcast = far.broadcast = elsewhere.broadcast = true;

@@ -137,10 +137,10 @@ TEST(UdpOffload, CarriesTheSameOctetsOverACableWithAnMtuOf1400) {
 TEST(UdpOffload, CarriesTheSameOctetsOverIpv6) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(
-        test::run("ip link set lo up && ip link add v0 type veth peer name v1 && "
-                  "ip link set v0 mtu 1400 up && ip link set v1 mtu 1400 up && "
-                  "ip -6 addr add fd77::1/64 dev v0 nodad && "
-                  "ip -6 addr add fd78::1/64 dev v1 nodad"));
+        test::bring_up("ip link set lo up && ip link add v0 type veth peer name v1 && "
+                       "ip link set v0 mtu 1400 up && ip link set v1 mtu 1400 up && "
+                       "ip -6 addr add fd77::1/64 dev v0 nodad && "
+                       "ip -6 addr add fd78::1/64 dev v1 nodad"));
     ASSERT_TRUE(test::wait_for_ipv6("v0"));
     UdpMulticastOptions v6 = on("v0");
     v6.ipv6 = true;

@@ -7,9 +7,13 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <string>
 #include <thread>
+
+#include "reckon/peer/network/interface_choice.hpp"
 
 namespace reckon::test {
 
@@ -30,12 +34,25 @@ template <typename Body>
 /// Runs a command in this thread's namespace; true where it succeeded.
 inline bool run(const char* command) { return std::system(command) == 0; }
 
+/// Runs a command that brings interfaces up, then waits, at most 30 s, until each of them has its
+/// carrier: a worker of the kernel says so later, on a busy host much later.
+inline bool bring_up(const char* command) {
+  if (!run(command)) return false;
+  const auto has_carrier = [](const peer::NetworkInterface& one) { return !one.up || one.running; };
+  for (int i = 0; i < 3000; ++i) {
+    const auto all = peer::list_interfaces();
+    if (std::all_of(all.begin(), all.end(), has_carrier)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 /// Two interfaces, a0 at 10.66.0.1 and b0 at 10.66.0.2, on both ends of a cable.
 inline void make_cable() {
   ASSERT_TRUE(
-      run("ip link set lo up && ip link add a0 type veth peer name b0 && "
-          "ip addr add 10.66.0.1/24 dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
-          "ip link set a0 up && ip link set b0 up"));
+      bring_up("ip link set lo up && ip link add a0 type veth peer name b0 && "
+               "ip addr add 10.66.0.1/24 dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
+               "ip link set a0 up && ip link set b0 up"));
 }
 
 /// Waits, at most 5 s, until the kernel has made the IPv6 routes of `interface`: it does so a
