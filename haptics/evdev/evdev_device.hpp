@@ -17,7 +17,8 @@ namespace reckon::haptics {
 
 /// What is not in the device's own data, and which device it is.
 struct EvdevSettings {
-  /// From a reading to the instant at which the device has the model that follows from it.
+  /// From when the handle was where a reading has it to the instant at which the device shows the
+  /// model that follows from it.
   static constexpr std::chrono::milliseconds kChain{8};
 
   std::string event;  ///< path of its event device, or a part of its name; empty: the first

@@ -45,16 +45,7 @@ EvdevLoop::EvdevLoop(EvdevExchange& exchange, const EvdevSettings& settings,
 
 EvdevLoop::~EvdevLoop() { let_go(); }
 
-void EvdevLoop::tell(std::string sentence) {
-  const std::string name = facts_.name.empty() ? "evdev" : facts_.name;
-  const std::lock_guard lock(telling_);
-  notices_.push_back(name + ": " + std::move(sentence));
-}
-
-std::vector<std::string> EvdevLoop::take_notices() {
-  const std::lock_guard lock(telling_);
-  return std::exchange(notices_, {});
-}
+std::string EvdevLoop::name() const { return facts_.name.empty() ? "evdev" : facts_.name; }
 
 void EvdevLoop::step(microseconds longest) {
   if (file_ < 0) {
@@ -103,27 +94,32 @@ SpringModel EvdevLoop::wanted(nanoseconds now) noexcept {
 }
 
 // Why the device is too slow for the delay that is stated, as a sentence.
-std::string EvdevLoop::learn_interval(const std::string& path, int file) {
-  const microseconds told = calls_->report_interval(path);
-  constexpr int kIntervals = WallEffects::kTurns * WallEffects::kReportsOfAChange;
-  interval_ = told.count() > 0 ? nanoseconds(told)
-                               : std::min<nanoseconds>(kReport, settings_.chain / kIntervals);
-  if (calls_->waits_for_device(file) && WallEffects::kReportsOfAChange * interval_ > kLongestCall) {
-    return "it takes a report each " + std::to_string(told.count()) +
-           " us, and each would be waited for while nothing is read: only Linux' own driver "
+std::string EvdevLoop::learn_intervals(const std::string& path, int file) {
+  const ReportIntervals told = calls_->report_intervals(path);
+  constexpr int kTurns = WallEffects::kTurns, kReports = WallEffects::kReportsOfAChange;
+  const nanoseconds most = (settings_.chain - WallEffects::kReaction) / (kTurns * (kReports + 1));
+  interval_ =
+      told.takes.count() > 0 ? nanoseconds(told.takes) : std::min<nanoseconds>(kReport, most);
+  age_ = kTurns * (told.sends.count() > 0 ? nanoseconds(told.sends) : interval_);
+  const auto text = [](nanoseconds time) {
+    return std::to_string(std::chrono::ceil<microseconds>(time).count()) + " us";
+  };
+  if (calls_->waits_for_device(file) && kReports * interval_ > kLongestCall) {
+    return "it takes a report each " + text(interval_) +
+           ", and each would be waited for while nothing is read: only Linux' own driver "
            "(CONFIG_HID_PID) can drive it";
   }
-  const nanoseconds change = kIntervals * interval_;
+  const nanoseconds change = age_ + kTurns * kReports * interval_ + WallEffects::kReaction;
   if (change <= settings_.chain) return {};
-  return "it takes a report each " + std::to_string(told.count()) +
-         " us, and a change is two: state a delay of " +
+  return "it sends a report each " + text(age_ / kTurns) + " and takes one each " +
+         text(interval_) + ", and a change is two: state a delay of " +
          std::to_string(std::chrono::ceil<std::chrono::milliseconds>(change).count()) +
          " ms or more in its [[device]]";
 }
 
-// A handle that moves says where it is in each turn of its endpoint.
+// A handle that moves says where it is in each report.
 void EvdevLoop::publish(nanoseconds now) noexcept {
-  if (now - placed_at_ > WallEffects::kTurns * interval_) placed_at_ = now;
+  if (now - placed_at_ > age_) placed_at_ = now;
   EvdevReading& reading = exchange_.reading.write_slot();
   reading = {};
   reading.at = now;
@@ -148,10 +144,10 @@ void EvdevLoop::let_go() noexcept {
 
 void EvdevLoop::detach(const std::string& why) {
   let_go();
-  problem_.clear();
+  notices_.clear_problem();
   next_try_ = clock_() + kRetry;
   publish(clock_());
-  tell(why + ": it shows nothing; it is taken up again as soon as it is there");
+  notices_.tell(name(), why + ": it shows nothing; it is taken up again as soon as it is there");
 }
 
 // Another program that has the device for itself gets all its places, and we none.
@@ -169,7 +165,7 @@ std::string EvdevLoop::set_up() {
   if (facts_.has_autocenter) result = set(FF_AUTOCENTER, 0);
   if (result >= 0 && facts_.has_gain) result = set(FF_GAIN, kFullGain);
   if (result < 0) return std::string("its gain cannot be set: ") + std::strerror(-result);
-  result = walls_.begin(file_, interval_);
+  result = walls_.begin(file_, interval_, age_);
   if (result == -ENOSPC) return "it has no room for two effects: end what else uses it";
   if (result < 0) return std::string("it takes no spring: ") + std::strerror(-result);
   result = walls_.play();
@@ -195,10 +191,11 @@ std::string EvdevLoop::open_one(const std::string& path, bool by_path) {
   const bool is_meant = is_named(facts ? facts->name : std::string());
   std::string fault;
   if (!is_meant || !facts) {
-    fault = is_meant ? path + " gives no force feedback" : "none";
+    fault = calls_->fault(file);
+    fault = !is_meant ? "none" : path + (fault.empty() ? " gives no force feedback" : ": " + fault);
   } else {
     fault = fault_of(*facts, settings_.axes);
-    if (fault.empty()) fault = learn_interval(path, file);
+    if (fault.empty()) fault = learn_intervals(path, file);
   }
   if (!fault.empty()) {
     const bool was_pulled = is_gone(file);
@@ -241,13 +238,12 @@ void EvdevLoop::attach() {
   if (!problem.empty()) {
     let_go();
     publish(now);
-    if (problem != problem_) tell(problem);
-    problem_ = std::move(problem);
+    notices_.tell_problem(name(), problem);
     return;
   }
-  problem_.clear();
+  notices_.clear_problem();
   publish(now);
-  tell("ready: it renders walls");
+  notices_.tell(name(), "ready: it renders walls");
 }
 
 }  // namespace reckon::haptics

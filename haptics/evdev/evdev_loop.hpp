@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/devices/device_notices.hpp"
 #include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/evdev/event_calls.hpp"
 #include "reckon/haptics/evdev/event_facts.hpp"
@@ -41,7 +41,7 @@ class EvdevLoop {
   /// Waits for the device so long at most, and does what is due.
   void step(std::chrono::microseconds longest);
   /// Sentences since the last call, each once. Any thread.
-  [[nodiscard]] std::vector<std::string> take_notices();
+  [[nodiscard]] std::vector<std::string> take_notices() { return notices_.take(); }
 
  private:
   void attach();
@@ -54,9 +54,9 @@ class EvdevLoop {
   [[nodiscard]] bool read_events() noexcept;
   [[nodiscard]] int look(std::chrono::nanoseconds& now) noexcept;
   [[nodiscard]] SpringModel wanted(std::chrono::nanoseconds now) noexcept;
-  [[nodiscard]] std::string learn_interval(const std::string& path, int file);
+  [[nodiscard]] std::string learn_intervals(const std::string& path, int file);
   void publish(std::chrono::nanoseconds now) noexcept;
-  void tell(std::string sentence);
+  [[nodiscard]] std::string name() const;
 
   EvdevExchange& exchange_;
   EvdevSettings settings_;
@@ -66,12 +66,11 @@ class EvdevLoop {
   EventFacts facts_;
   EventState state_;
   std::chrono::nanoseconds interval_{kReport};  // of reports that the device takes
+  std::chrono::nanoseconds age_{kReport};       // of a place when it is read, at most
   WallEffects walls_;
   std::chrono::nanoseconds placed_at_{0};  // of the newest place
   std::chrono::nanoseconds next_try_{0};
-  std::string problem_;  // told already
-  std::mutex telling_;   // never taken by the servo
-  std::vector<std::string> notices_;
+  DeviceNotices notices_;
 };
 
 }  // namespace reckon::haptics

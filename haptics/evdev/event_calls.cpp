@@ -31,8 +31,8 @@ class KernelEventCalls final : public EventCalls {
   }
   // The input device is of a device of HID, and that is of an interface of USB, which lists its
   // endpoints.
-  std::chrono::microseconds report_interval(const std::string& path) override {
-    return out_interval(std::filesystem::path(facts_) / std::filesystem::path(path).filename() /
+  ReportIntervals report_intervals(const std::string& path) override {
+    return intervals_of(std::filesystem::path(facts_) / std::filesystem::path(path).filename() /
                         "device" / "device" / "..");
   }
   int open(const std::string& path) override {

@@ -18,6 +18,12 @@ inline constexpr const char* kEventRemedy =
     "sudo reckon devices --install-rule, and plug it in again; or sudo usermod -aG input $USER, "
     "and log in again";
 
+/// Between two reports, by a device's USB endpoints; 0: unknown.
+struct ReportIntervals {
+  std::chrono::microseconds takes{0};  ///< that it takes of this host
+  std::chrono::microseconds sends{0};  ///< that it sends
+};
+
 /// What fails returns -errno; an interrupted call is made again. Nothing throws but where strings
 /// do.
 class EventCalls {
@@ -28,8 +34,7 @@ class EventCalls {
   [[nodiscard]] virtual std::vector<std::string> paths() = 0;
   /// Name of a device that gives force feedback, without opening it; empty: another, or unknown.
   [[nodiscard]] virtual std::string closed_name(const std::string& path) = 0;
-  /// Between two reports that a device takes of this host, by its USB endpoint; 0: unknown.
-  [[nodiscard]] virtual std::chrono::microseconds report_interval(const std::string& path) = 0;
+  [[nodiscard]] virtual ReportIntervals report_intervals(const std::string& path) = 0;
   /// For a user who may not open it.
   [[nodiscard]] virtual std::string denied_remedy(const std::string& /*path*/) {
     return kEventRemedy;
@@ -37,8 +42,8 @@ class EventCalls {
   /// For reading and writing, without waiting. @return a descriptor
   [[nodiscard]] virtual int open(const std::string& path) = 0;
   virtual void close(int file) noexcept = 0;
-  /// Why one that gives force feedback cannot be used, beyond what control() tells of it, as a
-  /// sentence; empty: nothing is known.
+  /// Why it cannot be used, beyond what control() tells of it, as a sentence; empty: nothing is
+  /// known.
   [[nodiscard]] virtual std::string fault(int /*file*/) { return {}; }
   /// Whether the device has what it is told when control() or write() returns; else the kernel has,
   /// which sends it by and by.

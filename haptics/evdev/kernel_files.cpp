@@ -50,16 +50,19 @@ std::string first_line(const std::filesystem::path& file) {
   return line;
 }
 
-std::chrono::microseconds out_interval(const std::filesystem::path& interface) {
+ReportIntervals intervals_of(const std::filesystem::path& interface) {
+  ReportIntervals found;
   std::error_code none;
   // It may be unplugged meanwhile.
   for (std::filesystem::directory_iterator each(interface, none), end; each != end;
        each.increment(none)) {
     const auto& place = each->path();
-    if (place.filename().string().starts_with("ep_") && first_line(place / "direction") == "out")
-      return interval_of(first_line(place / "interval"));
+    if (!place.filename().string().starts_with("ep_")) continue;
+    const std::string direction = first_line(place / "direction");
+    if (direction == "out") found.takes = interval_of(first_line(place / "interval"));
+    if (direction == "in") found.sends = interval_of(first_line(place / "interval"));
   }
-  return {};
+  return found;
 }
 
 void wait_for(int file, std::chrono::microseconds longest) noexcept {

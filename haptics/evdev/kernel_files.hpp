@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/haptics/evdev/event_calls.hpp"
+
 namespace reckon::haptics {
 
 /// A call again where a signal interrupted it. @return its result, or -errno
@@ -30,9 +32,8 @@ auto kernel_call(Call call) noexcept {
 /// Empty: there is none.
 [[nodiscard]] std::string first_line(const std::filesystem::path& file);
 
-/// Between two reports that an interface of USB takes of this host, by the endpoints that its
-/// folder lists; 0: unknown.
-[[nodiscard]] std::chrono::microseconds out_interval(const std::filesystem::path& interface);
+/// Of an interface of USB, by the endpoints that its folder lists.
+[[nodiscard]] ReportIntervals intervals_of(const std::filesystem::path& interface);
 
 /// Until a file has something to read; so long at most. @param file negative: of none
 void wait_for(int file, std::chrono::microseconds longest) noexcept;

@@ -42,9 +42,10 @@ WallEffects::WallEffects(EventCalls& calls, const EvdevSettings& settings, const
   for (ff_effect& effect : effects_) effect.id = -1;
 }
 
-int WallEffects::begin(int file, nanoseconds interval) noexcept {
+int WallEffects::begin(int file, nanoseconds interval, nanoseconds age) noexcept {
   file_ = file;
   interval_ = interval;
+  age_ = age;
   drained_ = {};
   changed_ = {};
   books_ = {};
@@ -151,14 +152,22 @@ int WallEffects::play_all(std::int32_t value) noexcept {
   return result;
 }
 
-// Of what was told since a reading. Where the kernel sends it by and by, the stated time begins
-// when the call returns; where the call waits for the device, a reading is two turns old at most.
+// From a reading until the device has to have a change.
+nanoseconds WallEffects::left_of_delay() const noexcept {
+  return settings_.chain - age_ - kReaction;
+}
+
+nanoseconds WallEffects::longest_wait() const noexcept {
+  return std::min(left_of_delay(), 2 * kTurns * kReportsOfAChange * interval_);
+}
+
+// Of what was told since a reading. Where the kernel sends it by and by, that time begins when the
+// call returns; where the call waits for the device, it ends then.
 nanoseconds WallEffects::later_than_stated(nanoseconds now) const noexcept {
   constexpr nanoseconds kNone{0};
   const nanoseconds calls = std::max(clock_() - now, kNone);
-  if (calls_.waits_for_device(file_))
-    return std::max(calls + kTurns * interval_ - settings_.chain, kNone);
-  return calls + std::max(drained_ - now - settings_.chain, kNone);
+  if (calls_.waits_for_device(file_)) return std::max(calls - left_of_delay(), kNone);
+  return calls + std::max(drained_ - now - longest_wait(), kNone);
 }
 
 void WallEffects::line_up(int reports, nanoseconds now) noexcept {
@@ -167,7 +176,7 @@ void WallEffects::line_up(int reports, nanoseconds now) noexcept {
 }
 
 bool WallEffects::is_soon_there(nanoseconds now) const noexcept {
-  return std::max(drained_, now) + kTurns * kReportsOfAChange * interval_ <= now + settings_.chain;
+  return std::max(drained_, now) + kTurns * kReportsOfAChange * interval_ <= now + longest_wait();
 }
 
 // An effect that was played too long ago may have ended, or not: the next one is paid for as if it

@@ -28,8 +28,10 @@ namespace reckon::haptics {
 ///
 /// The kernel takes a change at once and sends it as reports, one in each interval of the device's
 /// endpoint or, where it is late with the next, in every other one; how many wait, it does not
-/// tell. So changes wait here until they are surely there within the delay that is stated. Walls
-/// are taken off without that wait.
+/// tell. So changes wait here until they are surely there within the delay that is stated, counted
+/// from when the handle was where the newest reading has it. At most two are on their way: what is
+/// stated beyond that is the device's, for what it does with a report. Walls are taken off without
+/// that wait.
 ///
 /// Where calls wait for the device, nothing is on its way when they return, but any of them may
 /// take long. So each report then follows a reading of its own.
@@ -42,6 +44,8 @@ class WallEffects {
   static constexpr std::chrono::milliseconds kBetween{4};  ///< changes of an effect, at least
   static constexpr int kReportsOfAChange = 2;  ///< a condition for each of two axes, always
   static constexpr int kTurns = 2;             ///< of the endpoint, until a report is surely there
+  /// At least, of the stated delay, until the device does what it has been told.
+  static constexpr std::chrono::milliseconds kReaction{1};
   /// Reads the device again, for `state`, and says when that was. @return -ENODEV: it is gone
   using Look = std::function<int(std::chrono::nanoseconds& now)>;
 
@@ -50,7 +54,9 @@ class WallEffects {
               const EventState& state, std::function<std::chrono::nanoseconds()> clock, Look look);
 
   /// Uploads both, without walls. @param interval of the reports that it takes, > 0
-  [[nodiscard]] int begin(int file, std::chrono::nanoseconds interval) noexcept;
+  /// @param age that a place may have when it is read
+  [[nodiscard]] int begin(int file, std::chrono::nanoseconds interval,
+                          std::chrono::nanoseconds age) noexcept;
   [[nodiscard]] int play() noexcept;
   /// Takes them off; where there are none, nothing.
   void end() noexcept;
@@ -77,6 +83,8 @@ class WallEffects {
   [[nodiscard]] int play_one(const ff_effect& effect, std::int32_t value) noexcept;
   [[nodiscard]] int play_in_turn(std::chrono::nanoseconds& now, bool has_walls) noexcept;
   void line_up(int reports, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] std::chrono::nanoseconds left_of_delay() const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds longest_wait() const noexcept;
   [[nodiscard]] std::chrono::nanoseconds later_than_stated(
       std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] bool is_soon_there(std::chrono::nanoseconds now) const noexcept;
@@ -93,6 +101,7 @@ class WallEffects {
   std::array<std::chrono::nanoseconds, SpringModel::kSides> changed_{};
   std::chrono::nanoseconds played_{0};
   std::chrono::nanoseconds interval_{0};  // of reports that the device takes
+  std::chrono::nanoseconds age_{0};       // of a place when it is read, at most
   std::chrono::nanoseconds drained_{0};   // when it has all of them
 };
 

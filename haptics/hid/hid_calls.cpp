@@ -94,8 +94,8 @@ class KernelHidCalls final : public HidCalls {
     return seen;
   }
   // A device of HID is of an interface of USB.
-  std::chrono::microseconds report_interval(const std::string& file) override {
-    return out_interval(facts_ / path(file).filename() / "device" / "..");
+  ReportIntervals report_intervals(const std::string& file) override {
+    return intervals_of(facts_ / path(file).filename() / "device" / "..");
   }
   int open(const std::string& file) override {
     return kernel_call([&] { return ::open(file.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/evdev/event_calls.hpp"
+
 namespace reckon::haptics {
 
 /// What the kernel tells of a device that is not open.
@@ -28,8 +30,7 @@ class HidCalls {
   /// Devices of the class HID of this host, by their numbers.
   [[nodiscard]] virtual std::vector<std::string> paths() = 0;
   [[nodiscard]] virtual HidSeen look(const std::string& path) = 0;
-  /// Between two reports that it takes of this host, by its USB endpoint; 0: unknown.
-  [[nodiscard]] virtual std::chrono::microseconds report_interval(const std::string& path) = 0;
+  [[nodiscard]] virtual ReportIntervals report_intervals(const std::string& path) = 0;
   /// For reading, without waiting, and writing, which waits until the device has the report.
   /// @return a descriptor
   [[nodiscard]] virtual int open(const std::string& path) = 0;

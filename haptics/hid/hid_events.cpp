@@ -25,6 +25,7 @@ static_assert(EventState::kMostButtons <= BTN_TRIGGER_HAPPY40 - BTN_TRIGGER_HAPP
 struct Opened {
   std::optional<HidDevice> device;  // nothing: it gives no forces, or is gone already
   std::optional<HidPlaces> sent;    // as events
+  std::string unread;               // why it is not known whether it gives forces; empty: it is
 };
 
 // Sets bits of an answer that is as long as the caller has room for.
@@ -130,6 +131,11 @@ int events_between(const std::optional<HidPlaces>& before, const HidPlaces& now,
   return static_cast<int>(count);
 }
 
+std::string why_unread(const HidSeen& seen) {
+  if (seen.descriptor.empty()) return "its report descriptor cannot be read";
+  return hid_reports(seen.descriptor) ? "" : "its report descriptor is malformed";
+}
+
 std::optional<PidReports> reports_of(const HidSeen& seen) {
   const auto read = hid_reports(seen.descriptor);
   if (!read) return std::nullopt;
@@ -155,8 +161,8 @@ class HidEvents final : public EventCalls {
   std::string closed_name(const std::string& path) override {
     return is_ours(path) ? devices_->look(path).name : events_->closed_name(path);
   }
-  std::chrono::microseconds report_interval(const std::string& path) override {
-    return is_ours(path) ? devices_->report_interval(path) : events_->report_interval(path);
+  ReportIntervals report_intervals(const std::string& path) override {
+    return is_ours(path) ? devices_->report_intervals(path) : events_->report_intervals(path);
   }
   std::string denied_remedy(const std::string& path) override {
     if (!is_ours(path)) return events_->denied_remedy(path);
@@ -168,6 +174,7 @@ class HidEvents final : public EventCalls {
     if (file < 0) return file;
     HidSeen seen = devices_->look(path);
     Opened& opened = open_[file];
+    opened.unread = why_unread(seen);
     if (auto reports = reports_of(seen))
       opened.device.emplace(*devices_, file, std::move(seen.name), std::move(*reports));
     return file;
@@ -175,7 +182,7 @@ class HidEvents final : public EventCalls {
   std::string fault(int file) override {
     const Opened* const opened = find(file);
     if (opened == nullptr) return events_->fault(file);
-    return opened->device ? opened->device->fault() : std::string();
+    return opened->device ? opened->device->fault() : opened->unread;
   }
   void close(int file) noexcept override {
     if (open_.erase(file) == 0) return events_->close(file);

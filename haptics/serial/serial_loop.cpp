@@ -45,20 +45,10 @@ std::optional<SerialStage> SerialLoop::stage() const noexcept {
   return session_->stage();
 }
 
-void SerialLoop::tell(std::string sentence) {
-  const std::lock_guard lock(telling_);
-  notices_.push_back(place_.port + ": " + std::move(sentence));
-}
+void SerialLoop::tell(const std::string& sentence) { notices_.tell(place_.port, sentence); }
 
-void SerialLoop::tell_once(std::string sentence) {
-  if (sentence == problem_) return;
-  tell(sentence);
-  problem_ = std::move(sentence);
-}
-
-std::vector<std::string> SerialLoop::take_notices() {
-  const std::lock_guard lock(telling_);
-  return std::exchange(notices_, {});
+void SerialLoop::tell_problem(const std::string& problem) {
+  notices_.tell_problem(place_.port, problem);
 }
 
 void SerialLoop::step(microseconds longest) {
@@ -85,11 +75,11 @@ void SerialLoop::exchange_octets(nanoseconds now) {
 
 void SerialLoop::tell_stage(nanoseconds now) {
   if (session_->is_unanswered(now)) {
-    tell_once(session_->hears_noise()
-                  ? "what it sends are no frames of this line: is its baud " +
-                        std::to_string(place_.baud) + "?"
-                  : "it does not answer: does the board run a program for this line, at " +
-                        std::to_string(place_.baud) + " baud?");
+    tell_problem(session_->hears_noise()
+                     ? "what it sends are no frames of this line: is its baud " +
+                           std::to_string(place_.baud) + "?"
+                     : "it does not answer: does the board run a program for this line, at " +
+                           std::to_string(place_.baud) + " baud?");
   }
   const nanoseconds chain = session_->chain();
   if (chain > nanoseconds(0) && !timed_) {
@@ -103,11 +93,11 @@ void SerialLoop::tell_stage(nanoseconds now) {
   told_ = stage;
   const std::string name = std::string(session_->greeting().name.data());
   if (stage == SerialStage::refused)
-    tell_once((name.empty() ? "the board" : name) + " is not driven: " + session_->refusal());
+    tell_problem((name.empty() ? "the board" : name) + " is not driven: " + session_->refusal());
   if (stage == SerialStage::homing)
     tell(name + " does not know its place yet; no force until then");
   if (stage == SerialStage::running) {
-    problem_.clear();
+    notices_.clear_problem();
     unsigned axes = 0;
     for (std::size_t i = 0; i < session_->greeting().axes; ++i)
       axes |= 1U << session_->greeting().axis[i].direction;
@@ -124,7 +114,7 @@ void SerialLoop::detach(const std::string& why, nanoseconds pause) {
   port_.reset();
   told_.reset();
   next_try_ = clock_() + pause;
-  tell_once(why + ": its force is zero; it is taken up again as soon as it is there");
+  tell_problem(why + ": its force is zero; it is taken up again as soon as it is there");
 }
 
 void SerialLoop::attach() {
@@ -132,8 +122,8 @@ void SerialLoop::attach() {
   const nanoseconds now = clock_();
   next_try_ = now + kRetry;
   if (!opening.port)
-    return tell_once(std::move(opening.problem) +
-                     (opening.remedy.empty() ? "" : ": " + opening.remedy));
+    return tell_problem(std::move(opening.problem) +
+                        (opening.remedy.empty() ? "" : ": " + opening.remedy));
   port_ = std::move(opening.port);
   taken_at_ = now;
   session_.emplace(exchange_, limits_, run_, question_, now);

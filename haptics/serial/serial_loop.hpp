@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/devices/device_notices.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/serial/serial_port.hpp"
 #include "reckon/haptics/serial/serial_session.hpp"
@@ -50,7 +50,7 @@ class SerialLoop {
   /// Waits for the board so long at most, and does what is due.
   void step(std::chrono::microseconds longest);
   /// Sentences since the last call, each once. Any thread.
-  [[nodiscard]] std::vector<std::string> take_notices();
+  [[nodiscard]] std::vector<std::string> take_notices() { return notices_.take(); }
   /// How far it is; nothing while the line is not open. The thread of step().
   [[nodiscard]] std::optional<SerialStage> stage() const noexcept;
   /// Axes of frame D that the board has, bit 0 for x, of the last one that was ready; 0: none was.
@@ -62,8 +62,8 @@ class SerialLoop {
   void exchange_octets(std::chrono::nanoseconds now);
   void detach(const std::string& why, std::chrono::nanoseconds pause);
   void tell_stage(std::chrono::nanoseconds now);
-  void tell_once(std::string sentence);
-  void tell(std::string sentence);
+  void tell_problem(const std::string& problem);
+  void tell(const std::string& sentence);
 
   UsbExchange& exchange_;
   DeviceLimits limits_;
@@ -74,12 +74,10 @@ class SerialLoop {
   std::uint32_t run_;
   std::uint16_t question_;
   std::chrono::nanoseconds next_try_{0}, taken_at_{0};  // when the line last took octets
-  std::string problem_;                                 // told already
   std::optional<SerialStage> told_;
   bool timed_ = false;  // and told so
   std::atomic<unsigned> axes_{0};
-  std::mutex telling_;  // never taken by the servo
-  std::vector<std::string> notices_;
+  DeviceNotices notices_;
 };
 
 }  // namespace reckon::haptics

@@ -53,15 +53,7 @@ std::optional<UsbStage> UsbLoop::stage() const noexcept {
   return session_->stage();
 }
 
-void UsbLoop::tell(std::string sentence) {
-  const std::lock_guard lock(telling_);
-  notices_.push_back(driver_->facts().name + (": " + std::move(sentence)));
-}
-
-std::vector<std::string> UsbLoop::take_notices() {
-  const std::lock_guard lock(telling_);
-  return std::exchange(notices_, {});
-}
+void UsbLoop::tell(const std::string& sentence) { notices_.tell(driver_->facts().name, sentence); }
 
 void UsbLoop::step(microseconds longest) {
   if (!line_) {
@@ -111,7 +103,7 @@ void UsbLoop::detach(const std::string& why) {
   line_.reset();
   driver_->lost(is_gone);
   told_.reset();
-  problem_.clear();
+  notices_.clear_problem();
   next_try_ = options_.clock() + (is_gone ? nanoseconds(kRetry) : nanoseconds(0));
   tell(why + ": its force is zero; it is taken up again as soon as it is there");
 }
@@ -134,7 +126,7 @@ std::string UsbLoop::open() {
     return error.what();
   }
   UsbSetUp desk(*line_, options_.clock, stopped_,
-                [this](std::string sentence) { tell(std::move(sentence)); });
+                [this](const std::string& sentence) { tell(sentence); });
   return driver_->set_up(desk);
 }
 
@@ -143,7 +135,7 @@ void UsbLoop::attach() {
   const nanoseconds now = options_.clock();
   next_try_ = now + kRetry;
   if (problem.empty()) {
-    problem_.clear();
+    notices_.clear_problem();
     line_->clear();
     session_.emplace(exchange_, *driver_, run_, now);
     return;
@@ -155,8 +147,7 @@ void UsbLoop::attach() {
       problem = "was unplugged while it was set up; it is taken up again as soon as it is there";
     line_.reset();
   }
-  if (problem != problem_) tell(problem);
-  problem_ = std::move(problem);
+  notices_.tell_problem(driver_->facts().name, problem);
 }
 
 }  // namespace reckon::haptics

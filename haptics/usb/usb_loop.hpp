@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/devices/device_notices.hpp"
 #include "reckon/haptics/usb/usb_driver.hpp"
 #include "reckon/haptics/usb/usb_exchange.hpp"
 #include "reckon/haptics/usb/usb_line.hpp"
@@ -46,7 +46,7 @@ class UsbLoop {
   /// Waits for the device so long at most, except while setting it up, and does what is due.
   void step(std::chrono::microseconds longest);
   /// Sentences since the last call, each once. Any thread.
-  [[nodiscard]] std::vector<std::string> take_notices();
+  [[nodiscard]] std::vector<std::string> take_notices() { return notices_.take(); }
   /// How far it is; nothing while no device is set up. The thread of step().
   [[nodiscard]] std::optional<UsbStage> stage() const noexcept;
   /// Any thread: ends an attempt to set the device up.
@@ -57,7 +57,7 @@ class UsbLoop {
   [[nodiscard]] std::string open();
   void detach(const std::string& why);
   void tell_stage();
-  void tell(std::string sentence);
+  void tell(const std::string& sentence);
 
   UsbExchange& exchange_;
   std::unique_ptr<UsbDriver> driver_;
@@ -67,12 +67,10 @@ class UsbLoop {
   std::optional<UsbSession> session_;
   std::uint32_t run_;
   std::chrono::nanoseconds next_try_{0};
-  std::string problem_;  // told already
   std::optional<UsbStage> told_;
   bool timed_ = false;  // and told so
   std::atomic<bool> stopped_{false};
-  std::mutex telling_;  // never taken by the servo
-  std::vector<std::string> notices_;
+  DeviceNotices notices_;
 };
 
 }  // namespace reckon::haptics

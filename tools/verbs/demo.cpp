@@ -254,20 +254,24 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
   if (display.is_drawn() && !options.simulated_time) slice = LiveDisplay::kKeysEvery;
   if (page != nullptr) slice = SelfView::kLookEvery;
   std::vector<TablePeer> peers(exercise.size());
-  while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
-    exercise.run(std::min(slice, end - exercise.elapsed()));
+  const auto tell = [&] {
     for (const ReceivedNotice& heard : exercise.take_notices()) {
       display.add(heard);
       if (page != nullptr) page->note(heard);
     }
     display.add(exercise.device_notices());
-    if (display.take_stop_key()) stop.press_key(exercise.clock().now());
     display.add(stop.take_notices());
+  };
+  while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
+    exercise.run(std::min(slice, end - exercise.elapsed()));
+    if (display.take_stop_key()) stop.press_key(exercise.clock().now());
+    tell();
     if (page != nullptr) page->show(exercise);
     for (std::size_t i = 0; i < peers.size(); ++i)
       peers[i] = {&exercise.view(i), &exercise.peer(i).counters()};
     display.show(peers, scene, exercise.elapsed());
   }
+  tell();  // what was told at the start, even where a busy host had no time for a look
 }
 
 void check_flags(const DemoOptions& options) {

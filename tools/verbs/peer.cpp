@@ -386,6 +386,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   page.reset();
   running->stop();
   if (balance) balance->end(*running);
+  tell_notices(*running, console, options.events, display, nullptr);
   if (options.events) events.report_rest(finished.peer.model(), finished.seconds, console.out);
   display.close();
   print_run(options, lines, finished, console);

@@ -57,8 +57,8 @@ class StruckCalls final : public haptics::EventCalls {
     return model_.paths();
   }
   std::string closed_name(const std::string& path) override { return model_.closed_name(path); }
-  microseconds report_interval(const std::string& path) override {
-    return model_.report_interval(path);
+  haptics::ReportIntervals report_intervals(const std::string& path) override {
+    return model_.report_intervals(path);
   }
   int open(const std::string& path) override {
     calls_.nth.count();

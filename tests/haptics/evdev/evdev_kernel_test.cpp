@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input.h>
-#include <umockdev.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -14,11 +13,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
-#include <memory>
-#include <string>
+#include <span>
 #include <vector>
 
 #include "reckon/haptics/evdev/evdev_loop.hpp"
+#include "reckon/tests/haptics/support/mocked_node.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -28,29 +27,10 @@ using std::chrono::nanoseconds;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-constexpr const char* kNode = "/dev/input/event7";
-constexpr const char* kDescription =
-    "P: /devices/wheel/input/input7/event7\nN: input/event7\nE: DEVNAME=/dev/input/event7\n"
-    "E: SUBSYSTEM=input\nE: MAJOR=13\nE: MINOR=71\n\n";
-
-struct Unref {
-  template <class T>
-  void operator()(T* object) const {
-    g_object_unref(object);
-  }
-};
-
 /// What came over the calls.
-class Wheel {
+class Wheel : public test::MockedNode {
  public:
-  Wheel() : bed_(umockdev_testbed_new()), base_(umockdev_ioctl_base_new()) {
-    g_signal_connect(base_.get(), "handle-ioctl", G_CALLBACK(on_ioctl), this);
-    g_signal_connect(base_.get(), "handle-read", G_CALLBACK(on_read), this);
-    g_signal_connect(base_.get(), "handle-write", G_CALLBACK(on_write), this);
-    EXPECT_TRUE(umockdev_testbed_add_from_string(bed_.get(), kDescription, nullptr));
-    EXPECT_TRUE(umockdev_testbed_attach_ioctl(bed_.get(), kNode, base_.get(), nullptr));
-  }
-  ~Wheel() { umockdev_testbed_detach_ioctl(bed_.get(), kNode, nullptr); }
+  Wheel() : MockedNode("input/event7", "input", "/devices/wheel/input/input7/event7") {}
 
   bool is_gone = false;
   std::vector<ff_effect> uploads;
@@ -60,125 +40,72 @@ class Wheel {
   int grabs = 0;
 
  private:
-  struct Answer {
-    long result = 0;
-    int error = 0;
-  };
-
-  // Sign-extended by umockdev where its top bit is set.
-  static std::uint32_t request_of(UMockdevIoctlClient* client) {
-    return static_cast<std::uint32_t>(umockdev_ioctl_client_get_request(client));
-  }
-  static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-    const Answer answer = static_cast<Wheel*>(self)->answer(client);
-    umockdev_ioctl_client_complete(client, answer.result, answer.error);
-    return TRUE;
-  }
-  static gboolean on_write(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-    auto& wheel = *static_cast<Wheel*>(self);
-    UMockdevIoctlData* const data = umockdev_ioctl_client_get_arg(client);
+  long write(std::span<const std::uint8_t> octets) override {
     input_event event{};
-    std::memcpy(&event, data->data, std::min<std::size_t>(sizeof event, data->data_len));
-    wheel.written.push_back(event);
-    umockdev_ioctl_client_complete(client, wheel.is_gone ? -1 : data->data_len,
-                                   wheel.is_gone ? ENODEV : 0);
-    return TRUE;
+    std::memcpy(&event, octets.data(), std::min(sizeof event, octets.size()));
+    written.push_back(event);
+    return is_gone ? -ENODEV : static_cast<long>(octets.size());
   }
-  static gboolean on_read(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-    auto& wheel = *static_cast<Wheel*>(self);
-    if (wheel.is_gone || wheel.to_read.empty()) {
-      umockdev_ioctl_client_complete(client, -1, wheel.is_gone ? ENODEV : EAGAIN);
-      return TRUE;
-    }
-    const auto octets = static_cast<int>(wheel.to_read.size() * sizeof(input_event));
-    UMockdevIoctlData* const data = umockdev_ioctl_client_get_arg(client);
-    umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(wheel.to_read.data()), octets);
-    wheel.to_read.clear();
-    umockdev_ioctl_client_complete(client, octets, 0);
-    return TRUE;
+  long read(Octets& octets) override {
+    if (is_gone || to_read.empty()) return is_gone ? -ENODEV : -EAGAIN;
+    const auto bytes = std::as_bytes(std::span(to_read));
+    octets.resize(bytes.size());
+    std::memcpy(octets.data(), bytes.data(), bytes.size());
+    to_read.clear();
+    return static_cast<long>(octets.size());
   }
 
   template <class T>
-  static UMockdevIoctlData* argument(UMockdevIoctlClient* client, T& into) {
-    UMockdevIoctlData* const data =
-        umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, sizeof into, nullptr);
-    std::memcpy(&into, data->data, sizeof into);
-    return data;
+  static long give(const Request& request, const T& value) {
+    Octets octets(sizeof value);
+    std::memcpy(octets.data(), &value, sizeof value);
+    request.give(octets);
+    return 0;
   }
-  template <class T>
-  static void give(UMockdevIoctlClient* client, T value) {
-    T old;
-    UMockdevIoctlData* const data = argument(client, old);
-    umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(&value), sizeof value);
-  }
-  static void give_octets(UMockdevIoctlClient* client, std::vector<guint8> octets,
-                          std::size_t room) {
-    octets.resize(room);
-    UMockdevIoctlData* const data = umockdev_ioctl_data_resolve(
-        umockdev_ioctl_client_get_arg(client), 0, static_cast<int>(room), nullptr);
-    umockdev_ioctl_data_update(data, 0, octets.data(), static_cast<int>(room));
-  }
-  static std::uint64_t value_of(UMockdevIoctlClient* client) {
-    UMockdevIoctlData* const data = umockdev_ioctl_client_get_arg(client);
-    std::uint64_t value = 0;
-    std::memcpy(&value, data->data, sizeof value);
-    return value;
-  }
-
-  Answer answer(UMockdevIoctlClient* client) {
-    const std::uint32_t request = request_of(client);
-    if (is_gone) return {-1, ENODEV};
-    const std::uint32_t size = _IOC_SIZE(request);
-    const auto is = [&](unsigned long whole) {
-      return (request & ~std::uint32_t{IOCSIZE_MASK}) ==
-             (static_cast<std::uint32_t>(whole) & ~std::uint32_t{IOCSIZE_MASK});
-    };
+  long control(const Request& request) override {
+    if (is_gone) return -ENODEV;
+    const auto is = [&](unsigned long whole) { return request.is(whole); };
     const auto bits = [&](std::initializer_list<std::size_t> which) {
-      std::vector<guint8> octets(size);
-      for (const std::size_t bit : which) octets[bit / 8] |= static_cast<guint8>(1U << bit % 8);
-      give_octets(client, octets, size);
-      return Answer{static_cast<long>(size), 0};
+      Octets octets(request.size());
+      for (const std::size_t bit : which)
+        octets[bit / 8] |= static_cast<std::uint8_t>(1U << bit % 8);
+      return request.give(octets);
     };
     if (is(EVIOCGBIT(EV_FF, 0))) return bits({FF_SPRING, FF_GAIN, FF_AUTOCENTER});
     if (is(EVIOCGBIT(EV_ABS, 0))) return bits({ABS_X, ABS_Y});
     if (is(EVIOCGBIT(EV_KEY, 0))) return bits({BTN_TRIGGER, BTN_THUMB});
     if (is(EVIOCGKEY(0))) return bits({BTN_THUMB});
-    if (is(EVIOCGNAME(0))) {
-      give_octets(client, {'W', 'h', 'e', 'e', 'l'}, size);
-      return {6, 0};
-    }
-    if (is(EVIOCGEFFECTS)) {
-      give(client, 8);
-    } else if (is(EVIOCGABS(ABS_X)) || is(EVIOCGABS(ABS_Y))) {
+    if (is(EVIOCGNAME(0))) return request.give(Octets{'W', 'h', 'e', 'e', 'l', 0});
+    if (is(EVIOCGEFFECTS)) return give(request, 8);
+    if (is(EVIOCGABS(ABS_X)) || is(EVIOCGABS(ABS_Y))) {
       input_absinfo info{};
       info.value = is(EVIOCGABS(ABS_X)) ? 750 : 250;
       info.maximum = 1000;
-      give(client, info);
-    } else if (is(EVIOCGRAB)) {
-      ++grabs;
-    } else if (is(EVIOCSFF)) {
+      return give(request, info);
+    }
+    if (is(EVIOCSFF)) {
       ff_effect effect{};
-      argument(client, effect);
+      std::memcpy(&effect, request.octets().data(), sizeof effect);
       if (effect.id < 0) effect.id = static_cast<std::int16_t>(uploads.size() + 3);
       uploads.push_back(effect);
-      give(client, effect);
-    } else if (is(EVIOCRMFF)) {
-      erased.push_back(value_of(client));
-    } else {
-      return {-1, ENOTTY};
+      return give(request, effect);
     }
-    return {0, 0};
+    if (is(EVIOCGRAB)) {
+      ++grabs;
+    } else if (is(EVIOCRMFF)) {
+      erased.push_back(request.value());
+    } else {
+      return -ENOTTY;
+    }
+    return 0;
   }
-
-  std::unique_ptr<UMockdevTestbed, Unref> bed_;
-  std::unique_ptr<UMockdevIoctlBase, Unref> base_;
 };
 
 TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs under umockdev-wrapper alone";
   Wheel wheel;
   EvdevSettings settings;
-  settings.event = kNode;
+  settings.event = "/dev/input/event7";
   settings.scale = {0.2, 20, 2000};
   settings.max_stiffness = 1500;
   EvdevExchange exchange;

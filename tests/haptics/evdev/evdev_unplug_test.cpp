@@ -49,8 +49,8 @@ class PulledCalls final : public EventCalls {
 
   std::vector<std::string> paths() override { return at_each_call(), model_.paths(); }
   std::string closed_name(const std::string& path) override { return model_.closed_name(path); }
-  microseconds report_interval(const std::string& path) override {
-    return model_.report_interval(path);
+  ReportIntervals report_intervals(const std::string& path) override {
+    return model_.report_intervals(path);
   }
   int open(const std::string& path) override {
     at_each_call();

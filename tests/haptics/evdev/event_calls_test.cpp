@@ -51,7 +51,7 @@ TEST(KernelEventCalls, AClosedDeviceIsNamedIfItGivesForceFeedback) {
   EXPECT_EQ(calls->closed_name("/dev/input/event4"), "");
 }
 
-TEST(KernelEventCalls, HowOftenADeviceTakesAReportIsReadFromItsEndpoint) {
+TEST(KernelEventCalls, HowOftenADeviceTakesAndSendsAReportIsReadFromItsEndpoints) {
   const test::ScratchFolder folder;
   namespace fs = std::filesystem;
   // As /sys has it: an interface of USB, its device of HID, the input device of that.
@@ -65,15 +65,17 @@ TEST(KernelEventCalls, HowOftenADeviceTakesAReportIsReadFromItsEndpoint) {
     fs::create_directories(usb / end);
     std::ofstream(usb / end / "direction") << direction << '\n';
     std::ofstream(usb / end / "interval") << interval << '\n';
-    return calls->report_interval("/dev/input/event3").count();
+    return calls->report_intervals("/dev/input/event3").takes.count();
   };
-  EXPECT_EQ(calls->report_interval("/dev/input/event3").count(), 0);
+  EXPECT_EQ(calls->report_intervals("/dev/input/event3").takes.count(), 0);
   EXPECT_EQ(say("ep_81", "in", "2ms"), 0);
+  EXPECT_EQ(calls->report_intervals("/dev/input/event3").sends.count(), 2000);
   EXPECT_EQ(say("ep_01", "out", "4ms"), 4000);
   EXPECT_EQ(say("ep_01", "out", "125us"), 125);
   for (const char* none : {"", "ms", "-1ms", "3", "3 ms", "99999999999999999999ms", "20000ms"})
     EXPECT_EQ(say("ep_01", "out", none), 0) << none;
-  EXPECT_EQ(calls->report_interval("/dev/input/event4").count(), 0);
+  EXPECT_EQ(calls->report_intervals("/dev/input/event3").sends.count(), 2000);
+  EXPECT_EQ(calls->report_intervals("/dev/input/event4").takes.count(), 0);
 }
 
 class KernelEventPipe : public ::testing::Test {

@@ -80,11 +80,11 @@ TEST_F(Facts, TheKernelDrivesOneWhoseEventDeviceRendersSprings) {
 }
 
 TEST_F(Facts, HowOftenItTakesAReportIsReadFromItsEndpoint) {
-  EXPECT_EQ(calls->report_interval("/dev/hidraw3").count(), 0);
+  EXPECT_EQ(calls->report_intervals("/dev/hidraw3").takes.count(), 0);
   fs::create_directories(usb / "ep_01");
   std::ofstream(usb / "ep_01" / "direction") << "out\n";
   std::ofstream(usb / "ep_01" / "interval") << "2ms\n";
-  EXPECT_EQ(calls->report_interval("/dev/hidraw3").count(), 2000);
+  EXPECT_EQ(calls->report_intervals("/dev/hidraw3").takes.count(), 2000);
 }
 
 TEST(KernelHidCalls, AFileThatAnotherProgramHasTakenIsRefused) {

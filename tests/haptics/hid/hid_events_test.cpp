@@ -337,6 +337,22 @@ TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
               HasSubstr("it has no room for two effects"));
 }
 
+TEST(HidEvents, OneThatIsMeantByItsPathIsToldWhyItIsNotUsed) {
+  const auto said = [](std::vector<std::uint8_t> descriptor) {
+    Plugged plugged;
+    plugged.wheel.seen.descriptor = std::move(descriptor);
+    plugged.settings.event = HidWheel::kPath;
+    plugged.start();
+    plugged.run(milliseconds(200));
+    return plugged.notices.empty() ? std::string("nothing") : plugged.notices.front();
+  };
+  const std::string path = HidWheel::kPath;
+  EXPECT_THAT(said({}), HasSubstr(path + ": its report descriptor cannot be read"));
+  EXPECT_THAT(said({0x06, 0x01}), HasSubstr(path + ": its report descriptor is malformed"));
+  EXPECT_THAT(said({0x05, 0x01, 0x09, 0x02, 0xA1, 0x01, 0xC0}),
+              HasSubstr(path + " gives no force feedback"));
+}
+
 TEST(HidEvents, WhatIsLeftOutThatNothingDependsOnIsNotMissed) {
   HidWheelOptions options;
   options.wheel.without = {0x65, 0x51, 0x53, 0x54, 0xA7, 0x83, 0xA9, 0xAC};

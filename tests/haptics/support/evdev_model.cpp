@@ -129,7 +129,10 @@ void EvdevModel::report() {
     is_new = true;
     if (!drops_) send(EV_ABS, static_cast<std::uint16_t>(ABS_X + i), value);
   }
-  if (is_new) send(EV_SYN, SYN_REPORT, 0);
+  if (is_new) {
+    send(EV_SYN, SYN_REPORT, 0);
+    sent_at_ = now_;
+  }
   drops_ = false;
 }
 
@@ -164,8 +167,9 @@ std::string EvdevModel::closed_name(const std::string& path) {
   return path == kPath ? "Model wheel" : "";
 }
 
-microseconds EvdevModel::report_interval(const std::string& /*path*/) {
-  return tells_interval ? options_.takes : microseconds(0);
+haptics::ReportIntervals EvdevModel::report_intervals(const std::string& /*path*/) {
+  if (!tells_interval) return {};
+  return {options_.takes, options_.report};
 }
 
 int EvdevModel::open(const std::string& path) {
@@ -237,7 +241,7 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
     order(2, [this, numbers = told] {
       if (effects_.contains(numbers.id)) effects_[numbers.id].numbers = numbers;
     });
-    if (!is_new) slowest_change_ = std::max(slowest_change_, last_order_ - now_);
+    if (!is_new) slowest_change_ = std::max(slowest_change_, last_order_ - known_at_);
     return 0;
   }
   if (request == EVIOCRMFF) {
@@ -269,6 +273,7 @@ int EvdevModel::read(int /*file*/, std::span<input_event> events) noexcept {
     events[count++] = events_.front();
     events_.pop_front();
   }
+  if (events_.empty()) known_at_ = sent_at_;
   return static_cast<int>(count);
 }
 

@@ -48,7 +48,8 @@ inline haptics::EvdevSettings settings_for(const EvdevModelOptions& model) {
   settings.scale = {model.travel, model.full_force, model.full_stiffness};
   settings.max_stiffness = 1500;
   settings.max_speed = 1.0;
-  settings.chain = model.report + model.latency + 8 * model.takes + std::chrono::milliseconds(1);
+  settings.chain =
+      2 * model.report + model.latency + 8 * model.takes + std::chrono::milliseconds(1);
   return settings;
 }
 
@@ -98,12 +99,15 @@ class EvdevModel final : public haptics::EventCalls {
   [[nodiscard]] std::int32_t gain() const { return gain_; }
   [[nodiscard]] std::int32_t autocenter() const { return autocenter_; }
   [[nodiscard]] int open_files() const { return open_; }
-  /// The longest that a change of an effect took so far until it was there.
+  /// Nothing that it was told is on its way.
+  [[nodiscard]] bool has_done_all() const { return orders_.empty(); }
+  /// The longest so far from the newest place that was read to a change of an effect that followed:
+  /// of a handle that moves all the time.
   [[nodiscard]] std::chrono::nanoseconds slowest_change() const { return slowest_change_; }
 
   std::vector<std::string> paths() override;
   std::string closed_name(const std::string& path) override;
-  std::chrono::microseconds report_interval(const std::string& path) override;
+  haptics::ReportIntervals report_intervals(const std::string& path) override;
   int open(const std::string& path) override;
   void close(int file) noexcept override;
   int control(int file, unsigned long request, void* argument) noexcept override;
@@ -138,6 +142,7 @@ class EvdevModel final : public haptics::EventCalls {
   std::function<void(std::chrono::nanoseconds)> beside_;
   std::mt19937 random_;
   std::chrono::nanoseconds now_{0}, next_report_{0}, last_order_{0}, slowest_change_{0};
+  std::chrono::nanoseconds sent_at_{0}, known_at_{0};  // the newest place, and that which was read
   Places place_{}, speed_{};
   std::optional<Places> held_at_;
   std::map<int, Effect> effects_;

@@ -24,7 +24,7 @@ class NoEvents final : public haptics::EventCalls {
  public:
   std::vector<std::string> paths() override { return {}; }
   std::string closed_name(const std::string&) override { return {}; }
-  microseconds report_interval(const std::string&) override { return {}; }
+  haptics::ReportIntervals report_intervals(const std::string&) override { return {}; }
   int open(const std::string&) override { return -ENOENT; }
   void close(int) noexcept override {}
   int control(int, unsigned long, void*) noexcept override { return -ENOTTY; }
@@ -43,8 +43,8 @@ class Lent final : public haptics::HidCalls {
   explicit Lent(HidWheel& wheel) : wheel_(wheel) {}
   std::vector<std::string> paths() override { return wheel_.paths(); }
   haptics::HidSeen look(const std::string& path) override { return wheel_.look(path); }
-  microseconds report_interval(const std::string& path) override {
-    return wheel_.report_interval(path);
+  haptics::ReportIntervals report_intervals(const std::string& path) override {
+    return wheel_.report_intervals(path);
   }
   int open(const std::string& path) override { return wheel_.open(path); }
   void close(int file) noexcept override { wheel_.close(file); }
@@ -85,7 +85,7 @@ haptics::EvdevSettings settings_for(const HidWheelOptions& options) {
   settings.scale = {options.wheel.travel, options.wheel.full_force, options.wheel.full_stiffness};
   settings.max_stiffness = 1500;
   settings.max_speed = 1.0;
-  settings.chain = options.reports + 8 * options.takes + std::chrono::milliseconds(1);
+  settings.chain = 2 * options.reports + 8 * options.takes + std::chrono::milliseconds(1);
   return settings;
 }
 
@@ -138,9 +138,10 @@ haptics::HidSeen HidWheel::look(const std::string& path) {
   return path == kPath && plugged_ ? seen : haptics::HidSeen{};
 }
 
-microseconds HidWheel::report_interval(const std::string&) {
+haptics::ReportIntervals HidWheel::report_intervals(const std::string&) {
   at_each_call();
-  return options_.tells_interval ? options_.takes : microseconds(0);
+  if (!options_.tells_interval) return {};
+  return {options_.takes, options_.reports};
 }
 
 int HidWheel::open(const std::string& path) {

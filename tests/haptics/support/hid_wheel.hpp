@@ -69,7 +69,7 @@ class HidWheel final : public haptics::HidCalls {
 
   std::vector<std::string> paths() override;
   haptics::HidSeen look(const std::string& path) override;
-  std::chrono::microseconds report_interval(const std::string& path) override;
+  haptics::ReportIntervals report_intervals(const std::string& path) override;
   int open(const std::string& path) override;
   void close(int file) noexcept override;
   int take(int file) noexcept override;
