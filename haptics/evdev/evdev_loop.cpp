@@ -97,9 +97,10 @@ SpringModel EvdevLoop::wanted(nanoseconds now) noexcept {
 std::string EvdevLoop::learn_intervals(const std::string& path, int file) {
   const ReportIntervals told = calls_->report_intervals(path);
   constexpr int kTurns = WallEffects::kTurns, kReports = WallEffects::kReportsOfAChange;
-  const nanoseconds most = (settings_.chain - WallEffects::kReaction) / (kTurns * (kReports + 1));
-  interval_ =
-      told.takes.count() > 0 ? nanoseconds(told.takes) : std::min<nanoseconds>(kReport, most);
+  const nanoseconds rest = settings_.chain - WallEffects::kReaction;
+  interval_ = told.takes.count() > 0 ? nanoseconds(told.takes)
+                                     : std::clamp<nanoseconds>(rest / (kTurns * (kReports + 1)),
+                                                               microseconds(1), kReport);
   age_ = kTurns * (told.sends.count() > 0 ? nanoseconds(told.sends) : interval_);
   const auto text = [](nanoseconds time) {
     return std::to_string(std::chrono::ceil<microseconds>(time).count()) + " us";

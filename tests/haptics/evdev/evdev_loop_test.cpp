@@ -429,6 +429,13 @@ TEST(EvdevLoop, WhatDoesNotTellHowOftenItTakesAReportHasAMillisecondForEach) {
   const Line line = line_of(options, milliseconds(10), false);
   EXPECT_LE(line.slowest, milliseconds(10));
   EXPECT_GT(line.uploads, 150);
+  // Or what the stated delay leaves for each.
+  options.takes = microseconds(125);
+  const Line quick = line_of(options, microseconds(2500), false);
+  EXPECT_THAT(quick.notices, Contains(HasSubstr("ready")));
+  EXPECT_LE(quick.slowest, microseconds(2500));
+  EXPECT_THAT(line_of(options, milliseconds(1), false).notices,
+              ::testing::ElementsAre(HasSubstr("a delay of 2 ms or more")));
 }
 
 TEST(EvdevLoop, OneThatIsTooSlowForItsDelayIsRefusedWithTheDelayThatServes) {
