@@ -117,8 +117,11 @@ std::string descriptor_text(std::string_view name, const peer::DeviceDescriptor&
   text += fmt::format("friction = \"{:.3g} N\"  # measured\n", found.friction);
   text += fmt::format("delay = \"{:.1f} ms\"  # measured {:.3g}\n", 1e3 * found.delay,
                       1e3 * found.delay);
-  text += fmt::format("resolution = \"{:.3g} um\"  # measured; noise at rest {:.2g} um\n",
-                      1e6 * found.resolution, 1e6 * found.noise);
+  // Where several encoders make a place, its steps along an axis are no multiples of one.
+  const bool has_steps = found.resolution > 0 || known.resolution <= 0;
+  text += fmt::format("resolution = \"{:.3g} um\"  # {}; noise at rest {:.2g} um\n",
+                      1e6 * (has_steps ? found.resolution : known.resolution),
+                      has_steps ? "measured" : "as known before", 1e6 * found.noise);
   text += fmt::format("mass = \"{:.3g} kg\"  # measured\n", found.mass);
   text += fmt::format("max_stiffness = \"{:.6g} N/m\"\nmax_speed = \"{:.6g} m/s\"\n",
                       known.max_stiffness, known.max_speed);

@@ -97,8 +97,10 @@ class OpenedDevice {
     const haptics::DeviceLimits limits = device().limits();
     peer::DeviceDescriptor known;
     if (const haptics::UsbFacts* facts = peer::usb_facts_of(scene_.devices.front());
-        facts != nullptr && facts->vendor != 0)
+        facts != nullptr && facts->vendor != 0) {
       known.usb = {{facts->vendor, facts->product}};
+      known.resolution = limits.resolution;
+    }
     known.axes = limits.axes;
     known.max_force = limits.max_force;
     known.max_stiffness = limits.max_stiffness;

@@ -70,6 +70,22 @@ TEST(RealMeasuring, RemarksAreNoPartOfTheDescriptor) {
   EXPECT_NEAR(peer::parse_device_descriptor(text, "mine.toml").damping, 0.5, 1e-12);
 }
 
+// Of a Falcon, whose place comes of three encoders.
+TEST(RealMeasuring, WhereNoStepIsFoundAlongAnAxisTheKnownOneStands) {
+  peer::DeviceDescriptor known;
+  known.resolution = 90e-6;
+  haptics::MeasuredDevice found;
+  found.damping = 0.5;
+  found.mass = 0.2;
+  const auto written = [&] {
+    return peer::parse_device_descriptor(descriptor_text("mine", known, found, {}), "mine.toml")
+        .resolution;
+  };
+  EXPECT_NEAR(written(), 90e-6, 1e-9);
+  found.resolution = 20e-6;
+  EXPECT_NEAR(written(), 20e-6, 1e-9);
+}
+
 TEST(RealMeasuring, WhatTakesNoForceIsRefusedByName) {
   for (const char* name : {"evdev", "/dev/input/event4", "/dev/hidraw0"}) {
     const test::ProgramResult result = test::run_reckon({"devices", "measure", name, "--yes"});
