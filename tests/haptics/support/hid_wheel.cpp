@@ -85,7 +85,7 @@ haptics::EvdevSettings settings_for(const HidWheelOptions& options) {
   settings.scale = {options.wheel.travel, options.wheel.full_force, options.wheel.full_stiffness};
   settings.max_stiffness = 1500;
   settings.max_speed = 1.0;
-  settings.chain = 2 * options.reports + 8 * options.takes + std::chrono::milliseconds(1);
+  settings.chain = 2 * options.reports + 4 * options.takes + std::chrono::milliseconds(1);
   return settings;
 }
 
