@@ -101,6 +101,8 @@ double EvdevModel::energy_at(std::size_t axis, double x) const {
   return energy;
 }
 
+double EvdevModel::stored() const { return energy_at(0, place_[0]) + energy_at(1, place_[1]); }
+
 std::int32_t EvdevModel::reading(std::size_t axis) const {
   const double share = place_[axis] / options_.travel + 0.5;
   const double whole = static_cast<double>(kMost) - kLeast;
@@ -239,7 +241,9 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
     }
     ++uploads_;
     order(2, [this, numbers = told] {
+      const double before = stored();
       if (effects_.contains(numbers.id)) effects_[numbers.id].numbers = numbers;
+      rises_.push_back(stored() - before);
     });
     if (!is_new) slowest_change_ = std::max(slowest_change_, last_order_ - known_at_);
     return 0;

@@ -99,8 +99,8 @@ class EvdevModel final : public haptics::EventCalls {
   [[nodiscard]] std::int32_t gain() const { return gain_; }
   [[nodiscard]] std::int32_t autocenter() const { return autocenter_; }
   [[nodiscard]] int open_files() const { return open_; }
-  /// Nothing that it was told is on its way.
-  [[nodiscard]] bool has_done_all() const { return orders_.empty(); }
+  /// What each upload gave to its springs when it was there, in their order [J].
+  [[nodiscard]] const std::vector<double>& rises() const { return rises_; }
   /// The longest so far from the newest place that was read to a change of an effect that followed:
   /// of a handle that moves all the time.
   [[nodiscard]] std::chrono::nanoseconds slowest_change() const { return slowest_change_; }
@@ -134,6 +134,7 @@ class EvdevModel final : public haptics::EventCalls {
   [[nodiscard]] std::int32_t reading(std::size_t axis) const;
   [[nodiscard]] double force_at(std::size_t axis, double x) const;
   [[nodiscard]] double energy_at(std::size_t axis, double x) const;
+  [[nodiscard]] double stored() const;
   template <class Each>
   void each_spring(std::size_t axis, double x, Each&& each) const;
 
@@ -147,6 +148,7 @@ class EvdevModel final : public haptics::EventCalls {
   std::optional<Places> held_at_;
   std::map<int, Effect> effects_;
   std::deque<Order> orders_;
+  std::vector<double> rises_;
   std::deque<input_event> events_;
   std::array<std::int32_t, 2> sent_{};
   std::map<std::uint16_t, bool> keys_;
