@@ -109,6 +109,7 @@ void BodySlots::sit(std::size_t slot, const BodyKind& kind) noexcept {
   state.turned = {kind.orientation.w(), kind.orientation.x(), kind.orientation.y(),
                   kind.orientation.z()};
   state.awake = !kind.is_carried && !was_asleep;
+  state.account = kind.account;
   body.set(state);
   dBodySetMaxAngularSpeed(body.id, BodyWorld::kFastestTurn);
 }
@@ -117,6 +118,7 @@ void BodySlots::leave(std::size_t slot) noexcept {
   BodyKind& kind = kinds_[bodies_[slot].number];
   kind.at = vector_of(dBodyGetPosition(bodies_[slot].id));
   kind.orientation = bodies_[slot].turned();
+  kind.account = bodies_[slot].account;
   slot_of_[kind.number] = kNone;
   dGeomSetBody(kind.geom, nullptr);  // it stays where it is
   dSpaceRemove(space_, kind.geom);

@@ -23,18 +23,11 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostFound = 64;  // contacts of a pair with a mesh
-// Of an island, up to which the exact solver is the faster one. Beyond it takes their number to the
-// third power, and mostly finds no answer.
-constexpr int kMostExact = 24;
-// Of the other one, for one contact, so that a step of many takes no longer.
+// Of the iterative solver, for one contact, so that a step of many takes no longer.
 constexpr int kIterations = 2000, kFewest = 10, kMostIterations = 30;
 // Depth at which contacts rest [m], so that they last from step to step.
 constexpr double kRestDepth = 1e-5;
-constexpr double kParting = 0.1;       // [m/s], at most, of bodies that are in one another
-constexpr double kBounceSpeed = 0.01;  // [m/s]; slower hits do not bounce
-constexpr double kHitSoftness = 1e-12;
-constexpr double kSlipSpeed = 1e-4;   // [m/s]; faster ones rub along their way
+constexpr double kParting = 0.1;      // [m/s], at most, of bodies that are in one another
 constexpr double kStillSpeed = 1e-3;  // [m/s]
 constexpr double kStillTurn = 0.02;   // [rad/s]
 
@@ -56,30 +49,6 @@ void know_thread() {
   static_cast<void>(known);
 }
 
-// No body, or one that goes its way whatever it meets.
-bool stands(dBodyID body) noexcept { return body == nullptr || dBodyIsKinematic(body); }
-
-// Of the first body against the second one, at a contact of both [m/s].
-Vector3d velocity_at(const dContact& contact, dBodyID first, dBodyID second) noexcept {
-  const Vector3d at = vector_of(contact.geom.pos);
-  const auto velocity = [&](dBodyID body) -> Vector3d {
-    if (body == nullptr) return Vector3d::Zero();
-    return vector_of(dBodyGetLinearVel(body)) +
-           vector_of(dBodyGetAngularVel(body)).cross(at - vector_of(dBodyGetPosition(body)));
-  };
-  return velocity(first) - velocity(second);
-}
-
-// Friction is bounded along two axes: where a contact slips, one of them is its way.
-void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
-  const Vector3d normal = vector_of(contact.geom.normal);
-  const Vector3d slip = velocity - normal.dot(velocity) * normal;
-  const double speed = slip.norm();
-  if (!(speed > kSlipSpeed)) return;
-  contact.surface.mode |= dContactFDir1;
-  for (int i = 0; i < 3; ++i) contact.fdir1[i] = slip[i] / speed;
-}
-
 }  // namespace
 
 BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const WorkSpace& work_space)
@@ -88,7 +57,7 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   know_thread();
   world_ = dWorldCreate();
   geoms_.emplace(plan.objects());
-  joints_ = dJointGroupCreate(0);
+  joints_.emplace(world_, energy_);
   ray_ = dCreateRay(nullptr, 1.0);
   host_.serve(world_);
   dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
@@ -108,7 +77,6 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
     destroy();
     throw;
   }
-  ledger_.energy = energy();
 }
 
 BodySolver::~BodySolver() { destroy(); }
@@ -116,7 +84,7 @@ BodySolver::~BodySolver() { destroy(); }
 void BodySolver::destroy() noexcept {
   slots_.reset();
   dGeomDestroy(ray_);
-  dJointGroupDestroy(joints_);
+  joints_.reset();
   geoms_.reset();
   dWorldDestroy(world_);
 }
@@ -142,8 +110,8 @@ bool BodySolver::awake(std::size_t slot) const noexcept {
 }
 
 double BodySolver::energy() const noexcept {
-  double sum = slots_->asleep_energy() + parked_energy_;
-  each_acting([&](std::size_t i) { sum += body_at(i).energy(gravity_); });
+  double sum = slots_->asleep_energy();
+  for (std::size_t i = 0; i < size(); ++i) sum += body_at(i).energy(gravity_);
   return sum;
 }
 
@@ -177,12 +145,10 @@ BodySet BodySolver::island(BodySet some) const noexcept {
 void BodySolver::only(BodySet some) noexcept {
   some |= slots_->carried();
   if (some == only_) return;
-  parked_energy_ = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
     const BodySet one = BodySet{1} << i;
     const bool wanted = (some & one) != 0;
     const RigidBody& body = body_at(i);
-    if (!wanted) parked_energy_ += body.energy(gravity_);
     if (wanted == acts(i)) continue;
     if (wanted) {
       dGeomEnable(body.geom);
@@ -199,12 +165,12 @@ void BodySolver::only(BodySet some) noexcept {
 
 void BodySolver::keep() noexcept {
   each_acting([&](std::size_t i) { body_at(i).kept = body_at(i).state(); });
-  kept_ = ledger_;
+  kept_ = tally_;
 }
 
 void BodySolver::restore() noexcept {
   each_acting([&](std::size_t i) { body_at(i).set(body_at(i).kept); });
-  ledger_ = kept_;
+  tally_ = kept_;
 }
 
 // Without bodies nobody sees what is carried.
@@ -218,40 +184,53 @@ bool BodySolver::rests() const noexcept {
 void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
   if (forces.empty() && rests()) return;
   know_thread();
+  energy_.begin(*slots_, only_, gravity_);
   apply(forces);
-  is_driven_ = false;
   each_acting([&](std::size_t i) {
     body_at(i).flies = vector_of(dBodyGetForce(body_at(i).id)).isZero(0.0);
   });
   for (BodyForce& force : forces)
     force.work = 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
-  islands_.clear();
-  dSpaceCollide(geoms_->space(), this, [](void* self, dGeomID a, dGeomID b) {
-    static_cast<BodySolver*>(self)->collide(a, b);
+  joints_->clear();
+  dSpaceCollide(geoms_->space(), &*joints_, [](void* joints, dGeomID a, dGeomID b) {
+    static_cast<ContactJoints*>(joints)->meet(a, b);
   });
   meet_sleeping();
   solve(dt);
-  double given = lifted_ahead(dt);
+  joints_->book_driven(dt);
+  book_lifted_ahead(dt);
   fly_exactly(dt);
   catch_fast();
-  dJointGroupEmpty(joints_);
-  for (BodyForce& force : forces) {
-    force.work += 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
-    const Vector3d turned = vector_of(dBodyGetAngularVel(body_at(force.slot).id));
-    given += force.work + dt * std::max(0.0, force.torque.dot(turned));
-  }
-  // What carried objects did to them is not known.
-  if (is_driven_) ledger_.energy = std::numeric_limits<double>::infinity();
-  take_out(given);
+  take_out(dt, forces);
   rest(dt);
-  // What falls asleep or is too fast gives some up.
-  ledger_.energy = std::min(ledger_.energy, energy());
+  joints_->clear();
+}
+
+// A body that the solver slowed after it had moved got no work by that: a hand that it moved
+// against pays for its spring itself.
+void BodySolver::take_out(double dt, std::span<BodyForce> forces) noexcept {
+  const auto half = [&](const BodyForce& force) {
+    return 0.5 * dt * force.force.dot(body_at(force.slot).velocity_of(force.place));
+  };
+  for (BodyForce& force : forces) {
+    const Vector3d turned = vector_of(dBodyGetAngularVel(body_at(force.slot).id));
+    force.made = half(force);
+    energy_.press(force.slot, force.force.norm());
+    energy_.give(force.slot,
+                 force.work + force.made + dt * std::max(0.0, force.torque.dot(turned)));
+  }
+  tally_.taken_out += energy_.settle(*slots_, joints_->islands());
+  for (BodyForce& force : forces) {
+    const double more = std::max(0.0, half(force) - force.made);
+    force.work += force.made + more;
+    double& account = body_at(force.slot).account;
+    if (account < 0) account = std::min(0.0, account + more);
+  }
 }
 
 // A body that is pushed moves by its new speed for all of the step, and so is lifted by half of the
 // change of its speed more than the pushes did work for. It is as much less when it slows down.
-double BodySolver::lifted_ahead(double dt) const noexcept {
-  double sum = 0.0;
+void BodySolver::book_lifted_ahead(double dt) noexcept {
   each_acting([&](std::size_t i) {
     const RigidBody& body = body_at(i);
     const bool is_pushed =
@@ -259,24 +238,83 @@ double BodySolver::lifted_ahead(double dt) const noexcept {
     if (!is_pushed) return;
     const Vector3d before(body.before.velocity[0], body.before.velocity[1],
                           body.before.velocity[2]);
-    sum -= 0.5 * dt * body.mass * gravity_.dot(vector_of(dBodyGetLinearVel(body.id)) - before);
+    energy_.give(
+        i, -0.5 * dt * body.mass * gravity_.dot(vector_of(dBodyGetLinearVel(body.id)) - before));
   });
-  return sum;
 }
 
-// Where the exact solver would take too long or is lost, the step is taken by one that always ends
-// near the answer.
+// Where the exact solver would take too long or is lost, the island, and no other, is stepped by
+// one that always ends near the answer.
 void BodySolver::solve(double dt) noexcept {
   each_acting([&](std::size_t i) { body_at(i).before = body_at(i).state(); });
-  lost = islands_.largest() > kMostExact;
-  if (!lost) host_.step(world_, dt);
-  if (!lost) return;
-  ++ledger_.lost;
-  each_acting([&](std::size_t i) { body_at(i).set(body_at(i).before); });
-  dWorldSetQuickStepNumIterations(
-      world_, std::clamp(kIterations / std::max(1, islands_.all()), kFewest, kMostIterations));
+  BodySet bodies = 0;
+  each_acting([&](std::size_t i) { bodies |= BodySet{1} << i; });
+  bodies &= ~slots_->carried();
+  const BodySet crowded = joints_->crowded(bodies, *slots_);
+  if (!joints_->is_joined() && solve_exactly(bodies & ~crowded, dt) && crowded == 0) return;
+  const BodySet undone = lost || joints_->is_joined() ? bodies : crowded;
+  bool any = false;
+  for (BodySet left = undone; left != 0;) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(left));
+    const BodySet island = island_in_touch(first, left);
+    left &= ~island;
+    if ((crowded & island) == 0 && solve_exactly(island, dt)) continue;
+    put_back(island);
+    iterate(island, first, dt);
+    any = true;
+  }
+  tally_.lost += any ? 1 : 0;
+}
+
+// @return whether an answer was found
+bool BodySolver::solve_exactly(BodySet some, double dt) noexcept {
+  lost = false;
+  step_alone(some, [&] { host_.step(world_, dt); });
+  if (lost) put_back(some);
+  return !lost;
+}
+
+void BodySolver::iterate(BodySet island, std::size_t one, double dt) noexcept {
+  const int contacts = std::max(1, joints_->islands().contacts_of(one));
+  dWorldSetQuickStepNumIterations(world_,
+                                  std::clamp(kIterations / contacts, kFewest, kMostIterations));
   dRandSetSeed(1);  // so that it is the same twice
-  host_.quick_step(world_, dt);
+  step_alone(island, [&] { host_.quick_step(world_, dt); });
+}
+
+BodySet BodySolver::island_in_touch(std::size_t one, BodySet among) noexcept {
+  IslandEnergy::Islands& islands = joints_->islands();
+  BodySet out = 0;
+  slots_->each(among, [&](std::size_t i) {
+    if (islands.island_of(i) == islands.island_of(one)) out |= BodySet{1} << i;
+  });
+  return out;
+}
+
+void BodySolver::put_back(BodySet some) noexcept {
+  slots_->each(some | slots_->carried(), [&](std::size_t i) { body_at(i).set(body_at(i).before); });
+}
+
+// Those of `some`, which no contact joins to others, and what is carried, which goes on once.
+template <class Step>
+void BodySolver::step_alone(BodySet some, Step&& step) noexcept {
+  BodySet off = 0;
+  slots_->each(only_ & ~some & ~slots_->carried(), [&](std::size_t i) {
+    if (body_at(i).is_awake()) off |= BodySet{1} << i;
+  });
+  const auto turn_joints = [&](auto&& turn) {
+    slots_->each(only_ & ~some & ~slots_->carried(), [&](std::size_t i) {
+      const dBodyID id = body_at(i).id;
+      for (int k = 0; k < dBodyGetNumJoints(id); ++k) turn(dBodyGetJoint(id, k));
+    });
+  };
+  slots_->each(slots_->carried(), [&](std::size_t i) { body_at(i).set(body_at(i).before); });
+  if (off == 0) return step();
+  turn_joints(dJointDisable);
+  slots_->each(off, [&](std::size_t i) { dBodyDisable(body_at(i).id); });
+  step();
+  slots_->each(off, [&](std::size_t i) { dBodyEnable(body_at(i).id); });
+  turn_joints(dJointEnable);
 }
 
 void BodySolver::apply(std::span<BodyForce> forces) noexcept {
@@ -294,37 +332,6 @@ void BodySolver::apply(std::span<BodyForce> forces) noexcept {
   }
 }
 
-void BodySolver::collide(dGeomID a, dGeomID b) noexcept {
-  const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
-  const auto sleeps = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
-  if (sleeps(first) && sleeps(second)) return;
-  if (stands(first) && stands(second)) return;
-  std::array<dContactGeom, kMostFound> room;
-  const std::span<dContactGeom> found = BodyGeoms::meet(a, b, room);
-  if (found.empty()) return;
-  is_driven_ |= stands(first) && first != nullptr && dBodyIsEnabled(first);
-  is_driven_ |= stands(second) && second != nullptr && dBodyIsEnabled(second);
-  note_contacts(first, second, static_cast<int>(found.size()));
-  const Matter &one = BodyGeoms::matter_of(a).matter, &other = BodyGeoms::matter_of(b).matter;
-  for (const dContactGeom& place : found) {
-    dContact contact{};
-    contact.geom = place;
-    contact.surface.mode = dContactApprox1 | dContactBounce;
-    contact.surface.mu = std::sqrt(one.friction * other.friction);
-    contact.surface.bounce = std::max(one.restitution, other.restitution);
-    contact.surface.bounce_vel = kBounceSpeed;
-    const Vector3d velocity = velocity_at(contact, first, second);
-    rub_along(contact, velocity);
-    // What bounces is a hit: it is over within the step.
-    if (contact.surface.bounce > 0 &&
-        velocity.dot(vector_of(contact.geom.normal)) < -contact.surface.bounce_vel) {
-      contact.surface.mode |= dContactSoftCFM;
-      contact.surface.soft_cfm = kHitSoftness;
-    }
-    dJointAttach(dJointCreateContact(world_, joints_, &contact), first, second);
-  }
-}
-
 // What sleeps without a slot does not give way; it gets one as soon as something comes near.
 void BodySolver::meet_sleeping() noexcept {
   if (slots_->asleep().size() == 0) return;
@@ -332,22 +339,9 @@ void BodySolver::meet_sleeping() noexcept {
     const RigidBody& body = body_at(i);
     if (body.geom == nullptr || !body.is_awake()) return;
     slots_->visit_asleep(i, box_of(body.geom), [&](std::uint32_t number) {
-      collide(body.geom, slots_->kinds()[number].geom);
+      joints_->meet(body.geom, slots_->kinds()[number].geom);
     });
   });
-}
-
-void BodySolver::note_contacts(dBodyID first, dBodyID second, int count) noexcept {
-  const auto number = [](dBodyID body) {
-    return reinterpret_cast<std::size_t>(dBodyGetData(body));
-  };
-  if (stands(first)) {
-    islands_.add(number(second), count);
-  } else if (stands(second)) {
-    islands_.add(number(first), count);
-  } else {
-    islands_.join(number(first), number(second), count);
-  }
 }
 
 // Of its middle, along an axis of S.
@@ -431,29 +425,7 @@ double BodySolver::take_back(std::size_t slot, double energy) noexcept {
   const double taken = std::min(energy, moving);
   if (!(taken > 0)) return 0.0;
   body.slow(std::sqrt(1.0 - taken / moving));
-  ledger_.energy -= taken;
   return taken;
-}
-
-// @param given work of all pushes in this step [J]
-void BodySolver::take_out(double given) noexcept {
-  const double most = ledger_.energy + given;
-  const double excess = energy() - most;
-  if (excess > 0) {
-    double moving = 0.0;
-    each_acting([&](std::size_t i) {
-      if (is_carried(i)) return;
-      const RigidBody& body = body_at(i);
-      moving += body.kinetic_energy();
-    });
-    const double left = moving > excess ? std::sqrt(1.0 - excess / moving) : 0.0;
-    each_acting([&](std::size_t i) {
-      if (!is_carried(i)) body_at(i).slow(left);
-    });
-    ledger_.taken_out += std::min(excess, moving);
-  }
-  // What slow bodies were lifted by, out of one another, is due from the next motion.
-  ledger_.energy = std::min(most, energy());
 }
 
 // Bodies that touch one another fall asleep together: one that does so alone would be woken by the
@@ -469,13 +441,13 @@ void BodySolver::rest(double dt) noexcept {
     const bool is =
         speed < kStillSpeed && vector_of(dBodyGetAngularVel(body.id)).norm() < kStillTurn;
     body.still = is ? body.still + dt : 0.0;
-    double& least = still[islands_.island_of(i)];
+    double& least = still[joints_->islands().island_of(i)];
     least = std::min(least, body.still);
   });
   each_acting([&](std::size_t i) {
     RigidBody& body = body_at(i);
     if (!(body.mass > 0) || !body.is_awake()) return;
-    if (still[islands_.island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) return;
+    if (still[joints_->islands().island_of(i)] < pdu::to_seconds(BodyWorld::kSleep)) return;
     body.slow(0.0);
     dBodyDisable(body.id);
   });

@@ -12,8 +12,9 @@
 
 #include "reckon/haptics/bodies/body_geoms.hpp"
 #include "reckon/haptics/bodies/body_slots.hpp"
-#include "reckon/haptics/bodies/contact_islands.hpp"
+#include "reckon/haptics/bodies/contact_joints.hpp"
 #include "reckon/haptics/bodies/flight.hpp"
+#include "reckon/haptics/bodies/island_energy.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/bodies/rigid_body.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -28,6 +29,7 @@ struct BodyForce {
   /// [N m], S: it holds the body against turning, and its work is none of the hand's.
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
   double work = 0.0;  ///< [J], that it did, after the step
+  double made = 0.0;  // of that, by the speed at the end, before the solver's energy was taken out
 };
 
 /// ODE's world of the bodies of a plan that have a slot, and what stands still. After some steps it
@@ -103,13 +105,12 @@ class BodySolver {
 
   /// See BodyWorld.
   [[nodiscard]] double energy() const noexcept;
-  [[nodiscard]] double taken_out() const noexcept { return ledger_.taken_out; }
-  [[nodiscard]] std::uint64_t approximated() const noexcept { return ledger_.lost; }
+  [[nodiscard]] double taken_out() const noexcept { return tally_.taken_out; }
+  [[nodiscard]] std::uint64_t approximated() const noexcept { return tally_.lost; }
 
  private:
-  struct Ledger {
-    double energy = 0.0;  // [J], that the bodies may have
-    double taken_out = 0.0;
+  struct Tally {
+    double taken_out = 0.0;  // [J]
     std::uint64_t lost = 0;
   };
 
@@ -127,32 +128,34 @@ class BodySolver {
   [[nodiscard]] bool rests() const noexcept;
   void apply(std::span<BodyForce> forces) noexcept;
   void solve(double dt) noexcept;
-  [[nodiscard]] double lifted_ahead(double dt) const noexcept;
-  void collide(dGeomID a, dGeomID b) noexcept;
+  [[nodiscard]] bool solve_exactly(BodySet some, double dt) noexcept;
+  void iterate(BodySet island, std::size_t one, double dt) noexcept;
+  [[nodiscard]] BodySet island_in_touch(std::size_t one, BodySet among) noexcept;
+  void put_back(BodySet some) noexcept;
+  template <class Step>
+  void step_alone(BodySet some, Step&& step) noexcept;
+  void book_lifted_ahead(double dt) noexcept;
   void meet_sleeping() noexcept;
-  void note_contacts(dBodyID first, dBodyID second, int count) noexcept;
   [[nodiscard]] Walls walls_of(const RigidBody& body, int axis) const noexcept;
   void fly_exactly(double dt) noexcept;
   void catch_fast() noexcept;
   [[nodiscard]] double length_free(const RigidBody& body, const Eigen::Vector3d& from,
                                    const Eigen::Vector3d& way, double length) noexcept;
-  void take_out(double given) noexcept;
+  void take_out(double dt, std::span<BodyForce> forces) noexcept;
   void rest(double dt) noexcept;
 
   StepHost host_;  // outlives the world
   dWorldID world_ = nullptr;
   std::optional<BodyGeoms> geoms_;  // begins when ODE has
-  dJointGroupID joints_ = nullptr;
+  IslandEnergy energy_;
+  std::optional<ContactJoints> joints_;
   dGeomID ray_ = nullptr;  // in no space
   Eigen::Vector3d gravity_;
   WorkSpace work_space_;
-  std::optional<BodySlots> slots_;            // within the world, and geoms_
-  ContactIslands<BodySlots::kMost> islands_;  // of a step
-  bool is_driven_ = false;  // something that is carried touches a body in this step
+  std::optional<BodySlots> slots_;  // within the world, and geoms_
   BodySet only_ = all();
-  BodySet parked_awake_ = 0;    // of those that only() leaves out
-  double parked_energy_ = 0.0;  // [J], of the same
-  Ledger ledger_, kept_;
+  BodySet parked_awake_ = 0;  // of those that only() leaves out
+  Tally tally_, kept_;
 };
 
 }  // namespace reckon::haptics

@@ -20,13 +20,9 @@ class ContactIslands {
   void clear() noexcept {
     std::iota(roots_.begin(), roots_.end(), std::size_t{0});
     contacts_.fill(0);
-    all_ = 0;
   }
   /// So many contacts of a body with what is no body.
-  void add(std::size_t body, int contacts) noexcept {
-    contacts_[root_of(body)] += contacts;
-    all_ += contacts;
-  }
+  void add(std::size_t body, int contacts) noexcept { contacts_[root_of(body)] += contacts; }
   /// So many of two bodies.
   void join(std::size_t a, std::size_t b, int contacts) noexcept {
     const std::size_t one = root_of(a), other = root_of(b);
@@ -35,12 +31,12 @@ class ContactIslands {
       contacts_[one] += contacts_[other];
     }
     contacts_[one] += contacts;
-    all_ += contacts;
   }
   /// Contacts of the island that has most.
   [[nodiscard]] int largest() const noexcept { return *std::ranges::max_element(contacts_); }
 
-  [[nodiscard]] int all() const noexcept { return all_; }
+  /// Contacts of the island of a body.
+  [[nodiscard]] int contacts_of(std::size_t body) noexcept { return contacts_[root_of(body)]; }
   /// A number that the bodies of one island have in common.
   [[nodiscard]] std::size_t island_of(std::size_t body) noexcept { return root_of(body); }
 
@@ -52,7 +48,6 @@ class ContactIslands {
 
   std::array<std::size_t, most> roots_;
   std::array<int, most> contacts_;
-  int all_ = 0;
 };
 
 }  // namespace reckon::haptics

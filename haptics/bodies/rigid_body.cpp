@@ -25,6 +25,7 @@ RigidBody::State RigidBody::state() const noexcept {
   std::copy_n(dBodyGetTorque(id), 3, out.torque.begin());
   out.awake = is_awake();
   out.still = still;
+  out.account = account;
   return out;
 }
 
@@ -43,6 +44,7 @@ void RigidBody::set(const State& state) noexcept {
     dBodyDisable(id);
   }
   still = state.still;
+  account = state.account;
 }
 
 Quaterniond RigidBody::turned() const noexcept {
@@ -74,9 +76,13 @@ double RigidBody::kinetic_energy() const noexcept {
   return 0.5 * sum;
 }
 
+double RigidBody::weight_energy(const Vector3d& gravity) const noexcept {
+  return mass > 0 ? height_energy(vector_of(dBodyGetPosition(id)), gravity) : 0.0;
+}
+
 double RigidBody::energy(const Vector3d& gravity) const noexcept {
   if (!(mass > 0)) return 0.0;
-  return height_energy(vector_of(dBodyGetPosition(id)), gravity) + kinetic_energy();
+  return weight_energy(gravity) + kinetic_energy() + std::max(0.0, account);
 }
 
 void RigidBody::slow(double factor) noexcept {

@@ -31,6 +31,7 @@ struct BodyKind {
   double drag = 0.0;           ///< [N s/m]
   double inner = 0.0;          ///< [m], radius of the ball about its middle within it
   double least_inertia = 0.0;  ///< [kg m^2], of its principal ones
+  double account = 0.0;        ///< [J], see IslandEnergy
   dMass inertia{};
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of mass, in the axes of its shape [m]
   Eigen::Vector3d start = Eigen::Vector3d::Zero();   ///< of the middle [m], S
@@ -54,7 +55,8 @@ struct RigidBody : BodyKind {
     std::array<dReal, 3> at{}, velocity{}, turn_rate{}, force{}, torque{};
     std::array<dReal, 4> turned{};
     bool awake = true;
-    double still = 0.0;  // [s]
+    double still = 0.0;    // [s]
+    double account = 0.0;  // [J]
   };
 
   dBodyID id = nullptr;
@@ -74,7 +76,9 @@ struct RigidBody : BodyKind {
   [[nodiscard]] Eigen::Vector3d velocity_of(const Eigen::Vector3d& place) const noexcept;
   /// [J]
   [[nodiscard]] double kinetic_energy() const noexcept;
-  /// With that of its weight [J]; 0 of what is carried. @param gravity [m/s^2], S
+  /// Of its weight [J]; 0 of what is carried. @param gravity [m/s^2], S
+  [[nodiscard]] double weight_energy(const Eigen::Vector3d& gravity) const noexcept;
+  /// Both, and what is kept to lift it, see IslandEnergy [J].
   [[nodiscard]] double energy(const Eigen::Vector3d& gravity) const noexcept;
   /// Multiplies its speeds.
   void slow(double factor) noexcept;

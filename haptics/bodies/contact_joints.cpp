@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/bodies/contact_joints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reckon/haptics/bodies/rigid_body.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kMostFound = 64;    // contacts of a pair with a mesh
+constexpr std::size_t kMostDriven = 256;  // contacts with what is carried, whose work is counted
+constexpr double kBounceSpeed = 0.01;     // [m/s]; slower hits do not bounce
+constexpr double kHitSoftness = 1e-12;
+constexpr double kSlipSpeed = 1e-4;  // [m/s]; faster ones rub along their way
+
+// No body, or one that goes its way whatever it meets.
+bool stands(dBodyID body) noexcept { return body == nullptr || dBodyIsKinematic(body); }
+
+bool sleeps(dBodyID body) noexcept { return body == nullptr || !dBodyIsEnabled(body); }
+
+bool is_carried_on(dBodyID body) noexcept {
+  return body != nullptr && dBodyIsKinematic(body) && dBodyIsEnabled(body);
+}
+
+std::size_t slot_of(dBodyID body) noexcept {
+  return reinterpret_cast<std::size_t>(dBodyGetData(body));
+}
+
+Vector3d velocity_at(dBodyID body, const Vector3d& at) noexcept {
+  if (body == nullptr) return Vector3d::Zero();
+  return vector_of(dBodyGetLinearVel(body)) +
+         vector_of(dBodyGetAngularVel(body)).cross(at - vector_of(dBodyGetPosition(body)));
+}
+
+// Friction is bounded along two axes: where a contact slips, one of them is its way.
+void rub_along(dContact& contact, const Vector3d& velocity) noexcept {
+  const Vector3d normal = vector_of(contact.geom.normal);
+  const Vector3d slip = velocity - normal.dot(velocity) * normal;
+  const double speed = slip.norm();
+  if (!(speed > kSlipSpeed)) return;
+  contact.surface.mode |= dContactFDir1;
+  for (int i = 0; i < 3; ++i) contact.fdir1[i] = slip[i] / speed;
+}
+
+}  // namespace
+
+ContactJoints::ContactJoints(dWorldID world, IslandEnergy& energy)
+    : world_(world), energy_(energy), joints_(dJointGroupCreate(0)) {
+  driven_.reserve(kMostDriven);  // ODE points to them
+}
+
+void ContactJoints::clear() noexcept {
+  dJointGroupEmpty(joints_);
+  islands_.clear();
+  driven_.clear();
+}
+
+void ContactJoints::meet(dGeomID a, dGeomID b) noexcept {
+  const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
+  if (sleeps(first) && sleeps(second)) return;
+  if (stands(first) && stands(second)) return;
+  std::array<dContactGeom, kMostFound> room;
+  add(a, b, BodyGeoms::meet(a, b, room));
+}
+
+void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> places) noexcept {
+  if (places.empty()) return;
+  const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
+  note(first, second, places);
+  const Matter &one = BodyGeoms::matter_of(a).matter, &other = BodyGeoms::matter_of(b).matter;
+  for (const dContactGeom& place : places) {
+    dContact contact{};
+    contact.geom = place;
+    contact.surface.mode = dContactApprox1 | dContactBounce;
+    contact.surface.mu = std::sqrt(one.friction * other.friction);
+    contact.surface.bounce = std::max(one.restitution, other.restitution);
+    contact.surface.bounce_vel = kBounceSpeed;
+    const Vector3d at = vector_of(place.pos);
+    const Vector3d velocity = velocity_at(first, at) - velocity_at(second, at);
+    rub_along(contact, velocity);
+    // What bounces is a hit: it is over within the step.
+    if (contact.surface.bounce > 0 &&
+        velocity.dot(vector_of(contact.geom.normal)) < -contact.surface.bounce_vel) {
+      contact.surface.mode |= dContactSoftCFM;
+      contact.surface.soft_cfm = kHitSoftness;
+    }
+    const dJointID joint = dJointCreateContact(world_, joints_, &contact);
+    dJointAttach(joint, first, second);
+    note_driven(joint, first, second, contact);
+  }
+}
+
+void ContactJoints::note(dBodyID first, dBodyID second,
+                         std::span<const dContactGeom> places) noexcept {
+  const int count = static_cast<int>(places.size());
+  double depth = 0.0;
+  for (const dContactGeom& place : places) depth = std::max(depth, place.depth);
+  for (const dBodyID body : {first, second})
+    if (!stands(body)) energy_.sink(slot_of(body), depth);
+  if (!stands(first) && !stands(second))
+    return islands_.join(slot_of(first), slot_of(second), count);
+  const bool is_first = !stands(first);
+  const std::size_t slot = slot_of(is_first ? first : second);
+  islands_.add(slot, count);
+  if (!is_carried_on(is_first ? second : first)) energy_.pin(slot);
+}
+
+void ContactJoints::note_driven(dJointID joint, dBodyID first, dBodyID second,
+                                const dContact& contact) noexcept {
+  const bool is_second = is_carried_on(first);
+  if (!is_second && !is_carried_on(second)) return;
+  const Vector3d velocity = velocity_at(is_second ? first : second, vector_of(contact.geom.pos));
+  const std::size_t slot = slot_of(is_second ? second : first);
+  energy_.drive(slot, (1.0 + contact.surface.bounce) * velocity.norm());
+  if (driven_.size() == kMostDriven) return;
+  driven_.push_back({slot, is_second, velocity});
+  dJointSetFeedback(joint, &driven_.back().force);
+}
+
+void ContactJoints::book_driven(double dt) noexcept {
+  for (const Driven& one : driven_) {
+    const Vector3d force = vector_of(one.is_second ? one.force.f2 : one.force.f1);
+    energy_.give(one.slot, dt * force.dot(one.velocity));
+  }
+}
+
+BodySet ContactJoints::crowded(BodySet some, const BodySlots& slots) noexcept {
+  if (islands_.largest() <= kMostExact) return 0;
+  BodySet out = 0;
+  slots.each(some, [&](std::size_t i) {
+    if (islands_.contacts_of(i) > kMostExact) out |= BodySet{1} << i;
+  });
+  return out;
+}
+
+}  // namespace reckon::haptics
