@@ -71,7 +71,12 @@ dGeomID BodyGeoms::add(const PlannedObject& object) {
   if (mesh && object.is_body()) check_body(object, *mesh);
   const dGeomID geom = make(object, mesh.get());
   if (geom == nullptr) return nullptr;
-  GeomMatter& matter = matters_.emplace_back(GeomMatter{object.matter});
+  GeomMatter& matter = matters_.emplace_back();
+  matter.matter = object.matter;
+  if (has_bodies_ && (!mesh || cylinder_of(object) != nullptr)) {
+    matter.swept.emplace(object.shape);
+    matter.turned = object.orientation;
+  }
   if (mesh && meshes_meet_) {
     auto& probed = probed_[mesh.get()];
     if (!probed) probed = std::make_unique<const ProbedMesh>(mesh);

@@ -6,12 +6,14 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "reckon/haptics/bodies/mesh_contacts.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
+#include "reckon/haptics/queries/query_shape.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::haptics {
@@ -26,6 +28,9 @@ namespace reckon::haptics {
 struct GeomMatter {
   Matter matter;
   const ProbedMesh* mesh = nullptr;  ///< of a mesh, where one with a mass moves
+  /// Of a ball, box, cylinder or plane, in the axes of the object; none of others.
+  std::optional<QueryShape> swept;
+  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();  ///< of the object at the begin, to S
 };
 
 /// A space of shapes: boxes, spheres, planes, meshes, and solids as meshes. One thread at a time.

@@ -14,7 +14,6 @@
 
 #include "reckon/haptics/bodies/body_mass.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
-#include "reckon/haptics/bodies/flight.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -52,13 +51,12 @@ void know_thread() {
 }  // namespace
 
 BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const WorkSpace& work_space)
-    : gravity_(gravity), work_space_(work_space) {
+    : gravity_(gravity) {
   start_ode();
   know_thread();
   world_ = dWorldCreate();
   geoms_.emplace(plan.objects());
   joints_.emplace(world_, energy_);
-  ray_ = dCreateRay(nullptr, 1.0);
   host_.serve(world_);
   dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(world_, 0.2);
@@ -73,6 +71,8 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
       if (object.moves()) slots_->add(object, i, geom);
     }
     slots_->fill();
+    motion_.emplace(*geoms_, *slots_, gravity, work_space);
+    impacts_.emplace(*geoms_, *slots_, *joints_, *motion_);
   } catch (...) {
     destroy();
     throw;
@@ -83,7 +83,8 @@ BodySolver::~BodySolver() { destroy(); }
 
 void BodySolver::destroy() noexcept {
   slots_.reset();
-  dGeomDestroy(ray_);
+  impacts_.reset();
+  motion_.reset();
   joints_.reset();
   geoms_.reset();
   dWorldDestroy(world_);
@@ -196,11 +197,14 @@ void BodySolver::step(double dt, std::span<BodyForce> forces) noexcept {
     static_cast<ContactJoints*>(joints)->meet(a, b);
   });
   meet_sleeping();
-  solve(dt);
+  const BodySet alone = impacts_->find(only_, dt);
+  solve(alone, dt);
   joints_->book_driven(dt);
   book_lifted_ahead(dt);
-  fly_exactly(dt);
-  catch_fast();
+  const BodySet solved = only_ & ~alone;
+  motion_->fly_exactly(solved, dt);
+  motion_->catch_fast(solved);
+  impacts_->pass(dt, [&](BodySet bodies) { strike(bodies); });
   take_out(dt, forces);
   rest(dt);
   joints_->clear();
@@ -245,11 +249,11 @@ void BodySolver::book_lifted_ahead(double dt) noexcept {
 
 // Where the exact solver would take too long or is lost, the island, and no other, is stepped by
 // one that always ends near the answer.
-void BodySolver::solve(double dt) noexcept {
+void BodySolver::solve(BodySet but, double dt) noexcept {
   each_acting([&](std::size_t i) { body_at(i).before = body_at(i).state(); });
   BodySet bodies = 0;
   each_acting([&](std::size_t i) { bodies |= BodySet{1} << i; });
-  bodies &= ~slots_->carried();
+  bodies &= ~(slots_->carried() | but);
   const BodySet crowded = joints_->crowded(bodies, *slots_);
   if (!joints_->is_joined() && solve_exactly(bodies & ~crowded, dt) && crowded == 0) return;
   const BodySet undone = lost || joints_->is_joined() ? bodies : crowded;
@@ -259,7 +263,6 @@ void BodySolver::solve(double dt) noexcept {
     const BodySet island = island_in_touch(first, left);
     left &= ~island;
     if ((crowded & island) == 0 && solve_exactly(island, dt)) continue;
-    put_back(island);
     iterate(island, first, dt);
     any = true;
   }
@@ -269,9 +272,16 @@ void BodySolver::solve(double dt) noexcept {
 // @return whether an answer was found
 bool BodySolver::solve_exactly(BodySet some, double dt) noexcept {
   lost = false;
-  step_alone(some, [&] { host_.step(world_, dt); });
+  put_back(slots_->carried());  // it goes on once
+  step_alone(some | slots_->carried(), [&] { host_.step(world_, dt); });
   if (lost) put_back(some);
   return !lost;
+}
+
+// Two bodies, or one, where they meet.
+void BodySolver::strike(BodySet bodies) noexcept {
+  lost = false;
+  step_alone(bodies, [&] { host_.step(world_, Impacts::kInstant); });
 }
 
 void BodySolver::iterate(BodySet island, std::size_t one, double dt) noexcept {
@@ -279,7 +289,8 @@ void BodySolver::iterate(BodySet island, std::size_t one, double dt) noexcept {
   dWorldSetQuickStepNumIterations(world_,
                                   std::clamp(kIterations / contacts, kFewest, kMostIterations));
   dRandSetSeed(1);  // so that it is the same twice
-  step_alone(island, [&] { host_.quick_step(world_, dt); });
+  put_back(island | slots_->carried());
+  step_alone(island | slots_->carried(), [&] { host_.quick_step(world_, dt); });
 }
 
 BodySet BodySolver::island_in_touch(std::size_t one, BodySet among) noexcept {
@@ -292,24 +303,23 @@ BodySet BodySolver::island_in_touch(std::size_t one, BodySet among) noexcept {
 }
 
 void BodySolver::put_back(BodySet some) noexcept {
-  slots_->each(some | slots_->carried(), [&](std::size_t i) { body_at(i).set(body_at(i).before); });
+  slots_->each(some, [&](std::size_t i) { body_at(i).set(body_at(i).before); });
 }
 
-// Those of `some`, which no contact joins to others, and what is carried, which goes on once.
+// Those of `some`, which no contact joins to others but to what is carried.
 template <class Step>
 void BodySolver::step_alone(BodySet some, Step&& step) noexcept {
   BodySet off = 0;
-  slots_->each(only_ & ~some & ~slots_->carried(), [&](std::size_t i) {
+  slots_->each(only_ & ~some, [&](std::size_t i) {
     if (body_at(i).is_awake()) off |= BodySet{1} << i;
   });
+  if (off == 0) return step();
   const auto turn_joints = [&](auto&& turn) {
-    slots_->each(only_ & ~some & ~slots_->carried(), [&](std::size_t i) {
+    slots_->each(only_ & ~some, [&](std::size_t i) {
       const dBodyID id = body_at(i).id;
       for (int k = 0; k < dBodyGetNumJoints(id); ++k) turn(dBodyGetJoint(id, k));
     });
   };
-  slots_->each(slots_->carried(), [&](std::size_t i) { body_at(i).set(body_at(i).before); });
-  if (off == 0) return step();
   turn_joints(dJointDisable);
   slots_->each(off, [&](std::size_t i) { dBodyDisable(body_at(i).id); });
   step();
@@ -342,81 +352,6 @@ void BodySolver::meet_sleeping() noexcept {
       joints_->meet(body.geom, slots_->kinds()[number].geom);
     });
   });
-}
-
-// Of its middle, along an axis of S.
-Walls BodySolver::walls_of(const RigidBody& body, int axis) const noexcept {
-  dReal box[6];
-  dGeomGetAABB(body.geom, box);
-  const double at = dBodyGetPosition(body.id)[axis];
-  const double middle = work_space_.position[axis], half = 0.5 * work_space_.size[axis];
-  return {middle - half + (at - box[2 * axis]), middle + half - (box[2 * axis + 1] - at),
-          work_space_.restitution};
-}
-
-// The solver moves a body by its new speed for all of the step, which keeps the energy of springs.
-// One that nothing touches flies in closed form.
-void BodySolver::fly_exactly(double dt) noexcept {
-  each_acting([&](std::size_t i) {
-    const RigidBody& body = body_at(i);
-    if (!(body.mass > 0) || !body.is_awake()) return;
-    const bool flies = body.flies && dBodyGetNumJoints(body.id) == 0;
-    const double drag = body.drag / body.mass;
-    if (!flies && !work_space_.is_set() && !(drag > 0)) return;
-    const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
-    const Vector3d speed(body.before.velocity[0], body.before.velocity[1], body.before.velocity[2]);
-    Vector3d at = vector_of(dBodyGetPosition(body.id)), v = vector_of(dBodyGetLinearVel(body.id));
-    if (!flies) v *= std::exp(-drag * dt);
-    for (int k = 0; k < 3; ++k) {
-      Flight end{at[k], v[k]};
-      if (flies) end = fly({from[k], speed[k]}, gravity_[k], drag, dt);
-      if (work_space_.is_set()) {
-        const Walls walls = walls_of(body, k);
-        const double mean = drag > 0 ? (end.speed - speed[k]) / dt : gravity_[k];
-        end = flies ? bounce({from[k], speed[k]}, mean, walls, dt) : stop(end, walls);
-      }
-      at[k] = end.place;
-      v[k] = end.speed;
-    }
-    dBodySetPosition(body.id, at.x(), at.y(), at.z());
-    dBodySetLinearVel(body.id, v.x(), v.y(), v.z());
-  });
-}
-
-// A body that would be behind what it hits is put where its middle meets it, and the next step
-// finds both in touch.
-void BodySolver::catch_fast() noexcept {
-  each_acting([&](std::size_t i) {
-    const RigidBody& body = body_at(i);
-    if (!(body.mass > 0)) return;
-    const Vector3d from(body.before.at[0], body.before.at[1], body.before.at[2]);
-    const Vector3d way = vector_of(dBodyGetPosition(body.id)) - from;
-    const double length = way.norm();
-    if (!(length > 0.5 * body.inner)) return;
-    const double free = length_free(body, from, way / length, length);
-    if (!(free < length)) return;
-    const Vector3d at = from + std::max(0.0, free - 0.9 * body.inner) / length * way;
-    dBodySetPosition(body.id, at.x(), at.y(), at.z());
-  });
-}
-
-// How far the middle of a body gets before it meets anything else.
-double BodySolver::length_free(const RigidBody& body, const Vector3d& from, const Vector3d& way,
-                               double length) noexcept {
-  dGeomRaySet(ray_, from.x(), from.y(), from.z(), way.x(), way.y(), way.z());
-  dGeomRaySetLength(ray_, length);
-  double free = length;
-  const auto meet = [&](dGeomID geom) {
-    dContactGeom hit;
-    if (dCollide(ray_, geom, 1, &hit, sizeof hit) > 0) free = std::min(free, hit.depth);
-  };
-  for (int i = 0; i < dSpaceGetNumGeoms(geoms_->space()); ++i) {
-    const dGeomID geom = dSpaceGetGeom(geoms_->space(), i);
-    if (dGeomGetBody(geom) != body.id) meet(geom);
-  }
-  slots_->asleep().visit(box_of(ray_),
-                         [&](std::uint32_t number) { meet(slots_->kinds()[number].geom); });
-  return free;
 }
 
 double BodySolver::take_back(std::size_t slot, double energy) noexcept {

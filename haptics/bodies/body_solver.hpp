@@ -13,7 +13,8 @@
 #include "reckon/haptics/bodies/body_geoms.hpp"
 #include "reckon/haptics/bodies/body_slots.hpp"
 #include "reckon/haptics/bodies/contact_joints.hpp"
-#include "reckon/haptics/bodies/flight.hpp"
+#include "reckon/haptics/bodies/free_motion.hpp"
+#include "reckon/haptics/bodies/impacts.hpp"
 #include "reckon/haptics/bodies/island_energy.hpp"
 #include "reckon/haptics/bodies/ode_calls.hpp"
 #include "reckon/haptics/bodies/rigid_body.hpp"
@@ -127,7 +128,8 @@ class BodySolver {
   }
   [[nodiscard]] bool rests() const noexcept;
   void apply(std::span<BodyForce> forces) noexcept;
-  void solve(double dt) noexcept;
+  void solve(BodySet but, double dt) noexcept;
+  void strike(BodySet bodies) noexcept;
   [[nodiscard]] bool solve_exactly(BodySet some, double dt) noexcept;
   void iterate(BodySet island, std::size_t one, double dt) noexcept;
   [[nodiscard]] BodySet island_in_touch(std::size_t one, BodySet among) noexcept;
@@ -136,11 +138,6 @@ class BodySolver {
   void step_alone(BodySet some, Step&& step) noexcept;
   void book_lifted_ahead(double dt) noexcept;
   void meet_sleeping() noexcept;
-  [[nodiscard]] Walls walls_of(const RigidBody& body, int axis) const noexcept;
-  void fly_exactly(double dt) noexcept;
-  void catch_fast() noexcept;
-  [[nodiscard]] double length_free(const RigidBody& body, const Eigen::Vector3d& from,
-                                   const Eigen::Vector3d& way, double length) noexcept;
   void take_out(double dt, std::span<BodyForce> forces) noexcept;
   void rest(double dt) noexcept;
 
@@ -149,10 +146,10 @@ class BodySolver {
   std::optional<BodyGeoms> geoms_;  // begins when ODE has
   IslandEnergy energy_;
   std::optional<ContactJoints> joints_;
-  dGeomID ray_ = nullptr;  // in no space
   Eigen::Vector3d gravity_;
-  WorkSpace work_space_;
   std::optional<BodySlots> slots_;  // within the world, and geoms_
+  std::optional<FreeMotion> motion_;
+  std::optional<Impacts> impacts_;
   BodySet only_ = all();
   BodySet parked_awake_ = 0;  // of those that only() leaves out
   Tally tally_, kept_;

@@ -17,6 +17,7 @@ constexpr std::size_t kMostFound = 64;    // contacts of a pair with a mesh
 constexpr std::size_t kMostDriven = 256;  // contacts with what is carried, whose work is counted
 constexpr double kBounceSpeed = 0.01;     // [m/s]; slower hits do not bounce
 constexpr double kHitSoftness = 1e-12;
+constexpr double kInstantSoftness = 1e-18;
 constexpr double kSlipSpeed = 1e-4;  // [m/s]; faster ones rub along their way
 
 // No body, or one that goes its way whatever it meets.
@@ -59,6 +60,12 @@ void ContactJoints::clear() noexcept {
   dJointGroupEmpty(joints_);
   islands_.clear();
   driven_.clear();
+  met_.clear();
+}
+
+bool ContactJoints::have_met(dGeomID a, dGeomID b) const noexcept {
+  return std::ranges::any_of(
+      met_, [&](const auto& pair) { return pair == std::pair(a, b) || pair == std::pair(b, a); });
 }
 
 void ContactJoints::meet(dGeomID a, dGeomID b) noexcept {
@@ -69,8 +76,10 @@ void ContactJoints::meet(dGeomID a, dGeomID b) noexcept {
   add(a, b, BodyGeoms::meet(a, b, room));
 }
 
-void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> places) noexcept {
+void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> places,
+                        Hardness hardness) noexcept {
   if (places.empty()) return;
+  met_.emplace_back(a, b);
   const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
   note(first, second, places);
   const Matter &one = BodyGeoms::matter_of(a).matter, &other = BodyGeoms::matter_of(b).matter;
@@ -89,6 +98,10 @@ void ContactJoints::add(dGeomID a, dGeomID b, std::span<const dContactGeom> plac
         velocity.dot(vector_of(contact.geom.normal)) < -contact.surface.bounce_vel) {
       contact.surface.mode |= dContactSoftCFM;
       contact.surface.soft_cfm = kHitSoftness;
+    }
+    if (hardness == Hardness::exact) {
+      contact.surface.mode |= dContactSoftCFM;
+      contact.surface.soft_cfm = kInstantSoftness;
     }
     const dJointID joint = dJointCreateContact(world_, joints_, &contact);
     dJointAttach(joint, first, second);

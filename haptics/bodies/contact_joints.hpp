@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/bodies/body_geoms.hpp"
@@ -33,8 +35,17 @@ class ContactJoints {
   void clear() noexcept;
   /// Finds and adds the contacts of two geoms, if one of them is of a body that is awake and moves.
   void meet(dGeomID a, dGeomID b) noexcept;
+  enum class Hardness : std::uint8_t {
+    usual,
+    exact,  ///< for a step of an instant
+  };
   /// Adds contacts of these two.
-  void add(dGeomID a, dGeomID b, std::span<const dContactGeom> places) noexcept;
+  void add(dGeomID a, dGeomID b, std::span<const dContactGeom> places,
+           Hardness hardness = Hardness::usual) noexcept;
+  /// Whether these two touch, in this order or the other.
+  [[nodiscard]] bool have_met(dGeomID a, dGeomID b) const noexcept;
+  /// Removes the contacts, but keeps what is known of the islands.
+  void remove() noexcept { dJointGroupEmpty(joints_); }
 
   [[nodiscard]] IslandEnergy::Islands& islands() noexcept { return islands_; }
   /// Those of `some` whose island has more than kMostExact contacts.
@@ -63,6 +74,7 @@ class ContactJoints {
   dJointGroupID joints_;
   IslandEnergy::Islands islands_;
   std::vector<Driven> driven_;
+  std::vector<std::pair<dGeomID, dGeomID>> met_;
 };
 
 }  // namespace reckon::haptics

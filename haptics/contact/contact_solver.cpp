@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "reckon/haptics/contact/contact_shares.hpp"
+#include "reckon/haptics/queries/pair_query.hpp"
 
 namespace reckon::haptics {
 
@@ -20,6 +21,8 @@ constexpr double kFarthest = 1e9;
 constexpr int kPushes = 32;
 constexpr double kSearchFrom = 1e-4;
 constexpr double kSearchTo = 1e5;
+constexpr double kBeyond = 0.01;     // [m]
+constexpr double kPassedFor = 0.05;  // [s]
 
 bool usable(const Vector3d& device) {
   return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthest;
@@ -86,7 +89,8 @@ ContactSolver::ContactSolver(const EffectPlan& plan, double radius, double patch
     if (object.moves()) {
       moving_of_[objects_.size() - 1] = static_cast<std::uint32_t>(moving_.size());
       const ObjectMotion start{object.position, Eigen::Quaterniond(object.orientation)};
-      moving_.push_back({static_cast<std::uint32_t>(objects_.size() - 1), object, start, start});
+      moving_.push_back({static_cast<std::uint32_t>(objects_.size() - 1), object, start, start, 0,
+                         Vector3d::Zero(), QueryShape(object.shape)});
       objects_.back() = &moving_.back().now;
     }
     states_.push_back({SurfaceContactPoint(radius), object.effects});
@@ -165,9 +169,36 @@ ContactResult ContactSolver::step(const Vector3d& device, double dt) noexcept {
   if (!placed_.empty()) carry();
   find_near(device);
   settle(device);
+  lost_ = 0.0;
+  if (!placed_.empty()) let_through(device, dt);
   for (const std::uint32_t i : near_) states_[i].started_inside &= contacts_[i].in_contact;
   last_device_ = device;
   return sum(device);
+}
+
+// A body that goes on although the device shows all the force that it has, has passed the hand. The
+// SCP then goes to the device as if the body were not there.
+void ContactSolver::let_through(const Vector3d& device, double dt) noexcept {
+  for (const std::uint32_t body : placed_) {
+    MovingObject& moving = moving_[body];
+    moving.beyond = is_beyond(moving, device) ? moving.beyond + dt : 0.0;
+    if (!(moving.beyond > kPassedFor)) continue;
+    lost_ += contacts_[moving.object].stored_energy;
+    ++passed_;
+    moving.beyond = 0.0;
+    left_out_ = moving.object;
+    settle(device);
+    left_out_ = kNobody;
+  }
+}
+
+bool ContactSolver::is_beyond(const MovingObject& moving, const Vector3d& device) const noexcept {
+  if (!contacts_[moving.object].in_contact) return false;
+  const double stiffness = std::min(stiffness_of(moving.object), patch_cap_);
+  if (!((device - scp_).norm() > strongest_ / stiffness + kBeyond)) return false;
+  static const QueryShape point = QueryShape::sphere(0.0);
+  const Placement at{moving.now.position, moving.now.orientation};
+  return measure_pair(point, {device}, moving.solid, at).distance.least > 0.0;
 }
 
 // An object that was touched just now begins at its place, without sliding.
@@ -205,6 +236,7 @@ void ContactSolver::find_near(const Vector3d& device) noexcept {
 }
 
 bool ContactSolver::within_reach(std::uint32_t index, const Vector3d& device) const noexcept {
+  if (index == left_out_) return false;
   const PlannedObject& object = *objects_[index];
   const double reach = (device - scp_).norm() + radius_ + 2.0 * clearance_of(object.shape);
   return distance_below(object.shape, object.to_object(device)) <= reach;

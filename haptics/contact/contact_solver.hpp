@@ -18,6 +18,7 @@
 #include "reckon/haptics/contact/patch_blend.hpp"
 #include "reckon/haptics/geometry/contact_walk.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
+#include "reckon/haptics/queries/query_shape.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::haptics {
@@ -86,6 +87,15 @@ class ContactSolver {
   /// started_inside is set. No allocation; examines every object, tens of nanoseconds each, or tens
   /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
+
+  /// From now on the hand is let through where an object that moves has passed it: where for 50 ms
+  /// the device is outside of it, and farther from the SCP than `force` [N], the greatest that is
+  /// shown, stretches the object's springs, and 10 mm.
+  void let_through_beyond(double force) noexcept { strongest_ = force; }
+  /// Storage of what was let through in the last step [J], which is lost.
+  [[nodiscard]] double lost() const noexcept { return lost_; }
+  /// Times that something was let through.
+  [[nodiscard]] std::uint64_t passed() const noexcept { return passed_; }
 
   /// How many of the plan's objects that move the last step met.
   [[nodiscard]] std::size_t placed() const noexcept { return placed_.size(); }
@@ -164,6 +174,8 @@ class ContactSolver {
     ObjectMotion motion{}, before{};
     std::uint64_t placed = 0;                          // the round in which it was placed last
     Eigen::Vector3d pushed = Eigen::Vector3d::Zero();  // force on the device before the move [N]
+    QueryShape solid;                                  // for what is inside
+    double beyond = 0.0;                               // [s], see let_through_beyond()
 
     // Of a point that stayed where it was, a step ago. Its axes are those of the object: a body's
     // shape has no origin of its own.
@@ -181,6 +193,9 @@ class ContactSolver {
   [[nodiscard]] const MovingObject* moving_as(std::uint32_t index) const noexcept;
   [[nodiscard]] bool within_reach(std::uint32_t index,
                                   const Eigen::Vector3d& device) const noexcept;
+  void let_through(const Eigen::Vector3d& device, double dt) noexcept;
+  [[nodiscard]] bool is_beyond(const MovingObject& moving,
+                               const Eigen::Vector3d& device) const noexcept;
   void find_near(const Eigen::Vector3d& device) noexcept;
   void place_outside(const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] std::uint32_t overlapped(const Eigen::Vector3d& p) const noexcept;
@@ -218,6 +233,10 @@ class ContactSolver {
   std::uint64_t step_ = 1;
   std::uint64_t round_ = 1;  // of place() and step(): a step that cannot be made ends one too
   bool any_follows_ = false;
+  double strongest_ = std::numeric_limits<double>::infinity();  // [N]
+  double lost_ = 0.0;                                           // [J]
+  std::uint64_t passed_ = 0;
+  std::uint32_t left_out_ = kNobody;                       // object that the SCP does not meet
   std::uint32_t alone_ = kNobody;                          // object whose own SCP is the newest
   Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();          // S
   Eigen::Vector3d last_device_ = Eigen::Vector3d::Zero();  // S, of the last finite step

@@ -36,6 +36,15 @@ class StaticContactOf {
   StaticContactOf(const EffectPlan& plan, double stiffness_cap, double radius = 0.0,
                   std::size_t probes = 1);
 
+  /// See ContactSolver, all probes.
+  void let_through_beyond(double force) noexcept {
+    for (std::size_t i = 0; i < size(); ++i) walls_[i]->let_through_beyond(force);
+  }
+  [[nodiscard]] std::uint64_t passed() const noexcept {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->passed();
+    return sum;
+  }
   /// One of the objects that move goes on, before settle(); see ContactSolver.
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     for (std::size_t i = 0; i < size(); ++i) {

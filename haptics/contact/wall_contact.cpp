@@ -40,7 +40,7 @@ Eigen::Vector3d WallContact::move(const Eigen::Vector3d& device, double dt,
   const Eigen::Vector3d force = result_.force;
   result_ = solver_.step(device, dt);
   measure_stiffness();
-  ledger.book(before - stored());
+  ledger.book(before - stored() - gain_ * solver_.lost());
   if (solver_.placed() > 0 || lent_ != 0.0) {
     take_from_carried(ledger);
     lend_for_motion(ledger);

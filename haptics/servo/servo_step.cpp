@@ -57,6 +57,7 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)),
       pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
+  static_.let_through_beyond(step_.force_limit);
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
   if (config_.continuous_force > 0)
     safety_.limit_heat(config_.continuous_force, config_.thermal_time / period_);
@@ -418,6 +419,7 @@ template <int axes>
 void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
+  tally_.passed = static_.passed();
   const bool grabs = static_.grabs();
   if (grabs) tally_.grabbed += step_.dt;
   // Others feel the hand at the first probe.

@@ -118,6 +118,19 @@ void print_refused(std::FILE* out, const Hands& hands) {
                          behind(some, hands.size())));
 }
 
+void print_passed(std::FILE* out, const Hands& hands) {
+  Hands some;
+  std::uint64_t times = 0;
+  for (const HandView* hand : hands) {
+    if (hand->servo.tally.passed > 0) some.push_back(hand);
+    times += hand->servo.tally.passed;
+  }
+  if (some.empty()) return;
+  print_line(out, "let through",
+             fmt::format("{}, an object moved through a hand with more than the greatest force{}",
+                         counted(times, "time"), behind(some, hands.size())));
+}
+
 // All hands of a program are stopped together.
 void print_stops(std::FILE* out, const Hands& hands) {
   std::uint64_t stops = 0;
@@ -187,6 +200,7 @@ void append_hand(std::string& out, const HandView* hand) {
       .value("late_steps", tally.late)
       .value("let_go", tally.let_go)
       .value("failed_readings", tally.failed)
+      .value("let_through", tally.passed)
       .value("stops", tally.stops)
       .value("stopped_s", number(tally.stopped))
       .end();
@@ -217,6 +231,7 @@ void print_hands(std::FILE* out, const Hands& hands) {
   print_touching(out, hands);
   print_softer(out, hands);
   for (const Kind& kind : kKinds) print_shortfall(out, kind, hands);
+  print_passed(out, hands);
   print_stops(out, hands);
   print_refused(out, hands);
   print_steps(out, hands);

@@ -191,7 +191,7 @@ TEST(ManyBodies, StopABulletThoughTheySleep) {
     SceneObject& plate = field.add({1.0, 0.0, 0.5});
     plate.shape = BoxShape{Vector3d(0.001, 0.4, 0.4)};
     plate.matter.mass = 50.0;
-    SceneObject& bullet = field.add({-1.0, 0.0, 0.5});
+    SceneObject& bullet = field.add({0.5, 0.0, 0.5});
     bullet.shape = SphereShape{0.005};
     bullet.matter = {kMass, 0.0, 0.0};
     BodyWorld& world = field.begin();

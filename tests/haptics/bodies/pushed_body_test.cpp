@@ -227,7 +227,7 @@ TEST(PushedBody, KeepsTheBooksWhileAReadingFails) {
       made = std::max(made, world->energy() - taken - lent);
     }
     EXPECT_LE(made, loan + 1e-9) << rate;
-    EXPECT_GT(felt, 1.0);
+    EXPECT_GT(felt, 0.9);  // until the cube has passed the hand whose readings fail
   }
 }
 
