@@ -90,7 +90,7 @@ BodySolver::BodySolver(const EffectPlan& plan, const Vector3d& gravity, const Wo
   geoms_.emplace(plan.objects());
   joints_ = dJointGroupCreate(0);
   ray_ = dCreateRay(nullptr, 1.0);
-  keep_within_thread(world_);
+  host_.serve(world_);
   dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(world_, 0.2);
   dWorldSetCFM(world_, 1e-7);
@@ -269,14 +269,14 @@ double BodySolver::lifted_ahead(double dt) const noexcept {
 void BodySolver::solve(double dt) noexcept {
   each_acting([&](std::size_t i) { body_at(i).before = body_at(i).state(); });
   lost = islands_.largest() > kMostExact;
-  if (!lost) dWorldStep(world_, dt);
+  if (!lost) host_.step(world_, dt);
   if (!lost) return;
   ++ledger_.lost;
   each_acting([&](std::size_t i) { body_at(i).set(body_at(i).before); });
   dWorldSetQuickStepNumIterations(
       world_, std::clamp(kIterations / std::max(1, islands_.all()), kFewest, kMostIterations));
   dRandSetSeed(1);  // so that it is the same twice
-  dWorldQuickStep(world_, dt);
+  host_.quick_step(world_, dt);
 }
 
 void BodySolver::apply(std::span<BodyForce> forces) noexcept {

@@ -139,6 +139,7 @@ class BodySolver {
   void take_out(double given) noexcept;
   void rest(double dt) noexcept;
 
+  StepHost host_;  // outlives the world
   dWorldID world_ = nullptr;
   std::optional<BodyGeoms> geoms_;  // begins when ODE has
   dJointGroupID joints_ = nullptr;

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/bodies/ode_calls.hpp"
 
-#include <array>
+#include <cassert>
 #include <cstddef>
-#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace reckon::haptics {
@@ -43,45 +44,61 @@ class Calls {
   Call* free_ = nullptr;
 };
 
-/// Blocks of memory, each used again where it is large enough.
+/// Blocks of memory, each used again where it is large enough. ODE gives a block back without
+/// saying whose it is, so each begins with its head.
 class Blocks {
  public:
   void* take(std::size_t size) {
-    for (Block& block : blocks_) {
-      if (block.used || block.size < size) continue;
-      block.used = true;
-      return block.memory.get();
+    for (const auto& block : blocks_) {
+      Head& head = head_of(block.get() + sizeof(Head));
+      if (head.used || head.size < size) continue;
+      head.used = true;
+      return block.get() + sizeof(Head);
     }
-    blocks_.push_back({std::make_unique<std::byte[]>(2 * size), 2 * size, true});
-    return blocks_.back().memory.get();
+    blocks_.push_back(std::make_unique<std::byte[]>(sizeof(Head) + 2 * size));
+    std::byte* const block = blocks_.back().get();
+    new (block) Head{2 * size, true};
+    return block + sizeof(Head);
   }
-  void give_back(const void* memory) noexcept {
-    for (Block& block : blocks_)
-      if (block.memory.get() == memory) block.used = false;
-  }
+  static void give_back(void* memory) noexcept { head_of(memory).used = false; }
 
  private:
-  struct Block {
-    std::unique_ptr<std::byte[]> memory;
+  struct alignas(std::max_align_t) Head {
     std::size_t size;
     bool used;
   };
-  std::vector<Block> blocks_;
+  static Head& head_of(void* memory) noexcept {
+    return *std::launder(reinterpret_cast<Head*>(static_cast<std::byte*>(memory) - sizeof(Head)));
+  }
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
 };
 
-thread_local Calls calls;
-thread_local Blocks blocks;
+}  // namespace
+
+struct StepHost::Store {
+  Calls calls;
+  Blocks blocks;
+};
+
+namespace {
+
+// ODE asks for memory without saying for which world: for the one that this thread steps.
+thread_local Blocks* stepped = nullptr;
 
 // Any address does: there is one thread, and nothing to lock or to wait for.
 char nothing = 0;
 
-void run(Call* call) {
+Calls& calls_of(dThreadingImplementationID calls) noexcept {
+  return *reinterpret_cast<Calls*>(calls);
+}
+
+void run(Calls& calls, Call* call) {
   Call* const releases = call->releases;
   const bool good =
       call->function(call->context, call->index, reinterpret_cast<dCallReleaseeID>(call)) != 0;
   if (!good && call->fault != nullptr) *call->fault = 1;
   calls.give_back(call);
-  if (releases != nullptr && --releases->waits_for == 0) run(releases);
+  if (releases != nullptr && --releases->waits_for == 0) run(calls, releases);
 }
 
 dMutexGroupID make_locks(dThreadingImplementationID, dmutexindex_t, const char* const*) {
@@ -97,40 +114,69 @@ void wait(dThreadingImplementationID, int* status, dCallWaitID, const dThreadedW
           const char*) {
   if (status != nullptr) *status = 1;
 }
-void post(dThreadingImplementationID, int* fault, dCallReleaseeID* out,
+void post(dThreadingImplementationID own, int* fault, dCallReleaseeID* out,
           ddependencycount_t waits_for, dCallReleaseeID releases, dCallWaitID,
           dThreadedCallFunction* function, void* context, dcallindex_t index, const char*) {
-  Call* const call = calls.take();
+  Call* const call = calls_of(own).take();
   *call = {
       function, context, index, static_cast<long>(waits_for), reinterpret_cast<Call*>(releases),
       fault,    nullptr};
   if (fault != nullptr) *fault = 0;
   if (out != nullptr) *out = reinterpret_cast<dCallReleaseeID>(call);
-  if (waits_for == 0) run(call);
+  if (waits_for == 0) run(calls_of(own), call);
 }
-void change_count(dThreadingImplementationID, dCallReleaseeID target, ddependencychange_t change) {
+void change_count(dThreadingImplementationID own, dCallReleaseeID target,
+                  ddependencychange_t change) {
   Call* const call = reinterpret_cast<Call*>(target);
   call->waits_for += static_cast<long>(change);
-  if (call->waits_for == 0) run(call);
+  if (call->waits_for == 0) run(calls_of(own), call);
 }
 unsigned one_thread(dThreadingImplementationID) { return 1; }
 int have_room(dThreadingImplementationID, ddependencycount_t) { return 1; }
 
-void* allocate(dsizeint size) { return blocks.take(size); }
+void* allocate(dsizeint size) {
+  assert(stepped != nullptr);
+  return stepped->take(size);
+}
 void* shrink(void* memory, dsizeint, dsizeint) { return memory; }
-void release(void* memory, dsizeint) { blocks.give_back(memory); }
+void release(void* memory, dsizeint) { Blocks::give_back(memory); }
 
 const dThreadingFunctionsInfo kCalls{sizeof(kCalls), make_locks, free_locks, lock, lock,
                                      make_wait,      reset_wait, reset_wait, post, change_count,
                                      wait,           one_thread, have_room};
 const dWorldStepMemoryFunctionsInfo kMemory{sizeof(kMemory), allocate, shrink, release};
 
+/// While it lives, this thread steps the world of these blocks.
+class Stepping {
+ public:
+  explicit Stepping(Blocks& blocks) noexcept : outer_(std::exchange(stepped, &blocks)) {}
+  ~Stepping() { stepped = outer_; }
+  Stepping(const Stepping&) = delete;
+  Stepping& operator=(const Stepping&) = delete;
+
+ private:
+  Blocks* const outer_;
+};
+
 }  // namespace
 
-void keep_within_thread(dWorldID world) {
-  dWorldSetStepThreadingImplementation(world, &kCalls,
-                                       reinterpret_cast<dThreadingImplementationID>(&nothing));
+StepHost::StepHost() : store_(std::make_unique<Store>()) {}
+StepHost::~StepHost() = default;
+
+void StepHost::serve(dWorldID world) {
+  dWorldSetStepThreadingImplementation(
+      world, &kCalls, reinterpret_cast<dThreadingImplementationID>(&store_->calls));
   dWorldSetStepMemoryManager(world, &kMemory);
+}
+
+void StepHost::step(dWorldID world, double dt) noexcept {
+  const Stepping scope(store_->blocks);
+  dWorldStep(world, dt);
+}
+
+void StepHost::quick_step(dWorldID world, double dt) noexcept {
+  const Stepping scope(store_->blocks);
+  dWorldQuickStep(world, dt);
 }
 
 }  // namespace reckon::haptics

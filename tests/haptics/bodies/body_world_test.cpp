@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "reckon/haptics/bodies/contact_islands.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
@@ -117,6 +118,29 @@ TEST(BodyWorld, AHeavierOneThatIsHitGoesOnAndTheLighterComesBack) {
   for (int i = 2; i < 200; ++i) world.advance_to(now + i * kStep);
   EXPECT_NEAR(table.state(0).velocity.x(), -1.0 / 3, 1e-8);
   EXPECT_NEAR(table.state(1).velocity.x(), 2.0 / 3, 1e-8);
+}
+
+// As a servo's thread ends before its world does, and another may go on with it.
+TEST(BodyWorld, StepsInThreadsThatEndBeforeIt) {
+  Table one, other, alone;
+  for (Table* table : {&one, &other, &alone}) {
+    table->floor({0.0, 0.5, 0.3});
+    for (int i = 0; i < 4; ++i) table->box(0.04, {0.01 * i, 0, 0.03 + 0.06 * i}, {0.1, 0.5, 0.3});
+    table->begin();
+  }
+  for (int turn = 0; turn < 4; ++turn) {
+    std::thread([&] {
+      for (int i = 0; i < 50; ++i) {
+        one.run(0.001);
+        other.run(0.001);
+      }
+    }).join();
+    alone.run(0.05);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(one.state(i).position, alone.state(i).position) << i;
+    EXPECT_EQ(other.state(i).position, alone.state(i).position) << i;
+  }
 }
 
 // Four contacts at once.
