@@ -402,6 +402,18 @@ void ServoStepOf<axes>::soften(const Load& load, double held) noexcept {
   step_.softening = softening_.share();
 }
 
+// What has a mass and is carried moves as its owner has it.
+template <int axes>
+bool ServoStepOf<axes>::touches_others_body() const noexcept {
+  for (std::size_t probe = 0; probe < tool_.size(); ++probe) {
+    for (const std::uint32_t index : static_.walls(probe).result().touched) {
+      const PlannedObject& object = plan_->objects()[index];
+      if (object.carried && object.matter.mass > 0) return true;
+    }
+  }
+  return false;
+}
+
 template <int axes>
 void ServoStepOf<axes>::write() noexcept {
   const Eigen::Quaterniond to_device = config_.device_orientation.conjugate();
@@ -418,6 +430,7 @@ template <int axes>
 void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
+  if (touches_others_body()) tally_.bodies += step_.dt;
   const bool grabs = static_.grabs();
   if (grabs) tally_.grabbed += step_.dt;
   // Others feel the hand at the first probe.
