@@ -11,6 +11,7 @@
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/haptics/contact/load_sum.hpp"
 #include "reckon/haptics/passivity/rate_limit.hpp"
+#include "reckon/haptics/servo/between_hands.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -19,13 +20,14 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kToSpare = 1.05;     // times the energy that the whole force needs
-constexpr int kHoldSteps = 100;       // of zero force after a trip
-constexpr double kStill = 0.02;       // [m/s], a hand with a tremor is at rest too
-constexpr double kRest = 1.0;         // [s]
-constexpr double kReadFor = 0.002;    // [s]: within it an encoder step may be no motion
-constexpr double kUnit = 1e-6;        // of a quaternion's length
-constexpr double kTurnMisfit = 1e-4;  // [rad], of the filter of turns
+constexpr double kToSpare = 1.05;        // times the energy that the whole force needs
+constexpr int kHoldSteps = 100;          // of zero force after a trip
+constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at rest too
+constexpr double kRest = 1.0;            // [s]
+constexpr double kReadFor = 0.002;       // [s]: within it an encoder step may be no motion
+constexpr double kUnit = 1e-6;           // of a quaternion's length
+constexpr std::uint64_t kPartsEach = 4;  // steps, in which hands are asked for what is between them
+constexpr double kTurnMisfit = 1e-4;     // [rad], of the filter of turns
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -78,6 +80,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
 
   port_.wait(step_.dt);
   if (contacts_.update()) hands_.take(contacts_.read(), step_, count_);
+  part_hands();
   hands_.advance(step_, count_, port_);
 
   pressed_.grab(tool_, static_, buttons_, port_);
@@ -123,6 +126,17 @@ bool ServoStepOf<axes>::has_near() noexcept {
 template <int axes>
 double ServoStepOf<axes>::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - resolution_ / kReadFor);
+}
+
+// Hands that hold one thing do not feel each other through it. The other peer does the same.
+template <int axes>
+void ServoStepOf<axes>::part_hands() noexcept {
+  if (hands_.empty() || count_ % kPartsEach != 0) return;
+  const ContactResult& walls = static_.walls().result();
+  const Vector3d from = walls.in_contact ? walls.scp : step_.probe;
+  hands_.set_apart([&](const Vector3d& to, bool apart) {
+    return is_between_hands(*plan_, pressed_.bodies(), from, to, apart);
+  });
 }
 
 // Energy has been short for a second while the hand held still in touch, so that nobody will supply
