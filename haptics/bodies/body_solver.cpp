@@ -282,6 +282,9 @@ bool BodySolver::solve_exactly(BodySet some, double dt) noexcept {
 void BodySolver::strike(BodySet bodies) noexcept {
   lost = false;
   step_alone(bodies, [&] { host_.step(world_, Impacts::kInstant); });
+  if (!lost) return;
+  put_back(bodies);
+  step_alone(bodies, [&] { host_.quick_step(world_, Impacts::kInstant); });
 }
 
 void BodySolver::iterate(BodySet island, std::size_t one, double dt) noexcept {

@@ -521,7 +521,10 @@ Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double
     PlannedEffects& effects = states_[i].effects;
     EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
                        contact.depth, dt,          contact.in_contact};
-    if (objects_[i]->moves()) seen.velocity -= velocity_of(i, contact.scp);
+    if (objects_[i]->moves()) {
+      seen.velocity -= velocity_of(i, contact.scp);
+      seen.most_viscosity = objects_[i]->most_viscosity(dt);
+    }
     if (!effects.has_declared_forces()) {
       effects.for_each_always([&]<class Effect>(Effect& effect) {
         if constexpr (GivesForce<Effect>) total += effect.force(seen);

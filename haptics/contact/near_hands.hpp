@@ -28,6 +28,17 @@ class NearHands {
   /// One step: credits, predicts, and drops hands that have faded out.
   void advance(const StepContext& step, std::uint64_t count, EnergyLedger& ledger) noexcept;
 
+  /// Hands that touch or nearly do: is_cut(place, apart) says whether a solid is between ours and
+  /// that place [m]; see is_between_hands().
+  template <class IsCut>
+  void set_apart(IsCut&& is_cut) noexcept {
+    for (RemoteContact* remote : all()) {
+      if (!remote->is_hand()) continue;
+      const bool near = remote->depth() > -kNear;
+      remote->set_apart(near && is_cut(remote->predicted_place(), remote->is_apart()));
+    }
+  }
+
   /// Contacts in use.
   [[nodiscard]] std::span<RemoteContact* const> all() const noexcept {
     return {near_.data(), count_};
@@ -41,6 +52,8 @@ class NearHands {
   [[nodiscard]] bool frozen() const noexcept { return frozen_; }
 
  private:
+  static constexpr double kNear = 0.02;  // [m], in front of another hand
+
   [[nodiscard]] bool place(const RemoteHand& hand, std::size_t at, const StepContext& step,
                            std::uint64_t count) noexcept;
   void drop_faded() noexcept;

@@ -176,7 +176,7 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   reshaping_ = std::max(0.0, reshaping_ - step.dt);
   const double late = seconds_between(hand_.valid_until, predicted_at_);
   const double valid = usable_ ? std::clamp(1.0 - late / kRamp, 0.0, 1.0) : 0.0;
-  fade_ = leaving_ ? std::max(0.0, fade_ - step.dt / kRamp) : valid;
+  fade_ = leaving_ || apart_ ? std::max(0.0, fade_ - step.dt / kRamp) : valid;
   if (!usable_) return;
 
   const double moved = frozen ? 0.0 : blow_.move_on(step.dt, touching());

@@ -57,6 +57,13 @@ class RemoteContact {
     hand_.valid_until = hand.valid_until;
     if (hand.version != hand_.version) accept(hand, step);
   }
+  /// A solid has come between both hands: fades out with its record, and in again when it is gone.
+  void set_apart(bool is) noexcept { apart_ = is; }
+  [[nodiscard]] bool is_apart() const noexcept { return apart_; }
+  /// Where the other hand is predicted to be now [m]: on the surface that holds it, not below.
+  [[nodiscard]] const Eigen::Vector3d& predicted_place() const noexcept { return pose_.position; }
+  /// From the hand to the surface that is predicted [m]; below 0 in front of it.
+  [[nodiscard]] double depth() const noexcept { return usable_ ? there_.depth : -kTeleport; }
   /// Marks the account as in use in this servo step.
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
 
@@ -170,6 +177,7 @@ class RemoteContact {
   bool showable_ = false;  // full_ is a surface that can be shown
   bool unsound_ = false;   // the last record is invalid: the one before it stays
   bool leaving_ = false;
+  bool apart_ = false;   // from our hand, by a solid
   bool answer_ = false;  // an account came and is not answered yet
 };
 

@@ -169,8 +169,11 @@ double GuardedEffect::stiffness() const noexcept {
 Vector3d GuardedEffect::force(const EffectContact& contact) noexcept {
   if (guard_.is_off()) return Vector3d::Zero();
   Vector3d total = Vector3d::Zero();
+  // One that holds back by speed says by how much.
+  const double most = contact.most_viscosity;
+  const double share = contact.in_contact && damping_ > most ? most / damping_ : 1.0;
   guard_.timed([&] {
-    total += guard_.bounded(state_->force(contact));
+    total += share * guard_.bounded(state_->force(contact));
     if (held_ && contact.in_contact)
       total += guard_.bounded(state_->spring_force(contact.scp, contact.device));
   });

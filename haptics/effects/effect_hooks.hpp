@@ -58,6 +58,9 @@ struct EffectContact {
   bool in_contact = false;
   /// Set while in contact, for objects that declare effects; null for those that are always there.
   const ContactedObject* object = nullptr;
+  /// Of a force against slip() [N s/m]: beyond it a light body would turn around within dt, and the
+  /// force with it, in each step. Infinite for what stands still.
+  double most_viscosity = std::numeric_limits<double>::infinity();
 
   /// Of the springs, out of the solid [N] >= 0.
   [[nodiscard]] double normal_force() const noexcept { return std::max(spring.dot(normal), 0.0); }

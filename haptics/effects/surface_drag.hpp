@@ -5,7 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
@@ -18,7 +20,9 @@ struct Film {
   double viscosity = 2.0;  ///< [N s/m]
 };
 
-/// F = -viscosity times the velocity along the surface, while in contact, whatever the pressure.
+/// F = -viscosity times the velocity along the surface, while in contact, whatever the pressure. Of
+/// a body viscosity is at most 0.3 m_eff / T, m_eff what it resists with (least_mass.hpp), and it
+/// begins within 5 ms of the touch: a light body takes the hand's speed within a few periods.
 class SurfaceDrag : public CountedEffect<SurfaceDrag> {
  public:
   using Parameters = Film;
@@ -36,9 +40,12 @@ class SurfaceDrag : public CountedEffect<SurfaceDrag> {
   explicit SurfaceDrag(const Film& film) : film_(film) { check_parameters(kParameters, film); }
 
   /// Hook: the drag [N].
-  [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) const noexcept {
+  [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
-    return -film_.viscosity * contact.slip();
+    if (!std::isfinite(contact.most_viscosity)) return -film_.viscosity * contact.slip();
+    if (contact.object->began) begun_ = 0.0;
+    begun_ = std::min(1.0, begun_ + contact.dt / kBegin);
+    return -begun_ * std::min(film_.viscosity, contact.most_viscosity) * contact.slip();
   }
 
   /// Hook: its coefficient [N s/m].
@@ -47,7 +54,10 @@ class SurfaceDrag : public CountedEffect<SurfaceDrag> {
   [[nodiscard]] const Film& parameters() const noexcept { return film_; }
 
  private:
+  static constexpr double kBegin = 0.005;  // [s]
+
   Film film_;
+  double begun_ = 0.0;  // share of it, of a body
 };
 
 }  // namespace reckon::haptics

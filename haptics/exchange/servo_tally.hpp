@@ -39,6 +39,7 @@ struct Shortfall {
 struct ServoTally {
   double hands = 0.0;    ///< [s] in contact with remote hands and bodies
   double scene = 0.0;    ///< [s] in contact with the static scene
+  double bodies = 0.0;   ///< [s] in contact with bodies that other peers move
   double grabbed = 0.0;  ///< [s] in which it held a body
   Shortfall held_back;   ///< springs of hands, for lack of energy
   Shortfall crowd;       ///< springs of hands that are together stiffer than the device can show

@@ -12,6 +12,7 @@
 #include "reckon/haptics/geometry/implicit_solid.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/haptics/scene/least_mass.hpp"
 
 namespace reckon::haptics {
 
@@ -169,6 +170,15 @@ Eigen::Quaterniond checked_orientation(const ObjectPose& pose) {
   return q.normalized();
 }
 
+// By speed; the damper of the surface itself never pulls, and needs no bound.
+bool holds_back(const PlannedEffects& effects) {
+  bool does = false;
+  effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (GivesForce<Effect> && !AlwaysThere<Effect>) does |= effect.damping() > 0.0;
+  });
+  return does;
+}
+
 PlannedObject plan_object(const SceneObject& object) {
   const Eigen::Quaterniond orientation = checked_orientation(object.pose);
   PlannedObject planned{object.name,
@@ -192,6 +202,8 @@ PlannedObject plan_object(const SceneObject& object) {
     throw std::invalid_argument("only a mesh or a picture has patches; take them out");
   }
   planned.bounds = place_bounds(planned);
+  if (planned.matter.mass > 0 && holds_back(planned.effects))
+    planned.least_mass = least_mass_of(planned);
   return planned;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -37,6 +38,9 @@ struct ObjectMotion {
 
 /// One object for the servo.
 struct PlannedObject {
+  /// Of the mass over the period: three hands that hold back one body at once do not turn it.
+  static constexpr double kViscousShare = 0.3;
+
   std::string name;
   ContactShape shape;  ///< its own axes; meshes are shared between copies of a plan
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< shape -> S
@@ -52,6 +56,8 @@ struct PlannedObject {
   Matter matter;
   GrabSpring grab;       ///< of a body: it sticks to the hand that touches it
   bool carried = false;  ///< by an ObjectMover
+  /// Of a body whose effects hold back by its speed: what least_mass_of() says [kg].
+  double least_mass = std::numeric_limits<double>::infinity();
 
   /// Its pose here is the one that it has at the start.
   [[nodiscard]] bool moves() const noexcept { return is_body() || carried; }
@@ -64,6 +70,11 @@ struct PlannedObject {
   /// Damping of the device that its effects reserve, besides the need of the springs [N s/m]; the
   /// greatest of any patch.
   [[nodiscard]] double damping() const noexcept;
+  /// Greatest coefficient of an effect that holds back by the speed of the object, for a period
+  /// [s], so that the object does not turn around within it [N s/m].
+  [[nodiscard]] double most_viscosity(double period) const noexcept {
+    return kViscousShare * least_mass / period;
+  }
   [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
     return orientation.transpose() * (p_S - position);
   }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,10 @@ class PressedBodiesOf {
   /// that the contacts show, and so do the bodies. Where energy is short for a change within the
   /// period the hand does without it, the bodies do not: their springs are conservative.
   void hold(const StaticContactOf<axes>& contacts, double springs, double effects) noexcept;
+  /// Where they are; none without a world.
+  [[nodiscard]] std::span<const BodyState> bodies() const noexcept {
+    return world_ ? world_->states() : std::span<const BodyState>();
+  }
   /// [J], since the start, less what they gave back.
   [[nodiscard]] double work() const noexcept { return work_; }
 

@@ -11,6 +11,7 @@
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/haptics/contact/load_sum.hpp"
 #include "reckon/haptics/passivity/rate_limit.hpp"
+#include "reckon/haptics/servo/between_hands.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -19,13 +20,14 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kToSpare = 1.05;     // times the energy that the whole force needs
-constexpr int kHoldSteps = 100;       // of zero force after a trip
-constexpr double kStill = 0.02;       // [m/s], a hand with a tremor is at rest too
-constexpr double kRest = 1.0;         // [s]
-constexpr double kReadFor = 0.002;    // [s]: within it an encoder step may be no motion
-constexpr double kUnit = 1e-6;        // of a quaternion's length
-constexpr double kTurnMisfit = 1e-4;  // [rad], of the filter of turns
+constexpr double kToSpare = 1.05;        // times the energy that the whole force needs
+constexpr int kHoldSteps = 100;          // of zero force after a trip
+constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at rest too
+constexpr double kRest = 1.0;            // [s]
+constexpr double kReadFor = 0.002;       // [s]: within it an encoder step may be no motion
+constexpr double kUnit = 1e-6;           // of a quaternion's length
+constexpr std::uint64_t kPartsEach = 4;  // steps, in which hands are asked for what is between them
+constexpr double kTurnMisfit = 1e-4;     // [rad], of the filter of turns
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -79,6 +81,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
 
   port_.wait(step_.dt);
   if (contacts_.update()) hands_.take(contacts_.read(), step_, count_);
+  part_hands();
   hands_.advance(step_, count_, port_);
 
   pressed_.grab(tool_, static_, buttons_, port_);
@@ -124,6 +127,17 @@ bool ServoStepOf<axes>::has_near() noexcept {
 template <int axes>
 double ServoStepOf<axes>::sure_speed() const noexcept {
   return std::max(0.0, step_.velocity.norm() - resolution_ / kReadFor);
+}
+
+// Hands that hold one thing do not feel each other through it. The other peer does the same.
+template <int axes>
+void ServoStepOf<axes>::part_hands() noexcept {
+  if (hands_.empty() || count_ % kPartsEach != 0) return;
+  const ContactResult& walls = static_.walls().result();
+  const Vector3d from = walls.in_contact ? walls.scp : step_.probe;
+  hands_.set_apart([&](const Vector3d& to, bool apart) {
+    return is_between_hands(*plan_, pressed_.bodies(), from, to, apart);
+  });
 }
 
 // Energy has been short for a second while the hand held still in touch, so that nobody will supply
@@ -403,6 +417,18 @@ void ServoStepOf<axes>::soften(const Load& load, double held) noexcept {
   step_.softening = softening_.share();
 }
 
+// What has a mass and is carried moves as its owner has it.
+template <int axes>
+bool ServoStepOf<axes>::touches_others_body() const noexcept {
+  for (std::size_t probe = 0; probe < tool_.size(); ++probe) {
+    for (const std::uint32_t index : static_.walls(probe).result().touched) {
+      const PlannedObject& object = plan_->objects()[index];
+      if (object.carried && object.matter.mass > 0) return true;
+    }
+  }
+  return false;
+}
+
 template <int axes>
 void ServoStepOf<axes>::write() noexcept {
   const Eigen::Quaterniond to_device = config_.device_orientation.conjugate();
@@ -420,6 +446,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
   tally_.passed = static_.passed();
+  if (touches_others_body()) tally_.bodies += step_.dt;
   const bool grabs = static_.grabs();
   if (grabs) tally_.grabbed += step_.dt;
   // Others feel the hand at the first probe.

@@ -40,6 +40,8 @@ class ServoStepOf final : public ServoCore {
 
   void reduce(double scale) noexcept;
   [[nodiscard]] std::size_t exchange(const Load& load) noexcept;  // number of contacts engaged
+  void part_hands() noexcept;
+  [[nodiscard]] bool touches_others_body() const noexcept;
   [[nodiscard]] bool at_rest() noexcept;
   [[nodiscard]] double sure_speed() const noexcept;  // [m/s], lower bound
   void note_limit(const Force& force, double scale) noexcept;

@@ -97,7 +97,7 @@ void print_shortfall(std::FILE* out, const Kind& kind, const Hands& hands) {
 void print_touching(std::FILE* out, const Hands& hands) {
   Hands apart;
   for (const HandView* hand : hands) {
-    if (!(hand->servo.tally.hands > 0)) apart.push_back(hand);
+    if (!(hand->servo.tally.hands > 0) && !(hand->servo.tally.bodies > 0)) apart.push_back(hand);
   }
   if (apart.empty()) return;
   const bool all = apart.size() == hands.size();
@@ -186,6 +186,7 @@ void append_hand(std::string& out, const HandView* hand) {
       .value("hand_asked_n_m", number(device.hand_asked))
       .value("hand_straight_from_m", number(device.straight_from()))
       .value("touching_hands_s", number(tally.hands))
+      .value("touching_bodies_s", number(tally.bodies))
       .value("touching_scene_s", number(tally.scene))
       .value("holding_body_s", number(tally.grabbed));
   append_shortfall(object.member("held_back"), tally.held_back);

@@ -13,6 +13,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/contact/region_share.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/world/shared_bodies.hpp"
 #include "reckon/tools/exercise/felt_device.hpp"
@@ -48,18 +49,36 @@ struct Group {
   double most_asked = 0.0;
 };
 
+// Of its effects that hold back by speed, but for the damper of its surface [N s/m].
+double greatest_drag(const haptics::PlannedObject& object) {
+  double most = 0.0;
+  object.effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (haptics::GivesForce<Effect> && !haptics::AlwaysThere<Effect>)
+      most = std::max(most, effect.damping());
+  });
+  return most;
+}
+
 std::string kind_of(const Softened& row) { return row.what.substr(0, row.what.find(' ')); }
 
 std::string sentence(const Group& group, std::size_t devices) {
   const std::string by = group.devices.size() == devices
                              ? (devices == 1 ? "its device" : "every device")
                              : names(group.devices);
-  if (group.first.damps) {
+  if (group.first.damps && !group.first.is_light) {
     return fmt::format(
         "{} ask for {}{:.6g} N s/m: {:.6g} N s/m are kept for them by {}, and what is beyond is "
         "felt as far as the hand's motion has paid for it; more damping in [[device]] keeps more",
         names(group.things), group.things.size() == 1 ? "" : "up to ", group.most_asked,
         group.first.shown, by);
+  }
+  if (group.first.is_light) {
+    return fmt::format(
+        "{} {} for {}{:.6g} N s/m and {} felt with {:.6g} N s/m by {}: more would turn so light a "
+        "body around within a period; more mass or a higher rate shows more",
+        names(group.things), group.things.size() == 1 ? "asks" : "ask",
+        group.things.size() == 1 ? "" : "up to ", group.most_asked,
+        group.things.size() == 1 ? "is" : "are", group.first.shown, by);
   }
   const bool beside = group.first.shown < group.first.alone;
   const std::string remedy = fmt::format(
@@ -100,8 +119,8 @@ std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics:
       if (!device.marking.empty()) name += " " + device.marking;
       const peer::DeviceStiffness stiffness = peer::stiffness_of(servo, scene.hand);
       const double own = hand.get().limits().max_stiffness;
-      devices.push_back(
-          {number, std::move(name), stiffness, own > 0 && stiffness.walls >= kAlmost * own});
+      devices.push_back({number, std::move(name), stiffness, pdu::to_seconds(config.period),
+                         own > 0 && stiffness.walls >= kAlmost * own});
     }
   }
   return devices;
@@ -124,6 +143,12 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
       if (object.damping() > kept)
         rows.push_back({device.peer, device.name, "dampers of " + object.name, kept,
                         object.damping(), 0.0, 0.0, true});
+    }
+    for (const haptics::PlannedObject& object : plan.objects()) {
+      const double most = object.most_viscosity(device.period), asked = greatest_drag(object);
+      if (asked > most)
+        rows.push_back({device.peer, device.name, "drag of " + object.name, most, asked, 0.0, 0.0,
+                        true, false, true});
     }
     for (const haptics::PlannedRegion& region : plan.regions())
       note("region " + region.name, region.stiffness(), haptics::kRegionsOverWalls * can.walls,

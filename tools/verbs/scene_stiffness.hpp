@@ -18,6 +18,7 @@ struct SceneDevice {
   std::uint32_t peer = 1;
   std::string name;  ///< "device 1 LEFT"
   peer::DeviceStiffness stiffness;
+  double period = 0.001;   ///< [s], of its servo
   bool has_limit = false;  ///< its own max_stiffness is what it shows of walls
 };
 
@@ -38,6 +39,8 @@ struct Softened {
   /// Whether it is of dampers: `asked` and what is kept for it of the device's damping [N s/m].
   bool damps = false;
   bool has_limit = false;  ///< as SceneDevice::has_limit
+  /// Whether it is of a body that is light for the effect's coefficient [N s/m].
+  bool is_light = false;
   [[nodiscard]] bool is_hardening() const noexcept { return asked == 0.0; }
 };
 

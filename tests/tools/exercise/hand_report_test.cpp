@@ -69,6 +69,19 @@ TEST_F(HandReport, SaysWhichHandsTouchedNobody) {
   EXPECT_THAT(text(), HasSubstr("no hand touched another"));
 }
 
+TEST_F(HandReport, CountsBodiesOfOthersAsTouched) {
+  for (peer::HandView& hand : views_) hand.servo.tally.hands = 0;
+  views_[1].servo.tally.bodies = 2.5;
+  EXPECT_THAT(text(),
+              AllOf(HasSubstr("touched nobody             1:1:1, 1:3:1, 1:4:1, 1:5:1 and 3"),
+                    Not(HasSubstr("no hand"))));
+  const auto json = nlohmann::json::parse(hands_json(hands_));
+  EXPECT_EQ(json[1]["touching_bodies_s"], 2.5);
+  EXPECT_EQ(json[0]["touching_bodies_s"], 0);
+  for (peer::HandView& hand : views_) hand.servo.tally.bodies = 2.5;
+  EXPECT_EQ(text(), "");
+}
+
 TEST_F(HandReport, SaysWhatIsSofterThanAskedOnceForAllThatShareIt) {
   for (peer::HandView& hand : views_) {
     hand.stiffness.walls_asked = 20000;

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How little of a body resists at its surface, against closed forms.
+#include "reckon/haptics/scene/least_mass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+PlannedObject body_of(const Shape& shape, double mass, double viscosity = 8.0) {
+  Scene scene;
+  SceneObject& object = scene.objects.emplace_back();
+  object.name = "thing";
+  object.shape = shape;
+  object.matter.mass = mass;
+  if (viscosity > 0) object.effects.of<SurfaceDrag>() = {viscosity};
+  return EffectPlan(scene).objects().front();
+}
+
+TEST(LeastMass, OfBallAndCubeIsThatOfTheirSurfaces) {
+  EXPECT_NEAR(body_of(SphereShape{0.02}, 0.7).least_mass, 0.2, 1e-12);
+  // r^2 / I = (3/4) / (1/6) at a corner.
+  EXPECT_NEAR(body_of(BoxShape{Vector3d::Constant(0.04)}, 1.1).least_mass, 0.2, 1e-12);
+}
+
+// Of a rod 1 + 3 + 3: it turns about its middle and about itself. Of a cylinder, at its rim
+// 1 + (h/2)^2 / (r^2/4 + h^2/12) + r^2 / (r^2/2).
+TEST(LeastMass, OfRodAndCylinderIsThatOfTheirEnds) {
+  EXPECT_NEAR(body_of(BoxShape{Vector3d(1.0, 1e-4, 1e-4)}, 1.0).least_mass, 1.0 / 7, 1e-6);
+  EXPECT_NEAR(body_of(CylinderShape{0.02, 0.1}, 1.0).least_mass, 1.0 / 5.68, 0.005);
+}
+
+TEST(LeastMass, BoundsWhatHoldsBackBySpeedAlone) {
+  const PlannedObject light = body_of(SphereShape{0.02}, 0.007);
+  EXPECT_NEAR(light.most_viscosity(1e-3), 0.6, 1e-12);
+  EXPECT_NEAR(light.most_viscosity(2.5e-4), 2.4, 1e-12);
+  EXPECT_TRUE(std::isinf(body_of(SphereShape{0.02}, 0.007, 0.0).least_mass));
+  EXPECT_TRUE(std::isinf(body_of(SphereShape{0.02}, 0.0).least_mass));
+}
+
+}  // namespace
+}  // namespace reckon::haptics
