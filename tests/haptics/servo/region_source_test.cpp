@@ -232,20 +232,21 @@ class Thief {
     return held.force + port_.shake(load, kPeriod);
   }
   void move(const Vector3d& force, const Vector3d& dx) {
-    held_.write(force);
-    books_ += -held_.at_handle().dot(dx) + dx.squaredNorm() / kPeriod;
-    place_ += dx;
-    velocity_ = dx / kPeriod;
-    port_.settle(dx, kPeriod);
+    hold_for_a_sample(force, dx);
+    port_.settle(unread_, kPeriod);
     tool_.move({place_});
     contact_.settle(tool_, kPeriod, port_);
-    port_.wait(kPeriod);
-    time_ += kPeriod;
-    loot_.least = std::min(loot_.least, books_);
-    const double owed = port_.region_loan().owed(), spent = port_.oscillations().spent();
-    loot_.beyond = std::min(loot_.beyond, books_ + owed + spent);
-    loot_.spent = std::max(loot_.spent, spent - kAtOnce - kPower * time_);
-    loot_.owed = std::max(loot_.owed, owed);
+    unread_.setZero();
+    note();
+  }
+  /// The reading after the motion fails, and the next force is cut.
+  void move_unread(const Vector3d& force, const Vector3d& dx) {
+    hold_for_a_sample(force, dx);
+    port_.miss(kPeriod);
+    note();
+    static_cast<void>(hold());
+    cut();
+    port_.attenuate(0.0);
   }
   void cut() { contact_.attenuate(0.0, port_); }
 
@@ -254,6 +255,24 @@ class Thief {
   [[nodiscard]] const Loot& loot() const { return loot_; }
 
  private:
+  void hold_for_a_sample(const Vector3d& force, const Vector3d& dx) {
+    held_.write(force);
+    books_ += -held_.at_handle().dot(dx) + dx.squaredNorm() / kPeriod;
+    place_ += dx;
+    unread_ += dx;
+    velocity_ = dx / kPeriod;
+  }
+  void note() {
+    port_.wait(kPeriod);
+    time_ += kPeriod;
+    loot_.least = std::min(loot_.least, books_);
+    const double owed = port_.region_loan().owed(), spent = port_.oscillations().spent();
+    // A sample that was not read is booked with the next one.
+    if (unread_.isZero(0.0)) loot_.beyond = std::min(loot_.beyond, books_ + owed + spent);
+    loot_.spent = std::max(loot_.spent, spent - kAtOnce - kPower * time_);
+    loot_.owed = std::max(loot_.owed, owed);
+  }
+
   static constexpr double kCap = 0.75 * 0.95 * 2.0 / kPeriod;
 
   EffectPlan plan_;
@@ -262,6 +281,7 @@ class Thief {
   PointTool tool_;
   HeldForces held_;
   Vector3d place_ = Vector3d::Zero(), velocity_ = Vector3d::Zero();
+  Vector3d unread_ = Vector3d::Zero();
   double books_ = 0.0, time_ = 0.0;
   Loot loot_;
 };
@@ -340,7 +360,12 @@ Loot played(const Genes& g, std::uint32_t seed) {
     if (falls < -0.3 * (1.0 - g[14])) falls = 0.1 * any(random);
     falls -= kPeriod;
     if (way.norm() > 0.003) way *= 0.003 / way.norm();
-    thief.move(force, way);
+    if (any(random) < 0.002 * g[3]) {
+      thief.move_unread(force, way);
+      thief.move(Vector3d::Zero(), Vector3d::Zero());
+    } else {
+      thief.move(force, way);
+    }
   }
   return thief.loot();
 }
