@@ -206,8 +206,7 @@ PortHoldOf<axes> EnergyPortOf<axes>::hold(const Load& load, double dt) noexcept 
   const double thrown_away = std::max(0.0, level_ - booked_ - std::max(kept, reserved));
   level_ -= thrown_away;
   // What the hand put in repays what regions owe.
-  if (region_loan().owed() > 0)
-    region_loan().repay(std::max(0.0, thrown_away - unearned_));
+  if (region_loan().owed() > 0) region_loan().repay(std::max(0.0, thrown_away - unearned_));
   unearned_ = std::max(0.0, unearned_ - thrown_away);
   chosen_ = out.force = out.walls * load.walls + shown;
   return out;

@@ -419,7 +419,8 @@ Section<DeviceConfig> device_section() {
        "most that springs, magnets, borders and constant forces of regions may lend its hand, all "
        "together and until it is back; 0: the hand's motion has to pay for them"},
       {"oscillation_power", &Device::oscillation_power, within("W", 0, 10),
-       "most that oscillations of regions put into its hand, on average; beyond it they are weaker"},
+       "most that oscillations of regions put into its hand, on average; beyond it they are "
+       "weaker"},
       {"oscillation_energy", &Device::oscillation_energy, within("J", 0, 1),
        "most that they put in at once, beyond that power"},
       {"resolution", &Device::resolution, within("m", 0, 1e-3),

@@ -42,7 +42,8 @@ struct HandNumber {
 constexpr std::array<HandNumber, 7> kHandNumbers{{
     {"port_energy_joules", "energy that the hand's port holds",
      &haptics::ServoSnapshot::port_energy},
-    {"port_energy_min_joules", "the least that the port held so far, with its loan and what regions put in",
+    {"port_energy_min_joules",
+     "the least that the port held so far, with its loan and what regions put in",
      &haptics::ServoSnapshot::port_energy_min},
     {"port_loan_joules", "energy lent to hands that met inside one another",
      &haptics::ServoSnapshot::loan},
