@@ -41,6 +41,9 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   config.thermal_time = device.thermal_time;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   if (device.received_power > 0) config.max_received_power = device.received_power;
+  if (device.region_loan >= 0) config.region_loan = device.region_loan;
+  if (device.oscillation_power >= 0) config.oscillation_power = device.oscillation_power;
+  if (device.oscillation_energy >= 0) config.oscillation_energy = device.oscillation_energy;
   config.probes = device.probes;
   config.transfer = options.transfer;
   return config;

@@ -38,6 +38,7 @@ class LoadSum<6> {
     load_.walls += tool.at_port(probe, one_.walls);
     load_.springs += tool.at_port(probe, one_.springs);
     load_.extra += tool.at_port(probe, one_.extra);
+    if (!one_.shake.isZero(0.0)) load_.shake += tool.at_port(probe, one_.shake);
     load_.walls_stored += one_.walls_stored;
     load_.stored += one_.stored;
     walls_.add(tool.lever(probe), one_.walls_slope, one_.walls);

@@ -13,13 +13,56 @@ using Eigen::Vector3d;
 constexpr double kRiseSeconds = 0.1;
 // Left to walls, remote hands and held forces while a potential rises [J].
 constexpr double kLeft = 0.01;
+constexpr double kFar = 1e6;       // [m]
+constexpr double kNoJump = 1e-12;  // [J], rounding
+
+double free_energy(const EnergyLedger& ledger) { return std::max(0.0, ledger.level() - kLeft); }
+
+// Where a device may be, in a region's axes.
+RegionReach reach_of(const PlannedRegion& region, const Eigen::AlignedBox3d& space,
+                     const Eigen::Isometry3d& to_scene) {
+  RegionReach out;
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner = space.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    const Vector3d place = region.orientation.transpose() * (to_scene * corner - region.position);
+    box.extend(place);
+    out.beyond = std::max(out.beyond, region.beyond(place).norm());
+  }
+  out.least = box.min();
+  out.most = box.max();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d far = kFar * Vector3d::Unit(axis);
+    out.least[axis] = std::max(out.least[axis], (-far - region.beyond(-far))[axis]);
+    out.most[axis] = std::min(out.most[axis], (far - region.beyond(far))[axis]);
+    if (out.most[axis] < out.least[axis]) out.least[axis] = out.most[axis] = 0.0;
+  }
+  return out;
+}
 
 }  // namespace
 
 RegionForces::RegionForces(const EffectPlan& plan, double stiffness_cap)
     : plan_(plan), cap_(stiffness_cap) {
   states_.reserve(plan.regions().size());
-  for (const PlannedRegion& region : plan.regions()) states_.push_back({region.effects, {}});
+  for (const PlannedRegion& region : plan.regions()) {
+    states_.push_back({region.effects, {}});
+    region.effects.for_each([&]<class Effect>(const Effect&) {
+      if constexpr (LendsRegionEnergy<Effect>) has_sources_ = true;
+    });
+  }
+}
+
+double RegionForces::range(const Eigen::AlignedBox3d& space,
+                           const Eigen::Isometry3d& to_scene) const noexcept {
+  double sum = 0.0;
+  for (const PlannedRegion& region : plan_.regions()) {
+    const RegionReach reach = reach_of(region, space, to_scene);
+    region.effects.for_each([&]<class Effect>(const Effect& effect) {
+      if constexpr (LendsRegionEnergy<Effect>) sum += effect.range(reach);
+    });
+  }
+  return sum;
 }
 
 void RegionForces::reset(const Vector3d& device) noexcept {
@@ -41,21 +84,53 @@ void RegionForces::enter(std::size_t index, const Vector3d& device) noexcept {
   state.point.beyond = region.beyond(state.point.place);
   state.point.inside = state.point.beyond.isZero(0.0);
   state.point.entered = state.point.inside && !was_inside;
-  state.sum = {};
+  state.sum = state.source = {};
+  const auto add = [](RegionPotential& sum, const RegionPotential& one) {
+    sum.energy += one.energy;
+    sum.force += one.force;
+    sum.stiffness += one.stiffness;
+  };
   state.effects.for_each([&]<class Effect>(Effect& effect) {
     if constexpr (StoresRegionEnergy<Effect>) {
       const RegionPotential one = effect.potential(state.point);
-      state.sum.energy += one.energy;
-      state.sum.force += one.force;
-      state.sum.stiffness += one.stiffness;
+      add(state.sum, one);
+      if constexpr (LendsRegionEnergy<Effect>) add(state.source, one);
     }
   });
 }
 
 void RegionForces::move(const Vector3d& device, EnergyLedger& ledger) noexcept {
-  const double before = stored();
-  for (std::size_t i = 0; i < states_.size(); ++i) enter(i, device);
-  ledger.book(before - stored());
+  ledger.repay_regions();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    State& state = states_[i];
+    const RegionPotential source = state.source;
+    const Vector3d place = state.point.place;
+    const double before = state.gain * (state.sum.energy - source.energy);
+    enter(i, device);
+    ledger.book(before - state.gain * (state.sum.energy - state.source.energy));
+    if (source.energy > 0 || state.source.energy > 0)
+      move(state, source, state.point.place - place, ledger);
+  }
+}
+
+// Inside, what a potential stores changes by the work of the hand. Where it changes beyond that, as
+// at an edge, the loan for regions pays or is repaid.
+void RegionForces::move(State& state, const RegionPotential& before, const Vector3d& way,
+                        EnergyLedger& ledger) noexcept {
+  const RegionPotential& after = state.source;
+  const double stiffness = std::max(before.stiffness, after.stiffness);
+  const double by_force =
+      (before.energy > 0 && after.energy > 0 ? 0.5 : 1.0) * (before.force + after.force).dot(way);
+  const double moved = before.energy > 0 ? std::max(0.0, before.energy - by_force) : 0.0;
+  double jump = state.gain * (after.energy - moved);
+  if (std::abs(after.energy - moved) <= stiffness * way.squaredNorm() + kNoJump) jump = 0.0;
+  ledger.book(state.gain * (before.energy - after.energy));
+  if (jump > 0) {
+    ledger.book(ledger.region_loan().lend(jump));
+  } else if (jump < 0) {
+    ledger.region_loan().expect(-jump);
+    ledger.repay_regions();
+  }
 }
 
 Vector3d RegionForces::change() noexcept {
@@ -74,7 +149,8 @@ void RegionForces::settle(double dt, EnergyLedger& ledger) noexcept {
   const double most = most_gain();
   share_ = 1.0;
   for (State& state : states_) {
-    if (state.gain > most) scale_gain(state, most / state.gain, ledger);
+    if (state.gain > most) lower(state, most / state.gain, ledger);
+    if (has_sources_) sink(state, dt, ledger);
     if (!raise_gain(state, most, dt, ledger)) share_ = std::min(share_, state.gain / most);
   }
   sum_up();
@@ -93,7 +169,32 @@ void RegionForces::scale_gain(State& state, double factor, EnergyLedger& ledger)
   state.gain *= factor;
 }
 
-// A potential of no energy has no force, so that its gain is free. @return whether nothing is short
+void RegionForces::sink(State& state, double dt, EnergyLedger& ledger) noexcept {
+  state.point.dt = dt;
+  state.effects.for_each([&]<class Effect>(Effect& effect) {
+    if constexpr (SinksInRegion<Effect>) {
+      if (!(state.gain > 0)) return;
+      const double there = ledger.region_loan().room() + free_energy(ledger);
+      const RegionPotential rise = effect.sink(state.point, there / state.gain);
+      if (!(rise.energy > 0)) return;
+      const double cost = state.gain * rise.energy;
+      ledger.book(ledger.region_loan().lend(cost) - cost);
+      state.sum.energy += rise.energy;
+      state.sum.force += rise.force;
+      state.source.energy += rise.energy;
+      state.source.force += rise.force;
+    }
+  });
+}
+
+// What the region brought is to be given back.
+void RegionForces::lower(State& state, double factor, EnergyLedger& ledger) noexcept {
+  ledger.region_loan().expect(state.gain * (1.0 - factor) * state.source.energy);
+  scale_gain(state, factor, ledger);
+}
+
+// A potential of no energy has no force, so that its gain is free. The loan for regions pays for
+// what is theirs, the ledger for the rest. @return whether nothing is short
 bool RegionForces::raise_gain(State& state, double most, double dt, EnergyLedger& ledger) noexcept {
   const double full = state.sum.energy;
   if (!(full > 0)) {
@@ -101,8 +202,12 @@ bool RegionForces::raise_gain(State& state, double most, double dt, EnergyLedger
     return true;
   }
   const double wanted = std::clamp(most - state.gain, 0.0, dt / kRiseSeconds);
-  const double rise = std::clamp((ledger.level() - kLeft) / full, 0.0, wanted);
-  ledger.book(-rise * full);
+  const double there = free_energy(ledger), lendable = ledger.region_loan().room();
+  const double source = std::min(full, state.source.energy), own = full - source;
+  const double by_loan =
+      std::min({wanted, source > 0 ? lendable / source : 0.0, own > 0 ? there / own : wanted});
+  const double rise = by_loan + std::clamp((there - by_loan * own) / full, 0.0, wanted - by_loan);
+  ledger.book(ledger.region_loan().lend(by_loan * source) - rise * full);
   state.gain += rise;
   return !(rise < wanted);
 }
@@ -127,6 +232,7 @@ void RegionForces::sum_up() noexcept {
 
 void RegionForces::load(const Vector3d& velocity, double dt, PortLoad& load) noexcept {
   held_.setZero();
+  shake_.setZero();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const Eigen::Matrix3d& axes = plan_.regions()[i].orientation;
     State& state = states_[i];
@@ -139,15 +245,21 @@ void RegionForces::load(const Vector3d& velocity, double dt, PortLoad& load) noe
       if constexpr (GivesRegionForce<Effect>) held += effect.force(state.point);
     });
     if (held.allFinite()) held_ += axes * held;
+    Vector3d shake = Vector3d::Zero();
+    state.effects.for_each([&]<class Effect>(Effect& effect) {
+      if constexpr (ShakesRegion<Effect>) shake += effect.shake(state.point);
+    });
+    if (!shake.isZero(0.0)) shake_ += axes * shake;
   }
   load.walls += force_;
   load.extra += held_;
+  load.shake += shake_;
   shown_ = force_;
 }
 
 void RegionForces::attenuate(double factor, EnergyLedger& ledger) noexcept {
   const double keep = std::clamp(factor, 0.0, 1.0);
-  for (State& state : states_) scale_gain(state, keep, ledger);
+  for (State& state : states_) lower(state, keep, ledger);
   force_ *= keep;
   shown_ *= keep;
 }

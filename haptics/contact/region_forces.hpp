@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a device feels of the regions of a scene: their potentials are booked whole, as those of
-// walls are, and their other forces are held as far as the ledger covers them.
+// What a device feels of the regions of a scene. Their potentials are booked whole, as those of
+// walls are; where one begins at more than 0, the port's loan for regions pays for it. Their other
+// forces are held as far as the ledger covers them, and oscillations by their own bucket.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "reckon/haptics/passivity/energy_port.hpp"
@@ -12,9 +14,9 @@
 
 namespace reckon::haptics {
 
-/// All regions of a plan. Each region's potential is shown with a gain. It falls to what the ledger
-/// covers where the potential would take more, as when the hand enters a region that draws it in,
-/// and rises in 100 ms as the ledger pays. Order of calls within a step: move, settle, load,
+/// All regions of a plan. Each region's potential is shown with a gain. It falls to what the loan
+/// and the ledger cover where the potential would take more, as when the hand enters a region that
+/// draws it in, and rises in 100 ms as they pay. Order of calls within a step: move, settle, load,
 /// attenuate. One thread; allocates only at construction.
 class RegionForces {
  public:
@@ -23,6 +25,11 @@ class RegionForces {
 
   /// From the next settle() on the cap is this [N/m].
   void limit(double stiffness) noexcept { cap_ = stiffness; }
+
+  /// The most that the potentials that a region brings can store within the work space of a device
+  /// [J]. @param space [m], in the device's axes  @param to_scene from these to S
+  [[nodiscard]] double range(const Eigen::AlignedBox3d& space,
+                             const Eigen::Isometry3d& to_scene) const noexcept;
 
   /// Whether the plan has none: nothing need be called then.
   [[nodiscard]] bool empty() const noexcept { return states_.empty(); }
@@ -40,7 +47,10 @@ class RegionForces {
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
   /// Takes the held share of the other forces, [0, 1].
   void shown(double extra) noexcept { shown_ = force_ + extra * held_; }
-  /// Scales the potentials, and the force, by `factor` in [0, 1].
+  /// Takes the share of the oscillations that is held besides, [0, 1].
+  void shook(double share) noexcept { shown_ += share * shake_; }
+  /// Scales the potentials, and the force, by `factor` in [0, 1]. What that releases repays the
+  /// loan for regions, and the rest goes to the ledger.
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
 
   /// The whole force that is shown [N, S], after shown().
@@ -55,22 +65,29 @@ class RegionForces {
   struct State {
     PlannedRegionEffects effects;
     RegionPoint point;
-    RegionPotential sum{};  // of its potentials, in the region's axes
+    RegionPotential sum{};     // of its potentials, in the region's axes
+    RegionPotential source{};  // of that, what the region brings
     double gain = 0.0;
   };
 
   void enter(std::size_t index, const Eigen::Vector3d& device) noexcept;
+  void move(State& state, const RegionPotential& before, const Eigen::Vector3d& way,
+            EnergyLedger& ledger) noexcept;
+  void sink(State& state, double dt, EnergyLedger& ledger) noexcept;
   void sum_up() noexcept;
   [[nodiscard]] double most_gain() const noexcept;
+  static void lower(State& state, double factor, EnergyLedger& ledger) noexcept;
   static void scale_gain(State& state, double factor, EnergyLedger& ledger) noexcept;
   static bool raise_gain(State& state, double most, double dt, EnergyLedger& ledger) noexcept;
 
   const EffectPlan& plan_;
   std::vector<State> states_;
+  bool has_sources_ = false;
   double cap_;
   bool begins_ = true;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  // [N], of the potentials
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   // [N], wanted by the others
+  Eigen::Vector3d shake_ = Eigen::Vector3d::Zero();  // [N], wanted oscillations
   Eigen::Vector3d shown_ = Eigen::Vector3d::Zero();  // [N]
   double share_ = 1.0, asked_ = 0.0;
 };

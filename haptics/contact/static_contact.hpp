@@ -76,6 +76,8 @@ class StaticContactOf {
   void shown(double extra) noexcept;
   /// Scales forces and storage by `factor` in [0, 1].
   void attenuate(double factor, EnergyLedger& ledger) noexcept;
+  /// Takes the share of the regions' oscillations that is held besides, [0, 1].
+  void shook(double share) noexcept { regions_.shook(share); }
 
   /// Of the probe that is deepest in an object; of the first if none is in any.
   [[nodiscard]] const ContactResult& result() const noexcept { return walls(deepest()).result(); }

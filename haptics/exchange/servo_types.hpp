@@ -149,20 +149,29 @@ struct ServoSnapshot : AccountList {
   std::size_t left_out = 0;  ///< nearby hands that are not felt, because there are too many
   /// [J], absorbed from the hand + sure damping + received - given, to and from hands and bodies.
   double port_energy = 0.0;
-  /// [J], least value of port_energy + loan so far; >= -1e-9 - late_cost on a device that keeps its
-  /// limits.
+  /// [J], least value of port_energy + loan + source_energy() so far; >= -1e-9 - late_cost on a
+  /// device that keeps its limits.
   double port_energy_min = 0.0;
   double late_cost = 0.0;  ///< [J], energy that late steps took from an empty ledger, at most
   /// [J], greatest error of port_energy above the truth from encoder steps; 0 without them.
   double encoder_allowance = 0.0;
-  double loan = 0.0;         ///< [J], debt, see exchange_energy(); <= kGreatestLoan
-  double loan_most = 0.0;    ///< [J], greatest loan so far
+  double loan = 0.0;       ///< [J], debt, see exchange_energy(); <= kGreatestLoan
+  double loan_most = 0.0;  ///< [J], greatest loan so far
+  /// [J], that regions have lent to the hand and that is not back; <= ServoConfig::region_loan.
+  double region_loan = 0.0;
+  double region_loan_most = 0.0;  ///< [J], greatest so far
+  /// [J], that oscillations of regions have put in so far, less what came back; at most
+  /// ServoConfig::oscillation_energy and oscillation_power times the time.
+  double oscillation_energy = 0.0;
   double mesh_ledger = 0.0;  ///< [J]
   /// Share of the stiffness of remote hands and bodies that the device can show, limited by energy,
   /// walls and other contacts, (0, 1]. It is sent to them, so that both ends show the same.
   double softening = 1.0;
   std::uint64_t trips = 0;  ///< times that safety cut the force
   ServoTally tally;
+
+  /// Energy that regions have put in [J].
+  [[nodiscard]] double source_energy() const noexcept { return region_loan + oscillation_energy; }
 };
 
 /// Settings of a servo, fixed at construction.
@@ -198,6 +207,14 @@ struct ServoConfig {
   /// less what was given to them, are credited no faster. A person pushes another with some 0.1 W;
   /// a dishonest peer gets no more than this.
   double max_received_power = 0.2;
+  /// [J], greatest loan for the potentials of all regions: springs, magnets, borders, constant
+  /// forces. It is no more than they can store within the device's work space. 0: the hand's motion
+  /// has to pay for them.
+  double region_loan = 0.12;
+  /// What oscillations of regions may put into the hand: a power [W], and an energy that it refills
+  /// [J]. More power lets stronger ones be shown whole.
+  double oscillation_power = 0.1;
+  double oscillation_energy = 0.02;
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< gives energy on request (off: a hand cannot push another)

@@ -43,6 +43,7 @@ void EnergyLedger::wait(double dt) noexcept {
   unseen_ = std::min(kUnseen, unseen_ + kUnseenPower * dt);
   const double most = std::max(0.0, kReceivedAtOnce - waiting());
   receivable_ = std::min(most, receivable_ + received_power_ * dt);
+  oscillations_.wait(dt);
 }
 
 double EnergyLedger::give(double wanted) noexcept {

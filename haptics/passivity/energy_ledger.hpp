@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "reckon/haptics/passivity/energy_sources.hpp"
+
 namespace reckon::haptics {
 
 /// One level E for all contacts of a device, which includes the storage of the springs that others
@@ -41,7 +43,8 @@ class EnergyLedger {
   /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
   /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
   double credit(double energy, double seen) noexcept;
-  /// Books energy that went to others whatever the level is [J] >= 0; so much may be credited again.
+  /// Books energy that went to others whatever the level is [J] >= 0; so much may be credited
+  /// again.
   void give_back(double energy) noexcept;
   /// Energy that may be credited now [J], from all peers together. It grows with time, as far as
   /// there is room.
@@ -57,6 +60,15 @@ class EnergyLedger {
   /// Pays back, at most the debt, and keeps the energy that pays for the forces under way. @param
   /// energy [J] >= 0
   void pay_back(double energy) noexcept;
+
+  /// What the potentials of regions owe, beside E.
+  [[nodiscard]] RegionLoan& region_loan() noexcept { return region_loan_; }
+  [[nodiscard]] const RegionLoan& region_loan() const noexcept { return region_loan_; }
+  /// Pays what the regions' loan is due, and keeps the energy that pays for the forces under way.
+  void repay_regions() noexcept { level_ -= region_loan_.pay_due(spendable()); }
+  /// What pays for the oscillations of regions, beside E.
+  [[nodiscard]] OscillationBucket& oscillations() noexcept { return oscillations_; }
+  [[nodiscard]] const OscillationBucket& oscillations() const noexcept { return oscillations_; }
 
   /// E [J]; below 0 only after a late sample or a wall that cost more than was available.
   [[nodiscard]] double level() const noexcept { return level_; }
@@ -79,6 +91,15 @@ class EnergyLedger {
     level_ += energy;
     absorbed_ += energy;
   }
+  // The hand's account of a force that the bucket of oscillations pays for; E pays what lacks.
+  void shake(double work) noexcept {
+    absorbed_ -= work;
+    level_ -= oscillations_.spend(work);
+  }
+  // Damping lost `loss`, which was absorbed.
+  void forgo_loss(double loss) noexcept {
+    level_ -= oscillations_.take_from_loss(std::min(loss, std::max(0.0, level_)));
+  }
   void take_back(double energy) noexcept {
     const double back = std::clamp(energy, 0.0, pushed_);
     unearned_ += back;
@@ -99,6 +120,8 @@ class EnergyLedger {
   double received_power_ = std::numeric_limits<double>::infinity();
   double receivable_ = kReceivedAtOnce;
   double absorbed_ = 0.0;
+  RegionLoan region_loan_;
+  OscillationBucket oscillations_;
 };
 
 }  // namespace reckon::haptics

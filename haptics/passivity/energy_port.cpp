@@ -3,6 +3,7 @@
 #include "reckon/haptics/passivity/energy_port.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reckon::haptics {
 namespace {
@@ -15,11 +16,13 @@ constexpr int kHalvings = 20;
 template <int axes>
 void EnergyPortOf<axes>::pass() noexcept {
   if (reads_in_steps()) {
-    const Force before = held_.at_handle();
+    const Force before = at_handle();
     held_.write(chosen_);
-    allowance_ += unsure_ * (held_.at_handle() - before).norm();
+    shaken_.write(shaking_);
+    allowance_ += unsure_ * (at_handle() - before).norm();
   } else {
     held_.write(chosen_);
+    if (shakes_for_ > 0) shaken_.write(shaking_);
   }
   if (doubtful_ > 0) --doubtful_;
   commit();
@@ -31,7 +34,7 @@ template <int axes>
 void EnergyPortOf<axes>::commit() noexcept {
   if (held_.delay() == 0) return;
   const double squares = held_.under_way(Force::Zero()).squares;
-  committed_ = squares > 0 ? squares * period_ / (4.0 * damping()) : 0.0;
+  committed_ = squares > 0 ? squares * period_ / (4.0 * rest_share() * damping()) : 0.0;
 }
 
 template <int axes>
@@ -40,6 +43,9 @@ void EnergyPortOf<axes>::keep_in_mind(double dt) noexcept {
   time_ += dt;
   impulse_ += dt * force;
   squares_ += dt * force.squaredNorm();
+  if (shakes_for_ == 0) return;
+  shake_impulse_ += dt * shaken_.at_handle();
+  shake_squares_ += dt * shaken_.at_handle().squaredNorm();
 }
 
 // hold() reckoned with the damping that dx costs within its own dt.
@@ -75,6 +81,20 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took, double 
   const double sure = (doubtful_ > 0 ? std::min(0.0, work) : work) + lost;
   absorb(sure);
   take_back(sure);
+  if (shakes_for_ > 0) settle_shake(dx, held);
+  forgo_loss(lost);
+}
+
+// The bucket pays for the work of an oscillation, and E for what an unlikely motion takes beyond:
+// the damping of that motion has brought it more.
+template <int axes>
+void EnergyPortOf<axes>::settle_shake(const Force& dx, double held) noexcept {
+  const double work = shaken_.at_handle().dot(dx);
+  if (work > 0) {
+    EnergyLedger::shake(work);
+  } else if (doubtful_ == 0) {
+    EnergyLedger::shake(held * work);
+  }
 }
 
 // Lower bound of the energy for unknown motion. Forces g_j are held for t_j each, within a time t
@@ -84,16 +104,22 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took, double 
 template <int axes>
 void EnergyPortOf<axes>::settle_missed(const Force& dx, double took, double held) noexcept {
   const double spread = squares_ - impulse_.squaredNorm() / time_;
+  const double pays = rest_share() * damping();
   const double work =
-      -impulse_.dot(dx) / time_ - (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
+      -impulse_.dot(dx) / time_ - (pays > 0 ? std::max(0.0, spread) / (4.0 * pays) : 0.0);
   sure_.begin();
   const double lost = sure_.move(dx, std::max(time_, took));
-  const double in_part = damping() > 0 ? -squares_ / (4.0 * damping()) : 0.0;
+  const double in_part = pays > 0 ? -squares_ / (4.0 * pays) : 0.0;
   const double sure = held < 1.0 ? in_part : std::min(0.0, work) + lost;
   absorb(sure);
   take_back(sure);
-  time_ = squares_ = 0.0;
+  if (shake_squares_ > 0) {
+    const double way = std::max(0.0, shake_impulse_.dot(dx) / time_);
+    EnergyLedger::shake(way + shake_squares_ / (4.0 * kShakeShare * damping()));
+  }
+  time_ = squares_ = shake_squares_ = 0.0;
   impulse_.setZero();
+  shake_impulse_.setZero();
   missed_ = false;
 }
 
@@ -120,6 +146,7 @@ void EnergyPortOf<axes>::clear() noexcept {
   late_ = 0.0;
   absorb(-std::max(0.0, level_));
   level_ = booked_ = unearned_ = 0.0;
+  region_loan().forget_due();
   sure_.begin();
   let_go();
 }
@@ -127,7 +154,9 @@ void EnergyPortOf<axes>::clear() noexcept {
 template <int axes>
 void EnergyPortOf<axes>::let_go() noexcept {
   held_.drop();
+  shaken_.drop();
   chosen_.setZero();
+  shaking_.setZero();
   commit();
 }
 
@@ -139,7 +168,7 @@ SplitBoundOf<axes> EnergyPortOf<axes>::bound_of(const Load& load, double walls,
   bound.energy = std::max(0.0, level_ + (1.0 - walls) * load.walls_stored);
   bound.stored = load.stored;
   bound.springs = load.springs;
-  bound.spare = damping() / dt - 0.5 * samples_ * walls * load.walls_slope;
+  bound.spare = rest_share() * damping() / dt - 0.5 * samples_ * walls * load.walls_slope;
   bound.half_slope = 0.5 * samples_ * load.springs_slope;
   if (held_.delay() > 0) bound.under_way = held_.under_way(walls * load.walls);
   return bound;
@@ -149,6 +178,12 @@ template <int axes>
 PortHoldOf<axes> EnergyPortOf<axes>::hold(const Load& load, double dt) noexcept {
   Hold out;
   period_ = dt;
+  shaking_.setZero();
+  if (!load.shake.isZero(0.0)) {
+    shakes_for_ = held_.delay() + 2;
+  } else if (shakes_for_ > 0) {
+    --shakes_for_;
+  }
   commit();
   late_ = std::min(late_, debt());
   late_cost_ = std::max(late_cost_, written_off_ + late_);
@@ -170,6 +205,8 @@ PortHoldOf<axes> EnergyPortOf<axes>::hold(const Load& load, double dt) noexcept 
   const double kept = std::min(kMostKept, kReceivedAtOnce + level_ - unearned_);
   const double thrown_away = std::max(0.0, level_ - booked_ - std::max(kept, reserved));
   level_ -= thrown_away;
+  // What the hand put in repays what regions owe.
+  if (region_loan().owed() > 0) region_loan().repay(std::max(0.0, thrown_away - unearned_));
   unearned_ = std::max(0.0, unearned_ - thrown_away);
   chosen_ = out.force = out.walls * load.walls + shown;
   return out;
@@ -230,6 +267,18 @@ bool EnergyPortOf<axes>::hold_instead(const Load& load, const Force& force, doub
   booked_ = *weight * load.stored;
   chosen_ = force;
   return true;
+}
+
+// Any motion x takes at most f x, of which its damping pays kShakeShare: |f|^2 / (4 c) remains.
+template <int axes>
+const typename EnergyPortOf<axes>::Force& EnergyPortOf<axes>::shake(const Load& load,
+                                                                    double dt) noexcept {
+  const double asked = load.shake.squaredNorm();
+  if (!(asked > 0) || !load.shake.allFinite()) return shaking_;
+  const double under_way = shaken_.delay() > 0 ? shaken_.under_way(Force::Zero()).squares : 0.0;
+  const double most = 4.0 * kShakeShare * damping() / dt * oscillations().level() - under_way;
+  const double share = std::min(oscillations().share(), std::sqrt(std::max(0.0, most) / asked));
+  return shaking_ = share * load.shake;
 }
 
 template class EnergyPortOf<3>;

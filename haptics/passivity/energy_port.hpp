@@ -34,6 +34,8 @@ struct PortLoadOf {
   double springs_slope = 0.0;  ///< [N/m], greatest eigenvalue of the sum of their curvature bounds
   /// Forces that belong to no storage: dampers, effects [N].
   Force extra = Force::Zero();
+  /// Oscillations of regions, which their own bucket pays for [N].
+  Force shake = Force::Zero();
 };
 
 /// The part of the load that can be held.
@@ -70,6 +72,7 @@ class EnergyPortOf : public EnergyLedger {
   explicit EnergyPortOf(double damping, int delay = 0, double resolution = 0.0)
       : sure_(damping, resolution),
         held_(delay),
+        shaken_(delay),
         samples_(1.0 + delay),
         dampings_(static_cast<std::size_t>(delay) + 2, damping),
         damping_(damping),
@@ -103,8 +106,15 @@ class EnergyPortOf : public EnergyLedger {
   /// behind is paid for like any held force. @return false, without any change, if E cannot pay for
   /// it.
   bool hold_instead(const Load& load, const Force& force, double dt) noexcept;
+  /// Chooses the part of load.shake that is held besides, after hold(); see OscillationBucket.
+  const Force& shake(const Load& load, double dt) noexcept;
+  /// That part, after attenuate() [N].
+  [[nodiscard]] const Force& shaking() const noexcept { return shaking_; }
   /// The force is scaled by `factor` in [0, 1] on its way to the device.
-  void attenuate(double factor) noexcept { chosen_ *= factor; }
+  void attenuate(double factor) noexcept {
+    chosen_ *= factor;
+    shaking_ *= factor;
+  }
   /// The device dropped the force by itself, with all forces under way.
   void let_go() noexcept;
   /// Discards all energy, for the hand may have taken it; absorbed() falls by it. The debt stays.
@@ -112,7 +122,7 @@ class EnergyPortOf : public EnergyLedger {
 
   [[nodiscard]] double damping() const noexcept { return damping_; }
   /// Held in the sample that ended last.
-  [[nodiscard]] const Force& at_handle() const noexcept { return held_.at_handle(); }
+  [[nodiscard]] Force at_handle() const noexcept { return held_.at_handle() + shaken_.at_handle(); }
   /// Greatest part of an E below 0 that samples longer than the dt of their hold() account for [J],
   /// since the start. Each may take b |dx|^2 (1 / dt - 1 / its length) beyond what was reckoned. 0
   /// for a punctual servo.
@@ -120,7 +130,7 @@ class EnergyPortOf : public EnergyLedger {
   /// Greatest error of absorbed() above the truth from encoder steps [J]: half the diagonal of a
   /// step for each newton by which forces changed, in either direction. 0 without steps.
   [[nodiscard]] double encoder_allowance() const noexcept {
-    return reads_in_steps() ? allowance_ + unsure_ * held_.at_handle().norm() : 0.0;
+    return reads_in_steps() ? allowance_ + unsure_ * at_handle().norm() : 0.0;
   }
   /// [N/m]: |F|^2 / (4 spare) is the energy that pays for a constant force until it has left the
   /// handle. @param walls_slope [N/m], of touched walls  @param dt [s], of a sample
@@ -129,6 +139,9 @@ class EnergyPortOf : public EnergyLedger {
   }
 
  private:
+  /// Of the damping, what pays for an oscillation's worst motion while there is one.
+  static constexpr double kShakeShare = 0.1;
+
   [[nodiscard]] SplitBoundOf<axes> bound_of(const Load& load, double walls,
                                             double dt) const noexcept;
   [[nodiscard]] bool choose_part(const Load& load, const SplitBoundOf<axes>& bound,
@@ -142,9 +155,15 @@ class EnergyPortOf : public EnergyLedger {
     return 0.5 * std::sqrt(axes) * resolution;
   }
   void commit() noexcept;
+  void settle_shake(const Force& dx, double held) noexcept;
+  /// Of the damping, what pays for all but oscillations.
+  [[nodiscard]] double rest_share() const noexcept {
+    return shakes_for_ > 0 ? 1.0 - kShakeShare : 1.0;
+  }
 
   SureDampingOf<axes> sure_;
-  HeldForcesOf<axes> held_;
+  HeldForcesOf<axes> held_;       // all but oscillations
+  HeldForcesOf<axes> shaken_;     // oscillations
   double samples_;                // samples for which a chosen force has to be paid
   std::vector<double> dampings_;  // [N s/m], of the last delay + 2 poses, a ring
   std::size_t next_damping_ = 0;
@@ -156,11 +175,15 @@ class EnergyPortOf : public EnergyLedger {
   double written_off_ = 0.0;  // of late_, by clear()
   double late_cost_ = 0.0;
   double allowance_ = 0.0;
-  Force chosen_ = Force::Zero();  // to be written
+  Force chosen_ = Force::Zero();   // to be written
+  Force shaking_ = Force::Zero();  // besides
+  int shakes_for_ = 0;             // samples in which an oscillation is held, or under way
   // Since the last reading, if samples were missed: time, and integrals of force and its square.
   double time_ = 0.0;
   Force impulse_ = Force::Zero();
   double squares_ = 0.0;
+  Force shake_impulse_ = Force::Zero();
+  double shake_squares_ = 0.0;
   bool missed_ = false;
   int doubtful_ = 0;  // samples in which the device may not hold the written force
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -26,8 +27,8 @@ struct Magnet {
 };
 
 /// F(r) = force sin(pi r / range) towards the origin, line or plane; 0 beyond the range. On
-/// entering the range it pulls as strongly as the energy covers that the hand has left in the
-/// ledger; what it pulls in comes back where it is pulled out.
+/// entering the range it pulls as strongly as the loan for regions covers, and the energy that the
+/// hand has left in the ledger; what it pulls in comes back where it is pulled out.
 class Attraction : public CountedEffect<Attraction> {
  public:
   using Parameters = Magnet;
@@ -58,6 +59,12 @@ class Attraction : public CountedEffect<Attraction> {
     const double energy = magnet_.force * magnet_.range / std::numbers::pi * (1 - std::cos(angle));
     const double pull = length > 0.0 ? magnet_.force * std::sin(angle) / length : 0.0;
     return {energy, -pull * held_.cwiseProduct(way), stiffness()};
+  }
+  /// Hook: the whole potential [J].
+  [[nodiscard]] double range(const RegionReach& reach) const noexcept {
+    const double length = std::min(reach.farthest(), magnet_.range);
+    return magnet_.force * magnet_.range / std::numbers::pi *
+           (1 - std::cos(std::numbers::pi * length / magnet_.range));
   }
   /// Hook [N/m].
   [[nodiscard]] double stiffness() const noexcept {

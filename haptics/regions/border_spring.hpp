@@ -40,6 +40,10 @@ class BorderSpring : public CountedEffect<BorderSpring> {
     return {0.5 * border_.stiffness * point.beyond.squaredNorm(), -border_.stiffness * point.beyond,
             border_.stiffness};
   }
+  /// Hook: at the farthest place outside [J].
+  [[nodiscard]] double range(const RegionReach& reach) const noexcept {
+    return 0.5 * border_.stiffness * reach.beyond * reach.beyond;
+  }
   /// Hook [N/m].
   [[nodiscard]] double stiffness() const noexcept { return border_.stiffness; }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "reckon/haptics/effects/effect_parameter.hpp"
@@ -19,9 +20,10 @@ struct Push {
   double x = 0.0, y = 0.0, z = 0.0;  ///< [N]
 };
 
-/// What the hand lifts against the force is stored and comes back. Where the hand is farther with
-/// the force than ever since it entered, nothing is stored: there the force is shown as far as the
-/// device's own damping and its ledger pay, at rest whole.
+/// A potential that is linear from rise() above its reference. The reference lies rise() with the
+/// force from the farthest place that the hand has been at since it entered: the loan for regions
+/// pays for that, and then the ledger. What is not stored is shown as far as the device's own
+/// damping and its ledger pay.
 class ConstantForce : public CountedEffect<ConstantForce> {
  public:
   using Parameters = Push;
@@ -33,28 +35,54 @@ class ConstantForce : public CountedEffect<ConstantForce> {
       {"y", "N", &Push::y, -20.0, 20.0, 0.0, "Along the region's y axis."},
       {"z", "N", &Push::z, -20.0, 20.0, 0.0, "Along the region's z axis; weight is negative."},
   }};
-  /// Way over which the stored part grows to the whole force [m].
-  static constexpr double kRise = 0.005;
+  /// Shortest way over which the stored part grows to the whole force [m], and the stiffness that
+  /// makes it longer for more than 0.75 N [N/m]: a higher one stores less at rest, and more devices
+  /// are too weak for it.
+  static constexpr double kShortestRise = 0.005;
+  static constexpr double kStiffest = 150.0;
 
   /// @throws std::invalid_argument when a value is out of the table's range.
   explicit ConstantForce(const Push& push)
-      : push_(push), force_(push.x, push.y, push.z), size_(force_.norm()) {
+      : push_(push),
+        force_(push.x, push.y, push.z),
+        size_(force_.norm()),
+        rise_(std::max(kShortestRise, size_ / kStiffest)) {
     check_parameters(kParameters, push);
   }
 
-  /// Hook: of the way h against the force since its farthest point: size h^2 / (2 kRise), beyond
-  /// kRise size (h - kRise / 2).
+  /// Hook: of the way h against the force from the reference: size h^2 / (2 rise), beyond it size
+  /// (h - rise / 2).
   [[nodiscard]] RegionPotential potential(const RegionPoint& point) noexcept {
     if (!point.inside || !(size_ > 0.0)) return {};
     const double along = -point.place.dot(force_) / size_;
-    if (point.entered) lowest_ = along;
+    if (point.entered) {
+      lowest_ = along;
+      margin_ = 0.0;
+    }
     lowest_ = std::min(lowest_, along);
-    const double way = along - lowest_, rising = std::min(way, kRise);
-    stored_ = rising / kRise;
-    return {size_ * (0.5 * rising * rising / kRise + way - rising), stored_ * force_, stiffness()};
+    return at(along - lowest_);
+  }
+  /// Hook: the reference falls to rise() below the point, which takes kFadeSeconds from the entry.
+  [[nodiscard]] RegionPotential sink(const RegionPoint& point, double most) noexcept {
+    if (!point.inside || !(size_ > 0.0)) return {};
+    margin_ = std::min(rise_, margin_ + rise_ * point.dt / kFadeSeconds);
+    const double way = -point.place.dot(force_) / size_ - lowest_;
+    if (!(way < margin_)) return {};
+    const double before = energy(way), share = stored_;
+    const double goal = std::min(margin_, way_of(before + most));
+    if (!(goal > way)) return {};
+    lowest_ -= goal - way;
+    const RegionPotential after = at(goal);
+    return {after.energy - before, (stored_ - share) * force_, 0.0};
+  }
+  /// Hook: from end to end along the force [J].
+  [[nodiscard]] double range(const RegionReach& reach) const noexcept {
+    return force_.cwiseAbs().dot(reach.most - reach.least);
   }
   /// Hook [N/m].
-  [[nodiscard]] double stiffness() const noexcept { return size_ / kRise; }
+  [[nodiscard]] double stiffness() const noexcept { return size_ / rise_; }
+  /// [m], way over which the stored part grows to the whole force.
+  [[nodiscard]] double rise() const noexcept { return rise_; }
 
   /// Hook: what is not stored [N]. Called after potential().
   [[nodiscard]] Eigen::Vector3d force(const RegionPoint& point) const noexcept {
@@ -64,11 +92,28 @@ class ConstantForce : public CountedEffect<ConstantForce> {
   [[nodiscard]] const Push& parameters() const noexcept { return push_; }
 
  private:
+  static constexpr double kFadeSeconds = 0.1;
+
+  [[nodiscard]] double energy(double way) const noexcept {
+    const double rising = std::min(way, rise_);
+    return size_ * (0.5 * rising * rising / rise_ + way - rising);
+  }
+  // The way up to rise() that stores this [m].
+  [[nodiscard]] double way_of(double energy) const noexcept {
+    return std::min(rise_, std::sqrt(2.0 * rise_ * energy / size_));
+  }
+  [[nodiscard]] RegionPotential at(double way) noexcept {
+    stored_ = std::min(1.0, way / rise_);
+    return {energy(way), stored_ * force_, stiffness()};
+  }
+
   Push push_;
   Eigen::Vector3d force_;
   double size_;
-  double lowest_ = 0.0;  // [m], least way against the force
+  double rise_;
+  double lowest_ = 0.0;  // [m], the reference, as a way against the force
   double stored_ = 0.0;  // share of the force
+  double margin_ = 0.0;  // [m], of the reference below the lowest place
 };
 
 }  // namespace reckon::haptics

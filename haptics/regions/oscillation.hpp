@@ -21,7 +21,8 @@ struct Shaking {
   double frequency = 50.0;           ///< [Hz]
 };
 
-/// F = (x, y, z) sin(2 pi frequency t), t since the device entered.
+/// F = (x, y, z) sin(2 pi frequency t), t since the device entered. A bucket of the port pays for
+/// it: see OscillationBucket.
 class Oscillation : public CountedEffect<Oscillation> {
  public:
   using Parameters = Shaking;
@@ -42,7 +43,7 @@ class Oscillation : public CountedEffect<Oscillation> {
   }
 
   /// Hook: the force [N].
-  [[nodiscard]] Eigen::Vector3d force(const RegionPoint& point) noexcept {
+  [[nodiscard]] Eigen::Vector3d shake(const RegionPoint& point) noexcept {
     if (!point.inside) return Eigen::Vector3d::Zero();
     if (point.entered) turns_ = 0.0;
     turns_ += shaking_.frequency * point.dt;

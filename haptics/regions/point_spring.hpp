@@ -20,8 +20,8 @@ struct Tether {
   double most = 5.0;         ///< [N]
 };
 
-/// F = -stiffness place, of at most `most`; and -damping v. On entering away from the origin it
-/// rises as the hand's motion pays for what it stores.
+/// F = -stiffness place, of at most `most`; and -damping v. On entering away from the origin
+/// the loan for regions pays for what it stores, and beyond it the hand's motion.
 class PointSpring : public CountedEffect<PointSpring> {
  public:
   using Parameters = Tether;
@@ -45,10 +45,12 @@ class PointSpring : public CountedEffect<PointSpring> {
   [[nodiscard]] RegionPotential potential(const RegionPoint& point) const noexcept {
     if (!point.inside) return {};
     const double length = point.place.norm(), bend = tether_.most / tether_.stiffness;
-    const double near = std::min(length, bend);
-    const double energy = 0.5 * tether_.stiffness * near * near + tether_.most * (length - near);
     const double pull = length > bend ? tether_.most / length : tether_.stiffness;
-    return {energy, -pull * point.place, tether_.stiffness};
+    return {energy(length), -pull * point.place, tether_.stiffness};
+  }
+  /// Hook: at the farthest place [J].
+  [[nodiscard]] double range(const RegionReach& reach) const noexcept {
+    return energy(reach.farthest());
   }
   /// Hook [N/m].
   [[nodiscard]] double stiffness() const noexcept { return tether_.stiffness; }
@@ -62,6 +64,11 @@ class PointSpring : public CountedEffect<PointSpring> {
   [[nodiscard]] const Tether& parameters() const noexcept { return tether_; }
 
  private:
+  [[nodiscard]] double energy(double length) const noexcept {
+    const double near = std::min(length, tether_.most / tether_.stiffness);
+    return 0.5 * tether_.stiffness * near * near + tether_.most * (length - near);
+  }
+
   Tether tether_;
 };
 

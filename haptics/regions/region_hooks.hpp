@@ -4,6 +4,9 @@
 // force without touching anything.
 //
 //   potential(point)          stores energy, as a spring does
+//   range(reach)              besides: it is a source, so that a loan pays for what it stores
+//   sink(point, most)         besides: lowers the place where it stores nothing
+//   shake(point)              a force that its own bucket of energy pays for
 //   force(point)              any other force on the device
 #pragma once
 
@@ -31,6 +34,17 @@ struct RegionPotential {
   double stiffness = 0.0;                           ///< [N/m], upper bound of its curvature
 };
 
+/// Where a device may be in a region, in the region's axes.
+struct RegionReach {
+  Eigen::Vector3d least = Eigen::Vector3d::Zero(), most = Eigen::Vector3d::Zero();  ///< [m], inside
+  double beyond = 0.0;  ///< [m], greatest way outside
+
+  /// Greatest distance from the region's origin [m].
+  [[nodiscard]] double farthest() const noexcept {
+    return least.cwiseAbs().cwiseMax(most.cwiseAbs()).norm();
+  }
+};
+
 /// Stores energy. The energy may fall by itself, as where friction slides, but never grow without a
 /// motion of the device against the force, except where it enters the region: then its share begins
 /// at what the device's ledger covers. Called once a step, inside or not.
@@ -43,6 +57,30 @@ concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
   noexcept->std::same_as<double>;
 };
 
+/// A potential of the place alone, which a region brings with it: the port's loan for regions pays
+/// where it begins at more than 0. range() is the most that it can store within reach [J].
+template <class Effect>
+concept LendsRegionEnergy = StoresRegionEnergy<Effect> &&
+    requires(const Effect& fixed, const RegionReach& reach) {
+  { fixed.range(reach) }
+  noexcept->std::same_as<double>;
+};
+
+/// Its potential has no least place of its own: it is lowered as the hand sinks, by at most `most`
+/// [J]. @return by what that changed the potential at the point. Called after potential().
+template <class Effect>
+concept SinksInRegion = requires(Effect& effect, const RegionPoint& point, double most) {
+  { effect.sink(point, most) }
+  noexcept->std::same_as<RegionPotential>;
+};
+
+/// Gives a force with time [N, region's axes], see OscillationBucket.
+template <class Effect>
+concept ShakesRegion = requires(Effect& effect, const RegionPoint& point) {
+  { effect.shake(point) }
+  noexcept->std::same_as<Eigen::Vector3d>;
+};
+
 /// Gives any other force [N, region's axes], as far as the device's ledger covers it.
 template <class Effect>
 concept GivesRegionForce = requires(Effect& effect, const RegionPoint& point) {
@@ -51,7 +89,8 @@ concept GivesRegionForce = requires(Effect& effect, const RegionPoint& point) {
 };
 
 template <class Effect>
-concept HookedRegionEffect = StoresRegionEnergy<Effect> || GivesRegionForce<Effect>;
+concept HookedRegionEffect =
+    StoresRegionEnergy<Effect> || GivesRegionForce<Effect> || ShakesRegion<Effect>;
 
 /// Each hook whose name it has is complete and has the right types.
 template <class Effect>

@@ -34,6 +34,9 @@ ServoConfig checked_config(const ServoConfig& c, const DeviceLimits& limits) {
   require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
   require(c.max_power > 0, "largest power of the force must be above 0 W");
   require(c.max_received_power > 0, "largest power from others must be above 0 W");
+  require(c.region_loan >= 0 && c.oscillation_power >= 0 && c.oscillation_energy >= 0,
+          "what regions may put in must be 0 or more: region_loan, oscillation_power, "
+          "oscillation_energy");
   require(c.stiffness_share > 0 && c.stiffness_share <= 1,
           "stiffness share of the passive limit must be above 0 and at most 1");
   require(

@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr double kToSpare = 1.05;        // times the energy that the whole force needs
+constexpr double kShakeRate = 0.5;       // of the fastest growth of the force, while regions shake
 constexpr int kHoldSteps = 100;          // of zero force after a trip
 constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at rest too
 constexpr double kRest = 1.0;            // [s]
@@ -60,9 +61,23 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
   static_.let_through_beyond(step_.force_limit);
+  if (!plan_->regions().empty()) limit_sources();
   if constexpr (axes == 6) safety_.limit_turns(limits_.max_torque, kMostTurn / period_);
   if (config_.continuous_force > 0)
     safety_.limit_heat(config_.continuous_force, config_.thermal_time / period_);
+}
+
+// What the regions may bring in: the loan that their potentials can need, and a power.
+template <int axes>
+void ServoStepOf<axes>::limit_sources() {
+  Vector3d lever = Vector3d::Zero();
+  if constexpr (axes == 6) lever.setConstant(tool_.lever(0).norm());
+  const Eigen::AlignedBox3d space(limits_.workspace_min - lever, limits_.workspace_max + lever);
+  Eigen::Isometry3d to_scene = Eigen::Isometry3d::Identity();
+  to_scene.translate(config_.device_origin).rotate(config_.device_orientation);
+  const double range = static_.regions().range(space, to_scene);
+  port_.region_loan().limit(std::min(config_.region_loan, range));
+  port_.oscillations().limit(config_.oscillation_power, config_.oscillation_energy);
 }
 
 template <int axes>
@@ -367,6 +382,9 @@ void ServoStepOf<axes>::soften_crowd(Load& load) noexcept {
 
 template <int axes>
 typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
+  const bool shakes = !load.shake.isZero(0.0) || !port_.shaking().isZero(0.0);
+  const Force shaken = port_.shaking(), wish = load.shake;
+  if (shakes) load.shake = nearest_in_reach(shaken, load.shake, kShakeRate * port_rate_ * elapsed_);
   held_ = port_.hold(load, period_);
   if (held_.walls < 1.0) {
     static_.attenuate(held_.walls, port_);
@@ -377,7 +395,8 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
   tally_.held_back.note_force(held_.springs, tool_.force(load.springs), step_.dt);
   tally_.effects.note_force(held_.extra, tool_.force(load.extra), step_.dt);
   static_.shown(held_.extra);
-  const Force force = keep_rate(load, held_.force);
+  const double rate = shakes ? 1.0 - kShakeRate : 1.0;
+  Force force = keep_rate(load, held_.force, shakes ? written_ - shaken : written_, rate);
   const double whole = held_.force.norm();
   const double reached = whole > 0 ? std::min(1.0, force.norm() / whole) : 1.0;
   const double share = crowd_share_ * held_.springs * reached;
@@ -387,7 +406,19 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
     tally_.softened.note(softening_.share(), newtons(load.springs) / softening_.share(), step_.dt);
   }
   soften(load, held_.springs);
+  if (shakes) force += shake(load, wish);
   return force;
+}
+
+template <int axes>
+typename ServoStepOf<axes>::Force ServoStepOf<axes>::shake(const Load& load,
+                                                           const Force& wish) noexcept {
+  const Force shown = port_.shake(load, period_);
+  const double whole = wish.norm();
+  const double share = whole > 0 ? std::min(1.0, shown.norm() / whole) : 1.0;
+  static_.shook(share);
+  tally_.effects.note_force(share, tool_.force(wish), step_.dt);
+  return shown;
 }
 
 // A crease, an edge or a quick blow turns the force within one sample. The force follows at a
@@ -395,12 +426,14 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
 // the whole force is reduced.
 template <int axes>
 typename ServoStepOf<axes>::Force ServoStepOf<axes>::keep_rate(const Load& load,
-                                                               const Force& wanted) noexcept {
+                                                               const Force& wanted,
+                                                               const Force& last,
+                                                               double share) noexcept {
   if (!wanted.allFinite()) return wanted;  // safety handles it
-  const double most = port_rate_ * elapsed_;
-  const Force near_by = nearest_in_reach(written_, wanted, most);
+  const double most = share * port_rate_ * elapsed_;
+  const Force near_by = nearest_in_reach(last, wanted, most);
   if (near_by == wanted || port_.hold_instead(load, near_by, period_)) return near_by;
-  const double part = part_in_reach(written_, wanted, most);
+  const double part = part_in_reach(last, wanted, most);
   static_.attenuate(part, port_);
   port_.attenuate(part);
   return part * wanted;
@@ -499,7 +532,10 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.encoder_allowance = port_.encoder_allowance();
   out.softening = crowd_share_ * softening_.share();
   out.loan = port_.owed();
-  port_min_ = std::min(port_min_, out.port_energy + out.loan);
+  out.region_loan = port_.region_loan().owed();
+  out.region_loan_most = region_loan_most_ = std::max(region_loan_most_, out.region_loan);
+  out.oscillation_energy = port_.oscillations().spent();
+  port_min_ = std::min(port_min_, out.port_energy + out.loan + out.source_energy());
   out.port_energy_min = port_min_;
   out.late_cost = port_.late_cost();
   out.loan_most = loan_most_ = std::max(loan_most_, out.loan);

@@ -38,6 +38,7 @@ class ServoStepOf final : public ServoCore {
   using Force = AxisForces<axes>;  // in the port's coordinates
   using Load = PortLoadOf<axes>;
 
+  void limit_sources();
   void reduce(double scale) noexcept;
   [[nodiscard]] std::size_t exchange(const Load& load) noexcept;  // number of contacts engaged
   void part_hands() noexcept;
@@ -61,7 +62,9 @@ class ServoStepOf final : public ServoCore {
   void load_hands(Load& load) noexcept;
   void soften_crowd(Load& load) noexcept;
   [[nodiscard]] Force hold(Load& load) noexcept;
-  [[nodiscard]] Force keep_rate(const Load& load, const Force& wanted) noexcept;
+  [[nodiscard]] Force shake(const Load& load, const Force& wish) noexcept;
+  [[nodiscard]] Force keep_rate(const Load& load, const Force& wanted, const Force& last,
+                                double share) noexcept;
   void soften(const Load& load, double held) noexcept;
   void write() noexcept;
   void publish(bool enabled) noexcept;
@@ -96,6 +99,7 @@ class ServoStepOf final : public ServoCore {
   Force written_ = Force::Zero();           // held since the last step
   double port_min_ = 0.0;
   double loan_most_ = 0.0;
+  double region_loan_most_ = 0.0;
 };
 
 }  // namespace reckon::haptics

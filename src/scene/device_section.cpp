@@ -415,6 +415,14 @@ Section<DeviceConfig> device_section() {
       {"received_power", &Device::received_power, within("W", 1e-3, 100),
        "most that others put into its hand through their contacts, on average; what they give "
        "beyond it waits, and a liar throws the hand no harder"},
+      {"region_loan", &Device::region_loan, within("J", 0, 1),
+       "most that springs, magnets, borders and constant forces of regions may lend its hand, all "
+       "together and until it is back; 0: the hand's motion has to pay for them"},
+      {"oscillation_power", &Device::oscillation_power, within("W", 0, 10),
+       "most that oscillations of regions put into its hand, on average; beyond it they are "
+       "weaker"},
+      {"oscillation_energy", &Device::oscillation_energy, within("J", 0, 1),
+       "most that they put in at once, beyond that power"},
       {"resolution", &Device::resolution, within("m", 0, 1e-3),
        "step of its position sensors, along each of its axes; 0: exact"},
       {"stop_button", &Device::stop_button, declared("", 0, 31),

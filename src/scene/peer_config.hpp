@@ -206,10 +206,13 @@ struct DeviceConfig {
   double max_speed = 2.0;           ///< [m/s] > 0; a faster reading switches the force off
   /// [N/s], fastest change of its force in size and direction; 0: as in haptics::ServoConfig.
   double max_force_rate = 0.0;
-  double received_power = 0.2;    ///< [W] > 0, largest average power that others put into its hand
-  int stop_button = -1;           ///< its button that stops all forces, 0 to 31; negative: none
-  std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies
-  double resolution = 0.0;        ///< [m] >= 0, step of its position sensors; 0: exact
+  double received_power = 0.2;     ///< [W] > 0, largest average power that others put into its hand
+  double region_loan = 0.12;       ///< [J] >= 0, greatest loan for potentials of regions
+  double oscillation_power = 0.1;  ///< [W] >= 0, that oscillations of regions put into its hand
+  double oscillation_energy = 0.02;  ///< [J] >= 0, that they may put in at once
+  int stop_button = -1;              ///< its button that stops all forces, 0 to 31; negative: none
+  std::uint32_t grab_button = 0;     ///< of the device, from 0: while pressed the hand holds bodies
+  double resolution = 0.0;           ///< [m] >= 0, step of its position sensors; 0: exact
   int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
 };

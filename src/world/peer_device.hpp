@@ -27,6 +27,8 @@ struct PeerDevice {
   double thermal_time = 20.0;          ///< [s] >= 1, see haptics::ServoConfig
   double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
   double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
+  /// What regions may put in, see haptics::ServoConfig; below 0: as that has it.
+  double region_loan = -1.0, oscillation_power = -1.0, oscillation_energy = -1.0;
   std::uint32_t grab_button = 0;  ///< of the device, from 0: while pressed the hand holds bodies
   int stop_button = -1;           ///< of the software stop, 0 to 31; negative: none
   /// Of the tool on a device of six axes, see haptics::ServoConfig; none: the handle.

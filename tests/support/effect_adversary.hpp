@@ -182,9 +182,10 @@ struct Least {
     rich.borrow(1.0);
     tool.set_velocity(velocity);
     contact.load(tool, kSample, load);
-    Vector3d force = load.walls + load.extra;
+    const Vector3d held = load.extra + load.shake;
+    Vector3d force = load.walls + held;
     if (!(force.norm() < 1e3)) force *= 1e3 / force.norm();
-    const Vector3d& prey = load.extra.isZero() ? force : load.extra;
+    const Vector3d& prey = held.isZero() ? force : held;
     const Vector3d dx = motion(random, i, prey, device, kSample, 2e-5);
     device += dx;
     velocity = dx / kSample;

@@ -131,6 +131,19 @@ void print_passed(std::FILE* out, const Hands& hands) {
                          counted(times, "time"), behind(some, hands.size())));
 }
 
+// What regions put into the hands, of the hand that got most.
+void print_sources(std::FILE* out, const Hands& hands) {
+  double lent = 0.0, put_in = 0.0;
+  for (const HandView* hand : hands) {
+    lent = std::max(lent, hand->servo.region_loan_most);
+    put_in = std::max(put_in, hand->servo.oscillation_energy);
+  }
+  if (!(lent > 0) && !(put_in > 0)) return;
+  print_line(out, "regions put in",
+             fmt::format("a loan of up to {:.3g} mJ; by oscillations {:.3g} mJ", 1e3 * lent,
+                         1e3 * put_in));
+}
+
 // All hands of a program are stopped together.
 void print_stops(std::FILE* out, const Hands& hands) {
   std::uint64_t stops = 0;
@@ -197,6 +210,8 @@ void append_hand(std::string& out, const HandView* hand) {
   append_shortfall(object.member("rate_limited"), tally.rate);
   append_shortfall(object.member("force_cut"), tally.limit);
   object.value("loan_j", number(hand->servo.loan_most))
+      .value("region_loan_j", number(hand->servo.region_loan_most))
+      .value("oscillation_j", number(hand->servo.oscillation_energy))
       .value("refused_s", number(tally.refused))
       .value("late_steps", tally.late)
       .value("let_go", tally.let_go)
@@ -233,6 +248,7 @@ void print_hands(std::FILE* out, const Hands& hands) {
   print_softer(out, hands);
   for (const Kind& kind : kKinds) print_shortfall(out, kind, hands);
   print_passed(out, hands);
+  print_sources(out, hands);
   print_stops(out, hands);
   print_refused(out, hands);
   print_steps(out, hands);

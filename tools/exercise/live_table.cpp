@@ -96,7 +96,8 @@ std::string state_text(const HandCell& cell) {
   if (is_cut(servo)) return fmt::format("CUT {:.0f}%", 100.0 * servo.limit_share);
   if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
   if (is_softened(servo)) return fmt::format("SOFT {:.0f}%", 100.0 * servo.softening);
-  if (servo.loan > 0) return fmt::format("LOAN{:2.0f}mJ", std::ceil(1e3 * servo.loan));
+  const double loan = servo.loan + servo.region_loan;
+  if (loan > 0) return fmt::format("LOAN{:2.0f}mJ", std::ceil(1e3 * loan));
   return is_felt(servo) ? "touches" : "free";
 }
 

@@ -21,7 +21,7 @@ constexpr nanoseconds kPatience = std::chrono::seconds(1);  // for a peer that s
 constexpr double kLargestError = 1e3;                       // stands for anything larger
 
 double own_energy(const haptics::ServoSnapshot& step) {
-  double energy = step.port_energy + step.loan;
+  double energy = step.port_energy + step.loan + step.source_energy();
   for (std::size_t i = 0; i < step.count; ++i) {
     energy += step.contacts[i].given - step.contacts[i].received;
   }

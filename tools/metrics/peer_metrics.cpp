@@ -39,13 +39,18 @@ struct HandNumber {
   std::string_view name, meaning;
   double haptics::ServoSnapshot::*value;
 };
-constexpr std::array<HandNumber, 5> kHandNumbers{{
+constexpr std::array<HandNumber, 7> kHandNumbers{{
     {"port_energy_joules", "energy that the hand's port holds",
      &haptics::ServoSnapshot::port_energy},
-    {"port_energy_min_joules", "the least that the port held so far, with its loan",
+    {"port_energy_min_joules",
+     "the least that the port held so far, with its loan and what regions put in",
      &haptics::ServoSnapshot::port_energy_min},
     {"port_loan_joules", "energy lent to hands that met inside one another",
      &haptics::ServoSnapshot::loan},
+    {"port_region_loan_joules", "energy lent by the potentials of regions",
+     &haptics::ServoSnapshot::region_loan},
+    {"port_oscillation_joules", "energy that oscillations of regions put in so far",
+     &haptics::ServoSnapshot::oscillation_energy},
     {"port_late_cost_joules", "energy that late steps took from an empty ledger",
      &haptics::ServoSnapshot::late_cost},
     {"hand_softening_ratio", "share of the stiffness of remote bodies that is shown",

@@ -118,9 +118,20 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
   config.contact_radius = scene.hand.contact_radius;
   if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   config.max_received_power = device.received_power;
+  config.region_loan = device.region_loan;
+  config.oscillation_power = device.oscillation_power;
+  config.oscillation_energy = device.oscillation_energy;
   config.grab = scene.hand.grab;
   config.probes = probes_of(device);
   return config;
+}
+
+/// What regions may put into its hand.
+std::string sources_of(const peer::DeviceConfig& device) {
+  return fmt::format("potentials lend it at most {}; oscillations put in at most {}, {} at once",
+                     peer::format_quantity(device.region_loan, "J"),
+                     peer::format_quantity(device.oscillation_power, "W"),
+                     peer::format_quantity(device.oscillation_energy, "J"));
 }
 
 /// Force rate limit of the device, and the shown share of the file's request.
@@ -225,6 +236,7 @@ Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                  {"stiffness", stiffness_of(scene, servo)}};
   if (std::ranges::any_of(plan.objects(), &haptics::PlannedObject::is_body))
     facts.push_back({"holds bodies", hold_of(scene, device, servo)});
+  if (!scene.scene.regions.empty()) facts.push_back({"regions", sources_of(device)});
   if (device.axes == 6) facts.insert(facts.begin() + 3, {"turns", tool_of(device)});
   if (const std::string text = mapping_text(device); !text.empty())
     facts.insert(facts.begin() + 2, {"hand moves", text});

@@ -124,8 +124,8 @@ HandMark OwnHands::mark(std::size_t index) {
   if (!step.in_mesh_contact)
     normal = pushed.norm() > 0 ? pushed.normalized() : Eigen::Vector3d::Zero();
   mark.normal = normal.cast<float>();
-  mark.energy = static_cast<float>(step.port_energy);
-  mark.loan = static_cast<float>(step.loan);
+  mark.energy = static_cast<float>(step.port_energy + step.oscillation_energy);
+  mark.loan = static_cast<float>(step.loan + step.region_loan);
   return mark;
 }
 

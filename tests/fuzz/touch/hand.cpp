@@ -246,7 +246,7 @@ void Hand::keep_books(double before, double dt, bool failed) {
   let_go_ = snapshot_.tally.let_go;
   if (let_go) held_.setZero();
 
-  const double port = work() + transferred_ + snapshot_.loan;
+  const double port = work() + transferred_ + snapshot_.loan + snapshot_.source_energy();
   finite_ = finite_ && std::isfinite(port) && snapshot_.force.allFinite();
   if (model_ != nullptr) return keep_model_books(port, dt);
   const double allowed = allowance();

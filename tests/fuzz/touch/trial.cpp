@@ -229,7 +229,7 @@ void Trial::lie(RemoteHand& hand, std::size_t from) {
 void Trial::measure() {
   double sum = 0, open = 0;
   for (const auto& hand : hands_) {
-    sum += hand->work() + hand->snapshot().loan;
+    sum += hand->work() + hand->snapshot().loan + hand->snapshot().source_energy();
     open += hand->open() + hand->allowance();
   }
   least_sum_ = std::min(least_sum_, sum);

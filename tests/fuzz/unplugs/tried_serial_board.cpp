@@ -73,7 +73,7 @@ class TriedSerialBoard final : public TriedDevice {
   double force() const override { return board_.force().norm(); }
   std::uint64_t commands() const override { return board_.commands(); }
   double books(const haptics::ServoSnapshot& servo) const override {
-    return board_.books() + servo.loan + servo.encoder_allowance;
+    return board_.books() + servo.loan + servo.source_energy() + servo.encoder_allowance;
   }
 
   void begin_program() override {

@@ -122,7 +122,7 @@ class TriedUsbDevice final : public TriedDevice {
   // Without what the device gave by itself.
   double books(const haptics::ServoSnapshot& servo) const override {
     return model_.port_work() + model_.damping_loss() - own_work_ + servo.loan +
-           servo.encoder_allowance;
+           servo.source_energy() + servo.encoder_allowance;
   }
 
   void begin_program() override;

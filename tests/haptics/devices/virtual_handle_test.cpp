@@ -48,7 +48,7 @@ struct Stand {
     const ServoSnapshot& snapshot = servo.snapshots().read();
     least =
         std::min(least, motion.handle_work() + handle.written_off() + test::transferred(snapshot));
-    port = std::min(port, snapshot.port_energy + snapshot.loan);
+    port = std::min(port, snapshot.port_energy + snapshot.loan + snapshot.source_energy());
     now += period;
     return snapshot;
   }

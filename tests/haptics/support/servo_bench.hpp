@@ -62,7 +62,8 @@ class Bench {
     for (const nanoseconds end = now + duration; now < end; now += period) {
       servo.step(now);
       servo.snapshots().update();
-      const double lent = servo.snapshots().read().loan;
+      const ServoSnapshot& s = servo.snapshots().read();
+      const double lent = s.loan + s.source_energy();
       least = std::min(least, device.port_work() + device.damping_loss() + transferred() + lent);
       peak = std::max(peak, device.force().norm());
     }

@@ -126,7 +126,7 @@ class WiredBoard {
     servo.step(now);
     servo.snapshots().update();
     last = servo.snapshots().read();
-    const double own = board.books() + transferred(last) + last.loan;
+    const double own = board.books() + transferred(last) + last.loan + last.source_energy();
     least_own = std::min(least_own, own);
     least_books = std::min(least_books, own + last.encoder_allowance);
   }

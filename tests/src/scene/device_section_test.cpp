@@ -45,6 +45,9 @@ max_stiffness = "3 kN/m"
 max_speed = "500 mm/s"
 max_force_rate = "0.2 kN/s"
 received_power = "400 mW"
+region_loan = "50 mJ"
+oscillation_power = "30 mW"
+oscillation_energy = "5 mJ"
 resolution = "20 um"
 rate = "4 kHz"
 delay = "1 ms"
@@ -59,6 +62,9 @@ delay = "1 ms"
   EXPECT_EQ(device.max_speed, 0.5);
   EXPECT_EQ(device.max_force_rate, 200);
   EXPECT_EQ(device.received_power, 0.4);
+  EXPECT_EQ(device.region_loan, 0.05);
+  EXPECT_EQ(device.oscillation_power, 0.03);
+  EXPECT_EQ(device.oscillation_energy, 0.005);
   EXPECT_NEAR(device.resolution, 2e-5, 1e-18);
   EXPECT_EQ(device.period, microseconds(250));
   EXPECT_EQ(device.delay_samples, 4);
@@ -379,6 +385,9 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.max_speed, standard.max_speed);
   EXPECT_EQ(silent.max_force_rate, standard.max_force_rate);
   EXPECT_EQ(silent.received_power, standard.received_power);
+  EXPECT_EQ(silent.region_loan, standard.region_loan);
+  EXPECT_EQ(silent.oscillation_power, standard.oscillation_power);
+  EXPECT_EQ(silent.oscillation_energy, standard.oscillation_energy);
   EXPECT_EQ(silent.resolution, standard.resolution);
   EXPECT_EQ(silent.axes, standard.axes);
   EXPECT_EQ(silent.turn_damping, standard.turn_damping);
