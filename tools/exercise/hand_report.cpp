@@ -118,6 +118,20 @@ void print_refused(std::FILE* out, const Hands& hands) {
                          behind(some, hands.size())));
 }
 
+void print_hidden(std::FILE* out, const Hands& hands) {
+  Hands some;
+  double deepest = 0.0;
+  for (const HandView* hand : hands) {
+    if (hand->servo.tally.hidden > 0) some.push_back(hand);
+    deepest = std::max(deepest, hand->servo.tally.hidden);
+  }
+  if (some.empty()) return;
+  print_line(out, "walls hidden",
+             fmt::format("up to {:.3g} mm of their depth: the hand began deeper inside than its "
+                         "loan pays for{}",
+                         1e3 * deepest, behind(some, hands.size())));
+}
+
 // All hands of a program are stopped together.
 void print_stops(std::FILE* out, const Hands& hands) {
   std::uint64_t stops = 0;
@@ -183,6 +197,7 @@ void append_hand(std::string& out, const HandView* hand) {
   append_shortfall(object.member("rate_limited"), tally.rate);
   append_shortfall(object.member("force_cut"), tally.limit);
   object.value("loan_j", number(hand->servo.loan_most))
+      .value("walls_hidden_m", number(tally.hidden))
       .value("refused_s", number(tally.refused))
       .value("late_steps", tally.late)
       .value("let_go", tally.let_go)
@@ -218,6 +233,7 @@ void print_hands(std::FILE* out, const Hands& hands) {
   print_softer(out, hands);
   for (const Kind& kind : kKinds) print_shortfall(out, kind, hands);
   print_stops(out, hands);
+  print_hidden(out, hands);
   print_refused(out, hands);
   print_steps(out, hands);
 }
