@@ -106,6 +106,7 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
     contacts_[i] = {};
     states_[i].effects = objects_[i]->effects;
     states_[i].touched_at = 0;
+    states_[i].hidden = 0.0;
   }
   near_.resize(states_.size());
   std::iota(near_.begin(), near_.end(), 0u);
@@ -317,9 +318,11 @@ void ContactSolver::settle(const Vector3d& device) noexcept {
   } else {
     settle_among(device);
   }
-  // An object that was left no longer slides.
+  // An object that was left no longer slides, and is whole again.
   for (const std::uint32_t i : touched_) {
-    if (cones_[i] != nullptr && !contacts_[i].in_contact) cones_[i]->set_sliding(false);
+    if (contacts_[i].in_contact) continue;
+    if (cones_[i] != nullptr) cones_[i]->set_sliding(false);
+    states_[i].hidden = 0.0;
   }
 }
 
@@ -404,6 +407,29 @@ ContactResult ContactSolver::follow_patches(double dt, double energy) noexcept {
   return sum(last_device_);
 }
 
+ContactResult ContactSolver::hide(double share) noexcept {
+  for (const std::uint32_t i : touched_) {
+    states_[i].hidden += (1.0 - share) * contacts_[i].depth;
+    feel(i, states_[i].held_at, objects_[i]->to_object(last_device_));
+  }
+  return sum(last_device_);
+}
+
+double ContactSolver::hidden() const noexcept {
+  double most = 0.0;
+  for (const std::uint32_t i : touched_) most = std::max(most, states_[i].hidden);
+  return most;
+}
+
+double ContactSolver::shown_depth() const noexcept {
+  double least = 1.0;
+  for (const std::uint32_t i : touched_) {
+    const double hidden = states_[i].hidden;
+    if (hidden > 0) least = std::min(least, contacts_[i].depth / (contacts_[i].depth + hidden));
+  }
+  return least;
+}
+
 bool ContactSolver::on_patches() const noexcept {
   return std::ranges::any_of(
       touched_, [&](std::uint32_t index) { return objects_[index]->patches != nullptr; });
@@ -424,10 +450,14 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
   contact.in_contact = true;
   contact.force.setZero();
   contact.stored_energy = 0.0;
-  contact.depth = (scp - device).norm();
+  const double whole = (scp - device).norm();
+  double& hidden = states_[index].hidden;
+  hidden = std::min(hidden, whole);
+  contact.depth = whole - hidden;
+  const Vector3d end = hidden > 0 ? scp + contact.depth / whole * (device - scp) : device;
   states_[index].effects.for_each_spring([&](const auto& effect) {
-    contact.force += object.orientation * effect.spring_force(scp, device);
-    contact.stored_energy += effect.stored_energy(scp, device);
+    contact.force += object.orientation * effect.spring_force(scp, end);
+    contact.stored_energy += effect.stored_energy(scp, end);
   });
 }
 

@@ -32,6 +32,7 @@ struct ObjectContact {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
   double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
   double depth = 0.0;                                ///< [m], this object's share of |device - scp|
+                                                     ///< that is not hidden
   std::uint32_t patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   std::uint32_t triangle = ContactedObject::kNoTriangle;  ///< of a mesh, below the SCP
   bool in_contact = false;
@@ -137,6 +138,14 @@ class ContactSolver {
   [[nodiscard]] bool on_patches() const noexcept;
   /// Share of the touched patches' stiffness that the energy allowed, (0, 1].
   [[nodiscard]] double patch_share() const noexcept { return patch_share_; }
+  /// Shortens the springs of the touched objects to `share` [0, 1] of their depth: the rest of it
+  /// is hidden, as if the surface stood nearer to the device. It is shown again as far as the
+  /// device comes out. No allocation.
+  ContactResult hide(double share) noexcept;
+  /// Greatest hidden depth of a touched object [m].
+  [[nodiscard]] double hidden() const noexcept;
+  /// Least share of a touched object's depth that is not hidden, [0, 1].
+  [[nodiscard]] double shown_depth() const noexcept;
   /// Present stiffness of all springs of an object together [N/m].
   [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept;
 
@@ -165,6 +174,7 @@ class ContactSolver {
     bool follows = false;                               // it has such an effect
     MeshStroke stroke{};                                // over a mesh, for effects with a force
     bool began = false;                                 // its contact is new in this step
+    double hidden = 0.0;                                // [m], of the depth
   };
 
   /// An object that moves: where it is, and was one step ago.

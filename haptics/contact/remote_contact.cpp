@@ -291,6 +291,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const bool in_want = began_inside_ || step.softening < 1.0;
     Following how{alone && !in_want, full_.k1, 1.0};
+    how.in_row = !alone && hand_.has_device;
     how.played = blow_.behind() > 0;
     how.share = calm_share(shown, step);
     const double take = std::min(how.share, step.dt / tracker_.time_constant(how));

@@ -87,6 +87,13 @@ double StaticContactOf<axes>::lacks() const noexcept {
 }
 
 template <int axes>
+double StaticContactOf<axes>::hidden() const noexcept {
+  double most = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) most = std::max(most, walls_[i]->hidden());
+  return most;
+}
+
+template <int axes>
 void StaticContactOf<axes>::shown(double extra) noexcept {
   for (std::size_t i = 0; i < size(); ++i) {
     walls_[i]->shown(extra);

@@ -72,6 +72,8 @@ class StaticContactOf {
   }
   /// Energy that the walls lack for their full storage while a loan is allowed [J]; else 0.
   [[nodiscard]] double lacks() const noexcept;
+  /// Greatest depth of a wall that is hidden at a probe [m], see WallContact.
+  [[nodiscard]] double hidden() const noexcept;
   /// Takes the held share of the effects' forces, [0, 1].
   void shown(double extra) noexcept;
   /// Scales forces and storage by `factor` in [0, 1].

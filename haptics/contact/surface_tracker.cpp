@@ -11,6 +11,7 @@ namespace {
 constexpr double kDelaysPerTau = 2.0;
 constexpr double kShortest = 0.002;        // [s]
 constexpr double kLongest = 0.1;           // [s]
+constexpr double kRow = 11000.0;           // [N/m/s], stiffness over the least tau in a row
 constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
 constexpr double kPlayed = 0.005;          // [s], for a playback
 constexpr double kSmoothing = 0.2;         // weight of a new update
@@ -39,7 +40,8 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
 
 double SurfaceTracker::time_constant(const Following& how) const noexcept {
   if (how.played) return kPlayed;
-  const double calm = std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
+  const double least = how.in_row ? how.stiffness / kRow : 0.0;
+  const double calm = std::clamp(std::max(kDelaysPerTau * delay_, least), kShortest, kLongest);
   const double interval = delay_ - age_;
   const bool known = interval < (age_ < kNearAge ? kSeldom : kOften);
   if (!how.alone || !known || !(how.stiffness * age_ < kCloseCoupling)) return calm;

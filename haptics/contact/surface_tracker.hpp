@@ -17,6 +17,8 @@ struct Following {
   double weight = 1.0;
   bool played = false;  ///< a playback and no extrapolation: followed closely, whatever the line
   double share = 1.0;   ///< greatest share of the error corrected in this step
+  bool in_row =
+      false;  ///< a hand that another one touches too, or that is not the only one at ours
 };
 
 /// Second-order follower c of a prediction c*. c moves with a filtered velocity u and corrects the
@@ -24,15 +26,16 @@ struct Following {
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most). It
-/// is the delay of the coupling of two hands over this line. tau = 2 D within 2..100 ms. tau is
-/// shorter for two hands alone with each other if neither lacks energy, stiffness x age is below
-/// 4.5 N s/m (about what devices and grips damp), and updates come often: every 19.5 ms, or every
-/// 10 ms if they are more than 2.5 ms old. Then tau is the age plus D, times stiffness / (1400
-/// N/m). It is at least 3 ms, and long enough to correct the usual error of updates at 20 mm/s.
-/// With a short tau rows of hands would ring, and stiff hands over longer lines too, and seldom
+/// is the delay of the coupling of two hands over this line. tau = 2 D within 2..100 ms. Rows of
+/// hands ring with a short tau, the more the stiffer and the longer they are, and updates that come
+/// the more often for it shorten D further. So in a row tau is at least stiffness / (11 kN/m/s): 45
+/// ms for 500 N/m. tau is shorter for two hands alone with each other if neither lacks energy,
+/// stiffness x age is below 4.5 N s/m (about what devices and grips damp), and updates come often:
+/// every 19.5 ms, or every 10 ms if they are more than 2.5 ms old. Then tau is the age plus D,
+/// times stiffness / (1400 N/m). It is at least 3 ms, and long enough to correct the usual error of
+/// updates at 20 mm/s. With a short tau stiff hands over longer lines would ring too, and seldom
 /// steps are felt as such. The port's energy covers any motion of the surface: this rule decides
-/// quality, never passivity.
-/// docs/haptic_stability.md has the trials.
+/// quality, never passivity. docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
   /// Restarts at rest, with an unknown line.

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "reckon/haptics/contact/energy_exchange.hpp"
+
 namespace reckon::haptics {
 namespace {
 
 constexpr double kRampSeconds = 0.1;
 constexpr double kFadeSeconds = 0.5;
+constexpr double kHideAfter = 0.5;  // [s] at the end of the loan
 constexpr double kHiccup = 0.05;  // share of the storage that a late sample may cost and stay felt
 
 }  // namespace
@@ -84,6 +87,7 @@ void WallContact::settle(double dt, EnergyLedger& ledger) noexcept {
   if (gain_ > most) scale_gain(most / gain_, ledger);
   follow_patches(dt, ledger);
   raise_gain(dt, ledger);
+  hide_rest(dt, ledger);
 }
 
 // Nobody put in the storage that a stretched spring gains when its stiffness grows. The ledger pays
@@ -121,6 +125,22 @@ void WallContact::raise_gain(double dt, EnergyLedger& ledger) noexcept {
   gain_ += rise;
   if (rise < wanted) share_ *= gain_ / most;
   if (!(gain_ < most)) fades_in_ = false;
+}
+
+// A whole spring of the same force stores less than a weaker one on the whole depth, so that this
+// only frees energy.
+void WallContact::hide_rest(double dt, EnergyLedger& ledger) noexcept {
+  shown_depth_ = solver_.shown_depth();
+  share_ *= shown_depth_;
+  const double most = most_gain();
+  const bool ended = fades_in_ && gain_ < most && ledger.owed() >= (1.0 - 1e-6) * kGreatestLoan;
+  without_loan_ = ended ? without_loan_ + dt : 0.0;
+  if (!ended || without_loan_ < kHideAfter) return;
+  const double before = booked();
+  result_ = solver_.hide(gain_ / most);
+  gain_ = most;
+  fades_in_ = false;
+  ledger.book(before - booked());
 }
 
 // The effects' forces belong to no storage, and the port limits them. Here they are limited so that

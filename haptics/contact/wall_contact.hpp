@@ -21,8 +21,10 @@ namespace reckon::haptics {
 /// 100 ms as the ledger pays. It is full again when nothing is touched. If the device starts inside
 /// an object, or the force was cut to zero while it was pressed, the gain begins at zero and rises
 /// within half a second on a loan; lacks() returns its amount. If a contact crosses a border
-/// between patches, its springs follow as in PatchBlend, paid by the ledger. Order of calls within
-/// a step: move, settle, load, shown, attenuate.
+/// between patches, its springs follow as in PatchBlend, paid by the ledger. Where the loan ends
+/// before the gain is full, the springs become whole and a part of their depth is hidden instead:
+/// the force stays as it is, and what the hand presses deeper is right. Order of calls within a
+/// step: move, settle, load, shown, attenuate.
 class WallContact {
  public:
   /// @param plan outlives this object  @param stiffness_cap [N/m] of any object
@@ -57,11 +59,17 @@ class WallContact {
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
 
   /// The force was cut to zero: touched objects fade in again.
-  void drop() noexcept { fades_in_ = fades_in_ || result_.stored_energy > 0; }
+  void drop() noexcept {
+    fades_in_ = fades_in_ || result_.stored_energy > 0;
+    without_loan_ = 0.0;
+  }
   /// Energy that the walls lack for their full storage while a loan is allowed [J]; else 0.
   [[nodiscard]] double lacks() const noexcept {
     return fades_in_ ? (most_gain() - gain_) * result_.stored_energy : 0.0;
   }
+
+  /// Depth of the touched objects that is not shown [m], see above.
+  [[nodiscard]] double hidden() const noexcept { return solver_.hidden(); }
 
   /// Takes the held share of the effects' forces, [0, 1].
   void shown(double extra) noexcept {
@@ -98,7 +106,8 @@ class WallContact {
   [[nodiscard]] double share() const noexcept { return share_; }
   /// Force of the springs at the greatest stiffness that the device can show [N].
   [[nodiscard]] double asked() const noexcept {
-    return most_gain() / patch_share_ * result_.force.norm();
+    return shown_depth_ > 0 ? most_gain() / patch_share_ / shown_depth_ * result_.force.norm()
+                            : 0.0;
   }
   /// Force that the springs lack because the gain is below the cap [N].
   [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
@@ -118,6 +127,7 @@ class WallContact {
   void take_from_carried(EnergyLedger& ledger) noexcept;
   void follow_patches(double dt, EnergyLedger& ledger) noexcept;
   void raise_gain(double dt, EnergyLedger& ledger) noexcept;
+  void hide_rest(double dt, EnergyLedger& ledger) noexcept;
   void measure_stiffness() noexcept;
 
   ContactSolver solver_;
@@ -128,8 +138,10 @@ class WallContact {
   double gain_ = 1.0;
   double share_ = 1.0;
   double patch_share_ = 1.0;  // share of it for patches that are not paid for
+  double shown_depth_ = 1.0;  // least share of an object's depth that is not hidden
   double carried_ = 0.0;
   bool fades_in_ = false;                              // until the gain is full or the contact ends
+  double without_loan_ = 0.0;                          // [s], faded in so long without any left
   Eigen::Vector3d change_ = Eigen::Vector3d::Zero();   // [N], of the springs of bodies
   Eigen::Vector3d effects_ = Eigen::Vector3d::Zero();  // [N], wanted
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], of both, what does not pull

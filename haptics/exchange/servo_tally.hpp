@@ -50,6 +50,7 @@ struct ServoTally {
   Shortfall walls;           ///< springs of the static scene, for lack of energy
   Shortfall effects;         ///< dampers and effects, for lack of energy
   Shortfall limit;           ///< all forces: more than the device, or the servo's setting, allows
+  double hidden = 0.0;       ///< [m], greatest depth of a wall that no loan could pay for
   double refused = 0.0;      ///< [s] in which a nearby record could not be used
   std::uint64_t late = 0;    ///< steps more than half a period late
   std::uint64_t let_go = 0;  ///< steps after which the device had dropped the force by itself

@@ -112,6 +112,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   if (enabled && static_.share() < 1.0) {
     tally_.walls.note(static_.share(), static_.asked(), step_.dt);
   }
+  tally_.hidden = std::max(tally_.hidden, static_.hidden());
   const RegionForces& regions = static_.regions();
   if (regions.share() < 1.0 && enabled) {
     tally_.effects.note(regions.share(), regions.asked(), step_.dt);

@@ -144,6 +144,20 @@ void print_sources(std::FILE* out, const Hands& hands) {
                          1e3 * put_in));
 }
 
+void print_hidden(std::FILE* out, const Hands& hands) {
+  Hands some;
+  double deepest = 0.0;
+  for (const HandView* hand : hands) {
+    if (hand->servo.tally.hidden > 0) some.push_back(hand);
+    deepest = std::max(deepest, hand->servo.tally.hidden);
+  }
+  if (some.empty()) return;
+  print_line(out, "walls hidden",
+             fmt::format("up to {:.3g} mm of their depth: the hand began deeper inside than its "
+                         "loan pays for{}",
+                         1e3 * deepest, behind(some, hands.size())));
+}
+
 // All hands of a program are stopped together.
 void print_stops(std::FILE* out, const Hands& hands) {
   std::uint64_t stops = 0;
@@ -212,6 +226,7 @@ void append_hand(std::string& out, const HandView* hand) {
   object.value("loan_j", number(hand->servo.loan_most))
       .value("region_loan_j", number(hand->servo.region_loan_most))
       .value("oscillation_j", number(hand->servo.oscillation_energy))
+      .value("walls_hidden_m", number(tally.hidden))
       .value("refused_s", number(tally.refused))
       .value("late_steps", tally.late)
       .value("let_go", tally.let_go)
@@ -250,6 +265,7 @@ void print_hands(std::FILE* out, const Hands& hands) {
   print_passed(out, hands);
   print_sources(out, hands);
   print_stops(out, hands);
+  print_hidden(out, hands);
   print_refused(out, hands);
   print_steps(out, hands);
 }

@@ -28,6 +28,15 @@ TEST(SurfaceTracker, FollowsCalmlyWhereDelayOutweighsWhatDamps) {
   EXPECT_NEAR(tracker.time_constant({true, 800.0}), 2 * 0.010, 1e-9);
 }
 
+TEST(SurfaceTracker, FollowsCalmlyInARowHoweverShortTheLine) {
+  Following row{false, 550.0};
+  row.in_row = true;
+  EXPECT_NEAR(learnt(0.0, 0.002, 3e-5).time_constant(row), 0.05, 1e-9);
+  EXPECT_NEAR(learnt(0.02, 0.01, 3e-5).time_constant(row), 2 * 0.03, 1e-9);
+  row.stiffness = 1e9;
+  EXPECT_NEAR(learnt(0.0, 0.002, 3e-5).time_constant(row), 0.1, 1e-9);
+}
+
 TEST(SurfaceTracker, TakesUpCoarseUpdatesSlowly) {
   EXPECT_NEAR(learnt(0.001, 0.008, 1e-4).time_constant(kPair), 0.005, 1e-9);
   // But never more slowly than a hand that is not alone.

@@ -148,6 +148,44 @@ TEST(Hiccup, WhatNoLoanReachesIsTold) {
   EXPECT_GE(bench.least, -kRoundOff);
 }
 
+// Deeper than the loan reaches: the surface comes to the handle, and what is pressed deeper from
+// there is the whole wall.
+TEST(Hiccup, WallDeeperThanTheLoanStandsAtTheHandle) {
+  for (const Wall& wall : {Wall{900, 150, 0.06}, Wall{600, 300, 0.06}, Wall{1400, 200, 0.08}}) {
+    double deeper = 0;
+    Bench bench(floor(wall.stiffness), held(wall, -wall.goal), [&](double t) {
+      return HandTarget{Vector3d(0, 0, -wall.goal - deeper * smooth(t - 8)), {}, {}};
+    });
+    deeper = 0.005 * (1 + wall.stiffness / wall.grip);
+    const double before = bench.run(8s).force.z(), from = bench.device.position().z();
+    const double after = bench.run(4s).force.z(), pressed = from - bench.device.position().z();
+    const ServoSnapshot& s = bench.servo.snapshots().read();
+    std::printf("%4.0f N/m, grip %3.0f: %.2f of %.2f N, %.1f mm hidden, then %.2f N for %.2f mm\n",
+                wall.stiffness, wall.grip, before, wall.right(), 1e3 * s.tally.hidden,
+                after - before, 1e3 * pressed);
+    EXPECT_NEAR(pressed, 0.005, 0.0005);
+    EXPECT_NEAR(after - before, wall.stiffness * pressed, 0.05 * wall.stiffness * pressed);
+    EXPECT_NEAR(s.tally.hidden, -from - before / wall.stiffness, 1e-4);
+    EXPECT_LE(s.loan_most, kGreatestLoan + kRoundOff);
+    EXPECT_GE(bench.least, -kRoundOff);
+  }
+}
+
+// What is hidden is shown again as far as the hand comes out.
+TEST(Hiccup, HiddenDepthIsShownOnTheWayOut) {
+  Bench bench(floor(900), held({900, 150}, -0.06), [](double t) {
+    const double out = 0.07 * smooth((t - 6) / 2), in = 0.02 * smooth(t - 9);
+    return HandTarget{Vector3d(0, 0, -0.06 + out - in), {}, {}};
+  });
+  bench.run(6s);
+  ASSERT_GT(bench.servo.snapshots().read().tally.hidden, 0.01);
+  bench.run(2500ms);
+  EXPECT_GT(bench.device.position().z(), 0.005);
+  const double force = bench.run(3s).force.z();
+  EXPECT_NEAR(force, Wall({900, 150, 0.01}).right(), 0.01) << "the whole wall from outside";
+  EXPECT_GE(bench.least, -kRoundOff);
+}
+
 struct Pair {
   const char* name;
   double press;
