@@ -309,7 +309,7 @@ void BodySolver::put_back(BodySet some) noexcept {
   slots_->each(some, [&](std::size_t i) { body_at(i).set(body_at(i).before); });
 }
 
-// Those of `some`, which no contact joins to others but to what is carried.
+// Steps `some` alone. No contact joins these to other bodies, except carried ones.
 template <class Step>
 void BodySolver::step_alone(BodySet some, Step&& step) noexcept {
   BodySet off = 0;

@@ -50,8 +50,8 @@ class ContactJoints {
   [[nodiscard]] IslandEnergy::Islands& islands() noexcept { return islands_; }
   /// Those of `some` whose island has more than kMostExact contacts.
   [[nodiscard]] BodySet crowded(BodySet some, const BodySlots& slots) noexcept;
-  /// Whether ODE, to which what is carried joins all that touches it, has an island of more than
-  /// kMostExact contacts where there is none.
+  /// Whether more than kMostExact contacts are with carried objects. ODE treats all bodies that
+  /// touch one carried object as one island, which would then be too large for the exact solver.
   [[nodiscard]] bool is_joined() const noexcept {
     return driven_.size() > static_cast<std::size_t>(kMostExact);
   }

@@ -19,8 +19,8 @@ namespace reckon::haptics {
 /// closed form, takes its impulse, and flies on. For any other pair the contact at the time of
 /// impact goes to the solver of the step. A body has one impact in a step, the first.
 ///
-/// Where both move by less than 0.1 mm in a step, or 0.5 mm among others, they meet where it ends.
-/// One thread; after some steps it allocates nothing.
+/// Pairs that together move less than 0.1 mm in a step meet where it ends; less than 0.5 mm where
+/// others touch or push them. One thread; after some steps it allocates nothing.
 class Impacts {
  public:
   /// [s], length of the step in which the impulse of an impact is solved.

@@ -15,9 +15,10 @@ namespace reckon::haptics {
 /// Each body has an account [J], BodyKind::account. Above zero it is energy that an impact has
 /// dissipated, kept to lift the body out of what it sank into within a step: at most its weight,
 /// and the hands that press, times the depth. Below zero it is energy that the solver made and the
-/// body still owes. The bodies of an island pool their accounts, and each takes a share by weight
-/// times depth, so that no other island pays. What an island has beyond its account and the work
-/// done on it is taken out of the speeds of its bodies; a debt is never forgiven.
+/// body still owes. The bodies of an island pool their accounts, and each takes a share by mass
+/// times depth, or by mass where none has sunk, so that no other island pays. What an island has
+/// beyond its account and the work done on it is taken out of the speeds of its bodies; a debt is
+/// never forgiven.
 ///
 /// Kinetic energy + weight + accounts grows by the work of the forces alone. Order of calls within
 /// a step: begin, the others, settle. One thread; O(bodies); allocates nothing.
@@ -34,7 +35,8 @@ class IslandEnergy {
   /// Work done on it [J].
   void give(std::size_t slot, double work) noexcept { of_[slot].given += work; }
   /// It touches a carried object that moves at this speed there [m/s], times 1 + restitution. While
-  /// its island also touches what stands still, none of it gets faster than that.
+  /// its island also touches what stands still, its kinetic energy is at most that of all its mass
+  /// at this speed, or what it had at the begin and gained by falling.
   void drive(std::size_t slot, double speed) noexcept;
   /// It touches what stands still.
   void pin(std::size_t slot) noexcept { of_[slot].is_pinned = true; }

@@ -44,8 +44,8 @@ class Calls {
   Call* free_ = nullptr;
 };
 
-/// Blocks of memory, each used again where it is large enough. ODE gives a block back without
-/// saying whose it is, so each begins with its head.
+/// Blocks of memory, each used again where it is large enough. ODE frees a block without its owner,
+/// so each block begins with a header.
 class Blocks {
  public:
   void* take(std::size_t size) {

@@ -27,8 +27,8 @@ struct Following {
 ///
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most). It
 /// is the delay of the coupling of two hands over this line. tau = 2 D within 2..100 ms. Rows of
-/// hands ring with a short tau, the more the stiffer and the longer they are, and updates that come
-/// the more often for it shorten D further. So in a row tau is at least stiffness / (11 kN/m/s): 45
+/// hands ring with a short tau; stiffer and longer rows ring more. Ringing causes more updates,
+/// which shorten D further. So in a row tau is at least stiffness / (11 kN/m/s): 45
 /// ms for 500 N/m. tau is shorter for two hands alone with each other if neither lacks energy,
 /// stiffness x age is below 4.5 N s/m (about what devices and grips damp), and updates come often:
 /// every 19.5 ms, or every 10 ms if they are more than 2.5 ms old. Then tau is the age plus D,

@@ -140,9 +140,9 @@ class WallContact {
   double patch_share_ = 1.0;  // share of it for patches that are not paid for
   double shown_depth_ = 1.0;  // least share of an object's depth that is not hidden
   double carried_ = 0.0;
-  bool fades_in_ = false;                              // until the gain is full or the contact ends
-  double without_loan_ = 0.0;                          // [s], faded in so long without any left
-  Eigen::Vector3d change_ = Eigen::Vector3d::Zero();   // [N], of the springs of bodies
+  bool fades_in_ = false;                             // until the gain is full or the contact ends
+  double without_loan_ = 0.0;                         // [s] since the loan ran out during a fade-in
+  Eigen::Vector3d change_ = Eigen::Vector3d::Zero();  // [N], of the springs of bodies
   Eigen::Vector3d effects_ = Eigen::Vector3d::Zero();  // [N], wanted
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();    // [N], of both, what does not pull
   double not_pulling_ = 1.0;                           // share of both

@@ -64,7 +64,8 @@ class EnergyLedger {
   /// What the potentials of regions owe, beside E.
   [[nodiscard]] RegionLoan& region_loan() noexcept { return region_loan_; }
   [[nodiscard]] const RegionLoan& region_loan() const noexcept { return region_loan_; }
-  /// Pays what the regions' loan is due, and keeps the energy that pays for the forces under way.
+  /// Repays the due part of the loan for regions, but keeps the energy that the forces under way
+  /// need.
   void repay_regions() noexcept { level_ -= region_loan_.pay_due(spendable()); }
   /// What pays for the oscillations of regions, beside E.
   [[nodiscard]] OscillationBucket& oscillations() noexcept { return oscillations_; }

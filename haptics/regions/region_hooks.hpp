@@ -47,7 +47,8 @@ struct RegionReach {
 
 /// Stores energy. The energy may fall by itself, as where friction slides, but never grow without a
 /// motion of the device against the force, except where it enters the region: then its share begins
-/// at what the device's ledger covers. Called once a step, inside or not.
+/// at what the ledger covers, and for LendsRegionEnergy the loan for regions. Called once a step,
+/// inside or not.
 template <class Effect>
 concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
                                       const RegionPoint& point) {

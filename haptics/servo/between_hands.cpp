@@ -26,8 +26,8 @@ double depth_at(const ContactShape& shape, const Vector3d& p) {
   return point.reset(shape, p) ? (point.scp() - p).norm() : 0.0;
 }
 
-// Both in the axes of the shape. A hand is within where it is predicted too far: by as much the way
-// may seem to be too deep.
+// Both in the axes of the shape. A prediction that goes too far puts a hand inside the solid, which
+// makes the segment look deeper by that much.
 bool cuts(const ContactShape& shape, const Vector3d& from, const Vector3d& to, bool apart) {
   const Vector3d way = to - from;
   const double deep_from = depth_at(shape, from), deep_to = depth_at(shape, to);

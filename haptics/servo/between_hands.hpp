@@ -11,10 +11,11 @@
 
 namespace reckon::haptics {
 
-/// A solid cuts the segment between two proxies if the segment is within it deeper than a tenth of
-/// its way there, and at most 2 mm. So two fingers side by side on a ball still touch, and a finger
-/// that slides along an edge does not come and go: once apart, they stay so down to half of that.
-/// Open meshes have no inside and cut nothing.
+/// A solid cuts the segment between two proxies if the segment is within it deeper than 2 mm, or
+/// than a tenth of the length inside plus twice the depth of the deeper proxy if that is less. So
+/// two fingers side by side on a ball still touch, and a finger that slides along an edge does not
+/// come and go: once apart, they stay so down to half of that. Open meshes have no inside and cut
+/// nothing.
 ///
 /// Bodies far from both cost a few comparisons each, all else its place in the plan's tree. No
 /// allocation; tens of ns a solid near both, microseconds a mesh.

@@ -27,7 +27,7 @@ constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at re
 constexpr double kRest = 1.0;            // [s]
 constexpr double kReadFor = 0.002;       // [s]: within it an encoder step may be no motion
 constexpr double kUnit = 1e-6;           // of a quaternion's length
-constexpr std::uint64_t kPartsEach = 4;  // steps, in which hands are asked for what is between them
+constexpr std::uint64_t kPartsEach = 4;  // steps between two checks for solids between hands
 constexpr double kTurnMisfit = 1e-4;     // [rad], of the filter of turns
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {

@@ -422,7 +422,7 @@ Section<DeviceConfig> device_section() {
        "most that oscillations of regions put into its hand, on average; beyond it they are "
        "weaker"},
       {"oscillation_energy", &Device::oscillation_energy, within("J", 0, 1),
-       "most that they put in at once, beyond that power"},
+       "most that oscillations of regions put in at once, beyond oscillation_power"},
       {"resolution", &Device::resolution, within("m", 0, 1e-3),
        "step of its position sensors, along each of its axes; 0: exact"},
       {"stop_button", &Device::stop_button, declared("", 0, 31),

@@ -114,7 +114,7 @@ def turned(rows):
 
 
 def strokes(reckon):
-    """Drag on a light body does not turn it around, and is told to be less."""
+    """Drag does not turn a light body around within a period."""
     faults = []
     for shape in ("box = [0.04, 0.04, 0.04]", "sphere = 0.02", "box = [0.2, 0.06, 0.04]"):
         for mass in (0.002, 0.004, 0.02, 0.2):

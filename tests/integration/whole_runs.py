@@ -27,7 +27,7 @@ BEGUN = {"demo": r"in a browser|interface", "peer": r"interface", "view": r"http
 
 
 class Ports:
-    """UDP ports of lo: programs on one port alone hear one another."""
+    """UDP ports of lo: only programs on the same port receive each other."""
 
     def __init__(self):
         self._lock, self._given = threading.Lock(), set()

@@ -28,7 +28,7 @@ TEST(SurfaceTracker, FollowsCalmlyWhereDelayOutweighsWhatDamps) {
   EXPECT_NEAR(tracker.time_constant({true, 800.0}), 2 * 0.010, 1e-9);
 }
 
-TEST(SurfaceTracker, FollowsCalmlyInARowHoweverShortTheLine) {
+TEST(SurfaceTracker, FollowsRowsCalmlyOverShortLines) {
   Following row{false, 550.0};
   row.in_row = true;
   EXPECT_NEAR(learnt(0.0, 0.002, 3e-5).time_constant(row), 0.05, 1e-9);

@@ -23,7 +23,7 @@ PlannedObject body_of(const Shape& shape, double mass, double viscosity = 8.0) {
   return EffectPlan(scene).objects().front();
 }
 
-TEST(LeastMass, OfBallAndCubeIsThatOfTheirSurfaces) {
+TEST(LeastMass, MatchesClosedFormOfBallAndCube) {
   EXPECT_NEAR(body_of(SphereShape{0.02}, 0.7).least_mass, 0.2, 1e-12);
   // r^2 / I = (3/4) / (1/6) at a corner.
   EXPECT_NEAR(body_of(BoxShape{Vector3d::Constant(0.04)}, 1.1).least_mass, 0.2, 1e-12);
@@ -31,12 +31,12 @@ TEST(LeastMass, OfBallAndCubeIsThatOfTheirSurfaces) {
 
 // Of a rod 1 + 3 + 3: it turns about its middle and about itself. Of a cylinder, at its rim
 // 1 + (h/2)^2 / (r^2/4 + h^2/12) + r^2 / (r^2/2).
-TEST(LeastMass, OfRodAndCylinderIsThatOfTheirEnds) {
+TEST(LeastMass, IsLeastAtEndsOfRodAndCylinder) {
   EXPECT_NEAR(body_of(BoxShape{Vector3d(1.0, 1e-4, 1e-4)}, 1.0).least_mass, 1.0 / 7, 1e-6);
   EXPECT_NEAR(body_of(CylinderShape{0.02, 0.1}, 1.0).least_mass, 1.0 / 5.68, 0.005);
 }
 
-TEST(LeastMass, BoundsWhatHoldsBackBySpeedAlone) {
+TEST(LeastMass, BoundsOnlySpeedDependentEffects) {
   const PlannedObject light = body_of(SphereShape{0.02}, 0.007);
   EXPECT_NEAR(light.most_viscosity(1e-3), 0.6, 1e-12);
   EXPECT_NEAR(light.most_viscosity(2.5e-4), 2.4, 1e-12);

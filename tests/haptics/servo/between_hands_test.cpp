@@ -36,7 +36,7 @@ void expect(bool is, const Shape& shape, const Vector3d& from, const Vector3d& t
   EXPECT_FALSE(is_between_hands(moving, {&body, 1}, from, to, apart)) << "it has gone";
 }
 
-TEST(BetweenHands, CubeOfAnySizePartsFingersOnItsSides) {
+TEST(BetweenHands, CubePartsFingersOnOppositeSides) {
   for (const double edge : {0.001, 0.02, 0.03, 0.04, 0.2}) {
     const Vector3d at(0.5 * edge + 1e-9, 0.1 * edge, 0);
     expect(true, BoxShape{Vector3d::Constant(edge)}, at, -at);
@@ -44,7 +44,7 @@ TEST(BetweenHands, CubeOfAnySizePartsFingersOnItsSides) {
   }
 }
 
-TEST(BetweenHands, BoardAndBallPartWhatIsOnEitherSide) {
+TEST(BetweenHands, BoardAndBallPartHandsOnOppositeSides) {
   expect(true, BoxShape{Vector3d(0.3, 0.3, 0.001)}, {0, 0, 0.02}, {0.005, 0, -0.01});
   expect(true, SphereShape{0.02}, {0.02, 0, 0}, {-0.02, 0.001, 0});
   expect(true, CylinderShape{0.02, 0.1}, {0.021, 0, 0}, {-0.021, 0, 0.03});
@@ -57,7 +57,7 @@ TEST(BetweenHands, FingersSideBySideStillTouch) {
 }
 
 // The chord's depth, beyond a tenth of its length, and of half of that.
-TEST(BetweenHands, EdgeDoesNotLetThemComeAndGo) {
+TEST(BetweenHands, ContactDoesNotFlickerAtEdges) {
   const auto over = [](double half) { return std::sqrt(0.02 * 0.02 - half * half); };
   for (const double half : {0.0079, 0.005, 0.0035}) {
     const Vector3d at(half, 0, over(half)), other(-half, 0, over(half));
@@ -68,7 +68,7 @@ TEST(BetweenHands, EdgeDoesNotLetThemComeAndGo) {
 }
 
 // As where the other hand is predicted too far.
-TEST(BetweenHands, PlaceInsideCountsWhereTheSolidIsDeep) {
+TEST(BetweenHands, PlaceInsideDeepSolidCounts) {
   const BoxShape cube{Vector3d::Constant(0.02)};
   expect(true, cube, {-0.03, 0, 0}, {0.005, 0, 0});
   expect(true, cube, {0.005, 0, 0}, {-0.03, 0, 0});

@@ -225,7 +225,7 @@ TEST(EnergyLiar, WhoAlsoMovesThrowsAHandNoHarderThanOthersMay) {
 // A spring that a liar let the hand fill gives it back in a burst, which has no bar. But from the
 // start on no hand gets more than others may give, 8 mJ and 0.2 W, beyond what it put in and what
 // it owes.
-TEST(EnergyLiar, HandGetsWhatItPutInAndTheReceivedPower) {
+TEST(EnergyLiar, EnergyGainStaysWithinReceivedPower) {
   const int tries = std::getenv("RECKON_SOAK") != nullptr ? 250 : 25;
   for (const Held& held : {Held{}, Held{180, 2, 15, 0.7}, Held{180, 2, 30, 2}}) {
     for (const bool leaps : {false, true}) {
