@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "reckon/haptics/contact/contact_shares.hpp"
+#include "reckon/haptics/contact/free_place.hpp"
 #include "reckon/haptics/queries/pair_query.hpp"
 
 namespace reckon::haptics {
@@ -16,11 +17,6 @@ using Eigen::Vector3d;
 
 // Far beyond any scene, but near enough that its square does not overflow.
 constexpr double kFarthest = 1e9;
-// Number of overlapping objects that the search leaves one by one before it goes straight out, and
-// the lengths [m] that it tries.
-constexpr int kPushes = 32;
-constexpr double kSearchFrom = 1e-4;
-constexpr double kSearchTo = 1e5;
 constexpr double kBeyond = 0.01;     // [m]
 constexpr double kPassedFor = 0.05;  // [s]
 
@@ -67,6 +63,25 @@ std::size_t holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t othe
   shares[0].triangle = walk.planes.size() > 0 ? walk.planes[0].triangle : 0;
   shares[0].push = way.isZero(0.0) && walk.planes.size() > 0 ? walk.planes[0].normal : way;
   return 1;
+}
+
+// Whether a point is outside of a solid [m, S].
+bool is_outside(const QueryShape& solid, const PlannedObject& now, const Vector3d& p) {
+  static const QueryShape point = QueryShape::sphere(0.0);
+  return measure_pair(point, {p}, solid, {now.position, now.orientation}).distance.least > 0.0;
+}
+
+// What effects are given of an object that is touched.
+ContactedObject seen_of(const PlannedObject& object, const ObjectContact& contact, bool began,
+                        double gain) {
+  ContactedObject seen;
+  seen.place = object.place_of(contact.scp);
+  seen.axes = object.orientation;
+  seen.triangle = contact.triangle;
+  seen.patch = contact.patch;
+  seen.began = began;
+  seen.gain = gain;
+  return seen;
 }
 
 }  // namespace
@@ -182,7 +197,10 @@ ContactResult ContactSolver::step(const Vector3d& device, double dt) noexcept {
 void ContactSolver::let_through(const Vector3d& device, double dt) noexcept {
   for (const std::uint32_t body : placed_) {
     MovingObject& moving = moving_[body];
-    moving.beyond = is_beyond(moving, device) ? moving.beyond + dt : 0.0;
+    const double most = kBeyond + strongest_ / std::min(stiffness_of(moving.object), patch_cap_);
+    const bool is_beyond = contacts_[moving.object].in_contact && (device - scp_).norm() > most &&
+                           is_outside(moving.solid, moving.now, device);
+    moving.beyond = is_beyond ? moving.beyond + dt : 0.0;
     if (!(moving.beyond > kPassedFor)) continue;
     lost_ += contacts_[moving.object].stored_energy;
     ++passed_;
@@ -191,15 +209,6 @@ void ContactSolver::let_through(const Vector3d& device, double dt) noexcept {
     settle(device);
     left_out_ = kNobody;
   }
-}
-
-bool ContactSolver::is_beyond(const MovingObject& moving, const Vector3d& device) const noexcept {
-  if (!contacts_[moving.object].in_contact) return false;
-  const double stiffness = std::min(stiffness_of(moving.object), patch_cap_);
-  if (!((device - scp_).norm() > strongest_ / stiffness + kBeyond)) return false;
-  static const QueryShape point = QueryShape::sphere(0.0);
-  const Placement at{moving.now.position, moving.now.orientation};
-  return measure_pair(point, {device}, moving.solid, at).distance.least > 0.0;
 }
 
 // An object that was touched just now begins at its place, without sliding.
@@ -243,46 +252,6 @@ bool ContactSolver::within_reach(std::uint32_t index, const Vector3d& device) co
   return distance_below(object.shape, object.to_object(device)) <= reach;
 }
 
-// An object whose solid the probe overlaps at p, if any.
-std::uint32_t ContactSolver::overlapped(const Vector3d& p) const noexcept {
-  std::uint32_t found = kNobody;
-  const Vector3d room = Vector3d::Constant(radius_);
-  const auto see = [&](std::uint32_t index) {
-    if (found != kNobody) return;
-    const PlannedObject& object = *objects_[index];
-    if (states_[index].point.overlaps(object.shape, object.to_object(p))) found = index;
-  };
-  plan_.visit_near({p - room, p + room}, see);
-  for (const MovingObject& moving : moving_) see(moving.object);
-  return found;
-}
-
-// Moves p out of one object after the other.
-bool ContactSolver::push_out(Vector3d& p) const noexcept {
-  for (int round = 0; round < kPushes; ++round) {
-    const std::uint32_t index = overlapped(p);
-    if (index == kNobody) return true;
-    const PlannedObject& object = *objects_[index];
-    SurfaceContactPoint point(radius_);
-    point.reset(object.shape, object.to_object(p));
-    p = object.to_scene(point.scp());
-  }
-  return overlapped(p) == kNobody;
-}
-
-// Searches along the axes and the diagonals, in growing steps. Returns the device if nothing is
-// found.
-Vector3d ContactSolver::search_outside(const Vector3d& device) const noexcept {
-  for (double reach = kSearchFrom; reach < kSearchTo; reach *= 2.0) {
-    for (int way = 0; way < 27; ++way) {
-      const Vector3d p =
-          device + reach * Vector3d(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1).stableNormalized();
-      if (overlapped(p) == kNobody) return p;
-    }
-  }
-  return device;
-}
-
 void ContactSolver::place_outside(const Vector3d& device) noexcept {
   scp_ = device;
   alone_ = kNobody;
@@ -295,10 +264,11 @@ void ContactSolver::place_outside(const Vector3d& device) noexcept {
   }
   if (moved == kNobody) return;
   Vector3d p = objects_[moved]->to_scene(states_[moved].point.scp());
-  if (overlapped(p) == kNobody) {
+  const FreePlace free(plan_, objects_, radius_);
+  if (free.overlapped(p) == FreePlace::kNobody) {
     alone_ = moved;
-  } else if (!push_out(p)) {
-    p = search_outside(device);
+  } else if (!free.push_out(p)) {
+    p = free.search(device);
   }
   scp_ = p;
 }
@@ -461,19 +431,6 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
   });
 }
 
-ContactedObject ContactSolver::contacted(std::uint32_t index, double gain) const noexcept {
-  const PlannedObject& object = *objects_[index];
-  const ObjectContact& contact = contacts_[index];
-  ContactedObject seen;
-  seen.place = object.place_of(contact.scp);
-  seen.axes = object.orientation;
-  seen.triangle = contact.triangle;
-  seen.patch = contact.patch;
-  seen.began = states_[index].began;
-  seen.gain = gain;
-  return seen;
-}
-
 // What effects see of a mesh.
 void ContactSolver::stroke(std::uint32_t index, EffectContact& seen,
                            ContactedObject& contacted) noexcept {
@@ -561,7 +518,7 @@ Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt, double
       });
       continue;
     }
-    ContactedObject object = contacted(i, gain);
+    ContactedObject object = seen_of(*objects_[i], contact, states_[i].began, gain);
     if (contact.in_contact) seen.object = &object;
     if (contact.in_contact && objects_[i]->is_mesh()) stroke(i, seen, object);
     effects.for_each([&]<class Effect>(Effect& effect) {

@@ -204,13 +204,8 @@ class ContactSolver {
   [[nodiscard]] bool within_reach(std::uint32_t index,
                                   const Eigen::Vector3d& device) const noexcept;
   void let_through(const Eigen::Vector3d& device, double dt) noexcept;
-  [[nodiscard]] bool is_beyond(const MovingObject& moving,
-                               const Eigen::Vector3d& device) const noexcept;
   void find_near(const Eigen::Vector3d& device) noexcept;
   void place_outside(const Eigen::Vector3d& device) noexcept;
-  [[nodiscard]] std::uint32_t overlapped(const Eigen::Vector3d& p) const noexcept;
-  [[nodiscard]] bool push_out(Eigen::Vector3d& p) const noexcept;
-  [[nodiscard]] Eigen::Vector3d search_outside(const Eigen::Vector3d& device) const noexcept;
   void follow_place(double dt) noexcept;
   void settle(const Eigen::Vector3d& device) noexcept;
   void settle_on_one(std::uint32_t index, const Eigen::Vector3d& device) noexcept;
@@ -220,7 +215,6 @@ class ContactSolver {
   void note_touch(std::uint32_t index, std::uint32_t triangle) noexcept;
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
-  [[nodiscard]] ContactedObject contacted(std::uint32_t index, double gain) const noexcept;
   void stroke(std::uint32_t index, EffectContact& seen, ContactedObject& contacted) noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;

@@ -47,6 +47,11 @@ class DryFriction : public CountedEffect<DryFriction> {
     }
     return {0.5 * yield_.stiffness * way.squaredNorm(), -yield_.stiffness * way, yield_.stiffness};
   }
+  /// Hook: of the hold [J]. The loan for regions pays for a hold that begins stretched, or a region
+  /// that has other potentials besides would wait for the hand's energy.
+  [[nodiscard]] double range(const RegionReach& /*reach*/) const noexcept {
+    return 0.5 * yield_.force * yield_.force / yield_.stiffness;
+  }
   /// Hook [N/m].
   [[nodiscard]] double stiffness() const noexcept { return yield_.stiffness; }
 

@@ -58,8 +58,8 @@ concept StoresRegionEnergy = requires(Effect& effect, const Effect& fixed,
   noexcept->std::same_as<double>;
 };
 
-/// A potential of the place alone, which a region brings with it: the port's loan for regions pays
-/// where it begins at more than 0. range() is the most that it can store within reach [J].
+/// A potential that a region brings with it: the port's loan for regions pays where it begins at
+/// more than 0. range() is the most that it can store within reach [J].
 template <class Effect>
 concept LendsRegionEnergy = StoresRegionEnergy<Effect> &&
     requires(const Effect& fixed, const RegionReach& reach) {

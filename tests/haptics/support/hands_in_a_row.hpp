@@ -212,7 +212,8 @@ class HandsInARow {
       RemoteHand hand;
       hand.id = {1, 1, static_cast<std::uint16_t>(side + 1)};
       hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
-      hand.state.position = s.device;
+      hand.state.position = s.scp;  // where the hand is shown
+      hand.model.point = s.device - s.scp;
       hand.state.velocity = s.device_velocity;
       hand.state_time = pdu::from_seconds(t) + std::chrono::milliseconds(1);
       hand.model.kind = pdu::ForceModelKind::sphere;
