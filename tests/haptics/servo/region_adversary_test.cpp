@@ -33,7 +33,7 @@ struct Loot {
   double owed = 0.0;    // most
 };
 
-/// A port that moves as told or as takes most, with its own books.
+/// A port whose motion follows a script, or else takes most energy, with its own books.
 class Thief {
  public:
   Thief(const Scene& scene, double loan, int delay, double resolution = 0.0)
