@@ -128,6 +128,7 @@ class BodySolver {
   }
   [[nodiscard]] bool rests() const noexcept;
   void apply(std::span<BodyForce> forces) noexcept;
+  void time_speeds(double dt) noexcept;
   void solve(BodySet but, double dt) noexcept;
   void strike(BodySet bodies) noexcept;
   [[nodiscard]] bool solve_exactly(BodySet some, double dt) noexcept;

@@ -26,6 +26,7 @@ RigidBody::State RigidBody::state() const noexcept {
   out.awake = is_awake();
   out.still = still;
   out.account = account;
+  out.lag = lag;
   return out;
 }
 
@@ -45,6 +46,7 @@ void RigidBody::set(const State& state) noexcept {
   }
   still = state.still;
   account = state.account;
+  lag = state.lag;
 }
 
 Quaterniond RigidBody::turned() const noexcept {

@@ -57,11 +57,13 @@ struct RigidBody : BodyKind {
     bool awake = true;
     double still = 0.0;    // [s]
     double account = 0.0;  // [J]
+    double lag = 0.0;      // [s]
   };
 
   dBodyID id = nullptr;
   double still = 0.0;             ///< [s]
   bool flies = true;              ///< nothing pushes it in this step but its weight
+  double lag = 0.0;               ///< [s], by which its speed is older than its place
   State before, kept;             ///< of a step; of BodySolver::keep()
   Eigen::AlignedBox3d clear;      ///< [m], S: where no body without a slot was, BodySlots
   std::uint64_t clear_since = 0;  ///< as of which of its changes; 0: nothing is known

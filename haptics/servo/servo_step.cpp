@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr double kToSpare = 1.05;        // times the energy that the whole force needs
-constexpr double kShakeRate = 0.5;       // of the fastest growth of the force, while regions shake
+constexpr double kShakeRate = 0.5;       // of the fastest growth of the force, for oscillations
 constexpr int kHoldSteps = 100;          // of zero force after a trip
 constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at rest too
 constexpr double kRest = 1.0;            // [s]
@@ -34,6 +34,13 @@ double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(symmetric, Eigen::EigenvaluesOnly);
   return (1.0 + 1e-9) * solver.eigenvalues()(2);
+}
+
+template <class Force>
+Force stepped_to(const Force& from, const Force& to, double most) {
+  const Force way = to - from;
+  const double length = way.norm();
+  return length > most ? Force(from + most / length * way) : to;
 }
 
 template <int axes>
@@ -385,7 +392,7 @@ template <int axes>
 typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
   const bool shakes = !load.shake.isZero(0.0) || !port_.shaking().isZero(0.0);
   const Force shaken = port_.shaking(), wish = load.shake;
-  if (shakes) load.shake = nearest_in_reach(shaken, load.shake, kShakeRate * port_rate_ * elapsed_);
+  if (shakes) load.shake = stepped_to<Force>(shaken, wish, kShakeRate * port_rate_ * elapsed_);
   held_ = port_.hold(load, period_);
   if (held_.walls < 1.0) {
     static_.attenuate(held_.walls, port_);
@@ -396,10 +403,11 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
   tally_.held_back.note_force(held_.springs, tool_.force(load.springs), step_.dt);
   tally_.effects.note_force(held_.extra, tool_.force(load.extra), step_.dt);
   static_.shown(held_.extra);
-  const double rate = shakes ? 1.0 - kShakeRate : 1.0;
-  Force force = keep_rate(load, held_.force, shakes ? written_ - shaken : written_, rate);
+  if (shakes) shake(load, wish);
+  const Force force = keep_rate(load, held_.force);
   const double whole = held_.force.norm();
-  const double reached = whole > 0 ? std::min(1.0, force.norm() / whole) : 1.0;
+  const double reached =
+      whole > 0 ? std::min(1.0, (force - port_.shaking()).norm() / whole) : 1.0;
   const double share = crowd_share_ * held_.springs * reached;
   for (RemoteContact* remote : hands_.all()) remote->shown(share, port_.free());
   tally_.rate.note(reached, newtons(held_.force), step_.dt);
@@ -407,34 +415,31 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
     tally_.softened.note(softening_.share(), newtons(load.springs) / softening_.share(), step_.dt);
   }
   soften(load, held_.springs);
-  if (shakes) force += shake(load, wish);
   return force;
 }
 
 template <int axes>
-typename ServoStepOf<axes>::Force ServoStepOf<axes>::shake(const Load& load,
-                                                           const Force& wish) noexcept {
-  const Force shown = port_.shake(load, period_);
+void ServoStepOf<axes>::shake(const Load& load, const Force& wish) noexcept {
+  const Force& shown = port_.shake(load, period_);
   const double whole = wish.norm();
   const double share = whole > 0 ? std::min(1.0, shown.norm() / whole) : 1.0;
   static_.shook(share);
   tally_.effects.note_force(share, tool_.force(wish), step_.dt);
-  return shown;
 }
 
 // A crease, an edge or a quick blow turns the force within one sample. The force follows at a
 // limited rate, which the port accounts for like any held force. If the energy does not allow that,
-// the whole force is reduced.
+// the whole force is reduced. Its rate is that of the sum with the oscillations.
 template <int axes>
 typename ServoStepOf<axes>::Force ServoStepOf<axes>::keep_rate(const Load& load,
-                                                               const Force& wanted,
-                                                               const Force& last,
-                                                               double share) noexcept {
+                                                               const Force& held) noexcept {
+  const Force wanted = held + port_.shaking();
   if (!wanted.allFinite()) return wanted;  // safety handles it
-  const double most = share * port_rate_ * elapsed_;
-  const Force near_by = nearest_in_reach(last, wanted, most);
-  if (near_by == wanted || port_.hold_instead(load, near_by, period_)) return near_by;
-  const double part = part_in_reach(last, wanted, most);
+  const double most = port_rate_ * elapsed_;
+  const Force near_by = nearest_in_reach(written_, wanted, most);
+  if (near_by == wanted || port_.hold_instead(load, near_by - port_.shaking(), period_))
+    return near_by;
+  const double part = part_in_reach(written_, wanted, most);
   static_.attenuate(part, port_);
   port_.attenuate(part);
   return part * wanted;

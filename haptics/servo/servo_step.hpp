@@ -62,9 +62,8 @@ class ServoStepOf final : public ServoCore {
   void load_hands(Load& load) noexcept;
   void soften_crowd(Load& load) noexcept;
   [[nodiscard]] Force hold(Load& load) noexcept;
-  [[nodiscard]] Force shake(const Load& load, const Force& wish) noexcept;
-  [[nodiscard]] Force keep_rate(const Load& load, const Force& wanted, const Force& last,
-                                double share) noexcept;
+  void shake(const Load& load, const Force& wish) noexcept;
+  [[nodiscard]] Force keep_rate(const Load& load, const Force& held) noexcept;
   void soften(const Load& load, double held) noexcept;
   void write() noexcept;
   void publish(bool enabled) noexcept;

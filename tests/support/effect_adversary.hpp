@@ -26,13 +26,77 @@ inline double any(Random& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
 
-/// The device's own books, from the start [J].
-struct Books {
-  double energy = 0.0, least = 0.0;
-  void settle(const Vector3d& force, const Vector3d& dx, double dt) {
-    energy += -force.dot(dx) + kDamping * dx.squaredNorm() / dt;
-    least = std::min(least, energy);
+/// A port at a scene, whose hand moves as it is told, and the device's own books of it.
+class BookedPort {
+ public:
+  /// @param place of the hand [m]  @param delay [samples], of the device
+  BookedPort(const EffectPlan& plan, const Vector3d& place, int delay = 0)
+      : port_(kDamping, delay),
+        contact_(plan, 0.75 * 0.95 * 2.0 * kDamping / (kSample * (1.0 + 2.0 * delay))),
+        held_(delay),
+        place_(place) {
+    tool_.reset({place});
+    contact_.reset(tool_);
   }
+
+  /// The force for the next sample [N].
+  const Vector3d& hold() {
+    PortLoad load;
+    tool_.set_velocity(velocity_);
+    contact_.load(tool_, kSample, load);
+    const PortHold held = port_.hold(load, kSample);
+    if (held.walls < 1.0) contact_.attenuate(held.walls, port_);
+    contact_.shown(held.extra);
+    return force_ = held.force + port_.shake(load, kSample);
+  }
+  void cut(double to) {
+    contact_.attenuate(to, port_);
+    port_.attenuate(to);
+    force_ *= to;
+  }
+  /// The hand moves by `dx` [m] under the force that is at the handle.
+  void move(const Vector3d& dx, double dt = kSample) {
+    hold_for_a_sample(dx, dt);
+    port_.settle(unread_, dt);
+    tool_.move({place_});
+    contact_.settle(tool_, dt, port_);
+    unread_.setZero();
+  }
+  /// The reading after the motion fails, and the next force is cut.
+  void move_unread(const Vector3d& dx) {
+    hold_for_a_sample(dx, kSample);
+    port_.miss(kSample);
+    hold();
+    cut(0.0);
+  }
+
+  [[nodiscard]] EnergyPort& port() { return port_; }
+  [[nodiscard]] StaticContact& contact() { return contact_; }
+  [[nodiscard]] const Vector3d& place() const { return place_; }
+  [[nodiscard]] const Vector3d& at_handle() const { return held_.at_handle(); }
+  /// Whether the last sample was read. One that was not is booked with the next.
+  [[nodiscard]] bool is_read() const { return unread_.isZero(0.0); }
+  /// Since the start [J].
+  [[nodiscard]] double energy() const { return energy_; }
+  [[nodiscard]] double least() const { return least_; }
+
+ private:
+  void hold_for_a_sample(const Vector3d& dx, double dt) {
+    held_.write(force_);
+    energy_ += -held_.at_handle().dot(dx) + kDamping * dx.squaredNorm() / dt;
+    least_ = std::min(least_, energy_);
+    place_ += dx;
+    unread_ += dx;
+    velocity_ = dx / dt;
+  }
+
+  EnergyPort port_;
+  StaticContact contact_;
+  PointTool tool_;
+  HeldForces held_;
+  Vector3d place_, velocity_ = Vector3d::Zero(), force_ = Vector3d::Zero();
+  Vector3d unread_ = Vector3d::Zero();
+  double energy_ = 0.0, least_ = 0.0;
 };
 
 /// The motion of the hand in a sample: that which takes most out of `force`, or any. @param stray
@@ -46,44 +110,24 @@ inline Vector3d motion(Random& random, int step, const Vector3d& force, const Ve
   return dx + 0.004 * (Vector3d(0.015, 0.012, 0.012) - device);
 }
 
-/// With the gate, or as the effects want it. @return the least of the books, and what late samples
-/// account for
+/// With the gate. @return the least of the books, and what late samples account for
 struct Least {
   double books, late;
 };
 [[nodiscard]] inline Least run_gated(const Scene& scene, Random& random, double stray = 2e-4) {
   const EffectPlan plan(scene);
-  EnergyPort port(kDamping);
-  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
-  PointTool tool;
-  Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
-  tool.reset({device});
-  contact.reset(tool);
-  Books books;
+  BookedPort port(plan, {0.03, 0.02, 0.025});
   for (int i = 0; i < kSteps; ++i) {
-    PortLoad load;
-    tool.set_velocity(velocity);
-    contact.load(tool, kSample, load);
-    const PortHold held = port.hold(load, kSample);
-    if (held.walls < 1.0) contact.attenuate(held.walls, port);
-    contact.shown(held.extra);
-    Vector3d force = held.force;
+    Vector3d force = port.hold();
     if (i % 97 == 0) {
-      contact.attenuate(0.5, port);
-      port.attenuate(0.5);
+      port.cut(0.5);
       force *= 0.5;
     }
     const double dt = random() % 20 == 0 ? any(random, 1.0, 4.0) * kSample : kSample;
-    const Vector3d dx = motion(random, i, force, device, dt, stray);
-    device += dx;
-    velocity = dx / dt;
-    books.settle(force, dx, dt);
-    port.settle(dx, dt);
-    tool.move({device});
-    contact.settle(tool, dt, port);
+    port.move(motion(random, i, force, port.place(), dt, stray), dt);
     EXPECT_TRUE(force.allFinite()) << i;
   }
-  return {books.least, port.late_cost()};
+  return {port.least(), port.port().late_cost()};
 }
 
 /// A hand that puts in next to nothing in a region: it strays by microns about `start` [m, S] and
@@ -91,38 +135,22 @@ struct Least {
 /// [J]
 [[nodiscard]] inline double stray_and_let_go(const EffectPlan& plan, const Vector3d& start,
                                              Random& random) {
-  EnergyPort port(kDamping);
-  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
-  PointTool tool;
-  Vector3d device = start, velocity = Vector3d::Zero();
-  tool.reset({device});
-  contact.reset(tool);
-  Books books;
+  BookedPort port(plan, start);
   int stray = 0;
   for (int i = 0; i < 3000; ++i) {
-    PortLoad load;
-    tool.set_velocity(velocity);
-    contact.load(tool, kSample, load);
-    const PortHold held = port.hold(load, kSample);
-    if (held.walls < 1.0) contact.attenuate(held.walls, port);
-    contact.shown(held.extra);
+    const Vector3d& force = port.hold();
     Vector3d dx =
         Vector3d(any(random, -4e-6, 4e-6), any(random, -4e-6, 4e-6), any(random, -4e-6, 4e-6));
     if (stray-- <= 0) {
-      dx = any(random, 0.2, 1.0) * kSample / kDamping * held.force;
+      dx = any(random, 0.2, 1.0) * kSample / kDamping * force;
       if (stray < -30) {
         stray = static_cast<int>(any(random, 1.0, 60.0));
-        dx = 0.2 * (start - device);
+        dx = 0.2 * (start - port.place());
       }
     }
-    device += dx;
-    velocity = dx / kSample;
-    books.settle(held.force, dx, kSample);
-    port.settle(dx, kSample);
-    tool.move({device});
-    contact.settle(tool, kSample, port);
+    port.move(dx);
   }
-  return books.least;
+  return port.least();
 }
 
 /// A hand that puts in next to nothing: it presses by microns from the very surface and lets go by
@@ -130,39 +158,23 @@ struct Least {
 /// the books [J]
 [[nodiscard]] inline double press_and_let_go(const EffectPlan& plan, Random& random) {
   const PlannedObject& object = plan.objects()[0];
-  EnergyPort port(kDamping);
-  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kSample);
-  PointTool tool;
   const Vector3d start = object.to_scene({0.003, 0.001, 0.02 + 1e-6});
   const Vector3d in = object.orientation * Vector3d(0, 0, -1);
-  Vector3d device = start, velocity = Vector3d::Zero();
-  tool.reset({device});
-  contact.reset(tool);
-  Books books;
+  BookedPort port(plan, start);
   int press = 0;
   for (int i = 0; i < 3000; ++i) {
-    PortLoad load;
-    tool.set_velocity(velocity);
-    contact.load(tool, kSample, load);
-    const PortHold held = port.hold(load, kSample);
-    if (held.walls < 1.0) contact.attenuate(held.walls, port);
-    contact.shown(held.extra);
+    const Vector3d& force = port.hold();
     Vector3d dx = any(random, 0.0, 4e-6) * in;
     if (press-- <= 0) {
-      dx = 0.5 * kSample / kDamping * held.force;
+      dx = 0.5 * kSample / kDamping * force;
       if (press < -3) {
         press = static_cast<int>(any(random, 1.0, 60.0));
-        dx = 0.2 * (start - device);
+        dx = 0.2 * (start - port.place());
       }
     }
-    device += dx;
-    velocity = dx / kSample;
-    books.settle(held.force, dx, kSample);
-    port.settle(dx, kSample);
-    tool.move({device});
-    contact.settle(tool, kSample, port);
+    port.move(dx);
   }
-  return books.least;
+  return port.least();
 }
 
 /// The greatest fall of what the hand has put in beyond what springs hold [J]: what the effects
@@ -175,8 +187,7 @@ struct Least {
   Vector3d device(0.03, 0.02, 0.025), velocity = Vector3d::Zero();
   tool.reset({device});
   contact.reset(tool);
-  Books books;
-  double most = 0.0, made = 0.0;
+  double energy = 0.0, most = 0.0, made = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     PortLoad load;
     rich.borrow(1.0);
@@ -189,10 +200,10 @@ struct Least {
     const Vector3d dx = motion(random, i, prey, device, kSample, 2e-5);
     device += dx;
     velocity = dx / kSample;
-    books.settle(force, dx, kSample);
+    energy += -force.dot(dx) + kDamping * dx.squaredNorm() / kSample;
     tool.move({device});
     contact.settle(tool, kSample, rich);
-    const double left = books.energy - contact.walls().stored() - contact.regions().stored();
+    const double left = energy - contact.walls().stored() - contact.regions().stored();
     most = std::max(most, left);
     made = std::max(made, most - left);
   }

@@ -156,10 +156,12 @@ Hand::Hand(const Scenario& scenario, std::size_t index, const Track* led, nanose
   config.period = period_;
   config.probe_radius = kRadius;
   const Eigen::Vector3d home = home_of(scenario, index) * Eigen::Vector3d::UnitX();
-  const haptics::Scene scene = solids_of(scenario, home, drawn_ ? &drawn_->scene() : nullptr);
+  haptics::Scene scene = solids_of(scenario, home, drawn_ ? &drawn_->scene() : nullptr);
+  if (simulated_ != nullptr && index == 0) add_moving(scenario, home, scene);
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene);
-  servo_ = std::make_unique<haptics::ServoLoop>(handle_->device(), plan, config,
-                                                haptics::make_bodies(*plan, scene));
+  const auto world = haptics::make_bodies(*plan, scene, paddle_of(scenario));
+  servo_ = std::make_unique<haptics::ServoLoop>(handle_->device(), plan, config, world);
+  moving_ = std::make_unique<MovingBooks>(scenario, index == 0 && model_ == nullptr ? world : nullptr);
 }
 
 void Hand::make_handle(const Track* led) {
@@ -246,15 +248,18 @@ void Hand::keep_books(double before, double dt, bool failed) {
   let_go_ = snapshot_.tally.let_go;
   if (let_go) held_.setZero();
 
-  const double port = work() + transferred_ + snapshot_.loan + snapshot_.source_energy();
+  moving_->note(snapshot_, dt);
+  const double port =
+      work() + transferred_ + snapshot_.loan + snapshot_.source_energy() - moving_->gained();
   finite_ = finite_ && std::isfinite(port) && snapshot_.force.allFinite();
   if (model_ != nullptr) return keep_model_books(port, dt);
+  if (!moving_->are_exact()) return note_step(dt);
   const double allowed = allowance();
   least_port_ = std::min(least_port_, port);
   short_ = std::min(short_, port + open() + allowed);
   if (snapshot_.force.norm() > kHeld) least_held_ = std::min(least_held_, port);
   if (!failed) {
-    const double gap = snapshot_.port_energy - transferred_ - work();
+    const double gap = snapshot_.port_energy - transferred_ - work() + moving_->gained();
     meter_ = std::max(meter_, gap);
     meter_short_ = std::max(meter_short_, gap - failed_cost_ - allowed);
   }
@@ -342,6 +347,7 @@ void Hand::judge(Outcome& out) const {
   if (index_ == 0) out.unseen = unseen_;
   if (model_ != nullptr) out.model = books_;
   const std::size_t name = index_ + 1;
+  moving_->judge(out);
   if (!finite_) out.violation = fmt::format("hand {}: a force or an energy is no number", name);
   if (short_ < -kRoundOff) {
     out.violation = fmt::format("hand {}: the port lacks {:.3g} J", name, -short_);

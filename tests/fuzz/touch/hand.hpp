@@ -13,6 +13,7 @@
 
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/fuzz/touch/model_handle.hpp"
+#include "reckon/tests/fuzz/touch/moving.hpp"
 #include "reckon/tests/fuzz/touch/scenario.hpp"
 #include "reckon/tests/fuzz/touch/trial.hpp"
 #include "reckon/tests/haptics/support/drawn_touch.hpp"
@@ -65,6 +66,7 @@ class Hand {
   [[nodiscard]] double open() const { return late_cost_ + failed_cost_; }
   /// What the servo says that the steps of its encoder may have put into its books [J].
   [[nodiscard]] double allowance() const;
+  [[nodiscard]] const MovingBooks& bodies() const { return *moving_; }
   /// Largest force of a neighbour [N].
   [[nodiscard]] double felt() const;
   /// From now on the force is averaged, and what the servo tells is looked at.
@@ -93,6 +95,7 @@ class Hand {
   SimulatedHandle* simulated_ = nullptr;  // it, where it is one
   ModelHandle* model_ = nullptr;          // the same
   std::unique_ptr<haptics::ServoLoop> servo_;
+  std::unique_ptr<MovingBooks> moving_;
   haptics::ServoSnapshot snapshot_;
   std::chrono::nanoseconds begin_, next_{0}, at_{0};
   bool stepped_ = false;

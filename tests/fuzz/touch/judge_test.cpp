@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "reckon/tests/fuzz/touch/hand.hpp"
@@ -39,6 +40,22 @@ TEST(TouchJudge, KnowsWhatHandsAndWallsShouldShow) {
   EXPECT_NEAR(right_forces(wall, stiff, 5)[0], 15e-3 / (1 / 300.0 + 1 / 1400.0), 1e-9);
   EXPECT_NEAR(right_forces(wall, soft, 5)[0], 15e-3 / (1 / 300.0 + 1 / 700.0), 1e-9);
   EXPECT_EQ(right_forces(wall, stiff, 5)[1], 0.0);
+}
+
+// 100 N/m against a grip of 300, 15 mm away; 0.2 N along each axis; 300 N/m from 30 mm on.
+TEST(TouchJudge, KnowsWhatARegionShouldShow) {
+  const std::vector<Shows> shows(2, {1e4, 1e4});
+  const auto force = [&](const char* line) {
+    const Scenario scenario = scenario_of(std::string("press2=0.01 ") + line);
+    EXPECT_TRUE(is_promised(scenario)) << line;
+    return right_forces(scenario, shows, 5)[0];
+  };
+  EXPECT_NEAR(force("region=4 region_off=0.015"), 0.015 / (1 / 100.0 + 1 / 300.0), 1e-6);
+  EXPECT_NEAR(force("region=3"), std::sqrt(3.0) * 0.2, 1e-9);
+  EXPECT_NEAR(force("region=7 region_off=0.034"), 0.004 / (2 / 300.0), 1e-6);
+  EXPECT_FALSE(is_promised(scenario_of("region=4 region_off=0.015")));  // beside another hand
+  EXPECT_FALSE(is_promised(scenario_of("press2=0.01 region=4 region_off=0.029")));
+  EXPECT_FALSE(is_promised(scenario_of("press2=0.01 region=1")));
 }
 
 TEST(TouchJudge, WaitsUntilAllIsOver) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -16,6 +17,9 @@ namespace reckon::fuzz {
 namespace {
 
 constexpr double kLiarPower = 0.3;  // [W], of any second
+constexpr double kSource = 0.05;    // of a potential's force at rest
+constexpr double kPassed = 0.05;    // [s]
+constexpr double kPinched = 1.2;    // of the speed of what pinches
 
 void put_out_of_play(Scenario& s, std::initializer_list<Shared> shared) {
   for (const Shared gene : shared) s[gene] = genes()[static_cast<std::size_t>(gene)].plain;
@@ -149,6 +153,38 @@ void resting_on_a_fair_line(Scenario& s) {
   s.path(1, Path::press) = std::max(s.path(1, Path::press), amplitude - kDeepestGoals);
 }
 
+// Hands that keep away from one another, each in a region of its own that is weight, spring, magnet
+// or border.
+void resting_in_a_region(Scenario& s) {
+  using enum Shared;
+  constexpr std::array kPotentials{3.0, 4.0, 5.0, 7.0};  // rows of haptics::RegionTypes
+  const double kind = *std::lower_bound(kPotentials.begin(), kPotentials.end() - 1, s[region]);
+  const double strength = s[region_strength], off = s[region_off];
+  two_at_rest(s);
+  s[region] = kind;
+  s[region_strength] = strength;
+  s[region_off] = off;
+  put_out_of_play(s, {body});
+  s.path(0, Path::press) = -std::min(std::abs(s.path(0, Path::press)), 0.02);
+  s.path(1, Path::press) = std::clamp(std::abs(s.path(1, Path::press)), 0.01, 0.02);
+}
+
+void a_body_falls(Scenario& s) {
+  using enum Shared;
+  put_out_of_play(s, {model, wall, solid, region});
+  s[body] = std::max(1.0, s[body]);
+}
+
+void a_heap_is_far(Scenario& s) {
+  s[Shared::model] = 0;
+  s[Shared::pile] = std::max(2.0, s[Shared::pile]);
+}
+
+void a_cube_is_pinched(Scenario& s) {
+  s[Shared::model] = 0;
+  s[Shared::paddle] = std::max(0.2, s[Shared::paddle]);
+}
+
 std::string joules(double value) { return fmt::format("{:.3g} mJ", 1e3 * value); }
 
 std::string energy_text(const Outcome& o) {
@@ -167,6 +203,10 @@ double made(const Outcome& o) { return -o.model.left; }
 double claimed(const Outcome& o) { return o.model.claimed; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
+double haunted(const Outcome& o) { return o.haunted; }
+double pinched(const Outcome& o) { return o.pinched; }
+// 1 mN and 1 um.
+double heap(const Outcome& o) { return std::max(1e3 * o.heap_force, 1e6 * o.heap_place); }
 // What a spring that was loaded slowly gives within 50 ms is told beside it.
 double liar(const Outcome& o) { return o.liar.power / kLiarPower; }
 
@@ -194,6 +234,16 @@ std::string rows_text(const Outcome& o) { return fmt::format("{:.1f} % off", 100
 std::string unseen_text(const Outcome& o) {
   return joules(o.unseen) + " and 50 mW beyond what surfaces did";
 }
+std::string haunted_text(const Outcome& o) {
+  return fmt::format("for {:.3g} s of a body that has passed", o.haunted);
+}
+std::string pinched_text(const Outcome& o) {
+  return fmt::format("{:.3g} times as fast as the paddle", o.pinched);
+}
+std::string heap_text(const Outcome& o) {
+  return fmt::format("{:.3g} mN and {:.3g} um beside the same without the heap",
+                     1e3 * o.heap_force, 1e6 * o.heap_place);
+}
 std::string liar_text(const Outcome& o) {
   return fmt::format("{:.3g} W in a second and {} in 50 ms beyond an honest twin", o.liar.power,
                      joules(o.liar.burst));
@@ -214,6 +264,10 @@ const std::vector<Objective>& objectives() {
       {"model_energy", 3, made, made_text, anything_through_a_model},
       {"model_meter", 3, claimed, claimed_text, anything_through_a_model},
       {"dead", 11, wrong, wrong_text, model_at_rest},
+      {"source", 5, wrong, wrong_text, resting_in_a_region, kSource},
+      {"passed", 3, haunted, haunted_text, a_body_falls, kPassed},
+      {"heap", 2, heap, heap_text, a_heap_is_far, 1.0, try_beside_heap},
+      {"pinched", 3, pinched, pinched_text, a_cube_is_pinched, kPinched},
       {"liar", 4, liar, liar_text, resting_on_a_fair_line, 1.0, try_beside_twin},
   };
   return all;

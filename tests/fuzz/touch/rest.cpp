@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "reckon/tests/fuzz/touch/hand.hpp"
+#include "reckon/tests/fuzz/touch/solids.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -89,6 +91,67 @@ double mended_at(const Scenario& s) {
   return last + s[Shared::fault_for] + (s.model() == Model::polhem ? kHomed : kBack);
 }
 
+// Of the region about hand `hand`, at `place` from the region's origin [N].
+Eigen::Vector3d region_pull(const haptics::DeclaredRegionEffects& effects,
+                            const Eigen::Vector3d& place) {
+  const double way = place.norm();
+  if (const auto* border = effects.find<haptics::BorderSpring>())
+    return -border->stiffness * std::max(0.0, 1 - kRegion / way) * place;
+  if (const auto* push = effects.find<haptics::ConstantForce>()) return {push->x, push->y, push->z};
+  if (const auto* spring = effects.find<haptics::PointSpring>())
+    return -std::min(spring->stiffness, spring->most / way) * place;
+  const auto* magnet = effects.find<haptics::Attraction>();
+  if (magnet == nullptr || way >= magnet->range) return Eigen::Vector3d::Zero();
+  return -magnet->force * std::sin(std::numbers::pi * way / magnet->range) / way * place;
+}
+
+/// What a hand feels that rests in a region of potentials, against its grip.
+struct Held {
+  Eigen::Vector3d place, force;  ///< from the region's origin [m]; [N]
+};
+
+// A spring that is at most as stiff as 50 grips is followed by small steps.
+Held held_in_region(const Scenario& s, std::size_t hand, double time) {
+  const haptics::Scene scene = solids_of(s, Eigen::Vector3d::Zero());
+  const Eigen::Vector3d goal =
+      way_of(s, hand, time) - scene.regions.front().pose.position;
+  Held held{goal, region_pull(scene.regions.front().effects, goal)};
+  for (int i = 0; i < 5'000; ++i) {
+    held.place += 0.01 * (goal + held.force / s[Shared::grip] - held.place);
+    held.force = region_pull(scene.regions.front().effects, held.place);
+  }
+  return held;
+}
+
+// Weight, spring, magnet, border: where hands stay well inside what acts, or outside a border, and
+// away from one another.
+bool is_region_promised(const Scenario& s) {
+  constexpr double kMargin = 2e-3, kApart = 2 * kRadius + 5e-3;  // [m]
+  if (s[Shared::wall] > 0) return false;
+  const haptics::Scene scene = solids_of(s, Eigen::Vector3d::Zero());
+  const haptics::SceneRegion& region = scene.regions.front();
+  const haptics::DeclaredRegionEffects& effects = region.effects;
+  const auto* magnet = effects.find<haptics::Attraction>();
+  const bool is_border = effects.find<haptics::BorderSpring>() != nullptr;
+  const bool is_force = effects.find<haptics::ConstantForce>() != nullptr ||
+                        effects.find<haptics::PointSpring>() != nullptr;
+  if (magnet != nullptr) {
+    if (magnet->force * std::numbers::pi / magnet->range > 0.7 * s[Shared::grip]) return false;
+  } else if (!is_border && !is_force) {
+    return false;
+  }
+  double last = -1;
+  for (std::size_t i = 0; i < s.hands(); ++i) {
+    const Held held = held_in_region(s, i, kLongAfter);
+    const double goal = (way_of(s, i, kLongAfter) - region.pose.position).norm();
+    if (!is_border && std::max(goal, held.place.norm()) > kRegion - kMargin) return false;
+    const double at = home_of(s, i) + held.place.x();
+    if (at - last < kApart && i > 0) return false;
+    last = at;
+  }
+  return true;
+}
+
 }  // namespace
 
 double event_way(const Scenario& s) {
@@ -128,9 +191,11 @@ double depth_of_goals(const Scenario& s) {
 
 bool is_promised(const Scenario& s) {
   using enum Shared;
-  for (const Shared gene : {friction, hardening, overlap, loss, duplicates, liar, solid, drawn}) {
+  for (const Shared gene :
+       {friction, hardening, overlap, loss, duplicates, liar, solid, drawn, body}) {
     if (s[gene] > 0) return false;
   }
+  if (s[region] > 0 && !is_region_promised(s)) return false;
   const bool quick_line = s[delay] * (1 + s[jitter]) <= 0.05 + 1e-9 &&
                           (s[rate] >= 10 ? s[rate] >= 50 : s[threshold] <= 0.015);
   const bool has_model = s.model() != Model::simulated;
@@ -160,6 +225,10 @@ std::vector<double> forces_in_a_row(const Scenario& s, const std::vector<Shows>&
 
 std::vector<double> right_forces(const Scenario& s, const std::vector<Shows>& shows, double time) {
   std::vector<double> forces = forces_in_a_row(s, shows, time);
+  if (s[Shared::region] > 0) {
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = held_in_region(s, i, time).force.norm();
+    return forces;
+  }
   if (s[Shared::wall] == 0) return forces;
   for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = wall_force(s, shows[i], i, time);
   return forces;

@@ -78,6 +78,21 @@ constexpr Row kSharedRows[] = {
     {"effect_strength", 0, 1, 0.5, false},           // decades of its values, see solids_of()
     {"region", 0, kMostRegionEffects, 0, true},      // of a ball about each hand's place; 0 none
     {"region_strength", 0, 1, 0.5, false},           // the same of that
+    {"region_off", 0, 0.06, 0, false},               // [m], along x, of its middle from that place
+    {"body", 0, 2, 0, true},                         // falls on the first hand: box, ball; 0 none
+    {"body_mass", 0.004, 20, 0.2, false},            // [kg]
+    {"body_size", 0.01, 0.1, 0.04, false},           // [m]
+    {"body_stiffness", 50, 2000, 400, false},        // [N/m]
+    {"body_drop", 0, 1, 0.1, false},                 // [m], from its lowest point to the place
+    {"body_beside", 0, 0.05, 0, false},              // [m], along x, of its middle
+    {"body_turned", 0, 6.283185307179586, 0, false}, // [rad], about y
+    {"body_floor", 0, 0.5, 0, false},                // [m], below the place; 0 none
+    {"pile", 0, 30, 0, true},                        // cubes that fall in a heap 40 m away
+    {"pile_mass", 0.02, 10, 0.2, false},             // [kg], at most, of each
+    {"pile_bounce", 0, 1, 0, false},                 // restitution
+    {"paddle", 0, 2, 0, false},                      // [m/s], it pinches a cube 20 m away; 0 none
+    {"paddle_mass", 0.01, 5, 0.1, false},            // [kg], of that cube
+    {"paddle_turned", 0, 1.6, 0, false},             // [rad], about z
     {"liar", 0, 4, 0, true},                         // who lies; 0 nobody
     {"lie_given", 0, 20, 0, false},                  // [W]
     {"lie_need", 0, 0.2, 0, false},                  // [J]
@@ -230,7 +245,10 @@ void Scenario::tidy() {
   unless(s[wall] > 0, wall_gap, wall_tilt);
   unless(s[solid] > 0 && s[solid_stiffness] > 0, solid, solid_tilt);
   unless(s[effect] > 0 && (s[wall] > 0 || s[solid] > 0), effect, effect_strength);
-  unless(s[region] > 0, region, region_strength);
+  unless(s[region] > 0, region, region_off);
+  unless(s[body] > 0, body, body_floor);
+  unless(s[pile] > 0, pile, pile_bounce);
+  unless(s[paddle] > 0, paddle, paddle_turned);
   unless(exists(s[liar]), liar, lie_rename);
   for (std::size_t hand = 0; hand < kMostHands; ++hand) {
     const bool moves = s.path(hand, Path::amplitude) > 0 || s.path(hand, Path::side) > 0;
@@ -260,10 +278,11 @@ void Scenario::tidy_model() {
   unless(what == Model::board || what == Model::event, {report});
   // It shows flat faces that stand along its axes, and nothing else.
   unless(what != Model::event, {model_damping, stated, wall_tilt, solid_tilt, effect,
-                                effect_strength, region, region_strength, drawn});
+                                effect_strength, region, region_strength, region_off, drawn});
   if (what == Model::event) s[solid] = std::min(s[solid], 2.0);
+  unless(!is_model, {body, pile, paddle});
   // Bodies that stand in a wall are thrown out of it.
-  unless(static_cast<Drawn>(s[drawn]) != Drawn::bodies, {wall, solid});
+  unless(static_cast<Drawn>(s[drawn]) != Drawn::bodies && s[body] == 0, {wall, solid});
   unless(s[drawn] > 0, {drawn_seed});
   unless(s[fault] > 0, {fault_at, fault_for, fault_every});
   unless(!is_model || s[off_hand] != 1, {off_hand, off_at, off_for});

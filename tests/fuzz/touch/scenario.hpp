@@ -66,6 +66,21 @@ enum class Shared : std::size_t {
   effect_strength,
   region,
   region_strength,
+  region_off,
+  body,
+  body_mass,
+  body_size,
+  body_stiffness,
+  body_drop,
+  body_beside,
+  body_turned,
+  body_floor,
+  pile,
+  pile_mass,
+  pile_bounce,
+  paddle,
+  paddle_mass,
+  paddle_turned,
   liar,
   lie_given,
   lie_need,
@@ -96,6 +111,8 @@ enum class Shared : std::size_t {
 enum class Model { simulated, falcon, polhem, board, event };
 /// What is drawn beside the first hand, see test::DrawnTouch.
 enum class Drawn { nothing, walls, effects, bodies };
+/// What falls through the place of the first hand.
+enum class Falling { nothing, box, ball };
 /// What befalls the device of the first hand; what its kind does not know, is none.
 enum class Fault {
   none,

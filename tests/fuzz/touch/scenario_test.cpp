@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reckon/tests/fuzz/touch/rest.hpp"
 #include "reckon/tests/fuzz/touch/trial.hpp"
 
 namespace reckon::fuzz {
@@ -105,6 +106,38 @@ TEST(TouchScenario, MeetsWhatStandsBesideAHand) {
     EXPECT_LT(try_out(scenario_of(line + solid), 2).least_held, 1) << solid;
   }
   EXPECT_EQ(try_out(scenario_of("press1=-0.03"), 2).least_held, Outcome().least_held);
+}
+
+// A body that falls on the hand; one that is too heavy goes on, and another lies on a floor.
+TEST(TouchScenario, LetsBodiesFallOnAHand) {
+  for (const char* body : {"body=1 body_mass=0.1", "body=2 body_mass=0.3 body_beside=0.002",
+                           "body=1 body_mass=5 body_floor=0.1"}) {
+    const Outcome outcome = try_out(scenario_of(body), 2);
+    EXPECT_GT(outcome.pushed, 0.01) << body << " is not felt";
+    EXPECT_LE(outcome.haunted, 0.05) << body;
+    EXPECT_EQ(outcome.violation, "") << body;
+  }
+}
+
+TEST(TouchScenario, PinchesACubeBesideAHeap) {
+  const Outcome outcome =
+      try_beside_heap(scenario_of("paddle=0.5 pile=20 body=1 body_mass=0.1"), 2);
+  EXPECT_GT(outcome.pinched, 0.9);
+  EXPECT_LT(outcome.pinched, 1.2);
+  EXPECT_LE(outcome.heap_force, 1e-3);
+  EXPECT_LE(outcome.heap_place, 1e-6);
+}
+
+// Weight, spring, magnet and border, whose force the judge has from laws of its own.
+TEST(TouchScenario, FindsTheForceOfARegionRightAtRest) {
+  for (const char* region : {"region=3 region_strength=0.9", "region=4 region_off=0.015",
+                             "region=5 region_off=0.01", "region=7 region_off=0.036"}) {
+    const Scenario scenario = scenario_of(std::string("press2=0.01 ") + region);
+    EXPECT_TRUE(is_promised(scenario)) << region;
+    const Outcome outcome = try_out(scenario, 5);
+    EXPECT_LT(outcome.wrong, 0.02) << region;
+    EXPECT_FALSE(outcome.told) << region;
+  }
 }
 
 }  // namespace

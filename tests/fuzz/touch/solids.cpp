@@ -113,8 +113,6 @@ void declare(haptics::EffectDeclarations<Types>& effects, std::size_t number, do
   });
 }
 
-constexpr double kRegion = 0.03;  // [m], radius
-
 }  // namespace
 
 haptics::Scene solids_of(const Scenario& s, const Vector3d& home, const haptics::Scene* drawn) {
@@ -137,7 +135,7 @@ haptics::Scene solids_of(const Scenario& s, const Vector3d& home, const haptics:
     haptics::SceneRegion& region = scene.regions.emplace_back();
     region.name = "region";
     region.shape = haptics::SphereShape{kRegion};
-    region.pose.position = home;
+    region.pose.position = home + s[Shared::region_off] * Vector3d::UnitX();
     declare(region.effects, static_cast<std::size_t>(s[Shared::region]),
             s[Shared::region_strength]);
   }

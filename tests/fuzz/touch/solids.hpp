@@ -12,6 +12,8 @@
 
 namespace reckon::fuzz {
 
+inline constexpr double kRegion = 0.03;  // [m], radius of a region
+
 /// A wall, and a second object: another wall, a box, a box with a pit or a tetrahedron.
 /// @param home of the hand [m]  @param drawn besides, about it; may be null
 [[nodiscard]] haptics::Scene solids_of(const Scenario& scenario, const Eigen::Vector3d& home,

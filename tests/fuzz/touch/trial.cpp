@@ -49,6 +49,8 @@ class Trial {
   void step();
   void run_until(double seconds);
   void run(double seconds);
+  /// The first hand.
+  [[nodiscard]] const Hand& first() const { return *hands_.front(); }
 
   [[nodiscard]] double time() const { return pdu::to_seconds(now_ - begin_); }
   [[nodiscard]] Outcome outcome() const;
@@ -228,12 +230,17 @@ void Trial::lie(RemoteHand& hand, std::size_t from) {
 // Energy under way or thrown away only adds to what is there.
 void Trial::measure() {
   double sum = 0, open = 0;
+  bool exact = true;
   for (const auto& hand : hands_) {
-    sum += hand->work() + hand->snapshot().loan + hand->snapshot().source_energy();
+    sum += hand->work() + hand->snapshot().loan + hand->snapshot().source_energy() -
+           hand->bodies().gained();
     open += hand->open() + hand->allowance();
+    exact = exact && hand->bodies().are_exact();
   }
-  least_sum_ = std::min(least_sum_, sum);
-  sum_short_ = std::min(sum_short_, sum + open);
+  if (exact) {
+    least_sum_ = std::min(least_sum_, sum);
+    sum_short_ = std::min(sum_short_, sum + open);
+  }
   while (static_cast<double>(put_in_.size()) * kSampled <= time()) {
     put_in_.push_back(-hands_[0]->work());
   }
@@ -291,6 +298,27 @@ Outcome try_out(const Scenario& scenario, double seconds) {
   Trial trial(scenario);
   trial.run(seconds);
   return trial.outcome();
+}
+
+Outcome try_beside_heap(const Scenario& scenario, double seconds) {
+  Scenario without = scenario;
+  without[Shared::pile] = 0;
+  without.tidy();
+  Trial crowded(scenario), alone(without);
+  double force = 0, place = 0;
+  while (crowded.time() < seconds) {
+    crowded.step();
+    alone.step();
+    const Hand &one = crowded.first(), &other = alone.first();
+    force = std::max(force, (one.snapshot().force - other.snapshot().force).norm());
+    const auto places = one.bodies().places(), others = other.bodies().places();
+    for (std::size_t i = 0; i < others.size(); ++i)
+      place = std::max(place, (places[i] - others[i]).norm());
+  }
+  Outcome out = crowded.outcome();
+  out.heap_force = force;
+  out.heap_place = place;
+  return out;
 }
 
 Outcome try_beside_twin(const Scenario& scenario, double seconds) {

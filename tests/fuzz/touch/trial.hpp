@@ -32,6 +32,11 @@ struct Outcome {
   bool told = false;        ///< a servo says that it shows less
   double unseen = -1e9;     ///< [J], most that the first hand got after 1.5 s beyond what surfaces
                             ///< did and 50 mW
+  double pushed = 0;        ///< [s], in which a hand and the falling body push one another
+  double haunted = 0;       ///< [s], longest for which a body is felt that has passed the hand
+  double pinched = 0;       ///< greatest speed of the pinched cube over that of the paddle
+  double heap_force = 0;    ///< [N], most that a far heap changes the first hand's force
+  double heap_place = 0;    ///< [m], most that it changes the place of a body beside the hand
   ModelBooks model;
   Excess liar;            ///< of what the first hand got, beyond an honest twin of the liar
   double late_cost = 0;   ///< [J], most that a late sample took
@@ -43,5 +48,8 @@ struct Outcome {
 /// The same, and once more with an honest twin in place of the liar: a firm grip leads a hand along
 /// what the liar has shown, no faster than an arm, and its servo keeps its accounts. Fills `liar`.
 [[nodiscard]] Outcome try_beside_twin(const Scenario& scenario, double seconds);
+
+/// The same, and beside it once more without the far heap. Fills `heap_force` and `heap_place`.
+[[nodiscard]] Outcome try_beside_heap(const Scenario& scenario, double seconds);
 
 }  // namespace reckon::fuzz

@@ -12,17 +12,18 @@
 #include <numbers>
 #include <random>
 
-#include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/tests/haptics/support/region_scenes.hpp"
+#include "reckon/tests/support/effect_adversary.hpp"
 
 namespace reckon::haptics {
 namespace {
 
+using adversary::BookedPort;
+using adversary::kSample;
 using bench::region;
 using bench::weight;
 using Eigen::Vector3d;
 
-constexpr double kPeriod = 0.001;   // [s]
 constexpr double kRoundOff = 1e-9;  // [J]
 
 /// What was taken out of a port [J], by its own books.
@@ -33,101 +34,58 @@ struct Loot {
   double owed = 0.0;    // most
 };
 
-/// A port whose motion follows a script, or else takes most energy, with its own books.
+/// A hand in regions, whose port has a loan.
 class Thief {
  public:
-  Thief(const Scene& scene, double loan, int delay, double resolution = 0.0)
-      : plan_(scene),
-        port_(1.0, delay, resolution),
-        contact_(plan_, kCap / (1.0 + 2.0 * delay)),
-        held_(delay) {
-    port_.region_loan().limit(loan);
-    port_.oscillations().limit(bench::kOscillationPower, bench::kOscillationEnergy);
+  Thief(const Scene& scene, double loan, const Vector3d& place, int delay = 0)
+      : plan_(scene), port(plan_, place, delay) {
+    port.port().region_loan().limit(loan);
+    port.port().oscillations().limit(bench::kOscillationPower, bench::kOscillationEnergy);
   }
-  void begin(const Vector3d& place) {
-    place_ = place;
-    tool_.reset({place});
-    contact_.reset(tool_);
-  }
-  /// @return the force that was written [N]
-  Vector3d hold() {
-    PortLoad load;
-    tool_.set_velocity(velocity_);
-    contact_.load(tool_, kPeriod, load);
-    const PortHold held = port_.hold(load, kPeriod);
-    if (held.walls < 1.0) contact_.attenuate(held.walls, port_);
-    contact_.shown(held.extra);
-    return held.force + port_.shake(load, kPeriod);
-  }
-  void move(const Vector3d& force, const Vector3d& dx) {
-    hold_for_a_sample(force, dx);
-    port_.settle(unread_, kPeriod);
-    tool_.move({place_});
-    contact_.settle(tool_, kPeriod, port_);
-    unread_.setZero();
+  void move(const Vector3d& dx) {
+    port.move(dx);
     note();
   }
-  /// The reading after the motion fails, and the next force is cut.
-  void move_unread(const Vector3d& force, const Vector3d& dx) {
-    hold_for_a_sample(force, dx);
-    port_.miss(kPeriod);
+  void move_unread(const Vector3d& dx) {
+    port.move_unread(dx);
     note();
-    static_cast<void>(hold());
-    cut();
-    port_.attenuate(0.0);
   }
-  void cut() { contact_.attenuate(0.0, port_); }
-
-  [[nodiscard]] const Vector3d& place() const { return place_; }
-  [[nodiscard]] const Vector3d& at_handle() const { return held_.at_handle(); }
   [[nodiscard]] const Loot& loot() const { return loot_; }
 
  private:
-  void hold_for_a_sample(const Vector3d& force, const Vector3d& dx) {
-    held_.write(force);
-    books_ += -held_.at_handle().dot(dx) + dx.squaredNorm() / kPeriod;
-    place_ += dx;
-    unread_ += dx;
-    velocity_ = dx / kPeriod;
-  }
   void note() {
-    port_.wait(kPeriod);
-    time_ += kPeriod;
-    loot_.least = std::min(loot_.least, books_);
-    const double owed = port_.region_loan().owed(), spent = port_.oscillations().spent();
-    // A sample that was not read is booked with the next one.
-    if (unread_.isZero(0.0)) loot_.beyond = std::min(loot_.beyond, books_ + owed + spent);
+    EnergyPort& its = port.port();
+    its.wait(kSample);
+    time_ += kSample;
+    loot_.least = port.least();
+    const double owed = its.region_loan().owed(), spent = its.oscillations().spent();
+    if (port.is_read()) loot_.beyond = std::min(loot_.beyond, port.energy() + owed + spent);
     loot_.spent =
         std::max(loot_.spent, spent - bench::kOscillationEnergy - bench::kOscillationPower * time_);
     loot_.owed = std::max(loot_.owed, owed);
   }
 
-  static constexpr double kCap = 0.75 * 0.95 * 2.0 / kPeriod;
-
   EffectPlan plan_;
-  EnergyPort port_;
-  StaticContact contact_;
-  PointTool tool_;
-  HeldForces held_;
-  Vector3d place_ = Vector3d::Zero(), velocity_ = Vector3d::Zero();
-  Vector3d unread_ = Vector3d::Zero();
-  double books_ = 0.0, time_ = 0.0;
+  double time_ = 0.0;
   Loot loot_;
+
+ public:
+  BookedPort port;
 };
 
 // In at the top and out at the bottom: the second round is paid by nobody.
 TEST(RegionAdversary, EnteringAgainGrantsNothingNew) {
-  Thief thief(weight(2.0, BoxShape{{0.04, 0.04, 0.08}}), 0.12, 0);
-  thief.begin({0.03, 0, 0.039});
+  Thief thief(weight(2.0, BoxShape{{0.04, 0.04, 0.08}}), 0.12, {0.03, 0, 0.039});
   const Vector3d corners[] = {
       {0.0, 0, 0.039}, {0.0, 0, -0.039}, {0.03, 0, -0.039}, {0.03, 0, 0.039}};
   double first = 0.0;
   for (int round = 0; round < 40; ++round) {
     for (const Vector3d& corner : corners) {
-      while ((corner - thief.place()).norm() > 1e-9) {
-        Vector3d way = corner - thief.place();
+      while ((corner - thief.port.place()).norm() > 1e-9) {
+        Vector3d way = corner - thief.port.place();
         if (way.norm() > 1e-4) way *= 1e-4 / way.norm();
-        thief.move(thief.hold(), way);
+        thief.port.hold();
+        thief.move(way);
       }
     }
     if (round == 0) first = thief.loot().least;
@@ -170,7 +128,6 @@ Scene drawn(const Genes& g) {
 /// Circles over the edge, goes with the force for some of the time, and is cut now and then.
 Loot played(const Genes& g, std::uint32_t seed) {
   constexpr double kLoan = 0.05;
-  Thief thief(drawn(g), kLoan, static_cast<int>(3.99 * g[15] * g[15]));
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   const Vector3d middle(0.06 * (g[10] - 0.5), 0, 0.06 * (g[11] - 0.5));
@@ -179,21 +136,21 @@ Loot played(const Genes& g, std::uint32_t seed) {
     const double angle = 2.0 * std::numbers::pi * rate * t;
     return middle + radius * Vector3d(std::cos(angle), 0, std::sin(angle));
   };
-  thief.begin(on_circle(0));
+  Thief thief(drawn(g), kLoan, on_circle(0), static_cast<int>(3.99 * g[15] * g[15]));
   double falls = 0.0;
   for (int i = 0; i < 3000; ++i) {
-    if (any(random) < 0.001) thief.cut();
-    const Vector3d force = thief.hold();
-    Vector3d way = on_circle(kPeriod * (i + 1)) - thief.place();
-    if (falls > 0) way = 0.5 * kPeriod * (g[15] > 0.5 ? thief.at_handle() : force);
+    if (any(random) < 0.001) thief.port.contact().attenuate(0.0, thief.port.port());
+    const Vector3d force = thief.port.hold();
+    Vector3d way = on_circle(kSample * (i + 1)) - thief.port.place();
+    if (falls > 0) way = 0.5 * kSample * (g[15] > 0.5 ? thief.port.at_handle() : force);
     if (falls < -0.3 * (1.0 - g[14])) falls = 0.1 * any(random);
-    falls -= kPeriod;
+    falls -= kSample;
     if (way.norm() > 0.003) way *= 0.003 / way.norm();
     if (any(random) < 0.002 * g[3]) {
-      thief.move_unread(force, way);
-      thief.move(Vector3d::Zero(), Vector3d::Zero());
+      thief.move_unread(way);
+      thief.move(Vector3d::Zero());
     } else {
-      thief.move(force, way);
+      thief.move(way);
     }
   }
   return thief.loot();

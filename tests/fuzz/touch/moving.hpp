@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What moves beside the first hand of a scenario: a body that falls on it, a far heap, and a paddle
+// that pinches a cube. And books of it.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/haptics/scene/scene.hpp"
+#include "reckon/tests/fuzz/touch/scenario.hpp"
+#include "reckon/tests/fuzz/touch/trial.hpp"
+
+namespace reckon::fuzz {
+
+/// The falling body first, then the pinched cube, then the heap. @param home of the hand [m]
+void add_moving(const Scenario& scenario, const Eigen::Vector3d& home, haptics::Scene& scene);
+/// Of the paddle; null where there is none.
+[[nodiscard]] std::shared_ptr<haptics::ObjectMover> paddle_of(const Scenario& scenario);
+
+/// What bodies do, step by step.
+class MovingBooks {
+ public:
+  /// @param world null: no books
+  MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world);
+
+  /// @param dt [s], since the last step
+  void note(const haptics::ServoSnapshot& hand, double dt);
+  /// What the falling body has now beyond what it began with [J].
+  [[nodiscard]] double gained() const { return has_body() ? energy() - begin_ : 0.0; }
+  /// Whether that is exact: while the hand pushes it, its speed is that of a little before.
+  [[nodiscard]] bool are_exact() const { return !is_pushed_; }
+  /// Of the falling body and the pinched cube [m], those that are there.
+  [[nodiscard]] std::vector<Eigen::Vector3d> places() const;
+  void judge(Outcome& out) const;
+
+ private:
+  [[nodiscard]] bool has_body() const { return world_ != nullptr && scenario_[Shared::body] > 0; }
+  [[nodiscard]] double energy() const;
+  [[nodiscard]] double clear_of(const Eigen::Vector3d& place) const;
+
+  const Scenario& scenario_;
+  std::shared_ptr<const haptics::BodyWorld> world_;
+  bool is_pushed_ = false, was_pushed_ = false;
+  double begin_ = 0, pushed_ = 0, clear_ = 0, haunted_ = 0, fastest_ = 0;
+};
+
+}  // namespace reckon::fuzz
