@@ -160,7 +160,8 @@ struct ServoSnapshot : AccountList {
   /// [J], that regions have lent to the hand and that is not back; <= ServoConfig::region_loan.
   double region_loan = 0.0;
   double region_loan_most = 0.0;  ///< [J], greatest so far
-  /// [J], that oscillations of regions have put in so far, less what came back; at most
+  /// [J], that oscillations of regions have put in so far, less what came back, with the most that
+  /// those under way to a handle with a delay may put in; at most
   /// ServoConfig::oscillation_energy and oscillation_power times the time.
   double oscillation_energy = 0.0;
   double mesh_ledger = 0.0;  ///< [J]

@@ -86,12 +86,10 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took, double 
 }
 
 // The bucket pays for the work of an oscillation, and E for what an unlikely motion takes beyond:
-// the damping of that motion has brought it more. A device with a delay takes a force up to a sample
-// sooner or later than it states, in which an oscillation turns.
+// the damping of that motion has brought it more.
 template <int axes>
 void EnergyPortOf<axes>::settle_shake(const Force& dx, double held) noexcept {
-  const double work =
-      shaken_.delay() > 0 ? shaken_.costliest(dx) : shaken_.at_handle().dot(dx);
+  const double work = shaken_.at_handle().dot(dx);
   if (work > 0) {
     EnergyLedger::shake(work);
   } else if (doubtful_ == 0) {

@@ -108,6 +108,12 @@ class EnergyPortOf : public EnergyLedger {
   bool hold_instead(const Load& load, const Force& force, double dt) noexcept;
   /// Chooses the part of load.shake that is held besides, after hold(); see OscillationBucket.
   const Force& shake(const Load& load, double dt) noexcept;
+  /// Most that oscillations under way to the handle may put in [J].
+  [[nodiscard]] double shakes_under_way(double dt) const noexcept {
+    if (shakes_for_ == 0 || !(damping() > 0)) return 0.0;
+    const double squares = shaken_.under_way(Force::Zero()).squares;
+    return std::min(oscillations().level(), squares * dt / (4.0 * kShakeShare * damping()));
+  }
   /// That part, after attenuate() [N].
   [[nodiscard]] const Force& shaking() const noexcept { return shaking_; }
   /// The force is scaled by `factor` in [0, 1] on its way to the device.

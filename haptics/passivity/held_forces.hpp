@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -26,7 +25,6 @@ class HeldForcesOf {
 
   /// Writes `force` [N]; the oldest force under way reaches the handle.
   void write(const Force& force) noexcept {
-    before_ = at_handle_;
     at_handle_ = force;
     if (under_way_.empty()) return;
     std::swap(at_handle_, under_way_[next_]);
@@ -34,18 +32,12 @@ class HeldForcesOf {
   }
   /// The device dropped all forces by itself.
   void drop() noexcept {
-    at_handle_ = before_ = kNone;
+    at_handle_ = kNone;
     for (Force& force : under_way_) force = kNone;
   }
 
   [[nodiscard]] int delay() const noexcept { return static_cast<int>(under_way_.size()); }
   [[nodiscard]] const Force& at_handle() const noexcept { return at_handle_; }
-  /// Greatest work [J] over the way `dx` [m] of the forces at the handle now, one sample before,
-  /// and, where there is a delay, one sample later.
-  [[nodiscard]] double costliest(const Force& dx) const noexcept {
-    const Force& next = under_way_.empty() ? at_handle_ : under_way_[next_];
-    return std::max({before_.dot(dx), at_handle_.dot(dx), next.dot(dx)});
-  }
   /// Forces that reach the handle later, each less `walls` [N].
   [[nodiscard]] UnderWayOf<axes> under_way(const Force& walls) const noexcept {
     UnderWayOf<axes> out;
@@ -60,7 +52,7 @@ class HeldForcesOf {
  private:
   inline static const Force kNone = Force::Zero();
 
-  Force at_handle_ = kNone, before_ = kNone;
+  Force at_handle_ = kNone;
   std::vector<Force> under_way_;  // a ring, the oldest force at next_
   std::size_t next_ = 0;
 };

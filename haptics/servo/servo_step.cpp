@@ -540,7 +540,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.loan = port_.owed();
   out.region_loan = port_.region_loan().owed();
   out.region_loan_most = region_loan_most_ = std::max(region_loan_most_, out.region_loan);
-  out.oscillation_energy = port_.oscillations().spent();
+  out.oscillation_energy = port_.oscillations().spent() + port_.shakes_under_way(period_);
   port_min_ = std::min(port_min_, out.port_energy + out.loan + out.source_energy());
   out.port_energy_min = port_min_;
   out.late_cost = port_.late_cost();

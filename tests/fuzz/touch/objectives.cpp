@@ -154,25 +154,27 @@ void resting_on_a_fair_line(Scenario& s) {
 }
 
 // Hands that keep away from one another, each in a region of its own that is weight, spring, magnet
-// or border.
+// or border, or outside of its border.
 void resting_in_a_region(Scenario& s) {
   using enum Shared;
   constexpr std::array kPotentials{3.0, 4.0, 5.0, 7.0};  // rows of haptics::RegionTypes
+  constexpr double kBorder = 7, kOutside = 0.032, kInside = 0.018;
   const double kind = *std::lower_bound(kPotentials.begin(), kPotentials.end() - 1, s[region]);
   const double strength = s[region_strength], off = s[region_off];
   two_at_rest(s);
+  put_out_of_play(s, {body});
   s[region] = kind;
   s[region_strength] = strength;
-  s[region_off] = off;
-  put_out_of_play(s, {body});
-  s.path(0, Path::press) = -std::min(std::abs(s.path(0, Path::press)), 0.02);
-  s.path(1, Path::press) = std::clamp(std::abs(s.path(1, Path::press)), 0.01, 0.02);
+  s[region_off] = kind == kBorder ? std::max(kOutside, off) : std::min(kInside, off);
+  s.path(0, Path::press) = -std::min(std::abs(s.path(0, Path::press)), 0.008);
+  s.path(1, Path::press) = std::clamp(std::abs(s.path(1, Path::press)), 0.006, 0.008);
 }
 
 void a_body_falls(Scenario& s) {
   using enum Shared;
   put_out_of_play(s, {model, wall, solid, region});
   s[body] = std::max(1.0, s[body]);
+  s[body_mass] = std::max(0.3, s[body_mass]);
 }
 
 void a_heap_is_far(Scenario& s) {
@@ -203,7 +205,8 @@ double made(const Outcome& o) { return -o.model.left; }
 double claimed(const Outcome& o) { return o.model.claimed; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
-double haunted(const Outcome& o) { return o.haunted; }
+// One that touches at all is nearer to it.
+double haunted(const Outcome& o) { return o.haunted + 1e-4 * o.pushed; }
 double pinched(const Outcome& o) { return o.pinched; }
 // 1 mN and 1 um.
 double heap(const Outcome& o) { return std::max(1e3 * o.heap_force, 1e6 * o.heap_place); }

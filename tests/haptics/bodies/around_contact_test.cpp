@@ -293,6 +293,35 @@ TEST(PassingBody, LetsGoOfAHandItPassed) {
   }
 }
 
+// Between two contacts, where the speed of the ball is that of its place. What it has more of is what
+// the hand gave.
+TEST(Rebound, FromAHandMakesNoEnergy) {
+  for (const double mass : {0.02, 0.1, 0.3}) {
+    for (const double drop : {0.03, 0.3}) {
+      Stage stage;
+      stage.ball(0.02, {0, 0, 0.02 + drop}, mass);
+      Hands hands(stage, {[](double) { return Vector3d::Zero(); }});
+      double most = -1.0;
+      int rebounds = 0;
+      bool pushed = false;
+      for (int i = 0; i < 2'000; ++i) {
+        hands.step();
+        const BodyState& ball = hands.body(0);
+        const bool pushes = hands.at().force.norm() > 0;
+        rebounds += pushed && !pushes ? 1 : 0;
+        if (!pushes && !pushed) {
+          const double gained = mass * (0.5 * ball.velocity.squaredNorm() +
+                                        9.81 * (ball.position.z() - 0.02 - drop));
+          most = std::max(most, gained + hands.got() - hands.at().loan);
+        }
+        pushed = pushes;
+      }
+      EXPECT_GE(rebounds, 1) << mass << " kg from " << drop << " m";
+      EXPECT_LE(most, 1e-9) << mass << " kg from " << drop << " m";
+    }
+  }
+}
+
 TEST(PassingBody, ThinBoardKeepsAPressedHandOut) {
   for (const double mass : {0.2, 5.0}) {
     for (const double stiffness : {200.0, 500.0, 1000.0}) {

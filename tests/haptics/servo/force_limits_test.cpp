@@ -49,7 +49,8 @@ class Bench {
       double moved = 0;
       for (std::size_t i = 0; i < s.count; ++i)
         moved += s.contacts[i].received - s.contacts[i].given;
-      least = std::min(least, device_.port_work() + device_.damping_loss() + moved + s.loan);
+      least = std::min(least, device_.port_work() + device_.damping_loss() + moved + s.loan +
+                                  s.source_energy());
       peak = std::max(peak, after.norm());
     }
   }
@@ -186,7 +187,12 @@ TEST(ForceRate, IsKeptWhateverTheNetworkSays) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
-    Bench bench(floor(600), {0, 0, 0.02}, [seed](double t) {
+    Scene scene = floor(600);
+    if (seed % 2 == 0) {
+      SceneRegion& region = scene.regions.emplace_back();
+      region.effects.declare<Oscillation>() = {1.0, 0.5, 2.0, 12.0 * seed};
+    }
+    Bench bench(scene, {0, 0, 0.02}, [seed](double t) {
       HandTarget hand;
       hand.position = {0.02 * std::sin(9 * t + seed), 0.02 * std::sin(15 * t),
                        0.02 * std::cos(12 * t)};
