@@ -246,6 +246,25 @@ TEST_P(SurfaceEffects, StribeckFallsWithTheSpeedAndGrowsByViscosity) {
   EXPECT_NEAR(broke, 0.6, 0.012);
 }
 
+// Deep in thick oil too, where a step of viscosity holds the contact point back by more than it
+// slides in a period.
+TEST_P(SurfaceEffects, ViscousStribeckSlidesWithoutChatter) {
+  Slab slab(GetParam());
+  slab.effects().declare<StribeckFriction>() = {0.3, 0.2, 0.01, 10.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  solver.step(slab.in_scene({-0.08, 0, 0.03}));
+  double before = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d device = slab.in_scene(pressed(-0.08 + 3e-4 * i, 0));
+    const double along = solver.step(device, kPeriod).force.dot(slab.turned({-1, 0, 0}));
+    EXPECT_GE(along, before - 1e-6) << i;
+    before = along;
+  }
+  EXPECT_NEAR(before, (0.2 + 10.0 * 0.3) * kNormalForce, 0.01 * kNormalForce);
+}
+
 // Torn off at `force`, and caught again where the next place is.
 TEST_P(SurfaceEffects, SnagsCatchUntilTheForceTearsTheTipOff) {
   Slab slab(GetParam());
