@@ -121,7 +121,7 @@ def strokes(reckon):
             for speed, viscosity in ((0.05, 8), (0.2, 30), (1.0, 8)):
                 hands, _, _ = run(reckon, stroke_of(mass, viscosity, speed, shape), 1, 1)
                 worst = turned(hands[1, 1])
-                if worst > (0.1 if mass < 0.1 else 0.15):  # a heavier one is touched with more
+                if worst > 0.1:
                     faults.append(f"{shape}, {mass} kg, {viscosity} N s/m, {speed} m/s: {worst:.3f} N turned in 1 ms")
     return faults
 

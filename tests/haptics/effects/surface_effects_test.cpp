@@ -162,6 +162,35 @@ TEST_P(SurfaceEffects, DragIsAgainstTheMotionAlongTheSurfaceAlone) {
   EXPECT_EQ(plan.objects()[0].damping(), 3.0);
 }
 
+// Of what does not move it is there at once.
+TEST(SurfaceEffectsOf, DragOfABodyGrowsAndFades) {
+  SurfaceDrag drag({2.0});
+  ContactedObject object;
+  EffectContact contact;
+  contact.in_contact = true;
+  contact.object = &object;
+  contact.depth = 1e-3;
+  contact.normal = Vector3d::UnitZ();
+  contact.velocity = Vector3d(0.5, 0, 0);
+  EXPECT_EQ(drag.force(contact).x(), -1.0);
+  contact.most_viscosity = 5.0;
+  object.began = true;
+  EXPECT_NEAR(drag.force(contact).x(), -0.2, 1e-12);
+  object.began = false;
+  EXPECT_NEAR(drag.force(contact).x(), -0.36, 1e-12);
+  for (int i = 0; i < 100; ++i) static_cast<void>(drag.force(contact));
+  EXPECT_NEAR(drag.force(contact).x(), -1.0, 1e-9);
+  // At 0.2 m/s they part within 5 ms.
+  contact.velocity.z() = 0.2;
+  EXPECT_NEAR(drag.force(contact).x(), -(1.0 - std::exp(-1.0)), 1e-9);
+  contact.depth = 0.0;
+  EXPECT_EQ(drag.force(contact).x(), 0.0);
+  // Beyond an edge.
+  contact.depth = 1e-3;
+  contact.normal = Vector3d::UnitY();
+  EXPECT_NEAR(drag.force(contact).x(), -0.2, 1e-9);
+}
+
 // Of each contact anew, by the speed at which it began.
 TEST_P(SurfaceEffects, TapRingsAndDecays) {
   Slab slab(GetParam());
