@@ -220,7 +220,8 @@ void ContactSolver::follow_place(double dt) noexcept {
     const bool slid = cones_[i]->sliding();
     const double pressed = std::max(contacts_[i].force.dot(contacts_[i].normal), 0.0);
     const double slip = slid ? (place - state.place).norm() / dt : 0.0;
-    const SlidingPlace now{place, slip, dt, pressed, state.began};
+    const double depth = std::max((scp_ - last_device_).dot(contacts_[i].normal), 0.0);
+    const SlidingPlace now{place, slip, dt, pressed, state.began, depth};
     state.place = place;
     state.effects.for_each([&]<class Effect>(Effect& effect) {
       if constexpr (FollowsPlace<Effect>) effect.follow(now);

@@ -30,6 +30,7 @@ struct SlidingPlace {
   double dt = 0.001;                                ///< [s], since the last step
   double normal_force = 0.0;                        ///< of the object's springs, out of it [N] >= 0
   bool began = false;                               ///< the contact began in the last step
+  double depth = 0.0;  ///< [m] >= 0, of the device below the SCP, along the normal
 };
 
 /// The object's side of a contact.

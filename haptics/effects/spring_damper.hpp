@@ -61,13 +61,15 @@ class SpringDamper : public CountedEffect<SpringDamper> {
   /// Hook: stiffness of the spring [N/m].
   [[nodiscard]] double stiffness() const noexcept { return surface_.stiffness; }
 
-  /// Hook: the damper [N], -damping (v.n) n while in contact. It is limited so that the sum with
-  /// the spring never pulls the hand to the surface. Its power on the device is never positive.
+  /// Hook: the damper [N], -damping (v.n) n while in contact, with at most the contact's
+  /// most_viscosity. It is limited so that the sum with the spring never pulls the hand to the
+  /// surface. Its power on the device is never positive.
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) const noexcept {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d& normal = contact.normal;
     const double pull_limit = -std::max(contact.spring.dot(normal), 0.0);
-    return std::max(-surface_.damping * contact.velocity.dot(normal), pull_limit) * normal;
+    const double damping = std::min(surface_.damping, contact.most_viscosity);
+    return std::max(-damping * contact.velocity.dot(normal), pull_limit) * normal;
   }
 
   /// Hook: the damper's coefficient [N s/m].

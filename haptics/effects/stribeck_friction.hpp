@@ -10,6 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/effect_parameter.hpp"
@@ -27,7 +28,8 @@ struct Lubrication {
 
 /// Holds the contact point back by the coefficient of its sliding speed, as a mean of the last 10
 /// ms: the contact point has no mass, and would chatter by the speed of a single step. Where the
-/// coefficient falls steeply a slow hand feels stick-slip.
+/// coefficient falls steeply a slow hand feels stick-slip. The viscous part is implicit: the more
+/// it holds the contact point back, the less that slides in the same step.
 class StribeckFriction : public CountedEffect<StribeckFriction> {
  public:
   using Parameters = Lubrication;
@@ -71,8 +73,13 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
   [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
   /// Hook: the coefficient of this speed.
   void follow(const SlidingPlace& at) noexcept {
-    if (at.began) slip_ = 0.0;
-    slip_ += std::min(1.0, at.dt / kLag) * (at.slip - slip_);
+    if (at.began) slip_ = held_ = 0.0;
+    const double per_slip = lubrication_.viscous * at.depth;  // [s], held back for each m/s
+    const double before = std::exchange(held_, per_slip * slip_);
+    // The speed at which it would slide if viscosity held it back no more than before.
+    const double free = std::max(0.0, at.slip + (held_ - before) / at.dt);
+    const double share = std::min(1.0, at.dt / kLag);
+    slip_ += share / (1.0 + share * per_slip / at.dt) * (free - slip_);
     const double kinetic = coefficient(slip_);
     cone_.adjust(std::max(kinetic, lubrication_.static_coefficient), kinetic);
   }
@@ -85,6 +92,7 @@ class StribeckFriction : public CountedEffect<StribeckFriction> {
   Lubrication lubrication_;
   FrictionCone cone_;
   double slip_ = 0.0;  // [m/s]
+  double held_ = 0.0;  // [m], by which viscosity held the contact point back
 };
 
 }  // namespace reckon::haptics

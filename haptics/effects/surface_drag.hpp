@@ -21,8 +21,9 @@ struct Film {
 };
 
 /// F = -viscosity times the velocity along the surface, while in contact, whatever the pressure. Of
-/// a body viscosity is at most 0.3 m_eff / T, m_eff what it resists with (least_mass.hpp), and it
-/// begins within 5 ms of the touch: a light body takes the hand's speed within a few periods.
+/// a body viscosity is at most 0.3 m_eff / T, m_eff what it resists with (least_mass.hpp): a light
+/// body takes the hand's speed within a few periods. It grows and fades within some 5 ms, where
+/// hand and body meet and part, and begins anew where the surface turns, as beyond an edge.
 class SurfaceDrag : public CountedEffect<SurfaceDrag> {
  public:
   using Parameters = Film;
@@ -43,9 +44,7 @@ class SurfaceDrag : public CountedEffect<SurfaceDrag> {
   [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) noexcept {
     if (!contact.in_contact) return Eigen::Vector3d::Zero();
     if (!std::isfinite(contact.most_viscosity)) return -film_.viscosity * contact.slip();
-    if (contact.object->began) begun_ = 0.0;
-    begun_ = std::min(1.0, begun_ + contact.dt / kBegin);
-    return -begun_ * std::min(film_.viscosity, contact.most_viscosity) * contact.slip();
+    return -share_of(contact) * std::min(film_.viscosity, contact.most_viscosity) * contact.slip();
   }
 
   /// Hook: its coefficient [N s/m].
@@ -56,8 +55,17 @@ class SurfaceDrag : public CountedEffect<SurfaceDrag> {
  private:
   static constexpr double kBegin = 0.005;  // [s]
 
+  [[nodiscard]] double share_of(const EffectContact& contact) noexcept {
+    begun_ = contact.object->began ? 0.0 : begun_ * std::max(0.0, normal_.dot(contact.normal));
+    begun_ += std::min(1.0, contact.dt / kBegin) * (1.0 - begun_);
+    normal_ = contact.normal;
+    const double parting = kBegin * contact.relative().dot(contact.normal);  // [m]
+    return parting > 0 ? -std::expm1(-contact.depth / parting) * begun_ : begun_;
+  }
+
   Film film_;
-  double begun_ = 0.0;  // share of it, of a body
+  double begun_ = 0.0;                                // share of it, of a body
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();  // then
 };
 
 }  // namespace reckon::haptics

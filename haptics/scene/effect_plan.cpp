@@ -170,15 +170,6 @@ Eigen::Quaterniond checked_orientation(const ObjectPose& pose) {
   return q.normalized();
 }
 
-// By speed; the damper of the surface itself never pulls, and needs no bound.
-bool holds_back(const PlannedEffects& effects) {
-  bool does = false;
-  effects.for_each([&]<class Effect>(const Effect& effect) {
-    if constexpr (GivesForce<Effect> && !AlwaysThere<Effect>) does |= effect.damping() > 0.0;
-  });
-  return does;
-}
-
 PlannedObject plan_object(const SceneObject& object) {
   const Eigen::Quaterniond orientation = checked_orientation(object.pose);
   PlannedObject planned{object.name,
@@ -202,8 +193,7 @@ PlannedObject plan_object(const SceneObject& object) {
     throw std::invalid_argument("only a mesh or a picture has patches; take them out");
   }
   planned.bounds = place_bounds(planned);
-  if (planned.matter.mass > 0 && holds_back(planned.effects))
-    planned.least_mass = least_mass_of(planned);
+  if (planned.matter.mass > 0 && planned.damping() > 0) planned.least_mass = least_mass_of(planned);
   return planned;
 }
 

@@ -121,13 +121,51 @@ def strokes(reckon):
             for speed, viscosity in ((0.05, 8), (0.2, 30), (1.0, 8)):
                 hands, _, _ = run(reckon, stroke_of(mass, viscosity, speed, shape), 1, 1)
                 worst = turned(hands[1, 1])
-                if worst > (0.1 if mass < 0.1 else 0.15):  # a heavier one is touched with more
+                if worst > 0.1:
                     faults.append(f"{shape}, {mass} kg, {viscosity} N s/m, {speed} m/s: {worst:.3f} N turned in 1 ms")
     return faults
 
 
+def pushes_of(mass, damping, speed):
+    """Two hands in turn push a cube over a floor, 4 mm beside its middle."""
+    hands = "".join(f"""
+[[operator]]
+sweep = {{from = "{way * 34} {way * -4} 2 mm", to = "{way * 10} {way * -4} 2 mm", period = "{period * 0.0754 / speed:.4f} s"}}
+stiffness = 300
+damping = 2
+[[device]]
+peer = 1
+operator = {number}
+damping = "2 N s/m"
+""" for number, way, period in ((1, -1, 1.0), (2, 1, 1.2)))
+    return f"""[hand]
+radius = "0.5 mm"
+[[object]]
+name = "floor"
+plane = [0, 0, 1]
+position = "0 0 -20 mm"
+[[object]]
+name = "c"
+box = "40 40 40 mm"
+mass = "{mass} kg"
+surface = {{stiffness = 500, damping = {damping}}}
+{hands}"""
+
+
+def pushes(reckon):
+    """Nor does the damping of its surface."""
+    faults = []
+    for mass in (0.004, 0.02):
+        for speed, damping in ((0.1, 10), (0.3, 30)):
+            hands, _, _ = run(reckon, pushes_of(mass, damping, speed), 1, 1)
+            worst = max(turned(rows) for rows in hands.values())
+            if worst > 0.1:
+                faults.append(f"{mass} kg, damping {damping} N s/m, {speed} m/s: {worst:.3f} N turned in 1 ms")
+    return faults
+
+
 def main():
-    faults = squeezes(sys.argv[1]) + strokes(sys.argv[1])
+    faults = squeezes(sys.argv[1]) + strokes(sys.argv[1]) + pushes(sys.argv[1])
     for text in faults:
         print(f"FAILED: {text}")
     return 1 if faults else 0

@@ -59,6 +59,15 @@ double greatest_drag(const haptics::PlannedObject& object) {
   return most;
 }
 
+// Of any patch [N s/m].
+double greatest_damping(const haptics::PlannedObject& object) {
+  double most = object.effects.find<haptics::SpringDamper>()->damping();
+  if (object.patches == nullptr) return most;
+  for (const haptics::PlannedPatch& patch : object.patches->patches)
+    most = std::max(most, patch.feel.surface.damping);
+  return most;
+}
+
 std::string kind_of(const Softened& row) { return row.what.substr(0, row.what.find(' ')); }
 
 std::string sentence(const Group& group, std::size_t devices) {
@@ -145,10 +154,14 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
                         object.damping(), 0.0, 0.0, true});
     }
     for (const haptics::PlannedObject& object : plan.objects()) {
-      const double most = object.most_viscosity(device.period), asked = greatest_drag(object);
-      if (asked > most)
-        rows.push_back({device.peer, device.name, "drag of " + object.name, most, asked, 0.0, 0.0,
-                        true, false, true});
+      const double most = object.most_viscosity(device.period);
+      const auto note_light = [&](std::string what, double asked) {
+        if (asked > most)
+          rows.push_back({device.peer, device.name, std::move(what), most, asked, 0.0, 0.0, true,
+                          false, true});
+      };
+      note_light("drag of " + object.name, greatest_drag(object));
+      note_light("damping of " + object.name, greatest_damping(object));
     }
     for (const haptics::PlannedRegion& region : plan.regions())
       note("region " + region.name, region.stiffness(), haptics::kRegionsOverWalls * can.walls,

@@ -162,6 +162,35 @@ TEST_P(SurfaceEffects, DragIsAgainstTheMotionAlongTheSurfaceAlone) {
   EXPECT_EQ(plan.objects()[0].damping(), 3.0);
 }
 
+// Of what does not move it is there at once.
+TEST(SurfaceEffectsOf, DragOfABodyGrowsAndFades) {
+  SurfaceDrag drag({2.0});
+  ContactedObject object;
+  EffectContact contact;
+  contact.in_contact = true;
+  contact.object = &object;
+  contact.depth = 1e-3;
+  contact.normal = Vector3d::UnitZ();
+  contact.velocity = Vector3d(0.5, 0, 0);
+  EXPECT_EQ(drag.force(contact).x(), -1.0);
+  contact.most_viscosity = 5.0;
+  object.began = true;
+  EXPECT_NEAR(drag.force(contact).x(), -0.2, 1e-12);
+  object.began = false;
+  EXPECT_NEAR(drag.force(contact).x(), -0.36, 1e-12);
+  for (int i = 0; i < 100; ++i) static_cast<void>(drag.force(contact));
+  EXPECT_NEAR(drag.force(contact).x(), -1.0, 1e-9);
+  // At 0.2 m/s they part within 5 ms.
+  contact.velocity.z() = 0.2;
+  EXPECT_NEAR(drag.force(contact).x(), -(1.0 - std::exp(-1.0)), 1e-9);
+  contact.depth = 0.0;
+  EXPECT_EQ(drag.force(contact).x(), 0.0);
+  // Beyond an edge.
+  contact.depth = 1e-3;
+  contact.normal = Vector3d::UnitY();
+  EXPECT_NEAR(drag.force(contact).x(), -0.2, 1e-9);
+}
+
 // Of each contact anew, by the speed at which it began.
 TEST_P(SurfaceEffects, TapRingsAndDecays) {
   Slab slab(GetParam());
@@ -244,6 +273,25 @@ TEST_P(SurfaceEffects, StribeckFallsWithTheSpeedAndGrowsByViscosity) {
     if (plan.objects()[0].place_of(result.scp).x() > 1e-6) broke = x * kStiffness / kNormalForce;
   }
   EXPECT_NEAR(broke, 0.6, 0.012);
+}
+
+// Deep in thick oil too, where a step of viscosity holds the contact point back by more than it
+// slides in a period.
+TEST_P(SurfaceEffects, ViscousStribeckSlidesWithoutChatter) {
+  Slab slab(GetParam());
+  slab.effects().declare<StribeckFriction>() = {0.3, 0.2, 0.01, 10.0};
+  const EffectPlan plan = slab.plan();
+  ContactSolver solver(plan);
+  solver.reset(slab.in_scene({0, 0, 0.03}));
+  solver.step(slab.in_scene({-0.08, 0, 0.03}));
+  double before = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d device = slab.in_scene(pressed(-0.08 + 3e-4 * i, 0));
+    const double along = solver.step(device, kPeriod).force.dot(slab.turned({-1, 0, 0}));
+    EXPECT_GE(along, before - 1e-6) << i;
+    before = along;
+  }
+  EXPECT_NEAR(before, (0.2 + 10.0 * 0.3) * kNormalForce, 0.01 * kNormalForce);
 }
 
 // Torn off at `force`, and caught again where the next place is.

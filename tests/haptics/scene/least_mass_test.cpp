@@ -44,5 +44,26 @@ TEST(LeastMass, BoundsOnlySpeedDependentEffects) {
   EXPECT_TRUE(std::isinf(body_of(SphereShape{0.02}, 0.0).least_mass));
 }
 
+// Along the normal a damper turns a light body around as drag does along the surface.
+TEST(LeastMass, BoundsTheDamperOfASurface) {
+  Scene scene;
+  SceneObject& ball = scene.objects.emplace_back();
+  ball.name = "ball";
+  ball.shape = SphereShape{0.02};
+  ball.matter.mass = 0.007;
+  ball.effects.of<SpringDamper>() = {500.0, 2.0};
+  EffectContact contact;
+  contact.in_contact = true;
+  contact.normal = Vector3d::UnitZ();
+  contact.spring = 3.0 * Vector3d::UnitZ();
+  contact.velocity = Vector3d(0.3, 0, -0.1);
+  const SpringDamper surface({500.0, 2.0});
+  EXPECT_NEAR(surface.force(contact).z(), 0.2, 1e-12);
+  contact.most_viscosity = EffectPlan(scene).objects().front().most_viscosity(1e-3);
+  EXPECT_NEAR(surface.force(contact).z(), 0.06, 1e-12);
+  contact.velocity = -contact.velocity;
+  EXPECT_NEAR(surface.force(contact).z(), -0.06, 1e-12);
+}
+
 }  // namespace
 }  // namespace reckon::haptics

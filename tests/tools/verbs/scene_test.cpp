@@ -393,6 +393,22 @@ TEST(SceneCheck, TellsWhatDampersAskAndWhatIsKeptForThem) {
   EXPECT_GT(felt("0.37"), felt("0.375"));
 }
 
+// 0.3 m / 3.5 T of a ball.
+TEST(SceneCheck, TellsWhichDampersWouldTurnALightBody) {
+  const auto check = [](const std::string& mass) {
+    const TemporaryScene scene(
+        "[[object]]\nname = \"ball\"\nsphere = \"20 mm\"\nmass = \"" + mass +
+        "\"\nsurface = { stiffness = 300, damping = 2 }\ndrag = { viscosity = 3 }\n"
+        "[[operator]]\npassive = true\n[[device]]\npeer = 1\n");
+    return run_reckon({"scene", "check", scene.path()}).out;
+  };
+  EXPECT_THAT(check("7 g"), HasSubstr("drag of ball asks for 3 N s/m and is felt with 0.6 N s/m"));
+  EXPECT_THAT(check("7 g"), HasSubstr("damping of ball asks for 2 N s/m and is felt with 0.6 N"));
+  EXPECT_THAT(check("30 g"), HasSubstr("drag of ball"));
+  EXPECT_THAT(check("30 g"), Not(HasSubstr("damping of ball")));
+  EXPECT_THAT(check("40 g"), Not(HasSubstr("drag of ball")));
+}
+
 TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
   const TemporaryScene scene(
       std::string(kStiff) +
