@@ -161,7 +161,8 @@ Hand::Hand(const Scenario& scenario, std::size_t index, const Track* led, nanose
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene);
   const auto world = haptics::make_bodies(*plan, scene, paddle_of(scenario));
   servo_ = std::make_unique<haptics::ServoLoop>(handle_->device(), plan, config, world);
-  moving_ = std::make_unique<MovingBooks>(scenario, index == 0 && model_ == nullptr ? world : nullptr);
+  const auto own = index == 0 && model_ == nullptr ? world : nullptr;
+  moving_ = std::make_unique<MovingBooks>(scenario, own, servo_->static_stiffness_limit());
 }
 
 void Hand::make_handle(const Track* led) {

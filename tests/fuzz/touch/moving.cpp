@@ -110,8 +110,12 @@ std::shared_ptr<haptics::ObjectMover> paddle_of(const Scenario& s) {
   return std::make_shared<Paddle>(s[Shared::paddle]);
 }
 
-MovingBooks::MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world)
-    : scenario_(scenario), world_(std::move(world)), begin_(has_body() ? energy() : 0.0) {}
+MovingBooks::MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world,
+                         double stiffest)
+    : scenario_(scenario),
+      world_(std::move(world)),
+      stiffness_(std::min(scenario[Shared::body_stiffness], stiffest)),
+      begin_(has_body() ? energy() : 0.0) {}
 
 // How far a place is from the falling body [m]; 0 inside.
 double MovingBooks::clear_of(const Vector3d& place) const {
@@ -137,8 +141,7 @@ void MovingBooks::note(const haptics::ServoSnapshot& hand, double dt) {
   was_pushed_ = pushes;
   if (pushes) pushed_ += dt;
   constexpr double kMargin = 0.01, kLeast = 1e-3;
-  const double stretch =
-      haptics::SimulatedDeviceConfig{}.max_force / s[Shared::body_stiffness] + kMargin;
+  const double stretch = haptics::SimulatedDeviceConfig{}.max_force / stiffness_ + kMargin;
   clear_ = clear_of(hand.device) > stretch ? clear_ + dt : 0.0;
   if (hand.mesh_force.norm() > kLeast) haunted_ = std::max(haunted_, clear_ - 2 * dt);
 }

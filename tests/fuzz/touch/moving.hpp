@@ -24,8 +24,9 @@ void add_moving(const Scenario& scenario, const Eigen::Vector3d& home, haptics::
 /// What bodies do, step by step.
 class MovingBooks {
  public:
-  /// @param world null: no books
-  MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world);
+  /// @param world null: no books  @param stiffest [N/m] that the hand's device shows of a body
+  MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics::BodyWorld> world,
+              double stiffest);
 
   /// @param dt [s], since the last step
   void note(const haptics::ServoSnapshot& hand, double dt);
@@ -44,6 +45,7 @@ class MovingBooks {
 
   const Scenario& scenario_;
   std::shared_ptr<const haptics::BodyWorld> world_;
+  double stiffness_;  // [N/m], of the falling body as shown
   bool is_pushed_ = false, was_pushed_ = false;
   double begin_ = 0, pushed_ = 0, clear_ = 0, haunted_ = 0, fastest_ = 0;
 };
