@@ -406,8 +406,7 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
   if (shakes) shake(load, wish);
   const Force force = keep_rate(load, held_.force);
   const double whole = held_.force.norm();
-  const double reached =
-      whole > 0 ? std::min(1.0, (force - port_.shaking()).norm() / whole) : 1.0;
+  const double reached = whole > 0 ? std::min(1.0, (force - port_.shaking()).norm() / whole) : 1.0;
   const double share = crowd_share_ * held_.springs * reached;
   for (RemoteContact* remote : hands_.all()) remote->shown(share, port_.free());
   tally_.rate.note(reached, newtons(held_.force), step_.dt);

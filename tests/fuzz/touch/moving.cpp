@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kCube = 0.04;                // [m], of the heap and the pinched one
-constexpr double kPaddleFrom = 0.2;           // [m], from the cube
-constexpr double kPaddleFor = 0.4;            // [s]
+constexpr double kCube = 0.04;       // [m], of the heap and the pinched one
+constexpr double kPaddleFrom = 0.2;  // [m], from the cube
+constexpr double kPaddleFor = 0.4;   // [s]
 const Vector3d kHeapAt(40, 0, 0), kPinchAt(0, 20, 0);
 
 haptics::SceneObject& add(haptics::Scene& scene, std::string name, const haptics::Shape& shape,
@@ -151,8 +151,8 @@ double MovingBooks::energy() const {
   const haptics::BodyState& body = world_->states().front();
   const double mass = scenario_[Shared::body_mass], size = scenario_[Shared::body_size];
   const double inertia = mass * size * size / (is_box(scenario_) ? 6 : 10);
-  return 0.5 * mass * body.velocity.squaredNorm() +
-         0.5 * inertia * body.turn_rate.squaredNorm() + mass * 9.81 * body.position.z();
+  return 0.5 * mass * body.velocity.squaredNorm() + 0.5 * inertia * body.turn_rate.squaredNorm() +
+         mass * 9.81 * body.position.z();
 }
 
 std::vector<Vector3d> MovingBooks::places() const {

@@ -131,8 +131,9 @@ void model_at_rest(Scenario& s) {
 // The second hand lies to the first, which holds still.
 void resting(Scenario& s) {
   using enum Shared;
-  put_out_of_play(s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand,
-                      wall, solid, effect, region, lie_odd, lie_rename, silent_hand, unknown_hand});
+  put_out_of_play(
+      s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand, wall, solid,
+          effect, region, body, lie_odd, lie_rename, silent_hand, unknown_hand});
   s[liar] = 2;
   s[model] = 0;
   s.path(0, Path::press) = s.path(0, Path::amplitude) = s.path(0, Path::side) = 0;
@@ -244,8 +245,8 @@ std::string pinched_text(const Outcome& o) {
   return fmt::format("{:.3g} times as fast as the paddle", o.pinched);
 }
 std::string heap_text(const Outcome& o) {
-  return fmt::format("{:.3g} mN and {:.3g} um beside the same without the heap",
-                     1e3 * o.heap_force, 1e6 * o.heap_place);
+  return fmt::format("{:.3g} mN and {:.3g} um beside the same without the heap", 1e3 * o.heap_force,
+                     1e6 * o.heap_place);
 }
 std::string liar_text(const Outcome& o) {
   return fmt::format("{:.3g} W in a second and {} in 50 ms beyond an honest twin", o.liar.power,

@@ -113,8 +113,7 @@ struct Held {
 // A spring that is at most as stiff as 50 grips is followed by small steps.
 Held held_in_region(const Scenario& s, std::size_t hand, double time) {
   const haptics::Scene scene = solids_of(s, Eigen::Vector3d::Zero());
-  const Eigen::Vector3d goal =
-      way_of(s, hand, time) - scene.regions.front().pose.position;
+  const Eigen::Vector3d goal = way_of(s, hand, time) - scene.regions.front().pose.position;
   Held held{goal, region_pull(scene.regions.front().effects, goal)};
   for (int i = 0; i < 5'000; ++i) {
     held.place += 0.01 * (goal + held.force / s[Shared::grip] - held.place);
@@ -226,7 +225,8 @@ std::vector<double> forces_in_a_row(const Scenario& s, const std::vector<Shows>&
 std::vector<double> right_forces(const Scenario& s, const std::vector<Shows>& shows, double time) {
   std::vector<double> forces = forces_in_a_row(s, shows, time);
   if (s[Shared::region] > 0) {
-    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = held_in_region(s, i, time).force.norm();
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      forces[i] = held_in_region(s, i, time).force.norm();
     return forces;
   }
   if (s[Shared::wall] == 0) return forces;

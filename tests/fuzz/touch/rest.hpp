@@ -32,7 +32,8 @@ struct Shows {
 [[nodiscard]] double depth_of_goals(const Scenario& scenario);
 /// Whether right_forces() has what both of two honest hands should feel, and promises it: no loss,
 /// at most 50 ms, grips of at most 600 N/m that damp 1 N s/m and want no farther than kDeepestGoals
-/// into each other, no effects but springs; or in a region that is weight, spring, magnet or border.
+/// into each other, no effects but springs; or in a region that is weight, spring, magnet or
+/// border.
 [[nodiscard]] bool is_promised(const Scenario& scenario);
 
 /// What each hand would feel at most from a neighbour without any delay [N]: springs in a row

@@ -29,93 +29,93 @@ constexpr double kMostRegionEffects = std::tuple_size_v<haptics::RegionTypes>;
 
 constexpr Row kSharedRows[] = {
     {"hands", 2, 4, 2, true},
-    {"stiffness", 50, 3000, 500, false},             // [N/m]
-    {"grip", 20, 2000, 300, false},                  // [N/m]
-    {"grip_damping", 0, 20, 3, false},               // [N s/m]
-    {"mass", 0.02, 1, 0.1, false},                   // [kg]
-    {"damping", 0.2, 3, 1, false},                   // [N s/m], of the device
-    {"friction", 0, 1.5, 0, false},                  // coefficient
-    {"hardening", 0, 5e6, 0, false},                 // [N/m^3]
-    {"record_damping", 0, 5, 0, false},              // [N s/m]
-    {"delay", 0, 0.5, 0, false},                     // [s]
-    {"jitter", 0, 1, 0, false},                      // of the delay, to either side
-    {"loss", 0, 0.6, 0, false},                      // probability
-    {"rate", 0, 500, 0, true},                       // [Hz], below 10 by threshold
-    {"threshold", 0.005, 0.2, 0.015, false},         // [N]
-    {"overlap", 0, 0.03, 0, false},                  // [m], of neighbours at the start
-    {"outage_at", 0, 3, 0, false},                   // [s]
-    {"outage_for", 0, 2, 0, false},                  // [s]
-    {"late", 0, 0.1, 0, false},                      // probability that a servo step is
-    {"late_by", 0.0005, 0.0088, 0.001, false},       // [s], at most
-    {"holds", 0, 1, 0, true},                        // 1: the device lets go after 10 ms, not 1.5
-    {"failed", 0, 0.01, 0, false},                   // probability that readings begin to fail
-    {"failed_run", 1, 5, 1, true},                   // so many of them
-    {"calm_after", 0, 10, 10, false},                // [s], no step is late, no reading fails
-    {"device_delay", 0, 16, 0, true, 4},             // [samples], of a written force
-    {"servo_rate", 250, 4000, 1000, false},          // [Hz]
-    {"encoder", 0, 1e-4, 0, false},                  // [m], step; 0 is exact, with velocities
-    {"other_hand", 0, 4, 0, true},                   // whose device is another one; 0 nobody's
-    {"other_delay", 0, 16, 0, true, 4},              // [samples], of that
-    {"other_rate", 250, 4000, 1000, false},          // [Hz], of that
-    {"duplicates", 0, 0.6, 0, false},                // probability of one, which nobody weeds out
-    {"unknown_hand", 0, 4, 0, true},                 // whom nobody has heard of; 0 nobody
-    {"unknown_until", 0, 3, 0, false},               // [s]
-    {"silent_hand", 0, 4, 0, true},                  // of whom nothing is heard; 0 nobody
-    {"silent_at", 0, 3, 1, false},                   // [s]
-    {"silent_for", 0, 3, 0, false},                  // [s]; a model expires after 0.72 s
-    {"silent_move", -0.04, 0.04, 0, false},          // [m], its grip meanwhile, and stays there
-    {"off_hand", 0, 4, 0, true},                     // whose operator lets the switch go; 0 nobody
-    {"off_at", 0, 3, 1, false},                      // [s]
-    {"off_for", 0, 1, 0.2, false},                   // [s]
-    {"wall", 0, 5000, 0, false},                     // [N/m], static, beside each hand
-    {"wall_gap", -0.005, 0.03, 0.01, false},         // [m], from a hand's place
-    {"wall_tilt", 0, 6.283185307179586, 0, false},   // [rad], of its normal, from x
-    {"solid", 0, 4, 0, true},                        // beside each: wall, box, pit, tetrahedron
-    {"solid_stiffness", 0, 5000, 0, false},          // [N/m]
-    {"solid_gap", -0.005, 0.03, 0.01, false},        // [m], from a hand's place
-    {"solid_tilt", 0, 6.283185307179586, 0, false},  // [rad], of its normal, from x
-    {"effect", 0, kMostSurfaceEffects, 0, true},     // of wall and solid, by its row; 0 none
-    {"effect_strength", 0, 1, 0.5, false},           // decades of its values, see solids_of()
-    {"region", 0, kMostRegionEffects, 0, true},      // of a ball about each hand's place; 0 none
-    {"region_strength", 0, 1, 0.5, false},           // the same of that
-    {"region_off", 0, 0.06, 0, false},               // [m], along x, of its middle from that place
-    {"body", 0, 2, 0, true},                         // falls on the first hand: box, ball; 0 none
-    {"body_mass", 0.004, 20, 0.2, false},            // [kg]
-    {"body_size", 0.01, 0.1, 0.04, false},           // [m]
-    {"body_stiffness", 50, 2000, 400, false},        // [N/m]
-    {"body_drop", 0, 1, 0.1, false},                 // [m], from its lowest point to the place
-    {"body_beside", 0, 0.05, 0, false},              // [m], along x, of its middle
-    {"body_turned", 0, 6.283185307179586, 0, false}, // [rad], about y
-    {"body_floor", 0, 0.5, 0, false},                // [m], below the place; 0 none
-    {"pile", 0, 30, 0, true},                        // cubes that fall in a heap 40 m away
-    {"pile_mass", 0.02, 10, 0.2, false},             // [kg], at most, of each
-    {"pile_bounce", 0, 1, 0, false},                 // restitution
-    {"paddle", 0, 2, 0, false},                      // [m/s], it pinches a cube 20 m away; 0 none
-    {"paddle_mass", 0.01, 5, 0.1, false},            // [kg], of that cube
-    {"paddle_turned", 0, 1.6, 0, false},             // [rad], about z
-    {"liar", 0, 4, 0, true},                         // who lies; 0 nobody
-    {"lie_given", 0, 20, 0, false},                  // [W]
-    {"lie_need", 0, 0.2, 0, false},                  // [J]
-    {"lie_wave", 0.5, 100, 5, false},                // [Hz], of what changes
-    {"lie_softest", 0, 1, 1, false},                 // of the stiffness, in turn with all of it
-    {"lie_jump", 0, 0.12, 0, false},                 // [m], to where the hand is not, in turn
-    {"lie_swing", 0, 0.08, 0, false},                // [m], by which it is said to swing
-    {"lie_odd", 0, 0.3, 0, false},                   // probability of a value that is absurd
-    {"lie_rename", 0, 1, 0, true},                   // another hand every 50 ms
-    {"model", 0, 4, 0, true},                        // what the first hand holds
-    {"model_damping", 0, 10, 2, false},              // [N s/m], of that
-    {"chain", 0.001, 0.02, 0.006, false},            // [s], stated of that
-    {"phase_in", 0, 0.999, 0.5, false},              // [ms] of a frame, when it reports
-    {"phase_out", 0, 0.999, 0, false},               // [ms] of a frame, when it is told
-    {"lag", 0, 0.005, 0, false},                     // [s], of its line, timer or program
-    {"report", 0.0005, 0.008, 0.001, false},         // [s], between those of board and event device
-    {"stated", 0, 1, 1, false},                      // of its damping
-    {"drawn", 0, 3, 0, true},                        // beside it: walls, effects, bodies
-    {"drawn_seed", 1, 999, 1, true},                 // of those and of the hand's way
-    {"fault", 0, 10, 0, true},                       // that befalls it
-    {"fault_at", 0, 3, 1, false},                    // [s]
-    {"fault_for", 0, 0.5, 0.02, false},              // [s]
-    {"fault_every", 0, 1, 0, false},                 // [s], once more; 0 never
+    {"stiffness", 50, 3000, 500, false},              // [N/m]
+    {"grip", 20, 2000, 300, false},                   // [N/m]
+    {"grip_damping", 0, 20, 3, false},                // [N s/m]
+    {"mass", 0.02, 1, 0.1, false},                    // [kg]
+    {"damping", 0.2, 3, 1, false},                    // [N s/m], of the device
+    {"friction", 0, 1.5, 0, false},                   // coefficient
+    {"hardening", 0, 5e6, 0, false},                  // [N/m^3]
+    {"record_damping", 0, 5, 0, false},               // [N s/m]
+    {"delay", 0, 0.5, 0, false},                      // [s]
+    {"jitter", 0, 1, 0, false},                       // of the delay, to either side
+    {"loss", 0, 0.6, 0, false},                       // probability
+    {"rate", 0, 500, 0, true},                        // [Hz], below 10 by threshold
+    {"threshold", 0.005, 0.2, 0.015, false},          // [N]
+    {"overlap", 0, 0.03, 0, false},                   // [m], of neighbours at the start
+    {"outage_at", 0, 3, 0, false},                    // [s]
+    {"outage_for", 0, 2, 0, false},                   // [s]
+    {"late", 0, 0.1, 0, false},                       // probability that a servo step is
+    {"late_by", 0.0005, 0.0088, 0.001, false},        // [s], at most
+    {"holds", 0, 1, 0, true},                         // 1: the device lets go after 10 ms, not 1.5
+    {"failed", 0, 0.01, 0, false},                    // probability that readings begin to fail
+    {"failed_run", 1, 5, 1, true},                    // so many of them
+    {"calm_after", 0, 10, 10, false},                 // [s], no step is late, no reading fails
+    {"device_delay", 0, 16, 0, true, 4},              // [samples], of a written force
+    {"servo_rate", 250, 4000, 1000, false},           // [Hz]
+    {"encoder", 0, 1e-4, 0, false},                   // [m], step; 0 is exact, with velocities
+    {"other_hand", 0, 4, 0, true},                    // whose device is another one; 0 nobody's
+    {"other_delay", 0, 16, 0, true, 4},               // [samples], of that
+    {"other_rate", 250, 4000, 1000, false},           // [Hz], of that
+    {"duplicates", 0, 0.6, 0, false},                 // probability of one, which nobody weeds out
+    {"unknown_hand", 0, 4, 0, true},                  // whom nobody has heard of; 0 nobody
+    {"unknown_until", 0, 3, 0, false},                // [s]
+    {"silent_hand", 0, 4, 0, true},                   // of whom nothing is heard; 0 nobody
+    {"silent_at", 0, 3, 1, false},                    // [s]
+    {"silent_for", 0, 3, 0, false},                   // [s]; a model expires after 0.72 s
+    {"silent_move", -0.04, 0.04, 0, false},           // [m], its grip meanwhile, and stays there
+    {"off_hand", 0, 4, 0, true},                      // whose operator lets the switch go; 0 nobody
+    {"off_at", 0, 3, 1, false},                       // [s]
+    {"off_for", 0, 1, 0.2, false},                    // [s]
+    {"wall", 0, 5000, 0, false},                      // [N/m], static, beside each hand
+    {"wall_gap", -0.005, 0.03, 0.01, false},          // [m], from a hand's place
+    {"wall_tilt", 0, 6.283185307179586, 0, false},    // [rad], of its normal, from x
+    {"solid", 0, 4, 0, true},                         // beside each: wall, box, pit, tetrahedron
+    {"solid_stiffness", 0, 5000, 0, false},           // [N/m]
+    {"solid_gap", -0.005, 0.03, 0.01, false},         // [m], from a hand's place
+    {"solid_tilt", 0, 6.283185307179586, 0, false},   // [rad], of its normal, from x
+    {"effect", 0, kMostSurfaceEffects, 0, true},      // of wall and solid, by its row; 0 none
+    {"effect_strength", 0, 1, 0.5, false},            // decades of its values, see solids_of()
+    {"region", 0, kMostRegionEffects, 0, true},       // of a ball about each hand's place; 0 none
+    {"region_strength", 0, 1, 0.5, false},            // the same of that
+    {"region_off", 0, 0.06, 0, false},                // [m], along x, of its middle from that place
+    {"body", 0, 2, 0, true},                          // falls on the first hand: box, ball; 0 none
+    {"body_mass", 0.004, 20, 0.2, false},             // [kg]
+    {"body_size", 0.01, 0.1, 0.04, false},            // [m]
+    {"body_stiffness", 50, 2000, 400, false},         // [N/m]
+    {"body_drop", 0, 1, 0.1, false},                  // [m], from its lowest point to the place
+    {"body_beside", 0, 0.05, 0, false},               // [m], along x, of its middle
+    {"body_turned", 0, 6.283185307179586, 0, false},  // [rad], about y
+    {"body_floor", 0, 0.5, 0, false},                 // [m], below the place; 0 none
+    {"pile", 0, 30, 0, true},                         // cubes that fall in a heap 40 m away
+    {"pile_mass", 0.02, 10, 0.2, false},              // [kg], at most, of each
+    {"pile_bounce", 0, 1, 0, false},                  // restitution
+    {"paddle", 0, 2, 0, false},                       // [m/s], it pinches a cube 20 m away; 0 none
+    {"paddle_mass", 0.01, 5, 0.1, false},             // [kg], of that cube
+    {"paddle_turned", 0, 1.6, 0, false},              // [rad], about z
+    {"liar", 0, 4, 0, true},                          // who lies; 0 nobody
+    {"lie_given", 0, 20, 0, false},                   // [W]
+    {"lie_need", 0, 0.2, 0, false},                   // [J]
+    {"lie_wave", 0.5, 100, 5, false},                 // [Hz], of what changes
+    {"lie_softest", 0, 1, 1, false},                  // of the stiffness, in turn with all of it
+    {"lie_jump", 0, 0.12, 0, false},                  // [m], to where the hand is not, in turn
+    {"lie_swing", 0, 0.08, 0, false},                 // [m], by which it is said to swing
+    {"lie_odd", 0, 0.3, 0, false},                    // probability of a value that is absurd
+    {"lie_rename", 0, 1, 0, true},                    // another hand every 50 ms
+    {"model", 0, 4, 0, true},                         // what the first hand holds
+    {"model_damping", 0, 10, 2, false},               // [N s/m], of that
+    {"chain", 0.001, 0.02, 0.006, false},             // [s], stated of that
+    {"phase_in", 0, 0.999, 0.5, false},               // [ms] of a frame, when it reports
+    {"phase_out", 0, 0.999, 0, false},                // [ms] of a frame, when it is told
+    {"lag", 0, 0.005, 0, false},                      // [s], of its line, timer or program
+    {"report", 0.0005, 0.008, 0.001, false},  // [s], between those of board and event device
+    {"stated", 0, 1, 1, false},               // of its damping
+    {"drawn", 0, 3, 0, true},                 // beside it: walls, effects, bodies
+    {"drawn_seed", 1, 999, 1, true},          // of those and of the hand's way
+    {"fault", 0, 10, 0, true},                // that befalls it
+    {"fault_at", 0, 3, 1, false},             // [s]
+    {"fault_for", 0, 0.5, 0.02, false},       // [s]
+    {"fault_every", 0, 1, 0, false},          // [s], once more; 0 never
 };
 static_assert(std::size(kSharedRows) == kShared);
 

@@ -293,8 +293,8 @@ TEST(PassingBody, LetsGoOfAHandItPassed) {
   }
 }
 
-// Between two contacts, where the speed of the ball is that of its place. What it has more of is what
-// the hand gave.
+// Between two contacts, where the speed of the ball is that of its place. What it has more of is
+// what the hand gave.
 TEST(Rebound, FromAHandMakesNoEnergy) {
   for (const double mass : {0.02, 0.1, 0.3}) {
     for (const double drop : {0.03, 0.3}) {
@@ -310,8 +310,8 @@ TEST(Rebound, FromAHandMakesNoEnergy) {
         const bool pushes = hands.at().force.norm() > 0;
         rebounds += pushed && !pushes ? 1 : 0;
         if (!pushes && !pushed) {
-          const double gained = mass * (0.5 * ball.velocity.squaredNorm() +
-                                        9.81 * (ball.position.z() - 0.02 - drop));
+          const double gained =
+              mass * (0.5 * ball.velocity.squaredNorm() + 9.81 * (ball.position.z() - 0.02 - drop));
           most = std::max(most, gained + hands.got() - hands.at().loan);
         }
         pushed = pushes;

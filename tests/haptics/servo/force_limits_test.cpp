@@ -49,8 +49,8 @@ class Bench {
       double moved = 0;
       for (std::size_t i = 0; i < s.count; ++i)
         moved += s.contacts[i].received - s.contacts[i].given;
-      least = std::min(least, device_.port_work() + device_.damping_loss() + moved + s.loan +
-                                  s.source_energy());
+      least = std::min(
+          least, device_.port_work() + device_.damping_loss() + moved + s.loan + s.source_energy());
       peak = std::max(peak, after.norm());
     }
   }

@@ -85,6 +85,12 @@ std::vector<Row> hiccups_at_a_wall() {
   };
 }
 
+HandTarget wants(double height) {
+  HandTarget target;
+  target.position.z() = height;
+  return target;
+}
+
 TEST(Hiccup, AWallIsAsHardAsBeforeWithinThreeSeconds) {
   for (const Row& row : hiccups_at_a_wall()) {
     Bench bench(floor(row.wall.stiffness), held(row.wall, 0.03), presses(row.wall.goal));
@@ -116,9 +122,8 @@ TEST(Hiccup, OneFailedReadingTakesAQuarterOfTheForceAtMost) {
 TEST(Hiccup, WhoBeginsInsideAWallFeelsItFadeInAndIsTold) {
   for (const double stiffness : {500.0, 1400.0}) {
     const Wall wall{stiffness};
-    Bench bench(floor(stiffness), held(wall, -wall.goal), [&](double) {
-      return HandTarget{Vector3d(0, 0, -wall.goal), {}, {}};
-    });
+    Bench bench(floor(stiffness), held(wall, -wall.goal),
+                [&](double) { return wants(-wall.goal); });
     double fastest = 0, last = 0;
     for (int i = 0; i < 3000; ++i) {
       const double force = bench.run(1ms).force.norm();
@@ -138,9 +143,7 @@ TEST(Hiccup, WhoBeginsInsideAWallFeelsItFadeInAndIsTold) {
 // 200 mm deep: no loan lifts a hand out of there, and it is said for as long.
 TEST(Hiccup, WhatNoLoanReachesIsTold) {
   const Wall wall{1400, 300, 0.2};
-  Bench bench(floor(1400), held(wall, -0.2), [](double) {
-    return HandTarget{Vector3d(0, 0, -0.2), {}, {}};
-  });
+  Bench bench(floor(1400), held(wall, -0.2), [](double) { return wants(-0.2); });
   bench.run(10s);
   const ServoSnapshot& s = bench.servo.snapshots().read();
   EXPECT_LE(s.loan_most, kGreatestLoan + kRoundOff);
@@ -153,9 +156,8 @@ TEST(Hiccup, WhatNoLoanReachesIsTold) {
 TEST(Hiccup, WallDeeperThanTheLoanStandsAtTheHandle) {
   for (const Wall& wall : {Wall{900, 150, 0.06}, Wall{600, 300, 0.06}, Wall{1400, 200, 0.08}}) {
     double deeper = 0;
-    Bench bench(floor(wall.stiffness), held(wall, -wall.goal), [&](double t) {
-      return HandTarget{Vector3d(0, 0, -wall.goal - deeper * smooth(t - 8)), {}, {}};
-    });
+    Bench bench(floor(wall.stiffness), held(wall, -wall.goal),
+                [&](double t) { return wants(-wall.goal - deeper * smooth(t - 8)); });
     deeper = 0.005 * (1 + wall.stiffness / wall.grip);
     const double before = bench.run(8s).force.z(), from = bench.device.position().z();
     const double after = bench.run(4s).force.z(), pressed = from - bench.device.position().z();
@@ -175,7 +177,7 @@ TEST(Hiccup, WallDeeperThanTheLoanStandsAtTheHandle) {
 TEST(Hiccup, HiddenDepthIsShownOnTheWayOut) {
   Bench bench(floor(900), held({900, 150}, -0.06), [](double t) {
     const double out = 0.07 * smooth((t - 6) / 2), in = 0.02 * smooth(t - 9);
-    return HandTarget{Vector3d(0, 0, -0.06 + out - in), {}, {}};
+    return wants(-0.06 + out - in);
   });
   bench.run(6s);
   ASSERT_GT(bench.servo.snapshots().read().tally.hidden, 0.01);
