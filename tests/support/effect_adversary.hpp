@@ -26,7 +26,7 @@ inline double any(Random& random, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(random);
 }
 
-/// A port at a scene, whose hand moves as it is told, and the device's own books of it.
+/// The energy port of a hand in a scene. A test moves the hand; the energy books are the device's.
 class BookedPort {
  public:
   /// @param place of the hand [m]  @param delay [samples], of the device

@@ -53,6 +53,7 @@ TEST(TouchJudge, KnowsWhatARegionShouldShow) {
   EXPECT_NEAR(force("region=4 region_off=0.015"), 0.015 / (1 / 100.0 + 1 / 300.0), 1e-6);
   EXPECT_NEAR(force("region=3"), std::sqrt(3.0) * 0.2, 1e-9);
   EXPECT_NEAR(force("region=7 region_off=0.034"), 0.004 / (2 / 300.0), 1e-6);
+  EXPECT_EQ(force("region=5"), 0.0);                                    // in the middle of a magnet
   EXPECT_FALSE(is_promised(scenario_of("region=4 region_off=0.015")));  // beside another hand
   EXPECT_FALSE(is_promised(scenario_of("press2=0.01 region=4 region_off=0.029")));
   EXPECT_FALSE(is_promised(scenario_of("press2=0.01 region=1")));

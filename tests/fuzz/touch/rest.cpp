@@ -95,6 +95,8 @@ double mended_at(const Scenario& s) {
 Eigen::Vector3d region_pull(const haptics::DeclaredRegionEffects& effects,
                             const Eigen::Vector3d& place) {
   const double way = place.norm();
+  if (!(way > 0) && effects.find<haptics::ConstantForce>() == nullptr)
+    return Eigen::Vector3d::Zero();
   if (const auto* border = effects.find<haptics::BorderSpring>())
     return -border->stiffness * std::max(0.0, 1 - kRegion / way) * place;
   if (const auto* push = effects.find<haptics::ConstantForce>()) return {push->x, push->y, push->z};

@@ -106,7 +106,7 @@ constexpr Row kSharedRows[] = {
     {"model_damping", 0, 10, 2, false},               // [N s/m], of that
     {"chain", 0.001, 0.02, 0.006, false},             // [s], stated of that
     {"phase_in", 0, 0.999, 0.5, false},               // [ms] of a frame, when it reports
-    {"phase_out", 0, 0.999, 0, false},                // [ms] of a frame, when it is told
+    {"phase_out", 0, 0.999, 0, false},                // [ms] of a frame, when it takes a force
     {"lag", 0, 0.005, 0, false},                      // [s], of its line, timer or program
     {"report", 0.0005, 0.008, 0.001, false},  // [s], between those of board and event device
     {"stated", 0, 1, 1, false},               // of its damping
