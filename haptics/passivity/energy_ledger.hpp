@@ -99,6 +99,7 @@ class EnergyLedger {
   }
   // Damping lost `loss`, which was absorbed.
   void forgo_loss(double loss) noexcept {
+    if (!oscillations_.is_in_hand()) return;
     level_ -= oscillations_.take_from_loss(std::min(loss, std::max(0.0, level_)));
   }
   void take_back(double energy) noexcept {

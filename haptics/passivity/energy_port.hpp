@@ -108,6 +108,8 @@ class EnergyPortOf : public EnergyLedger {
   bool hold_instead(const Load& load, const Force& force, double dt) noexcept;
   /// Chooses the part of load.shake that is held besides, after hold(); see OscillationBucket.
   const Force& shake(const Load& load, double dt) noexcept;
+  /// Whether an oscillation is held, or under way to the handle.
+  [[nodiscard]] bool shakes() const noexcept { return shakes_for_ > 0; }
   /// Most that oscillations under way to the handle may put in [J].
   [[nodiscard]] double shakes_under_way(double dt) const noexcept {
     if (shakes_for_ == 0 || !(damping() > 0)) return 0.0;

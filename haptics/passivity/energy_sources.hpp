@@ -57,7 +57,7 @@ class OscillationBucket {
   }
   void wait(double dt) noexcept {
     level_ = std::min(capacity_, level_ + power_ * dt);
-    in_hand_ -= in_hand_ * std::min(1.0, dt / kForget);
+    if (in_hand_ > 0) in_hand_ -= in_hand_ * std::min(1.0, dt / kForget);
   }
   /// An oscillation did `work` on the hand [J]; below 0 it comes back.
   /// @return what lacks [J] >= 0
@@ -68,6 +68,8 @@ class OscillationBucket {
     in_hand_ = std::max(0.0, in_hand_ + work);
     return std::max(0.0, work - paid);
   }
+  /// Whether the hand has some of it, neither back nor lost.
+  [[nodiscard]] bool is_in_hand() const noexcept { return in_hand_ > 0; }
   /// The part of a damping loss that the oscillation brought [J]: it earns no one energy.
   [[nodiscard]] double take_from_loss(double loss) noexcept {
     const double part = std::clamp(loss, 0.0, in_hand_);

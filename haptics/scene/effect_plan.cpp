@@ -321,6 +321,12 @@ double EffectPlan::max_stiffness() const noexcept {
   return most;
 }
 
+double EffectPlan::max_region_stiffness() const noexcept {
+  double most = 0.0;
+  for (const PlannedRegion& region : regions_) most = std::max(most, region.stiffness());
+  return most;
+}
+
 std::vector<std::shared_ptr<const GuardReport>> EffectPlan::custom_effects() const {
   std::vector<std::shared_ptr<const GuardReport>> reports;
   const auto note = [&]<class Effect>(const Effect& effect) {

@@ -148,6 +148,8 @@ class EffectPlan {
   /// Stiffness of the stiffest surface [N/m]; 0 without objects. Compared with the device's passive
   /// limit.
   [[nodiscard]] double max_stiffness() const noexcept;
+  /// The same of the stiffest region.
+  [[nodiscard]] double max_region_stiffness() const noexcept;
   /// What is seen of the program's own effects while servos run, one for each that is declared.
   [[nodiscard]] std::vector<std::shared_ptr<const GuardReport>> custom_effects() const;
   /// All stages in the order of the servo step.

@@ -3,6 +3,7 @@
 #include "reckon/haptics/servo/between_hands.hpp"
 
 #include <algorithm>
+#include <variant>
 
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 
@@ -29,9 +30,12 @@ double depth_at(const ContactShape& shape, const Vector3d& p) {
 // Both in the axes of the shape. A prediction that goes too far puts a hand inside the solid, which
 // makes the segment look deeper by that much.
 bool cuts(const ContactShape& shape, const Vector3d& from, const Vector3d& to, bool apart) {
+  if (std::holds_alternative<HalfSpace>(shape)) return false;  // never between two points outside
   const Vector3d way = to - from;
-  const double deep_from = depth_at(shape, from), deep_to = depth_at(shape, to);
+  const double deep_from = depth_at(shape, from);
   const double begin = deep_from > 0.0 ? 0.0 : free_part(shape, from, way);
+  if (!(begin < 1.0)) return false;
+  const double deep_to = depth_at(shape, to);
   const double end = deep_to > 0.0 ? 1.0 : 1.0 - free_part(shape, to, -way);
   if (!(begin < end)) return false;
   const double within = (end - begin) * way.norm();

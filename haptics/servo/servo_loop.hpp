@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 
+#include "reckon/haptics/contact/region_share.hpp"
 #include "reckon/haptics/servo/servo_core.hpp"
 
 namespace reckon::haptics {
@@ -60,6 +61,11 @@ class ServoLoop {
   [[nodiscard]] double power_limit() const noexcept { return core_->power_limit(); }
   /// Stiffness that the scene asks for [N/m].
   [[nodiscard]] double static_stiffness() const noexcept { return plan().max_stiffness(); }
+  /// Of the scene's stiffest region, and of the stiffest that is shown [N/m].
+  [[nodiscard]] double region_stiffness() const noexcept { return plan().max_region_stiffness(); }
+  [[nodiscard]] double region_stiffness_limit() const noexcept {
+    return kRegionsOverWalls * static_stiffness_limit();
+  }
   /// The static scene; any thread.
   [[nodiscard]] const EffectPlan& plan() const noexcept { return core_->plan(); }
   /// Stiffness limit of a remote hand [N/m]: half that of a wall, because two hands that press each

@@ -27,7 +27,7 @@ constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at re
 constexpr double kRest = 1.0;            // [s]
 constexpr double kReadFor = 0.002;       // [s]: within it an encoder step may be no motion
 constexpr double kUnit = 1e-6;           // of a quaternion's length
-constexpr std::uint64_t kPartsEach = 4;  // steps between two checks for solids between hands
+constexpr std::uint64_t kPartsEach = 8;  // steps between two checks for solids between hands
 constexpr double kTurnMisfit = 1e-4;     // [rad], of the filter of turns
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
@@ -55,6 +55,7 @@ template <int axes>
 ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
                                const ServoConfig& config, std::shared_ptr<BodyWorld> bodies)
     : ServoCore(device, std::move(plan), config, std::move(bodies)),
+      device_axes_(config_.device_orientation.toRotationMatrix()),
       tool_({limits_.damping, limits_.turn_damping}, config_.probes),
       static_(*plan_,
               cap_for(tool_.probe_damping(), tool_.tool_damping(), tool_.bend(step_.force_limit)),
@@ -120,6 +121,7 @@ void ServoStepOf<axes>::step(nanoseconds now) noexcept {
     tally_.walls.note(static_.share(), static_.asked(), step_.dt);
   }
   tally_.hidden = std::max(tally_.hidden, static_.hidden());
+  tally_.passed = static_.passed();
   const RegionForces& regions = static_.regions();
   if (regions.share() < 1.0 && enabled) {
     tally_.effects.note(regions.share(), regions.asked(), step_.dt);
@@ -205,8 +207,7 @@ void ServoStepOf<axes>::note_limit(const Force& force, double scale) noexcept {
 
 template <int axes>
 HandlePose ServoStepOf<axes>::pose_of(const Vector3d& position) const noexcept {
-  return {config_.device_origin + config_.device_orientation * position,
-          Eigen::Quaterniond::Identity()};
+  return {config_.device_origin + device_axes_ * position, Eigen::Quaterniond::Identity()};
 }
 
 // A failed reading leaves the hand where it was; the held force is cut in this step.
@@ -256,7 +257,7 @@ void ServoStepOf<axes>::note_velocity(const DeviceSample& reading) noexcept {
   const bool measured = reading.has_velocity && reading.velocity.allFinite();
   if constexpr (axes == 3) {
     device_motion_.add(step_.probe, time);
-    tool_.set_velocity(measured ? Vector3d(config_.device_orientation * reading.velocity)
+    tool_.set_velocity(measured ? Vector3d(device_axes_ * reading.velocity)
                                 : device_motion_.velocity());
   } else {
     device_motion_.add(tool_.pose().position, time);
@@ -264,9 +265,8 @@ void ServoStepOf<axes>::note_velocity(const DeviceSample& reading) noexcept {
     turn_motion_.add(turned_, time);
     const bool turns = measured && reading.turn->rate.allFinite();
     tool_.set_velocity(
-        turns ? Vector3d(config_.device_orientation * reading.velocity) : device_motion_.velocity(),
-        turns ? Vector3d(config_.device_orientation * reading.turn->rate)
-              : turn_motion_.velocity());
+        turns ? Vector3d(device_axes_ * reading.velocity) : device_motion_.velocity(),
+        turns ? Vector3d(device_axes_ * reading.turn->rate) : turn_motion_.velocity());
   }
   step_.velocity = tool_.velocity();
 }
@@ -390,9 +390,10 @@ void ServoStepOf<axes>::soften_crowd(Load& load) noexcept {
 
 template <int axes>
 typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
-  const bool shakes = !load.shake.isZero(0.0) || !port_.shaking().isZero(0.0);
-  const Force shaken = port_.shaking(), wish = load.shake;
-  if (shakes) load.shake = stepped_to<Force>(shaken, wish, kShakeRate * port_rate_ * elapsed_);
+  const bool shakes = port_.shakes() || !load.shake.isZero(0.0);
+  const Force wish = load.shake;
+  if (shakes)
+    load.shake = stepped_to<Force>(port_.shaking(), wish, kShakeRate * port_rate_ * elapsed_);
   held_ = port_.hold(load, period_);
   if (held_.walls < 1.0) {
     static_.attenuate(held_.walls, port_);
@@ -469,7 +470,7 @@ bool ServoStepOf<axes>::touches_others_body() const noexcept {
 
 template <int axes>
 void ServoStepOf<axes>::write() noexcept {
-  const Eigen::Quaterniond to_device = config_.device_orientation.conjugate();
+  const auto to_device = device_axes_.transpose();
   if constexpr (axes == 3) {
     device_.write(to_device * written_, step_.now);
   } else {
@@ -483,7 +484,6 @@ template <int axes>
 void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
-  tally_.passed = static_.passed();
   if (touches_others_body()) tally_.bodies += step_.dt;
   const bool grabs = static_.grabs();
   if (grabs) tally_.grabbed += step_.dt;

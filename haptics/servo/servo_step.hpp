@@ -71,6 +71,7 @@ class ServoStepOf final : public ServoCore {
     return tool_.force(force).norm();
   }
 
+  Eigen::Matrix3d device_axes_;  // in the scene
   ToolOf<axes> tool_;
   StaticContactOf<axes> static_;
   EnergyPortOf<axes> port_;

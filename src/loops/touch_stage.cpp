@@ -39,6 +39,9 @@ void report_softened(std::string_view marking, const DeviceStiffness& device,
   if (device.softens_walls())
     report("hand '{}' feels walls of {:.6g} N/m, of {:.6g} asked: its device holds no more",
            device.walls_shown(), device.walls_asked);
+  if (device.softens_regions())
+    report("hand '{}' feels regions of {:.6g} N/m, of {:.6g} asked: its device holds no more",
+           device.regions_shown(), device.regions_asked);
 }
 
 TouchStage::TouchStage(const ModelWiring& wiring, std::uint32_t epoch, const TouchParts& parts)

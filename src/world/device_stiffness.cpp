@@ -28,7 +28,9 @@ double DeviceStiffness::straight_from() const noexcept {
 DeviceStiffness stiffness_of(const haptics::ServoLoop& servo, const HandModel& hand) noexcept {
   DeviceStiffness device;
   device.walls_asked = servo.static_stiffness();
+  device.regions_asked = servo.region_stiffness();
   device.walls = rounded(servo.static_stiffness_limit());
+  device.regions = rounded(servo.region_stiffness_limit());
   device.hand_asked = hand.k1;
   device.hand_k3 = hand.k3;
   device.hand_damping = hand.damping;

@@ -19,15 +19,17 @@ struct HandModel;
 struct DeviceStiffness {
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-  double walls_asked = 0.0;   ///< stiffest object of the scene, all its springs; 0: none
-  double walls = kNoLimit;    ///< stiffest wall that is felt with it
-  double hand_asked = 0.0;    ///< k1 of a hand of the scene
-  double hand_k3 = 0.0;       ///< k3 [N/m^3] of a hand of the scene
-  double hand_damping = 0.0;  ///< damping [N s/m] of a hand of the scene
-  double hands = kNoLimit;    ///< stiffest felt hand, and what others feel of its own; no damper
-  double bodies = kNoLimit;   ///< stiffest entity without a hand, without a damper
-  double force = kNoLimit;    ///< [N], largest force
-  double damping = kNoLimit;  ///< [N s/m], of the device itself
+  double walls_asked = 0.0;    ///< stiffest object of the scene, all its springs; 0: none
+  double regions_asked = 0.0;  ///< stiffest region of the scene, all its potentials; 0: none
+  double walls = kNoLimit;     ///< stiffest wall that is felt with it
+  double regions = kNoLimit;   ///< stiffest region that is felt with it
+  double hand_asked = 0.0;     ///< k1 of a hand of the scene
+  double hand_k3 = 0.0;        ///< k3 [N/m^3] of a hand of the scene
+  double hand_damping = 0.0;   ///< damping [N s/m] of a hand of the scene
+  double hands = kNoLimit;     ///< stiffest felt hand, and what others feel of its own; no damper
+  double bodies = kNoLimit;    ///< stiffest entity without a hand, without a damper
+  double force = kNoLimit;     ///< [N], largest force
+  double damping = kNoLimit;   ///< [N s/m], of the device itself
 
   /// The part of a damper [N s/m] that is shown: at most half of the device's own.
   [[nodiscard]] double damper_shown(double damper) const noexcept {
@@ -40,8 +42,10 @@ struct DeviceStiffness {
   /// Largest stiffness at which a hand of the scene is felt, with its damper.
   [[nodiscard]] double hand_limit() const noexcept { return hands * left_beside(hand_damping); }
   [[nodiscard]] double walls_shown() const noexcept { return std::min(walls_asked, walls); }
+  [[nodiscard]] double regions_shown() const noexcept { return std::min(regions_asked, regions); }
   [[nodiscard]] double hand_shown() const noexcept { return std::min(hand_asked, hand_limit()); }
   [[nodiscard]] bool softens_walls() const noexcept { return walls_asked > walls; }
+  [[nodiscard]] bool softens_regions() const noexcept { return regions_asked > regions; }
   [[nodiscard]] bool softens_hand() const noexcept { return hand_asked > hand_limit(); }
   /// Depth [m] at which the slope of a hardening hand reaches the limit of the device, and from
   /// which it stays constant. Infinite if it never does.

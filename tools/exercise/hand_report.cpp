@@ -209,6 +209,8 @@ void append_hand(std::string& out, const HandView* hand) {
   object.text("id", id_of(*hand))
       .value("walls_n_m", number(device.walls_shown()))
       .value("walls_asked_n_m", number(device.walls_asked))
+      .value("regions_n_m", number(device.regions_shown()))
+      .value("regions_asked_n_m", number(device.regions_asked))
       .value("hand_n_m", number(device.hand_shown()))
       .value("hand_asked_n_m", number(device.hand_asked))
       .value("hand_straight_from_m", number(device.straight_from()))
@@ -248,6 +250,9 @@ std::vector<std::string> softer_than_asked(const peer::DeviceStiffness& device) 
   if (device.softens_walls())
     sentences.push_back(
         fmt::format("walls {:.6g} of {:.6g} N/m", device.walls_shown(), device.walls_asked));
+  if (device.softens_regions())
+    sentences.push_back(
+        fmt::format("regions {:.6g} of {:.6g} N/m", device.regions_shown(), device.regions_asked));
   if (device.softens_hand())
     sentences.push_back(
         fmt::format("hands {:.6g} of {:.6g} N/m", device.hand_shown(), device.hand_asked));

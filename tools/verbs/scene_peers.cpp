@@ -160,6 +160,7 @@ std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& 
       std::any_of(scene.entities.begin(), scene.entities.end(),
                   [](const peer::EntityConfig& entity) { return entity.model.has_value(); });
   note(can.walls_asked > 0 && !can.softens_walls(), "objects");
+  note(can.regions_asked > 0 && !can.softens_regions(), "regions");
   note(!can.softens_hand(), "hands");
   note(has_bodies && !is_body_softer, "entities");
   return text.empty() ? text : text + " as asked";

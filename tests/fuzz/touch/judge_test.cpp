@@ -44,7 +44,7 @@ TEST(TouchJudge, KnowsWhatHandsAndWallsShouldShow) {
 
 // 100 N/m against a grip of 300, 15 mm away; 0.2 N along each axis; 300 N/m from 30 mm on.
 TEST(TouchJudge, KnowsWhatARegionShouldShow) {
-  const std::vector<Shows> shows(2, {1e4, 1e4});
+  std::vector<Shows> shows(2, {1e4, 1e4});
   const auto force = [&](const char* line) {
     const Scenario scenario = scenario_of(std::string("press2=0.01 ") + line);
     EXPECT_TRUE(is_promised(scenario)) << line;
@@ -53,6 +53,8 @@ TEST(TouchJudge, KnowsWhatARegionShouldShow) {
   EXPECT_NEAR(force("region=4 region_off=0.015"), 0.015 / (1 / 100.0 + 1 / 300.0), 1e-6);
   EXPECT_NEAR(force("region=3"), std::sqrt(3.0) * 0.2, 1e-9);
   EXPECT_NEAR(force("region=7 region_off=0.034"), 0.004 / (2 / 300.0), 1e-6);
+  shows.assign(2, {1e4, 1e4, 50});
+  EXPECT_NEAR(force("region=4 region_off=0.015"), 0.015 / (1 / 50.0 + 1 / 300.0), 1e-6);
   EXPECT_EQ(force("region=5"), 0.0);                                    // in the middle of a magnet
   EXPECT_FALSE(is_promised(scenario_of("region=4 region_off=0.015")));  // beside another hand
   EXPECT_FALSE(is_promised(scenario_of("press2=0.01 region=4 region_off=0.029")));

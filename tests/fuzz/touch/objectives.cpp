@@ -268,7 +268,7 @@ const std::vector<Objective>& objectives() {
       {"model_energy", 3, made, made_text, anything_through_a_model},
       {"model_meter", 3, claimed, claimed_text, anything_through_a_model},
       {"dead", 11, wrong, wrong_text, model_at_rest},
-      {"source", 5, wrong, wrong_text, resting_in_a_region, kSource},
+      {"source", 6.6, wrong, wrong_text, resting_in_a_region, kSource},
       {"passed", 3, haunted, haunted_text, a_body_falls, kPassed},
       {"heap", 2, heap, heap_text, a_heap_is_far, 1.0, try_beside_heap},
       {"pinched", 3, pinched, pinched_text, a_cube_is_pinched, kPinched},

@@ -103,8 +103,13 @@ Eigen::Vector3d region_pull(const haptics::DeclaredRegionEffects& effects,
   if (const auto* spring = effects.find<haptics::PointSpring>())
     return -std::min(spring->stiffness, spring->most / way) * place;
   const auto* magnet = effects.find<haptics::Attraction>();
-  if (magnet == nullptr || way >= magnet->range) return Eigen::Vector3d::Zero();
-  return -magnet->force * std::sin(std::numbers::pi * way / magnet->range) / way * place;
+  if (magnet == nullptr) return Eigen::Vector3d::Zero();
+  const Eigen::Array3d held(1 - magnet->free_x, 1 - magnet->free_y, 1 - magnet->free_z);
+  const Eigen::Vector3d counted = held * place.array();
+  const double from = counted.norm();
+  if (!(from > 0) || from >= magnet->range) return Eigen::Vector3d::Zero();
+  const double pull = magnet->force * std::sin(std::numbers::pi * from / magnet->range) / from;
+  return -pull * (held * counted.array()).matrix();
 }
 
 /// What a hand feels that rests in a region of potentials, against its grip.
@@ -112,14 +117,29 @@ struct Held {
   Eigen::Vector3d place, force;  ///< from the region's origin [m]; [N]
 };
 
+// Of a potential's force that a device shows which holds springs of `most` [N/m].
+double region_share(const haptics::DeclaredRegionEffects& effects, double most) {
+  constexpr double kWeightRise = 0.005, kStiffestWeight = 150;  // [m], [N/m]
+  double stiffness = 0;
+  if (const auto* border = effects.find<haptics::BorderSpring>()) stiffness = border->stiffness;
+  if (const auto* spring = effects.find<haptics::PointSpring>()) stiffness = spring->stiffness;
+  if (const auto* magnet = effects.find<haptics::Attraction>())
+    stiffness = std::numbers::pi * magnet->force / magnet->range;
+  if (const auto* push = effects.find<haptics::ConstantForce>())
+    stiffness = std::min(std::hypot(push->x, push->y, push->z) / kWeightRise, kStiffestWeight);
+  return stiffness > most ? most / stiffness : 1.0;
+}
+
 // A spring that is at most as stiff as 50 grips is followed by small steps.
-Held held_in_region(const Scenario& s, std::size_t hand, double time) {
+Held held_in_region(const Scenario& s, std::size_t hand, double most, double time) {
   const haptics::Scene scene = solids_of(s, Eigen::Vector3d::Zero());
-  const Eigen::Vector3d goal = way_of(s, hand, time) - scene.regions.front().pose.position;
-  Held held{goal, region_pull(scene.regions.front().effects, goal)};
+  const haptics::SceneRegion& region = scene.regions.front();
+  const double share = region_share(region.effects, most);
+  const Eigen::Vector3d goal = way_of(s, hand, time) - region.pose.position;
+  Held held{goal, share * region_pull(region.effects, goal)};
   for (int i = 0; i < 5'000; ++i) {
     held.place += 0.01 * (goal + held.force / s[Shared::grip] - held.place);
-    held.force = region_pull(scene.regions.front().effects, held.place);
+    held.force = share * region_pull(region.effects, held.place);
   }
   return held;
 }
@@ -143,7 +163,7 @@ bool is_region_promised(const Scenario& s) {
   }
   double last = -1;
   for (std::size_t i = 0; i < s.hands(); ++i) {
-    const Held held = held_in_region(s, i, kLongAfter);
+    const Held held = held_in_region(s, i, kLongAfter, kLongAfter);
     const double goal = (way_of(s, i, kLongAfter) - region.pose.position).norm();
     if (!is_border && std::max(goal, held.place.norm()) > kRegion - kMargin) return false;
     const double at = home_of(s, i) + held.place.x();
@@ -228,7 +248,7 @@ std::vector<double> right_forces(const Scenario& s, const std::vector<Shows>& sh
   std::vector<double> forces = forces_in_a_row(s, shows, time);
   if (s[Shared::region] > 0) {
     for (std::size_t i = 0; i < forces.size(); ++i)
-      forces[i] = held_in_region(s, i, time).force.norm();
+      forces[i] = held_in_region(s, i, shows[i].regions, time).force.norm();
     return forces;
   }
   if (s[Shared::wall] == 0) return forces;

@@ -17,9 +17,9 @@ inline constexpr double kWatched = 1;  // [s], at the end, over which they are l
 /// sides.
 inline constexpr double kDeepestGoals = 0.03;
 
-/// How stiff the device of one hand shows others and walls [N/m], see ServoLoop.
+/// How stiff the device of one hand shows others, walls and regions [N/m], see ServoLoop.
 struct Shows {
-  double hands = 0, walls = 0;
+  double hands = 0, walls = 0, regions = 1e4;
 };
 
 /// How far a hand goes at most until an event device has a change that follows from its place [m].

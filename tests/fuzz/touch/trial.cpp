@@ -255,7 +255,8 @@ void Trial::judge_rest(Outcome& out) const {
   std::vector<Shows> shows;
   for (const auto& hand : hands_) {
     const haptics::ServoLoop& servo = hand->servo();
-    shows.push_back({servo.remote_stiffness_limit(), servo.static_stiffness_limit()});
+    shows.push_back({servo.remote_stiffness_limit(), servo.static_stiffness_limit(),
+                     servo.region_stiffness_limit()});
     out.told = out.told || hand->told() > kTold;
   }
   const std::vector<double> row = forces_in_a_row(scenario_, shows, time());

@@ -23,6 +23,8 @@ DeviceStiffness of(double damping, double wall, const HandModel& hand) {
   floor.shape = haptics::PlaneShape{};
   floor.effects.of<haptics::SpringDamper>() = {wall, 0.0};
   scene.objects = {floor};
+  scene.regions.resize(1);
+  scene.regions.front().effects.declare<haptics::PointSpring>() = {800.0};
   const haptics::ServoLoop servo(device, haptics::EffectPlan(scene), {});
   return stiffness_of(servo, hand);
 }
@@ -36,10 +38,14 @@ TEST(DeviceStiffness, IsWhatTheDampingAllows) {
   EXPECT_NEAR(weak.walls_shown(), 1425, 1e-9);
   EXPECT_EQ(weak.walls_asked, 20000);
   EXPECT_TRUE(weak.softens_walls());
+  EXPECT_NEAR(weak.regions_shown(), 475, 1e-9);
+  EXPECT_EQ(weak.regions_asked, 800);
+  EXPECT_TRUE(weak.softens_regions());
   EXPECT_NEAR(weak.hand_shown(), 950, 1e-9);
   EXPECT_TRUE(weak.softens_hand());
   const DeviceStiffness strong = of(20.0, 20000, hand);
   EXPECT_FALSE(strong.softens_walls());
+  EXPECT_FALSE(strong.softens_regions());
   EXPECT_EQ(strong.walls_shown(), 20000);
   EXPECT_EQ(strong.hand_shown(), 1500);
 }

@@ -89,7 +89,10 @@ TEST_F(HandReport, SaysWhatIsSofterThanAskedOnceForAllThatShareIt) {
   }
   views_[3].stiffness.hand_asked = 1500;
   views_[3].stiffness.hands = 950;
+  views_[2].stiffness.regions_asked = 3000;
+  views_[2].stiffness.regions = 475;
   EXPECT_THAT(text(), AllOf(HasSubstr("walls 1425 of 20000 N/m\n"),
+                            HasSubstr("regions 475 of 3000 N/m (1:3:1)\n"),
                             HasSubstr("hands 950 of 1500 N/m (1:4:1)\n")));
   views_[3].stiffness.hand_asked = 500;
   views_[3].stiffness.hand_k3 = 1.5e7;
