@@ -157,7 +157,6 @@ void climb_to_the_worst(Push push) {
 
 TEST(RowsAndWalls, ManyHandsInARowFeelSpringsInARow) { try_seeds(push_a_row); }
 TEST(RowsAndWalls, AHandPushedAgainstAWallFeelsWhatThePusherFeels) { try_seeds(push_at_a_wall); }
-// Not met: climbs find 2.71 of the bar, four hands that come right later.
 TEST(RowsAndWalls, NoClimbFindsARowThatIsWrong) { climb_to_the_worst(push_a_row); }
 TEST(RowsAndWalls, NoClimbFindsAWallThatIsWrong) { climb_to_the_worst(push_at_a_wall); }
 

@@ -36,6 +36,14 @@ haptics::Shape cube_of(double edge) { return haptics::BoxShape{Vector3d::Constan
 
 bool is_box(const Scenario& s) { return static_cast<Falling>(s[Shared::body]) == Falling::box; }
 
+// [N/m], no more than a body of its mass can take at the rate of the hand that it falls on, whose
+// period is whole nanoseconds.
+double stiffness_of_falling(const Scenario& s) {
+  const double period = 1 / s.of_device(0, Shared::servo_rate, Shared::other_rate);
+  return std::min(s[Shared::body_stiffness],
+                  0.99 * haptics::stiffest_push(s[Shared::body_mass], period));
+}
+
 // Half of what it is high, turned about y [m].
 double half_height(const Scenario& s) {
   const double turned = s[Shared::body_turned], half = 0.5 * s[Shared::body_size];
@@ -48,7 +56,7 @@ void add_falling(const Scenario& s, const Vector3d& home, haptics::Scene& scene)
   haptics::SceneObject& body =
       add(scene, "falling", is_box(s) ? cube_of(size) : haptics::SphereShape{0.5 * size},
           home + from, s[Shared::body_mass]);
-  body.effects.of<haptics::SpringDamper>() = {s[Shared::body_stiffness], 0};
+  body.effects.of<haptics::SpringDamper>() = {stiffness_of_falling(s), 0};
   body.pose.orientation = Eigen::AngleAxisd(s[Shared::body_turned], Vector3d::UnitY());
   if (s[Shared::body_floor] == 0) return;
   const Vector3d below(0, 0, s[Shared::body_floor] + 0.05);
@@ -114,7 +122,7 @@ MovingBooks::MovingBooks(const Scenario& scenario, std::shared_ptr<const haptics
                          double stiffest)
     : scenario_(scenario),
       world_(std::move(world)),
-      stiffness_(std::min(scenario[Shared::body_stiffness], stiffest)),
+      stiffness_(std::min(stiffness_of_falling(scenario), stiffest)),
       begin_(has_body() ? energy() : 0.0) {}
 
 // How far a place is from the falling body [m]; 0 inside.

@@ -176,7 +176,7 @@ TEST(RegionSource, WeightStaysRightThroughTheEdge) {
       weight(2.0, BoxShape{{0.06, 0.2, 0.2}}),
       [](double t) {
         HandTarget hand;
-        hand.position.x() = 0.05 * std::sin(2 * std::numbers::pi * 0.5 * t);
+        hand.position.x() = 0.05 * std::sin(2 * std::numbers::pi * t);
         return hand;
       },
       inside);
