@@ -96,7 +96,7 @@ class ContactSolver {
   /// Storage of what was let through in the last step [J], which is lost.
   [[nodiscard]] double lost() const noexcept { return lost_; }
   /// Times that something was let through.
-  [[nodiscard]] std::uint64_t passed() const noexcept { return passed_; }
+  [[nodiscard]] std::uint32_t passed() const noexcept { return passed_; }
 
   /// How many of the plan's objects that move the last step met.
   [[nodiscard]] std::size_t placed() const noexcept { return placed_.size(); }
@@ -239,7 +239,7 @@ class ContactSolver {
   bool any_follows_ = false;
   double strongest_ = std::numeric_limits<double>::infinity();  // [N]
   double lost_ = 0.0;                                           // [J]
-  std::uint64_t passed_ = 0;
+  std::uint32_t passed_ = 0;
   std::uint32_t left_out_ = kNobody;                       // object that the SCP does not meet
   std::uint32_t alone_ = kNobody;                          // object whose own SCP is the newest
   Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();          // S

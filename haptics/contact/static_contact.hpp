@@ -40,8 +40,8 @@ class StaticContactOf {
   void let_through_beyond(double force) noexcept {
     for (std::size_t i = 0; i < size(); ++i) walls_[i]->let_through_beyond(force);
   }
-  [[nodiscard]] std::uint64_t passed() const noexcept {
-    std::uint64_t sum = 0;
+  [[nodiscard]] std::uint32_t passed() const noexcept {
+    std::uint32_t sum = 0;
     for (std::size_t i = 0; i < size(); ++i) sum += walls_[i]->passed();
     return sum;
   }

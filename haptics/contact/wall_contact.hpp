@@ -33,7 +33,7 @@ class WallContact {
 
   /// See ContactSolver.
   void let_through_beyond(double force) noexcept { solver_.let_through_beyond(force); }
-  [[nodiscard]] std::uint64_t passed() const noexcept { return solver_.passed(); }
+  [[nodiscard]] std::uint32_t passed() const noexcept { return solver_.passed(); }
   /// One of the objects that move goes on, before move(); see ContactSolver.
   void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
     solver_.place(body, motion, before);

@@ -55,9 +55,9 @@ struct ServoTally {
   std::uint64_t late = 0;    ///< steps more than half a period late
   std::uint64_t let_go = 0;  ///< steps after which the device had dropped the force by itself
   std::uint64_t failed = 0;  ///< readings that failed
-  std::uint64_t passed = 0;  ///< objects that moved through the hand, with more than its force
   double stopped = 0.0;      ///< [s] in which the software stop held the force at zero
-  std::uint64_t stops = 0;   ///< times that it began to
+  std::uint32_t stops = 0;   ///< times that it began to
+  std::uint32_t passed = 0;  ///< objects that moved through the hand, with more than its force
 };
 
 }  // namespace reckon::haptics
