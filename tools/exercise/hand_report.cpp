@@ -160,7 +160,7 @@ void print_hidden(std::FILE* out, const Hands& hands) {
 
 // All hands of a program are stopped together.
 void print_stops(std::FILE* out, const Hands& hands) {
-  std::uint64_t stops = 0;
+  std::uint32_t stops = 0;
   double longest = 0.0;
   for (const HandView* hand : hands) {
     stops = std::max(stops, hand->servo.tally.stops);
