@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 constexpr double kLeastWay = 1e-4;     // [m], of both bodies in the step
 constexpr double kLeastShared = 5e-4;  // [m], the same where others touch or push them
 constexpr double kTolerance = 1e-6;    // [m], of the distance at the impact
-constexpr double kTouch = 2e-6;        // [m], that both go on, so that they touch
-constexpr double kLeastSpeed = 1e-3;   // [m/s], at which they do
+constexpr double kTouch = 2e-6;        // [m], further way of both, so that they touch
+constexpr double kLeastSpeed = 1e-3;   // [m/s], least that is assumed for it
 constexpr std::size_t kMostPlaces = 8;
 
 std::size_t slot_of(dBodyID body) noexcept {
@@ -52,7 +52,7 @@ Motion motion_of(dGeomID geom) noexcept {
   return out;
 }
 
-// [m], that no part of it moves farther in dt [s].
+// Upper bound of the way of any part of it in dt [m].
 double way_of(dGeomID geom, double dt) noexcept {
   if (!moves(geom)) return 0.0;
   const dBodyID body = dGeomGetBody(geom);

@@ -192,8 +192,8 @@ ContactResult ContactSolver::step(const Vector3d& device, double dt) noexcept {
   return sum(device);
 }
 
-// A body that goes on although the device shows all the force that it has, has passed the hand. The
-// SCP then goes to the device as if the body were not there.
+// A body has passed the hand when the device has been outside of it, far beyond the stretch of its
+// springs, for kPassedFor. The SCP then goes to the device as if the body were not there.
 void ContactSolver::let_through(const Vector3d& device, double dt) noexcept {
   for (const std::uint32_t body : placed_) {
     MovingObject& moving = moving_[body];

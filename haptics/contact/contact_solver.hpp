@@ -89,9 +89,9 @@ class ContactSolver {
   /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
-  /// From now on a contact with an object that moves ends when for 50 ms the device has been
-  /// outside of it, and its distance from the SCP more than 10 mm beyond the stretch of the
-  /// object's springs at `force` [N], the greatest that is shown.
+  /// From now on a contact with an object that moves ends after 50 ms in which the device is outside
+  /// of it, and at least 10 mm farther from the SCP than `force` [N], the greatest that is shown,
+  /// stretches the object's springs.
   void let_through_beyond(double force) noexcept { strongest_ = force; }
   /// Storage of what was let through in the last step [J], which is lost.
   [[nodiscard]] double lost() const noexcept { return lost_; }

@@ -187,7 +187,7 @@ void RegionForces::sink(State& state, double dt, EnergyLedger& ledger) noexcept 
   });
 }
 
-// What the region brought is to be given back.
+// Of the energy that is freed, the part of the loan is to be given back.
 void RegionForces::lower(State& state, double factor, EnergyLedger& ledger) noexcept {
   ledger.region_loan().expect(state.gain * (1.0 - factor) * state.source.energy);
   scale_gain(state, factor, ledger);

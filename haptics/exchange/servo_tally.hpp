@@ -56,7 +56,7 @@ struct ServoTally {
   std::uint64_t let_go = 0;  ///< steps after which the device had dropped the force by itself
   std::uint64_t failed = 0;  ///< readings that failed
   double stopped = 0.0;      ///< [s] in which the software stop held the force at zero
-  std::uint32_t stops = 0;   ///< times that it began to
+  std::uint32_t stops = 0;   ///< times that the software stop began
   std::uint32_t passed = 0;  ///< objects that moved through the hand, with more than its force
 };
 

@@ -157,7 +157,7 @@ struct ServoSnapshot : AccountList {
   double encoder_allowance = 0.0;
   double loan = 0.0;       ///< [J], debt, see exchange_energy(); <= kGreatestLoan
   double loan_most = 0.0;  ///< [J], greatest loan so far
-  /// [J], that regions have lent to the hand and that is not back; <= ServoConfig::region_loan.
+  /// [J], lent to the potentials of regions and not back; <= ServoConfig::region_loan.
   double region_loan = 0.0;
   double region_loan_most = 0.0;  ///< [J], greatest so far
   /// [J], that oscillations of regions have put in so far, less what came back, with the most that

@@ -85,8 +85,8 @@ void EnergyPortOf<axes>::settle(const Force& dx, double dt, double took, double 
   forgo_loss(lost);
 }
 
-// The bucket pays for the work of an oscillation, and E for what an unlikely motion takes beyond:
-// the damping of that motion has brought it more.
+// The bucket pays for the work of an oscillation. Where a motion takes more than it holds, E pays
+// the rest: the damping of that motion has brought E at least as much.
 template <int axes>
 void EnergyPortOf<axes>::settle_shake(const Force& dx, double held) noexcept {
   const double work = shaken_.at_handle().dot(dx);

@@ -184,7 +184,7 @@ class EnergyPortOf : public EnergyLedger {
   double late_cost_ = 0.0;
   double allowance_ = 0.0;
   Force chosen_ = Force::Zero();   // to be written
-  Force shaking_ = Force::Zero();  // besides
+  Force shaking_ = Force::Zero();  // oscillation to be written
   int shakes_for_ = 0;             // samples in which an oscillation is held, or under way
   // Since the last reading, if samples were missed: time, and integrals of force and its square.
   double time_ = 0.0;

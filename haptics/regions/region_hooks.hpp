@@ -67,8 +67,9 @@ concept LendsRegionEnergy = StoresRegionEnergy<Effect> &&
   noexcept->std::same_as<double>;
 };
 
-/// Its potential has no least place of its own: it is lowered as the hand sinks, by at most `most`
-/// [J]. @return by what that changed the potential at the point. Called after potential().
+/// Its potential has no least place of its own: the zero of the potential goes down as the hand
+/// sinks, so that the energy at the point grows, by at most `most` [J]. @return that growth. Called
+/// after potential().
 template <class Effect>
 concept SinksInRegion = requires(Effect& effect, const RegionPoint& point, double most) {
   { effect.sink(point, most) }

@@ -38,7 +38,8 @@ struct ObjectMotion {
 
 /// One object for the servo.
 struct PlannedObject {
-  /// Of the mass over the period: three hands that hold back one body at once do not turn it.
+  /// Share of the least mass over the period that the viscous effects of one hand may have. Three
+  /// hands together stay below 1.
   static constexpr double kViscousShare = 0.3;
 
   std::string name;
@@ -56,7 +57,7 @@ struct PlannedObject {
   Matter matter;
   GrabSpring grab;       ///< of a body: it sticks to the hand that touches it
   bool carried = false;  ///< by an ObjectMover
-  /// Of a body whose effects hold back by its speed: what least_mass_of() says [kg].
+  /// Of a body, the result of least_mass_of() [kg]; infinite where no effect depends on its speed.
   double least_mass = std::numeric_limits<double>::infinity();
 
   /// Its pose here is the one that it has at the start.

@@ -8,8 +8,8 @@
 
 namespace reckon::haptics {
 
-/// Mass that resists a push anywhere on the body's surface and in any direction, moving and
-/// turning, at least [kg]. Exact for a ball, and for a box at its corners; of a solid without
+/// Least effective mass [kg] against a push anywhere on the body's surface and in any direction,
+/// moving and turning. Exact for a ball, and for a box at its corners; of a solid without
 /// closed form it is that of its mesh, and infinite where it has no end. Some milliseconds for a
 /// mesh.
 /// @param body has a mass

@@ -456,7 +456,7 @@ void ServoStepOf<axes>::soften(const Load& load, double held) noexcept {
   step_.softening = softening_.share();
 }
 
-// What has a mass and is carried moves as its owner has it.
+// A carried object with a mass is a body that another peer moves.
 template <int axes>
 bool ServoStepOf<axes>::touches_others_body() const noexcept {
   for (std::size_t probe = 0; probe < tool_.size(); ++probe) {

@@ -416,7 +416,7 @@ Section<DeviceConfig> device_section() {
        "most that others put into its hand through their contacts, on average; what they give "
        "beyond it waits, and a liar throws the hand no harder"},
       {"region_loan", &Device::region_loan, within("J", 0, 1),
-       "most that springs, magnets, borders and constant forces of regions may lend its hand, all "
+       "most that is lent to springs, magnets, borders and constant forces of regions, all "
        "together and until it is back; 0: the hand's motion has to pay for them"},
       {"oscillation_power", &Device::oscillation_power, within("W", 0, 10),
        "most that oscillations of regions put into its hand, on average; beyond it they are "

@@ -153,7 +153,7 @@ surface = {{stiffness = 500, damping = {damping}}}
 
 
 def pushes(reckon):
-    """Nor does the damping of its surface."""
+    """Damping of the surface reverses no light body within a period."""
     faults = []
     for mass in (0.004, 0.02):
         for speed, damping in ((0.1, 10), (0.3, 30)):

@@ -22,7 +22,7 @@ START, END = 60, 60  # [s], at most, for the first words and from the end of the
 REFUSED = {}
 SUMMARIES = {"demo": r"^What [\d.]+ s with \d+ peers? cost$", "peer": r"^What [\d.]+ s as [\d:]+ cost$",
              "view": r"^\d+ tabs? looked, \d+ pictures? sent$"}
-# The first of its words that come when Ctrl-C is obeyed.
+# First output after which Ctrl-C is obeyed.
 BEGUN = {"demo": r"in a browser|interface", "peer": r"interface", "view": r"http://"}
 
 
@@ -106,7 +106,7 @@ def fault(scene, verb, is_json, result):
 
 
 class Case:
-    """Programs of one scene that run together: demo alone, peer with a view that hears it."""
+    """Programs of one scene that run together: demo alone, peer with a view that receives it."""
 
     def __init__(self, scene, verbs, ending, is_json):
         self.scene, self.verbs, self.ending, self.is_json = scene, verbs, ending, is_json
@@ -146,7 +146,7 @@ class Case:
 
 
 def cases(scenes, verbs):
-    """Each scene by both endings; one of them tells its summary as text, the other as JSON, in turn."""
+    """Each scene by both endings; one of them prints its summary as text, the other as JSON, in turn."""
     for number, path in enumerate(sorted(scenes.glob("*.toml"))):
         for turn, ending in enumerate(("--for", "Ctrl-C")):
             yield Case(path.name, verbs, ending, (number + turn) % 2 == 0)

@@ -131,7 +131,7 @@ void print_passed(std::FILE* out, const Hands& hands) {
                          counted(times, "time"), behind(some, hands.size())));
 }
 
-// What regions put into the hands, of the hand that got most.
+// The greatest loan for regions and the greatest energy of oscillations of any hand.
 void print_sources(std::FILE* out, const Hands& hands) {
   double lent = 0.0, put_in = 0.0;
   for (const HandView* hand : hands) {

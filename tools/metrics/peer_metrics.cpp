@@ -47,7 +47,7 @@ constexpr std::array<HandNumber, 7> kHandNumbers{{
      &haptics::ServoSnapshot::port_energy_min},
     {"port_loan_joules", "energy lent to hands that met inside one another",
      &haptics::ServoSnapshot::loan},
-    {"port_region_loan_joules", "energy lent by the potentials of regions",
+    {"port_region_loan_joules", "energy lent to the potentials of regions",
      &haptics::ServoSnapshot::region_loan},
     {"port_oscillation_joules", "energy that oscillations of regions put in so far",
      &haptics::ServoSnapshot::oscillation_energy},

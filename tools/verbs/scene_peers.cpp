@@ -128,7 +128,7 @@ haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceCo
 
 /// What regions may put into its hand.
 std::string sources_of(const peer::DeviceConfig& device) {
-  return fmt::format("potentials lend it at most {}; oscillations put in at most {}, {} at once",
+  return fmt::format("potentials are lent at most {}; oscillations put in at most {}, {} at once",
                      peer::format_quantity(device.region_loan, "J"),
                      peer::format_quantity(device.oscillation_power, "W"),
                      peer::format_quantity(device.oscillation_energy, "J"));

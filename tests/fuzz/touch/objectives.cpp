@@ -206,7 +206,7 @@ double made(const Outcome& o) { return -o.model.left; }
 double claimed(const Outcome& o) { return o.model.claimed; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
-// One that touches at all is nearer to it.
+// A touch of any length is worse than none.
 double haunted(const Outcome& o) { return o.haunted + 1e-4 * o.pushed; }
 double pinched(const Outcome& o) { return o.pinched; }
 // 1 mN and 1 um.

@@ -139,7 +139,7 @@ TEST(Impacts, LetNoFastPairPass) {
   EXPECT_EQ(passed, 0);
 }
 
-// A ball that hits the corner region of a box at rest turns away from where it touched it.
+// A ball hits a box or a cylinder at rest, anywhere: momentum stays, energy does not grow.
 TEST(Impacts, KeepMomentumOfBoxesAndCylinders) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> any(-1.0, 1.0);

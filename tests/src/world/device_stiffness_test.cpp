@@ -13,7 +13,7 @@
 namespace reckon::peer {
 namespace {
 
-DeviceStiffness of(double damping, double wall, const HandModel& hand) {
+DeviceStiffness of(double damping, double wall, const HandModel& hand, double spring = 0) {
   haptics::SimulatedDeviceConfig config;
   config.damping = damping;
   haptics::SimulatedDevice device(config);
@@ -23,8 +23,7 @@ DeviceStiffness of(double damping, double wall, const HandModel& hand) {
   floor.shape = haptics::PlaneShape{};
   floor.effects.of<haptics::SpringDamper>() = {wall, 0.0};
   scene.objects = {floor};
-  scene.regions.resize(1);
-  scene.regions.front().effects.declare<haptics::PointSpring>() = {800.0};
+  if (spring > 0) scene.regions.emplace_back().effects.declare<haptics::PointSpring>() = {spring};
   const haptics::ServoLoop servo(device, haptics::EffectPlan(scene), {});
   return stiffness_of(servo, hand);
 }
@@ -38,16 +37,22 @@ TEST(DeviceStiffness, IsWhatTheDampingAllows) {
   EXPECT_NEAR(weak.walls_shown(), 1425, 1e-9);
   EXPECT_EQ(weak.walls_asked, 20000);
   EXPECT_TRUE(weak.softens_walls());
-  EXPECT_NEAR(weak.regions_shown(), 475, 1e-9);
-  EXPECT_EQ(weak.regions_asked, 800);
-  EXPECT_TRUE(weak.softens_regions());
   EXPECT_NEAR(weak.hand_shown(), 950, 1e-9);
   EXPECT_TRUE(weak.softens_hand());
   const DeviceStiffness strong = of(20.0, 20000, hand);
   EXPECT_FALSE(strong.softens_walls());
-  EXPECT_FALSE(strong.softens_regions());
   EXPECT_EQ(strong.walls_shown(), 20000);
   EXPECT_EQ(strong.hand_shown(), 1500);
+}
+
+// A quarter of what walls have, where there is one.
+TEST(DeviceStiffness, LeavesAPartToRegions) {
+  const DeviceStiffness weak = of(1.0, 20000, {}, 800), strong = of(20.0, 0, {}, 800);
+  EXPECT_NEAR(weak.walls_shown(), 0.75 * 1425, 1e-9);
+  EXPECT_NEAR(weak.regions_shown(), 0.25 * 1425, 1e-9);
+  EXPECT_EQ(weak.regions_asked, 800);
+  EXPECT_TRUE(weak.softens_regions());
+  EXPECT_FALSE(strong.softens_regions());
 }
 
 TEST(DeviceStiffness, SaysFromWhichDepthAHandNoLongerHardens) {
