@@ -15,6 +15,7 @@ namespace reckon::fuzz {
 namespace {
 
 constexpr double kLongAfter = 1e9;                // [s]
+constexpr double kAnyStiffness = 1e9;             // [N/m], more than any region's
 constexpr double kFeltLeast = 0.2;                // [N], less is not spoken of
 constexpr double kOff = 0.2, kOffLeast = 0.1;     // of what is right; [N]
 constexpr double kLack = 0.1, kLackLeast = 0.05;  // of what is right; [N]
@@ -163,7 +164,7 @@ bool is_region_promised(const Scenario& s) {
   }
   double last = -1;
   for (std::size_t i = 0; i < s.hands(); ++i) {
-    const Held held = held_in_region(s, i, kLongAfter, kLongAfter);
+    const Held held = held_in_region(s, i, kAnyStiffness, kLongAfter);
     const double goal = (way_of(s, i, kLongAfter) - region.pose.position).norm();
     if (!is_border && std::max(goal, held.place.norm()) > kRegion - kMargin) return false;
     const double at = home_of(s, i) + held.place.x();
