@@ -86,7 +86,7 @@ std::uint16_t JoinedPeer::application(std::uint16_t site) {
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene->network;
   if (network.key.empty()) {
-    if (network.touch.wants_key())
+    if (network.touch_rule().wants_key())
       throw std::invalid_argument("'touch' of the scene is members, which only a key can prove");
     return link;
   }

@@ -147,7 +147,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               options.epoch,
               options.started,
               !devices.empty(),
-              options.scene_peer,
+              sends_bodies(options) ? std::uint8_t{1} : options.scene_peer,
               options.chain_secret}) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
     haptics::ServoLoop& servo = *servos_[i];

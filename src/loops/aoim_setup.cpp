@@ -106,7 +106,7 @@ RemoteSettings remote_settings(const SceneFile& scene) {
   settings.nimbus = scene.aoim.awareness.nimbus;
   settings.strangers_memory = scene.network.strangers_memory;
   settings.near_rows = own_group_count(scene.aoim.tiers);
-  settings.touch = scene.network.touch;
+  settings.touch = scene.network.touch_rule();
   settings.longest_validity = longest_validity(scene);
   return settings;
 }

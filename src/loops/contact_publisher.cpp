@@ -73,6 +73,7 @@ void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodie
   set.frozen = frozen;
   set.left_out = near.left_out();
   for (const NearBody& body : near.bodies()) {
+    if (!body.may_press) continue;
     RemoteHand& out = set.hands[set.count++];
     if (body.row != nullptr) {
       fill_remote(*body.row, sources.books.find(port.hand(), body.row->id), out);

@@ -3,6 +3,7 @@
 // Exit of datagrams from the model loop into the ring of the writer. A tap is notified of each.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <span>
 
@@ -12,15 +13,24 @@
 
 namespace reckon::peer {
 
-/// One thread; no allocation.
+/// Sends no more than others read of one sender (SenderBudget), however many entities are new: at
+/// most kRate datagrams a second and kBurst at once, of which updates of one pass may be kAhead
+/// times as many if none share a datagram; the later ones wait for that. One thread; no allocation.
 class DatagramOutlet {
  public:
   /// References outlive this.
   DatagramOutlet(const ModelWiring& wiring, ModelCounters& counted) noexcept
       : pool_(wiring.pool), ring_(wiring.outbound), tap_(wiring.tap), counted_(counted) {}
 
+  static constexpr double kRate = 9000.0, kBurst = 100.0;
+  static constexpr std::size_t kAhead = 4;
+
+  /// A pass begins.
+  void begin(std::chrono::nanoseconds now) noexcept;
   /// Datagrams that the ring has room for.
   [[nodiscard]] std::size_t room() const noexcept { return ring_.room(); }
+  /// Updates that may be sent in this pass.
+  [[nodiscard]] std::size_t paced_room() const noexcept;
   /// Sends to a group of the pool; counted and dropped if the writer lags.
   void push(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
   /// Drops a stale datagram instead of sending it.
@@ -36,6 +46,8 @@ class DatagramOutlet {
   DatagramRing& ring_;
   DatagramTap* tap_;
   ModelCounters& counted_;
+  double tokens_ = kBurst;  // datagrams that may be sent now; below 0: too many were
+  std::chrono::nanoseconds filled_{0};
 };
 
 }  // namespace reckon::peer

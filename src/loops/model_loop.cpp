@@ -49,11 +49,15 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
       own_bodies_(wiring.own_bodies),
       mover_(wiring.mover),
+      has_bodies_(std::ranges::any_of(
+          scene_.scene.objects,
+          [](const haptics::SceneObject& object) { return object.matter.mass > 0; })),
       subscriber_(wiring, participant_, owned_, remote_),
       watches_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
       view_(wiring) {
-  if (mover_ != nullptr) remote_bodies_.emplace(mover_->shown());
+  if (mover_ != nullptr)
+    remote_bodies_.emplace(mover_->shown(), body_owner_, scene_.network.interop);
 }
 
 // A pass
@@ -69,6 +73,7 @@ void ModelLoop::start(nanoseconds now) {
 
 void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
   drop_stale(now);
+  outlet_.begin(now);
   time_.begin(now, utc);
   pass_ = {now, time_.utc()};
   aoim_.set_utc_offset(pass_.utc - pass_.now, time_.is_aligned());
@@ -273,7 +278,7 @@ void ModelLoop::consider_others() noexcept {
       if (sender_.asked_tier(entity, pass_)) owned_.look_at(number);
     });
   }
-  std::size_t room = outlet_.room();
+  std::size_t room = outlet_.paced_room();
   owned_.for_each_waiting(pass_.now, [&](OwnedEntity& entity, EntityNumber number) {
     if (room == 0) return false;
     if (consider_other(entity, number)) --room;
@@ -312,7 +317,9 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
   const std::size_t unfelt = touch_.show(view);
+  if (has_bodies_) body_owner_.look(aoim_.presence());
   watches_.look(remote_, aoim_, unfelt, touch_.crowder(), pass_.now);
+  watches_.look(body_owner_, pass_.now);
   view.own = own_id();
   view.owned = owned_.size();
   view.peers = aoim_.presence().peers().size();
@@ -347,9 +354,9 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
-  // A plain DIS program has none of the scene's bodies.
-  const bool is_peer = arrival.epoch != 0 || scene_.network.interop;
-  if (remote_bodies_ && is_peer) remote_bodies_->note(update);
+  if (!remote_bodies_ || !update.has_state || !body_of(update.state.entity_type)) return;
+  if (body_owner_.epoch() == 0) body_owner_.look(aoim_.presence());
+  remote_bodies_->note(update, arrival, remote_);
 }
 
 // In another's name it is neither obeyed nor delivered.

@@ -171,6 +171,8 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   haptics::TripleBuffer<haptics::BodyStates>* own_bodies_;  // null: there are none of ours
   EntityNumber first_body_ = 0;
   BodyMover* mover_;  // null: nothing is carried
+  bool has_bodies_;  // the scene, whoever owns them
+  BodyOwner body_owner_;
   std::optional<RemoteBodies> remote_bodies_;
   Subscriber subscriber_;
   PeerWatches watches_;

@@ -11,6 +11,7 @@
 #include "reckon/peer/loops/custom_effect_watch.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
+#include "reckon/peer/loops/loss_watch.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -54,6 +55,13 @@ PeerHooks limits(const ModelWiring& wiring) {
   }};
 }
 
+PeerHooks losses(const ModelWiring&) {
+  const auto watch = std::make_shared<LossWatch>();
+  return {.look = [watch](const WatchedPeer& peer) {
+    watch->look(peer.aoim.sequences().counts(), peer.now, peer.notices);
+  }};
+}
+
 PeerHooks link(const ModelWiring& wiring) {
   const auto watch = std::make_shared<LinkWatch>(wiring.link, wiring.pool.base(),
                                                  wiring.scene.network.bundle_max, wiring.counters);
@@ -76,6 +84,7 @@ constexpr HookRow kHookRows[]{
     {always, known_sources},
     {always, custom_effects},
     {always, limits},
+    {always, losses},
     {always, link}};
 // clang-format on
 

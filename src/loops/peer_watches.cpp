@@ -22,6 +22,7 @@ void PeerWatches::look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim
   }
   notice_gate_.look(now, notices_);
   refusal_watch_.look(remote, aoim.presence().id(), now);
+  refusal_watch_.look(silence_watch_, now);
   hooks_.look({remote, aoim, unfelt, crowder, now, notices_});
 }
 

@@ -42,8 +42,11 @@ class PeerWatches {
   /// @return whether a peer is received again
   bool doubt_silent(const aoim::Presence& presence, std::span<const Touched> touched,
                     RemoteEntities& remote, Nanoseconds now) noexcept {
+    refusal_watch_.look(touched, remote, now);
     return silence_watch_.look(presence, touched, remote, now, notices_);
   }
+  /// Reports rivals of the owner of the scene's bodies; call it some twenty times a second.
+  void look(const BodyOwner& bodies, Nanoseconds now) noexcept { refusal_watch_.look(bodies, now); }
   /// Makes the remaining reports; call it some twenty times a second.
   /// @param unfelt most that a servo has left out
   /// @param crowder host with more bodies in reach of a hand than it takes

@@ -44,6 +44,21 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
                        last.id.application, last.id.entity, AddressText(last.from).view()),
            last.from, now);
   }
+  if (bodies_.begins(remote.disputed_bodies(), now)) {
+    const Untouchable& last = remote.last_disputed_body();
+    report(make_notice("{}:{}:{} at {} is a body of the scene, but not of its first peer: refused",
+                       last.id.site, last.id.application, last.id.entity,
+                       AddressText(last.from).view()),
+           last.from, now);
+  }
+  if (inside_.begins(remote.beginnings().held_back(), now)) {
+    const pdu::EntityId id = remote.beginnings().last_held_back();
+    const RemoteEntity* row = remote.find(id);
+    const aoim::SourceAddress from = row == nullptr ? aoim::SourceAddress() : remote.owner(*row);
+    report(make_notice("{}:{}:{} at {} appeared inside a hand: not felt until it was outside",
+                       id.site, id.application, id.entity, AddressText(from).view()),
+           from, now);
+  }
   if (evicted_.begins(remote.evicted(), now)) {
     const aoim::SourceAddress& by = remote.last_evicted();
     report(make_notice("somebody at {} fills the table of entities: his rows make room for others'",
@@ -57,6 +72,39 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
                        AddressText(by).view()),
            by, now);
   }
+}
+
+void RefusalWatch::look(const BodyOwner& bodies, Nanoseconds now) noexcept {
+  const auto& rival = bodies.rival();
+  if (rivals_.turn(rival.has_value(), now) != NoticeCondition::Turn::begins || !rival) return;
+  report(make_notice("{}:{} at {} claims to be the scene's first peer: its bodies stay with {}:{}",
+                     rival->name.site, rival->name.application, AddressText(rival->from).view(),
+                     rival->owner.site, rival->owner.application),
+         rival->from, now);
+}
+
+void RefusalWatch::look(std::span<const Touched> touched, RemoteEntities& remote,
+                        Nanoseconds now) noexcept {
+  for (const Touched& one : touched) {
+    const RemoteEntity* row = remote.find(one.id);
+    if (row == nullptr || !remote.touch().is_open()) continue;
+    const aoim::SourceAddress& from = remote.owner(*row);
+    if (from.boot == 0) pushers_.note({one.id.simulation(), {}, from}, now);
+  }
+  const auto pusher = pushers_.take_news(now);
+  if (!pusher) return;
+  report(make_notice("{}:{} at {} presses a hand: see touch in the scene", pusher->name.site,
+                     pusher->name.application, AddressText(pusher->speaker).view()),
+         pusher->speaker, now);
+}
+
+void RefusalWatch::look(const SilenceWatch& silence, Nanoseconds now) noexcept {
+  if (!silent_.begins(silence.faded(), now)) return;
+  const Untouchable& last = silence.last_faded();
+  report(
+      make_notice("{}:{}:{} at {} is silent for 0.5 s in contact: not felt until it speaks",
+                  last.id.site, last.id.application, last.id.entity, AddressText(last.from).view()),
+      last.from, now);
 }
 
 }  // namespace reckon::peer

@@ -6,12 +6,16 @@
 
 #include <chrono>
 #include <cstdint>
+#include <span>
 
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/notice_condition.hpp"
 #include "reckon/peer/loops/notice_gate.hpp"
+#include "reckon/peer/loops/silence_watch.hpp"
+#include "reckon/peer/world/body_owner.hpp"
+#include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
 namespace reckon::peer {
@@ -29,6 +33,12 @@ class RefusalWatch {
                   const aoim::SourceAddress& from, Nanoseconds now) noexcept;
   /// Call it some times a second. @param own our simulation
   void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept;
+  /// Reports who else announces itself as the scene's first peer, if the scene has bodies.
+  void look(const BodyOwner& bodies, Nanoseconds now) noexcept;
+  /// Reports who presses our hands by no more than the scene's default. @param touched by our hands
+  void look(std::span<const Touched> touched, RemoteEntities& remote, Nanoseconds now) noexcept;
+  /// Reports bodies that were silent in contact.
+  void look(const SilenceWatch& silence, Nanoseconds now) noexcept;
 
  private:
   /// A count that grows while something is refused.
@@ -44,8 +54,9 @@ class RefusalWatch {
 
   NoticeGate& gate_;
   haptics::SpscRing<Notice>& out_;
-  NoticeCondition orders_;
-  Growing untouchable_, evicted_, strangers_;
+  NoticeCondition orders_, rivals_;
+  Growing untouchable_, evicted_, strangers_, bodies_, inside_, silent_;
+  Disputes pushers_;
 };
 
 }  // namespace reckon::peer

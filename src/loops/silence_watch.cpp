@@ -13,7 +13,8 @@ using std::chrono::nanoseconds;
 
 SilenceWatch::SilenceWatch(Counters& counters)
     : doubted_(
-          counters.make("peers_doubted", "times that the entities of a silent peer were stopped")) {
+          counters.make("peers_doubted", "times that the entities of a silent peer were stopped")),
+      faded_(counters.make("silent_in_contact", "bodies that faded out for want of updates")) {
   doubts_.reserve(aoim::PresenceConfig{}.capacity);
 }
 
@@ -53,14 +54,14 @@ bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   return false;
 }
 
-// Only for hands: a body that nobody holds may rest without updates however it is touched. An owner
-// that has sent a state since the touch began knows of it, and would have sent another one before
-// anything else.
+// The owner of a hand that has sent a state since the touch began knows of it, and would have sent
+// another one before anything else.
 void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence& presence,
                                    const Look& look) noexcept {
   const RemoteEntity* row = look.remote.find(touched.id);
-  if (row == nullptr || row->type.kind != pdu::EntityKind::life_form) return;
-  if (row->doubted_at != RemoteEntity::kTrusted) return;
+  if (row == nullptr || row->doubted_at != RemoteEntity::kTrusted) return;
+  if (row->epoch == 0 || row->type.kind != pdu::EntityKind::life_form)
+    return look_at_body(touched, *row, look);
   const auto peers = presence.peers();
   const auto peer = std::find_if(peers.begin(), peers.end(), [&](const aoim::Peer& candidate) {
     return candidate.announced.epoch == row->epoch;
@@ -77,6 +78,20 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
   if (doubt == nullptr && doubts_.size() == doubts_.capacity()) return;
   look.remote.doubt(touched.id, look.now);
   report(*peer, doubt != nullptr ? *doubt : doubt_of(*peer, look.now), look);
+}
+
+// A body without a hand, or any of a plain DIS program.
+void SilenceWatch::look_at_body(const Touched& touched, const RemoteEntity& row,
+                                const Look& look) noexcept {
+  if (row.felt_until != RemoteEntity::kTrusted) return;
+  const nanoseconds pressed = look.remote.note_pressed(row.id, look.now);
+  const bool unaware = row.epoch != 0 && row.last_heard <= touched.since;
+  const nanoseconds patience = row.epoch == 0 ? kGuestPatience : kContactPatience;
+  const nanoseconds since = std::max(pressed, listening_since_);
+  if (look.now - since <= (unaware ? 2 * patience : patience)) return;
+  last_faded_ = {row.id, look.remote.owner(row)};
+  look.remote.fade(row.id, look.now);
+  faded_.add();
 }
 
 void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {

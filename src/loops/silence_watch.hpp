@@ -24,16 +24,21 @@ struct Touched {
   std::chrono::nanoseconds since{0};
 };
 
-/// Doubts a peer by the time since its last datagram of any kind. Plain DIS has no such sign of
-/// life: its entities are believed until their time-out. One thread; allocates only at
-/// construction; some ns for each peer.
+/// Doubts a peer by the time since its last datagram of any kind. A touched body without a hand, or
+/// of a plain DIS program, fades out for want of its own updates. Other entities of plain DIS
+/// programs are believed until their time-out. One thread; allocates only at construction; some ns
+/// for each peer.
 class SilenceWatch {
  public:
   /// A peer announces itself each second: it is doubted after two lost announcements.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::milliseconds(2500);
-  /// The owner of a touched hand sends every 60 ms, so ten updates were lost by then. An owner that
-  /// was silent before the touch began may not know of it yet: it has twice the time from then on.
+  /// The owner of a touched hand or body sends every 60 ms, so ten updates were lost by then. An
+  /// owner that was silent before the touch began may not know of it yet: it has twice the time
+  /// from then on.
   static constexpr std::chrono::nanoseconds kContactPatience = std::chrono::milliseconds(650);
+  /// The same for a plain DIS program, from the touch on: with the fade of 100 ms, half the force
+  /// is gone after 0.5 s.
+  static constexpr std::chrono::nanoseconds kGuestPatience = std::chrono::milliseconds(450);
   /// A longer gap [ns] between two looks shows that this peer itself was suspended: others are not
   /// silent then.
   static constexpr std::chrono::nanoseconds kOwnPause = std::chrono::milliseconds(250);
@@ -44,6 +49,10 @@ class SilenceWatch {
   /// A peer that is received, but whose touched hand was not updated for this time [ns], was cut
   /// off meanwhile: the hand may have gone.
   static constexpr std::chrono::nanoseconds kNoNews = std::chrono::milliseconds(500);
+
+  /// Bodies without a hand that faded out for want of updates, and the last such one.
+  [[nodiscard]] std::uint64_t faded() const noexcept { return faded_.value(); }
+  [[nodiscard]] const Untouchable& last_faded() const noexcept { return last_faded_; }
 
   /// Call it after arrived datagrams were taken, within kOwnPause of the last call. Notices about
   /// owners of touched hands go to `out`. True if a peer is received again: it may have doubted us
@@ -70,6 +79,7 @@ class SilenceWatch {
   [[nodiscard]] bool look_at(const aoim::Peer& peer, const Look& look) noexcept;
   void look_at_touched(const Touched& touched, const aoim::Presence& presence,
                        const Look& look) noexcept;
+  void look_at_body(const Touched& touched, const RemoteEntity& row, const Look& look) noexcept;
   void believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
   void report(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
   [[nodiscard]] Doubt* find(std::uint32_t epoch) noexcept;
@@ -79,7 +89,8 @@ class SilenceWatch {
   std::vector<Doubt> doubts_;  // no more than there are peers
   std::chrono::nanoseconds looked_{-1};
   std::chrono::nanoseconds listening_since_{0};
-  Counter& doubted_;
+  Counter &doubted_, &faded_;
+  Untouchable last_faded_;
 };
 
 }  // namespace reckon::peer

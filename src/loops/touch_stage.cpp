@@ -98,6 +98,10 @@ void TouchStage::answer_bodies(const Pass& pass) noexcept {
     OwnedEntity& entity = *owned_.find(body.number());
     given += body.answer(entity, books_, pass.now);
     if (entity.consider_accounts(pass.now, body.accounts())) owned_.look_at(body.number());
+    if (body.is_pressed(pass.now) && pass.now - entity.last_built() >= HandPort::kBodyPeriod) {
+      entity.felt_event();
+      owned_.look_at(body.number());
+    }
     if (!body.moves()) continue;
     const EntityTruth truth = entity.truth_at(pass.now);
     moving_.push_back(
@@ -176,7 +180,7 @@ void TouchStage::send_impacts(std::size_t hand, const Pass& pass) noexcept {
   touch.touched_count = 0;
   for (std::size_t i = 0; i < servo.count; ++i) {
     const haptics::ContactAccount& contact = servo.contacts[i];
-    if (contact.ungated_force.isZero()) continue;
+    if (contact.ungated_force.isZero() && contact.force.isZero()) continue;
     const auto known = std::find_if(
         before.begin(), end, [&](const Touched& touched) { return touched.id == contact.id; });
     touch.touched[touch.touched_count++] = known != end ? *known : Touched{contact.id, pass.now};

@@ -64,15 +64,16 @@ void check_touch(TomlReader& table, NetworkConfig& config) {
   std::string text;
   table.texts("touch", [&](const std::string& one) { text += (text.empty() ? "" : ", ") + one; });
   if (!table.has("touch")) return;
-  if (const auto rule = TouchRule::parse(text)) {
-    config.touch = *rule;
-  } else {
+  config.touch = TouchRule::parse(text);
+  if (!config.touch)
+    return table.problem("touch", fmt::format("'touch' is \"{}\"; it wants scene, all, members, or "
+                                              "site:application such as \"1:2, 40:1\"",
+                                              text));
+  if (config.touch->wants_peers() && config.interop)
     table.problem("touch",
-                  fmt::format("'touch' is \"{}\"; it wants all, members, or site:application such "
-                              "as \"1:2, 40:1\"",
-                              text));
-  }
-  if (config.touch.wants_key() && !table.has("key"))
+                  "no peer announces itself in an 'interop' exercise: set 'touch' to all, or name "
+                  "those who may as site:application");
+  else if (config.touch->wants_key() && !table.has("key"))
     table.problem("touch",
                   "'touch' is \"members\", which only a key can prove: add 'key', or name those "
                   "who may as site:application");
@@ -129,7 +130,7 @@ Section<NetworkConfig> network_section() {
   const auto port = [](const NetworkConfig& config) { return config.group.port; };
   const auto peers = [](const NetworkConfig&) { return std::vector<std::string>(); };
   const auto management = [](const NetworkConfig& config) { return config.management.text(); };
-  const auto touch = [](const NetworkConfig& config) { return config.touch.text(); };
+  const auto touch = [](const NetworkConfig& config) { return config.touch_rule().text(); };
   return {
       {
           {"group", address,
@@ -159,9 +160,10 @@ Section<NetworkConfig> network_section() {
            "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this scene), "
            "anyone, or a list of site:application, for example \"1:2, 40:1\""},
           {"touch", touch,
-           "whose bodies are felt: all, members (peers that have proved to have the `key`), or a "
-           "list of site:application, for example [\"1:2\", \"40:1\"]; plain DIS programs are "
-           "never in a list"},
+           "whose bodies are felt: scene (peers that announced this scene), all, members (peers "
+           "that have proved to have the `key`), or a list of site:application, for example "
+           "[\"1:2\", \"40:1\"], of peers and of plain DIS programs, each at the address that used "
+           "its number first. With `interop` the default is all"},
           {"strangers_memory", &NetworkConfig::strangers_memory, within("B", 65536, 1e12),
            "memory for entities of plain DIS programs; 32 MiB hold 12,000 to 30,000 of them"},
           {"compression", &NetworkConfig::compression,

@@ -336,8 +336,11 @@ struct NetworkConfig {
   std::vector<NamedPeer> peers;
   /// Most memory [octets] for the entities of plain DIS programs
   std::size_t strangers_memory = std::size_t{32} << 20;
-  ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
-  TouchRule touch;            ///< which force models are felt
+  ManagementRule management;       ///< whose Stop/Freeze and Start/Resume are obeyed
+  std::optional<TouchRule> touch;  ///< as the scene has it, see touch_rule()
+
+  /// Whose force models and bodies are felt.
+  [[nodiscard]] TouchRule touch_rule() const { return touch.value_or(TouchRule::usual(interop)); }
 };
 
 /// The policy of the entities of this type. Some ns for each class.

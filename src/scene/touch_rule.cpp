@@ -8,11 +8,17 @@
 
 namespace reckon::peer {
 
+TouchRule TouchRule::usual(bool interop) {
+  TouchRule rule;
+  if (!interop) rule.who_ = Who::scene;
+  return rule;
+}
+
 std::optional<TouchRule> TouchRule::parse(std::string_view text) {
   TouchRule rule;
   if (text == "all") return rule;
-  rule.who_ = text == "members" ? Who::members : Who::named;
-  if (rule.who_ == Who::members) return rule;
+  rule.who_ = text == "scene" ? Who::scene : text == "members" ? Who::members : Who::named;
+  if (rule.who_ != Who::named) return rule;
   const auto names = parse_simulations(text);
   if (!names) return {};
   rule.named_ = *names;
@@ -21,11 +27,17 @@ std::optional<TouchRule> TouchRule::parse(std::string_view text) {
 
 std::string TouchRule::text() const {
   if (who_ == Who::named) return simulations_text(named_);
-  return who_ == Who::members ? "members" : "all";
+  return who_ == Who::members ? "members" : who_ == Who::scene ? "scene" : "all";
+}
+
+std::optional<std::size_t> TouchRule::place_of(const aoim::PeerId& owner) const noexcept {
+  const auto found = std::ranges::find(named_, owner);
+  if (found == named_.end()) return {};
+  return static_cast<std::size_t>(found - named_.begin());
 }
 
 bool TouchRule::allows(const aoim::PeerId& owner, bool alive) const noexcept {
-  if (who_ == Who::named) return alive && std::ranges::find(named_, owner) != named_.end();
+  if (who_ == Who::named) return alive && place_of(owner);
   return who_ == Who::all || alive;
 }
 

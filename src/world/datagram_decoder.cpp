@@ -157,7 +157,9 @@ void DatagramDecoder::take_account(const pdu::EntityId& entity,
                                    const pdu::SimulationAddress& own) noexcept {
   Inbound* update = stage(Inbound::Kind::entity, entity);
   if (update == nullptr) return;
-  if (update->accounts_told < std::numeric_limits<std::uint8_t>::max()) ++update->accounts_told;
+  const bool exchanges = account.given > 0.0 || account.need > 0 || account.spring_need > 0;
+  if (exchanges && update->accounts_told < std::numeric_limits<std::uint8_t>::max())
+    ++update->accounts_told;
   if (account.counterpart.simulation() != own) return;
   const auto end = update->accounts.begin() + static_cast<std::ptrdiff_t>(update->account_count);
   const auto known = std::find_if(update->accounts.begin(), end, [&](const auto& other) {

@@ -42,7 +42,7 @@ struct Inbound {
   pdu::HapticRecord model;
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
   std::size_t account_count = 0;
-  std::uint8_t accounts_told = 0;  ///< number of all accounts, also of those that name others
+  std::uint8_t accounts_told = 0;  ///< number of accounts that exchange energy, also with others
   pdu::BundledPdu pdu;             ///< the whole PDU, for all kinds but entity and claim
 };
 

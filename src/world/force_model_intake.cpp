@@ -34,10 +34,14 @@ bool ForceModelIntake::take(RemoteEntity& row, std::size_t place,
 
 // The rule of ownership ensures that a row with an epoch belongs to the peer of its number.
 bool ForceModelIntake::may_touch(const RemoteEntity& row, std::size_t place) noexcept {
-  if (settings_.touch.allows(row.id.simulation(), row.epoch != 0)) return true;
+  if (touch_.admits(row.id.simulation(), row.epoch != 0, owners_.owner(place))) return true;
+  refuse(row, place);
+  return false;
+}
+
+void ForceModelIntake::refuse(const RemoteEntity& row, std::size_t place) noexcept {
   last_untouchable_ = {row.id, owners_.owner(place)};
   counts_.untouchables.add();
-  return false;
 }
 
 }  // namespace reckon::peer

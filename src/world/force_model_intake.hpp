@@ -13,6 +13,7 @@
 #include "reckon/peer/world/remote_settings.hpp"
 #include "reckon/peer/world/row_owners.hpp"
 #include "reckon/peer/world/state_table.hpp"
+#include "reckon/peer/world/touch_gate.hpp"
 
 namespace reckon::peer {
 
@@ -26,9 +27,9 @@ struct Untouchable {
 class ForceModelIntake {
  public:
   /// References outlive this.
-  ForceModelIntake(const RemoteSettings& settings, const RowOwners& owners,
+  ForceModelIntake(const RemoteSettings& settings, const RowOwners& owners, TouchGate& touch,
                    const RemoteCounters& counts)
-      : settings_(settings), owners_(owners), counts_(counts) {}
+      : settings_(settings), owners_(owners), touch_(touch), counts_(counts) {}
 
   /// Gives the row at `place` the model of its last update. Returns false if the model is refused,
   /// which is counted; the row then keeps the old one.
@@ -39,12 +40,15 @@ class ForceModelIntake {
   /// Number of models from entities that may not touch, and the last such entity.
   [[nodiscard]] std::uint64_t untouchable() const noexcept { return counts_.untouchables.value(); }
   [[nodiscard]] const Untouchable& last_untouchable() const noexcept { return last_untouchable_; }
+  /// Counts a body of `row` that is not felt by the touch rule.
+  void refuse(const RemoteEntity& row, std::size_t place) noexcept;
 
  private:
   [[nodiscard]] bool may_touch(const RemoteEntity& row, std::size_t place) noexcept;
 
   const RemoteSettings& settings_;
   const RowOwners& owners_;
+  TouchGate& touch_;
   const RemoteCounters& counts_;
   pdu::EntityId last_refused_;
   Untouchable last_untouchable_;

@@ -72,7 +72,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   trend_.note(snapshot.time, snapshot.velocity);
   note_touch(entity);
   smooth_velocity();
-  read_accounts();
+  read_accounts(entity.id());
 
   entity.move(truth());
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
@@ -87,6 +87,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   const nanoseconds longest = snapshot.time < blow_until_ ? kBlowPeriod : apart;
   const bool silent = snapshot.time - entity.last_built() >= longest;
   if (silent && snapshot.time - felt_at_ < kAfterTouch) entity.felt_event();
+  if (presses_body_ && snapshot.time - entity.last_built() >= kBodyPeriod) entity.felt_event();
 }
 
 // When hands meet head-on, nothing of their approach remains; when one slides over the other, most
@@ -181,12 +182,16 @@ Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
   return sure * sure_share(sliding_, kRubbing) * (trend_.acceleration() + change);
 }
 
-void HandPort::read_accounts() noexcept {
+void HandPort::read_accounts(const pdu::EntityId& own) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   account_count_ = std::min(snapshot.count, accounts_.size());
+  presses_body_ = false;
   for (std::size_t i = 0; i < account_count_; ++i) {
     const haptics::ContactAccount& contact = snapshot.contacts[i];
-    accounts_[i] = {contact.id, contact.given, contact.need, contact.spring_need};
+    const bool body = !contact.has_device && contact.id.simulation() != own.simulation() &&
+                      !contact.ungated_force.isZero();
+    accounts_[i] = {contact.id, contact.given, contact.need, contact.spring_need, body};
+    presses_body_ |= body;
   }
 }
 

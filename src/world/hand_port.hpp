@@ -36,6 +36,9 @@ class HandPort {
   /// Longest silence for kAfterTouch, doubled with each update: a peer that lost the end of a touch
   /// would go on feeling us.
   static constexpr std::chrono::milliseconds kAfterTouchPeriod{100}, kAfterTouch{600};
+  /// Longest silence of a body without a device that a remote hand presses, and of that hand: its
+  /// accounts name the body, which is how the owner knows.
+  static constexpr std::chrono::milliseconds kBodyPeriod{100};
 
   /// @param snapshots, contacts of the device's servo; outlive the port.
   /// @param hand the entity that the device moves.
@@ -67,7 +70,7 @@ class HandPort {
   }
 
  private:
-  void read_accounts() noexcept;
+  void read_accounts(const pdu::EntityId& own) noexcept;
   void note_touch(OwnedEntity& entity) noexcept;
   void smooth_velocity() noexcept;
   void consider_accounts(OwnedEntity& entity) noexcept;
@@ -90,6 +93,7 @@ class HandPort {
   VelocityTrend trend_;   // of the SCP, S
   double sliding_ = 0.0;  // over the hands nearby, the fastest [m/s]
   bool touching_ = false;
+  bool presses_body_ = false;  // a remote one without a device
 };
 
 }  // namespace reckon::peer

@@ -48,13 +48,14 @@ void NearBodies::clear() noexcept {
 }
 
 void NearBodies::add(const RemoteEntity& row, const deadreckon::Contact& touch,
-                     const Eigen::Vector3d& velocity) noexcept {
+                     const Eigen::Vector3d& velocity, bool may_press) noexcept {
   NearBody body;
   body.row = &row;
   body.id = row.id;
   body.centre = touch.point;
   body.velocity = velocity;
   body.depth = touch.depth;
+  body.may_press = may_press;
   insert(body);
 }
 
@@ -95,7 +96,7 @@ NearBodies::Rank NearBodies::rank_of(const NearBody& body) const noexcept {
   const auto end = touched_.begin() + static_cast<std::ptrdiff_t>(touched_count_);
   Rank rank;
   rank.party = body.row != nullptr ? body.row->party : Party{kOwnHost, 0, false};
-  rank.weak = is_weak(body.model());
+  rank.weak = !body.may_press || is_weak(body.model());
   rank.far = body.depth < -kSoonTouching;
   rank.fresh = std::find(touched_.begin(), end, body.id) == end;
   rank.shallow = in_order(-body.depth);
@@ -115,14 +116,13 @@ std::span<const NearBodies::Key> NearBodies::sorted(const RankKey& rank_key) noe
 void NearBodies::choose() noexcept {
   if (count_ <= 1) return;
   // The number of bodies of its group before each; `same` defines a group.
-  const auto number_each = [&](std::span<const Key> order, std::uint8_t Rank::* place, auto same) {
+  const auto number_each = [&](std::span<const Key> order, std::uint8_t Rank::*place, auto same) {
     ranks_[order[0].at].*place = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {
       const Rank& before = ranks_[order[i - 1].at];
       Rank& rank = ranks_[order[i].at];
-      const int next = before.party.host == rank.party.host && same(before, rank)
-                           ? before.*place + 1
-                           : 0;
+      const int next =
+          before.party.host == rank.party.host && same(before, rank) ? before.*place + 1 : 0;
       rank.*place = static_cast<std::uint8_t>(next);
     }
   };
@@ -130,9 +130,8 @@ void NearBodies::choose() noexcept {
     return packed(std::pair(r.party.host, 16), std::pair(r.party.sender, 16), std::pair(r.weak, 1),
                   std::pair(r.far, 1), std::pair(r.fresh, 1));
   });
-  number_each(by_sender, &Rank::of_sender, [](const Rank& a, const Rank& b) {
-    return a.party.sender == b.party.sender;
-  });
+  number_each(by_sender, &Rank::of_sender,
+              [](const Rank& a, const Rank& b) { return a.party.sender == b.party.sender; });
   if (count_ > kMost) note_crowding(by_sender);
   const auto by_host = sorted([](const Rank& r) {
     return packed(std::pair(r.party.host, 16), std::pair(r.weak, 1),

@@ -25,13 +25,14 @@ inline constexpr double kContactReach = 0.25;
 
 /// One body with a force model: a row of the state table or an entity of ours.
 struct NearBody {
-  const RemoteEntity* row = nullptr;                   ///< null for an own entity
-  const OwnedEntity* own = nullptr;                    ///< null for a remote one
+  const RemoteEntity* row = nullptr;  ///< null for an own entity
+  const OwnedEntity* own = nullptr;   ///< null for a remote one
   pdu::EntityId id;
   EntityNumber number = 0;                             ///< of an own entity
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of its model's point, S [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< S [m/s]
   double depth = 0.0;                                  ///< [m]; below 0 the surfaces are apart
+  bool may_press = true;                               ///< see ContactBeginnings
 
   [[nodiscard]] const deadreckon::ForceModel& model() const noexcept {
     return row != nullptr ? row->model : own->touch()->model();
@@ -49,7 +50,7 @@ struct NearBody {
 /// loses some first. Each host has kSure bodies before any has more, and its senders take turns.
 /// Among equals these go first: bodies that touch or nearly do, those of peers before those of
 /// guests, those touched at the last check, and the deeper ones. Bodies whose force no hand can
-/// feel come last. One thread; no allocation.
+/// feel, or that may not press it yet, come last. One thread; no allocation.
 class NearBodies {
  public:
   static constexpr std::size_t kMost = haptics::kMaxRemoteHands;
@@ -64,7 +65,7 @@ class NearBodies {
   void clear() noexcept;
   /// Adds a remote body within reach; choose() follows. Some 20 ns; 100 ns if they are many.
   void add(const RemoteEntity& row, const deadreckon::Contact& touch,
-           const Eigen::Vector3d& velocity) noexcept;
+           const Eigen::Vector3d& velocity, bool may_press = true) noexcept;
   /// Adds our own bodies except `except`, and chooses.
   void add_own(const OwnedEntities& owned, EntityNumber except, const deadreckon::ProbeState& probe,
                std::chrono::nanoseconds now) noexcept;
@@ -88,7 +89,7 @@ class NearBodies {
     Party party;
     bool weak = false, far = false, fresh = false;
     std::uint8_t of_sender = 0, of_host = 0;  // bodies before it of the same sender, host
-    std::uint64_t shallow = 0;  // smaller if deeper
+    std::uint64_t shallow = 0;                // smaller if deeper
   };
   // Sort key of bodies: the first value that differs decides.
   struct Key {

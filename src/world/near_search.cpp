@@ -150,7 +150,8 @@ void NearSearch::look_at_due(std::span<const RemoteEntity> rows, const Search& s
       next = look_at_.next_due(hurry_, next + 1);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const double calm = look(rows[row_of_[due[i]]], search);
+      const std::size_t place = row_of_[due[i]];
+      const double calm = look(rows[place], place, search);
       look_at_.set(due[i], hurry_ + std::max(nanoseconds(1), pdu::from_seconds(calm)));
     }
     next = look_at_.next_due(hurry_, due[0]);
@@ -159,7 +160,7 @@ void NearSearch::look_at_due(std::span<const RemoteEntity> rows, const Search& s
 
 // Time for which the row is not within reach of any probe or body [s], 0 to kHorizon. A row within
 // reach is added to the results.
-double NearSearch::look(const RemoteEntity& row, const Search& search) noexcept {
+double NearSearch::look(const RemoteEntity& row, std::size_t place, const Search& search) noexcept {
   ++looks_;
   const Pose pose = row.predicted(search.now);
   const Closing closing(row, pose);
@@ -170,7 +171,9 @@ double NearSearch::look(const RemoteEntity& row, const Search& search) noexcept 
     const ProbeState& probe = search.probes[i];
     const Contact touch = deadreckon::contact(row.model, pose, probe.position, probe.radius);
     const double apart = -touch.depth - reach_;
-    if (apart < 0) search.found[i].add(row, touch, pose.velocity);
+    const bool may_press = beginnings_ == nullptr ||
+                           beginnings_->may_press(place, row, i, touch.depth, *owners_, search.now);
+    if (apart < 0) search.found[i].add(row, touch, pose.velocity, may_press);
     calm = std::min(calm, closing.time(apart, (probe.position - touch.point).norm()));
   }
   if (!search.bodies.empty()) calm = std::min(calm, look_from_bodies(row, pose, search));
@@ -208,8 +211,8 @@ void HandsNear::sort() noexcept {
   sort_by([](const Found& f) { return std::tuple(f.body, f.party.host, -f.depth); });
   const Found* before = nullptr;
   for (Found& found : found_) {
-    const bool same = before != nullptr && found.body == before->body &&
-                      found.party.host == before->party.host;
+    const bool same =
+        before != nullptr && found.body == before->body && found.party.host == before->party.host;
     found.of_host = same ? before->of_host + 1 : 0;
     before = &found;
   }

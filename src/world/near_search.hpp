@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/peer/world/contact_beginnings.hpp"
 #include "reckon/peer/world/due_column.hpp"
 #include "reckon/peer/world/near_bodies.hpp"
 #include "reckon/peer/world/row_column.hpp"
@@ -79,6 +80,12 @@ class NearSearch {
   /// @param capacity rows of the table  @param reach [m] between surfaces, >= 0
   NearSearch(std::size_t capacity, double reach);
 
+  /// Marks bodies that may not press a hand yet; both outlive this.
+  void mark_beginnings(ContactBeginnings& beginnings, const RowOwners& owners) noexcept {
+    beginnings_ = &beginnings;
+    owners_ = &owners;
+  }
+
   /// Adds a row without a force model at the end.
   void add_row() { entry_of_.push(kNone); }
   /// The row at this place has a new force model, or was updated.
@@ -124,11 +131,14 @@ class NearSearch {
   void advance(const Search& search) noexcept;
   [[nodiscard]] double way_of_probes(std::span<const deadreckon::ProbeState> probes) noexcept;
   [[nodiscard]] double way_of_bodies(std::span<const MovingBody> bodies) noexcept;
-  [[nodiscard]] double look(const RemoteEntity& row, const Search& search) noexcept;
+  [[nodiscard]] double look(const RemoteEntity& row, std::size_t place,
+                            const Search& search) noexcept;
   [[nodiscard]] double look_from_bodies(const RemoteEntity& row, const deadreckon::Pose& pose,
                                         const Search& search) const noexcept;
 
   double reach_;
+  ContactBeginnings* beginnings_ = nullptr;
+  const RowOwners* owners_ = nullptr;
   RowColumn<std::uint32_t> entry_of_;  // of each row: its place in the two below, or kNone
   RowColumn<std::uint32_t> row_of_;    // of each row with a model
   DueColumn look_at_;  // when to check each row with a model again, in the time of hurry_

@@ -346,7 +346,8 @@ void OwnedEntity::note_touch(const pdu::HapticRecord& sent,
 void OwnedEntity::note_accounts(std::span<const EnergyAccount> accounts,
                                 EntityUpdate& update) noexcept {
   for (const EnergyAccount& account : accounts) {
-    if (account.given <= 0.0 && account.need <= 0.0 && account.spring_need <= 0.0) continue;
+    const bool exchanges = account.given > 0.0 || account.need > 0.0 || account.spring_need > 0.0;
+    if (!exchanges && !account.pressed) continue;
     if (update.account_count == update.accounts.size()) break;
     pdu::EnergyAccountRecord& record = update.accounts[update.account_count++];
     record = {};

@@ -36,6 +36,7 @@ struct EnergyAccount {
   double given = 0.0;        ///< [J], running total that we have given
   double need = 0.0;         ///< [J], what we request
   double spring_need = 0.0;  ///< [J], what we would like in addition, see haptics::EnergyDemand
+  bool pressed = false;      ///< sent even if all is 0, so that the owner repeats the body
 };
 
 /// Most counterparts of one entity at a time.

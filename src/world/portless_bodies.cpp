@@ -45,6 +45,8 @@ double PortlessBody::answer(const OwnedEntity& entity, EnergyBooks& books, nanos
       given += share;
       if (share > 0.0) ++version_;
     }
+    if (pair.other.simulation() != entity.id().simulation())
+      pressed_at_ = std::max(pressed_at_, pair.heard);
     pair.unanswered = false;
     if (account_count_ < accounts_.size()) accounts_[account_count_++] = {pair.other, pair.we_gave};
   }

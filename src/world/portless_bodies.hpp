@@ -29,6 +29,10 @@ class PortlessBody {
   }
   /// Counts changes that hands nearby have to receive; see RemoteHand::version.
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
+  /// Whether a remote hand has stated lately that it presses this body.
+  [[nodiscard]] bool is_pressed(std::chrono::nanoseconds now) const noexcept {
+    return now - pressed_at_ < kPressed;
+  }
   /// Whether it moved since the last answer().
   [[nodiscard]] bool moves() const noexcept { return moves_; }
 
@@ -36,6 +40,9 @@ class PortlessBody {
   double answer(const OwnedEntity& entity, EnergyBooks& books, std::chrono::nanoseconds now);
 
  private:
+  /// A hand states it each 0.1 s: ten statements were lost by then.
+  static constexpr std::chrono::seconds kPressed{1};
+
   void note_motion(const OwnedEntity& entity, std::chrono::nanoseconds now) noexcept;
 
   EntityNumber number_;
@@ -43,6 +50,7 @@ class PortlessBody {
   EntityTruth last_;
   std::chrono::nanoseconds answered_{0};
   std::chrono::nanoseconds refreshed_{0};
+  std::chrono::nanoseconds pressed_at_ = -kPressed;
   std::uint32_t version_ = 0;
   bool moves_ = false;
   std::array<EnergyAccount, kMostAccounts> accounts_{};

@@ -14,6 +14,8 @@ struct RemoteCounters {
         refused_values(counters.make("values_refused", "updates with impossible values")),
         refused_models(counters.make("models_refused", "force models with impossible values")),
         untouchables(counters.make("touch_refused", "force models of senders that may not touch")),
+        bodies_disputed(counters.make(
+            "bodies_disputed", "states of the scene's bodies from others than its first peer")),
         reserved(counters.make("reserved_ids_in",
                                "updates of IDs that no entity can have, such as 0:0:0 and 65535")),
         stale(counters.make("stale_in", "updates older than what was known, dropped")),
@@ -35,6 +37,7 @@ struct RemoteCounters {
   Counter& refused_values;
   Counter& refused_models;
   Counter& untouchables;
+  Counter& bodies_disputed;
   Counter& reserved;
   Counter& stale;
   Counter& repeats;

@@ -42,12 +42,16 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       held_(settings.near_rows, settings.capacity),
       time_outs_(settings.capacity),
       sight_(settings.capacity),
+      beginnings_(settings.capacity),
       near_(settings.capacity, settings.contact_reach),
       changes_(settings.record_changes ? settings.capacity : 0),
       outside_(settings.capacity),
       ownership_(aoim, table_, owners_, outside_, counts_.disputed),
       admission_(settings_, table_, owners_, outside_, counts_),
-      models_(settings_, owners_, counts_) {}
+      touch_(settings.touch),
+      models_(settings_, owners_, touch_, counts_) {
+  near_.mark_beginnings(beginnings_, owners_);
+}
 
 void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
   for (const Inbound& update : updates) table_.prefetch(update.entity);

@@ -16,6 +16,7 @@
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/world/arrival.hpp"
 #include "reckon/peer/world/change_list.hpp"
+#include "reckon/peer/world/contact_beginnings.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/due_column.hpp"
 #include "reckon/peer/world/entity_ownership.hpp"
@@ -31,6 +32,7 @@
 #include "reckon/peer/world/row_owners.hpp"
 #include "reckon/peer/world/sight_watch.hpp"
 #include "reckon/peer/world/state_table.hpp"
+#include "reckon/peer/world/touch_gate.hpp"
 
 namespace reckon::peer {
 
@@ -81,6 +83,11 @@ class RemoteEntities {
                     std::chrono::nanoseconds now) noexcept;
   /// Removes the force of this entity until it is updated.
   void let_go(const pdu::EntityId& id) noexcept;
+  /// It presses a hand of ours.  @return since when, after its last state
+  std::chrono::nanoseconds note_pressed(const pdu::EntityId& id,
+                                        std::chrono::nanoseconds now) noexcept;
+  /// Fades its force out from `now` until it is updated.
+  void fade(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
   /// A peer has claimed these numbers with this epoch: drops rows of other senders under them.
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops entities that were silent for longer than their time-out. Some ns if there are none.
@@ -168,6 +175,24 @@ class RemoteEntities {
   [[nodiscard]] const Untouchable& last_untouchable() const noexcept {
     return models_.last_untouchable();
   }
+  /// Counts a body that is not felt by the scene's `touch`.
+  void refuse_touch(const RemoteEntity& row) noexcept { models_.refuse(row, table_.place_of(row)); }
+  /// Counts a state of a body of the scene whose sender does not own it.
+  void dispute_body(const RemoteEntity& row) noexcept {
+    counts_.bodies_disputed.add();
+    last_disputed_body_ = {row.id, owner(row)};
+  }
+  /// Their number, and the last such entity.
+  [[nodiscard]] std::uint64_t disputed_bodies() const noexcept {
+    return counts_.bodies_disputed.value();
+  }
+  [[nodiscard]] const Untouchable& last_disputed_body() const noexcept {
+    return last_disputed_body_;
+  }
+  /// The scene's touch rule.
+  [[nodiscard]] TouchGate& touch() noexcept { return touch_; }
+  /// Bodies that appeared inside a hand and are not felt there yet.
+  [[nodiscard]] const ContactBeginnings& beginnings() const noexcept { return beginnings_; }
   /// Address of the owner of a row of rows().
   [[nodiscard]] const aoim::SourceAddress& owner(const RemoteEntity& row) const noexcept {
     return owners_.owner(table_.place_of(row));
@@ -218,12 +243,15 @@ class RemoteEntities {
   HeldStates held_;  // in scenes with near groups
   DueColumn time_outs_;
   SightWatch sight_;
+  ContactBeginnings beginnings_;
   NearSearch near_;
   ChangeList changes_;
   OutsideEntities outside_;
   EntityOwnership ownership_;
   RowAdmission admission_;
+  TouchGate touch_;
   ForceModelIntake models_;
+  Untouchable last_disputed_body_;
   std::chrono::nanoseconds first_heard_{-1};
 };
 

@@ -52,6 +52,19 @@ void RemoteEntities::let_go(const pdu::EntityId& id) noexcept {
   if (row != nullptr) let_go(*row);
 }
 
+nanoseconds RemoteEntities::note_pressed(const pdu::EntityId& id, nanoseconds now) noexcept {
+  RemoteEntity* row = table_.find(id);
+  if (row == nullptr) return now;
+  row->pressed_at = std::min(row->pressed_at, now);
+  return row->pressed_at;
+}
+
+void RemoteEntities::fade(const pdu::EntityId& id, nanoseconds now) noexcept {
+  RemoteEntity* row = table_.find(id);
+  if (row == nullptr) return;
+  row->felt_until = std::min(row->felt_until, now);
+}
+
 // Long ago, so that no force is left to fade: the owner had time to send a state.
 void RemoteEntities::let_go(RemoteEntity& row) noexcept {
   row.felt_until = std::min(row.felt_until, row.last_heard);

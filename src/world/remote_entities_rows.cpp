@@ -124,6 +124,7 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   time_outs_.push(nanoseconds(0));  // until its update is taken
   sight_.push();
   near_.add_row();
+  beginnings_.add_row();
   changes_.discovered();
   row->epoch = arrival.epoch;
   row->first_heard = arrival.arrival;
@@ -136,6 +137,7 @@ void RemoteEntities::drop(std::size_t place, Removal cause) noexcept {
   parts_.release(row);
   changes_.removed(place, row.id, cause);
   near_.erase_row(place);
+  beginnings_.erase_row(place);
   time_outs_.erase(place);
   sight_.erase(place);
   owners_.erase(place);

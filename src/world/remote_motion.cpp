@@ -87,7 +87,7 @@ void RemoteMotion::note_state(RemoteEntity& row, const ReceivedState& heard,
   row.state_time = time;
   row.timestamp = pdu.header.timestamp;
   row.last_heard = heard.at.arrival;
-  row.doubted_at = row.felt_until = RemoteEntity::kTrusted;
+  row.doubted_at = row.felt_until = row.pressed_at = RemoteEntity::kTrusted;
   row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   row.type = pdu.entity_type;
   row.force_id = pdu.force_id;

@@ -91,19 +91,47 @@ haptics::ObjectMotion BodyMover::by_time(NodeIndex node, nanoseconds now) noexce
   return out;
 }
 
-void RemoteBodies::note(const Inbound& update) noexcept {
-  if (!update.has_state) return;
+void RemoteBodies::note(const Inbound& update, const Arrival& arrival,
+                        RemoteEntities& rows) noexcept {
   const auto body = body_of(update.state.entity_type);
-  if (body && !places_[*body].id) places_[*body].id = update.entity;
+  if (!body) return;
+  const RemoteEntity* row = rows.find(update.entity);
+  if (row == nullptr || !takes(*row, arrival, rows)) return;
+  Place& place = places_[*body];
+  if (place.id != update.entity) place = {update.entity, row->version - 1, row->doubted_at};
 }
 
-void RemoteBodies::publish(const RemoteEntities& rows) noexcept {
+bool RemoteBodies::takes(const RemoteEntity& row, const Arrival& arrival,
+                         RemoteEntities& rows) const noexcept {
+  const aoim::PeerId sender = row.id.simulation();
+  const bool alive = arrival.epoch != 0;
+  // A plain DIS program has none of the scene's bodies.
+  if (!interop_ && !alive) return false;
+  if (!interop_ && arrival.epoch != owner_.epoch()) return rows.dispute_body(row), false;
+  const bool named = !interop_ || rows.touch().names(sender);
+  if (named && rows.touch().admits(sender, alive, arrival.from)) return true;
+  return rows.refuse_touch(row), false;
+}
+
+// Bodies of a new owner may rest, and their next states may be far off.
+void RemoteBodies::adopt(RemoteEntities& rows) noexcept {
+  if (std::exchange(adopted_, owner_.epoch()) == owner_.epoch() || adopted_ == 0) return;
+  for (const RemoteEntity& row : rows.rows()) {
+    const auto body = body_of(row.type);
+    if (!body || row.epoch != adopted_) continue;
+    if (rows.touch().admits(row.id.simulation(), true, rows.owner(row)))
+      places_[*body] = {row.id, row.version - 1, row.doubted_at};
+  }
+}
+
+void RemoteBodies::publish(RemoteEntities& rows) noexcept {
+  adopt(rows);
   bool changed = false;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];
     if (!place.id) continue;
     const RemoteEntity* row = rows.find(*place.id);
-    if (row == nullptr) {
+    if (row == nullptr || (!interop_ && row->epoch != owner_.epoch())) {
       newest_.known[i] = ShownBodies::Known::gone;
       place = {};
       changed = true;

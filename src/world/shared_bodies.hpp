@@ -17,6 +17,8 @@
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/scene/scene_nodes.hpp"
+#include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/body_owner.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -79,17 +81,19 @@ class BodyMover final : public haptics::ObjectMover {
   std::vector<Body> bodies_;
 };
 
-/// The model loop's side. Allocates nothing.
+/// The model loop's side: takes the bodies of their owner alone, if the scene's `touch` admits it.
+/// In an `interop` exercise no peer announces itself, and a sender that `touch` names owns them.
+/// Allocates nothing.
 class RemoteBodies {
  public:
-  /// @param shown outlives this
-  explicit RemoteBodies(haptics::TripleBuffer<ShownBodies>& shown) : shown_(shown) {}
+  /// References outlive this.  @param interop whether the exercise is
+  RemoteBodies(haptics::TripleBuffer<ShownBodies>& shown, const BodyOwner& owner, bool interop)
+      : shown_(shown), owner_(owner), interop_(interop) {}
 
-  /// An update that the table has taken. The first entity that is a body keeps its place until it
-  /// is gone.
-  void note(const Inbound& update) noexcept;
+  /// An update with a state that the table has taken.
+  void note(const Inbound& update, const Arrival& arrival, RemoteEntities& rows) noexcept;
   /// Publishes the rows that have changed.
-  void publish(const RemoteEntities& rows) noexcept;
+  void publish(RemoteEntities& rows) noexcept;
 
  private:
   struct Place {
@@ -97,7 +101,14 @@ class RemoteBodies {
     std::uint32_t version = 0;
     std::chrono::nanoseconds doubted_at{0};
   };
+  void adopt(RemoteEntities& rows) noexcept;
+  [[nodiscard]] bool takes(const RemoteEntity& row, const Arrival& arrival,
+                           RemoteEntities& rows) const noexcept;
+
   haptics::TripleBuffer<ShownBodies>& shown_;
+  const BodyOwner& owner_;
+  bool interop_;
+  std::uint32_t adopted_ = 0;  // epoch of the owner
   ShownBodies newest_;
   std::array<Place, kMostSharedBodies> places_{};
 };

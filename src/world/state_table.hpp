@@ -52,6 +52,8 @@ struct RemoteEntity {
   /// do not show its position. kTrusted if it was not doubted since its last state.
   std::chrono::nanoseconds felt_until = kTrusted;
   static constexpr std::chrono::nanoseconds kTrusted = std::chrono::nanoseconds::max();
+  /// When it first pressed a hand of ours after its last state; kTrusted before.
+  std::chrono::nanoseconds pressed_at = kTrusted;
   std::uint32_t timestamp = 0;  ///< as sent
   std::uint32_t version = 0;    ///< counts accepted updates
 

@@ -66,11 +66,12 @@ class Attack:
     """One attack: a sentence, how often a second it is repeated, and what it sends each time."""
 
     def __init__(self, sentence, rate, send, newcomer=False, told=True, leaders=False, believed=False, aoim=(),
-                 network=()):
+                 network=(), objects=""):
         self.sentence, self.rate, self.send = sentence, rate, send
         self.leaders = leaders    # whether the cells of the scene have leaders, who hand out groups
         self.aoim = aoim          # what the scene says more under [aoim]
         self.network = network    # the same under [network]
+        self.objects = objects    # further objects of the scene
         self.believed = believed  # whether another leader is to be expected
         self.newcomer = newcomer  # whether a genuine peer that comes meanwhile must be seen
         self.told = told          # whether the user of a victim must be told

@@ -55,7 +55,7 @@ def guests(draw):
 
 
 def pushers(draw):
-    """The same, as stiff as hands. They would be felt, so the two name each other in the scene."""
+    """The same, as stiff as hands. Joined peers would be felt, so the two name each other in the scene."""
     return crowd(draw, drawn_log(draw, 30, 2000), draw.choice(AOIM), (f"touch = {NAMES}",))
 
 
@@ -64,6 +64,8 @@ def crowd(draw, k1, aoim, network):
     kind, radius = draw.choice(list(KINDS)), drawn_log(draw, 0.05, 3)
     validity, at_once = draw.choice((500, 12_000, 65_535)), draw.choice((3, 9, 33))
     rate, joined = draw.choice((0.2, 1.0, 10.0)), draw.random() < 0.3
+    if not joined and draw.random() < 0.5:
+        network = ()  # guests are not felt by default
     sequence = [0] * ports
 
     def numbered(payload, source):
@@ -93,6 +95,72 @@ def crowd(draw, k1, aoim, network):
                   f"{k1:g} N/m, {at_once} a datagram, {ports} ports, {rate:g}/s, valid for {1e-3 * validity:g} s"
                   f"{', '.join(('', *aoim, *network))}", rate, send, told=bool(network), aoim=aoim,
                   network=network)
+
+
+def one_shot(draw):
+    """Stiff guests of one datagram: they appear inside a hand, or come out of the air and stay in it."""
+    count, kind = draw.choice((1, 1, 2, 9, 33)), draw.choice(("sphere", "region"))
+    k1, radius, comes = drawn_log(draw, 90, 700), draw.uniform(0.02, 0.06), draw.random() < 0.5
+    everybody = draw.random() < 0.7
+    speed = draw.uniform(0.1, 0.4)
+
+    def send(heard, _, say):
+        group, octets = heard.last(draw.choice((ALICE, BOB)), dis.ENTITY_STATE)
+        state = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (19, ">B", 0), (88, ">B", 2))
+        location = dis.EntityState(octets).location
+        states, sets = [], []
+        for n in range(count):
+            way = [draw.gauss(0, 1) for _ in range(3)]
+            away = (0.1 + radius if comes else 0.01) / math.hypot(*way)
+            states.append(patched(state, (12, ">HHH", 900, 1, 1 + n), (48, ">ddd", *(x + away * w for x, w in zip(location, way))),
+                                  (36, ">fff", *(-speed / math.hypot(*way) * w if comes else 0.0 for w in way))))
+            sets.append(haptic_set((900, 1, 1 + n), draw, kind, radius, k1, 12_000))
+        say(group, b"".join(states) + attribute((900, 1), sets))
+
+    network = ('touch = "all"',) if everybody else ()
+    return Attack(f"one datagram of {count} guests, {kind} of {1e3 * radius:.0f} mm and {k1:.0f} N/m, "
+                  f"{f'at {speed:.2f} m/s into' if comes else 'inside'} a hand{', '.join(('', *network))}", 0.2, send,
+                  network=network)
+
+
+CUBE = """
+[[object]]
+name = "floor"
+plane = [0, 0, 1]
+position = "0 0 -100 mm"
+surface = {stiffness = "400 N/m"}
+
+[[object]]
+name = "cube"
+box = "40 40 40 mm"
+position = "0 -200 -80 mm"
+mass = "50 g"
+surface = {stiffness = "400 N/m"}
+"""
+
+
+def bodies(draw):
+    """A joined stranger has the body of the scene, which its first peer owns."""
+    number, rate = draw.choice((1, 3, 200)), drawn_log(draw, 5, 100)
+    life, speed = draw.randrange(1, 2**32), draw.uniform(0.0, 0.5)
+    sequence = [0]
+
+    def numbered(payload):
+        sequence[0] += 1
+        return patched(payload, (len(payload) - 12, ">I", sequence[0]))
+
+    def send(heard, _, say):
+        said = announce(only_presence(heard, BOB), life, int(time.time()), (900, 1), b"MALLORY")
+        say(BASE_GROUP, numbered(patched(said, (57, ">B", number))))
+        group, octets = heard.last(draw.choice((ALICE, BOB)), dis.ENTITY_STATE)
+        location = dis.EntityState(octets).location
+        body = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (12, ">HHH", 900, 1, 1), (19, ">B", 0),
+                       (20, ">BBHBBBB", 0, 0, 0, 66, 0, 0, 0), (36, ">fff", *(draw.uniform(-speed, speed) for _ in range(3))),
+                       (48, ">ddd", *(x + draw.uniform(-0.02, 0.02) for x in location)))
+        say(group, numbered(body + said[-24:]))
+
+    return Attack(f"the scene's cube {rate:.0f} times a second in a hand, from a joined stranger as scene peer {number}", rate,
+                  send, objects=CUBE)
 
 
 def coming_and_going(draw):
@@ -170,7 +238,7 @@ def invented(draw):
     return Attack(f"{50 * a_turn} new entities a second{', with force models' if haptic else ''}", 50, send, told=False)
 
 
-FAMILIES = {"guests": guests, "pushers": pushers, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}
+FAMILIES = {"guests": guests, "pushers": pushers, "one_shot": one_shot, "bodies": bodies, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}
 
 
 def of(name, seed):

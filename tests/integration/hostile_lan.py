@@ -4,6 +4,7 @@
 key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `leaders` those
 on a pair whose cells have leaders; `families` draws the numbers of each attack from a seed; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
 import json
+import math
 import pathlib
 import random
 import re
@@ -53,15 +54,23 @@ force = "0.02 N"
 pool = 16
 
 [[operator]]
-sweep = {from = "0 0 0 mm", to = "1 0 0 mm", period = "1.1 s"}
+trace = "press.csv"
+approach = "-20 0 0 mm"
+start = "1 s"
 
 [[operator]]
-sweep = {from = "14 0 0 mm", to = "15 0 0 mm", period = "1.3 s"}
+trace = "press.csv"
+position = "14 0 0 mm"
+speed = 0.9
 
 [[operator]]
 sweep = {from = "0 300 0 mm", to = "0 310 0 mm", period = "1 s"}
 """
 
+
+# A hand that goes to and fro by a millimetre each 1.1 s.
+PRESS = "t_s,px_m,py_m,pz_m\n" + "".join(f"{0.01 * i:.3f},{0.0005 * (1 - math.cos(2 * math.pi * i / 110)):.7f},0,0\n"
+                                         for i in range(111))
 
 # Cells so small that there are more of them than groups.
 WITH_LEADERS = "pool = 16\nleaders = true\nhand_out = true"
@@ -229,9 +238,10 @@ HEAD = ("| attack | force before [N] | during | after | longest interruption [s]
         "|---|---:|---:|---:|---:|---|---|---|")
 
 
-def scene_in(setup, aoim="pool = 16", network=()):
+def scene_in(setup, aoim="pool = 16", network=(), objects=""):
+    (setup.folder / "scenes/press.csv").write_text(PRESS)
     path = setup.folder / "scenes/hostile.toml"
-    path.write_text("\n".join((SCENE.replace("pool = 16", aoim), "[network]", *network)))
+    path.write_text("\n".join((SCENE.replace("pool = 16", aoim), objects, "[network]", *network)))
     return path
 
 
@@ -274,16 +284,32 @@ def hostile_leaders(setup):
     attack_all(setup, LEADER_ATTACKS, 4.0, fresh=True)
 
 
+FAMILIES_HEAD = ("| family | attacks | held | longest interruption [s] | more memory [MiB] | lines a second |\n"
+                 "|---|---:|---:|---:|---:|---:|")
+FAMILIES_PLACE = re.compile(r"(<!-- table of families -->\n).*?(<!-- end of it -->)", re.S)
+
+
+def summary(results):
+    """The worst of each family, as a table: (gap, memory, lines, held) of each of its attacks."""
+    rows = [FAMILIES_HEAD]
+    for name, attacks in results.items():
+        gap, memory, lines, _ = (max(column) for column in zip(*attacks))
+        held = sum(attack[3] for attack in attacks)
+        rows.append(f"| `{name}` | {len(attacks)} | {held} | {gap:.1f} | {max(0.0, memory):.0f} | {lines:.1f} |")
+    return "\n".join(rows) + "\n"
+
+
 def hostile_families(setup):
     """Attacks whose numbers a seed draws: no contact is interrupted, memory and lines are bounded, nobody exits."""
     first = random.randrange(10**6) if setup.seed is None else setup.seed
-    failed = []
+    failed, results = [], {}
     print(HEAD, flush=True)
     for seed in range(first, first + setup.runs):
         for name in (setup.family,) if setup.family else hostile_drawn.FAMILIES:
             with setup.testbed(CAROL) as bed:
                 attack = hostile_drawn.of(name, seed)
-                contact = Contact(bed, scene_in(setup, "\n".join(("pool = 16", *attack.aoim)), attack.network))
+                aoim = "\n".join(("pool = 16", *attack.aoim))
+                contact = Contact(bed, scene_in(setup, aoim, attack.network, attack.objects))
                 memory, begin = contact.memory(), time.monotonic()
                 result = contact.attack(attack, 4.0)
                 check(result[0] > 0.1, f"no contact before the attack: {result[0]} N")
@@ -295,9 +321,15 @@ def hostile_families(setup):
                 if lines > LINES:
                     problems.append(f"{lines:.0f} lines a second")
                 row(attack, result, problems)
+                results.setdefault(name, []).append((result[3], more, lines, not problems))
                 if "-v" in sys.argv:
                     print(contact.notices(0), *(peer.report() for peer in contact.peers.values()), sep="\n")
             failed.extend(f"{name} {seed}: {problem}" for problem in problems)
+    print("\n" + summary(results), flush=True)
+    if setup.write:
+        page = setup.write.read_text()
+        check(FAMILIES_PLACE.search(page), f"{setup.write} has no place for the table")
+        setup.write.write_text(FAMILIES_PLACE.sub(lambda m: m[1] + summary(results) + m[2], page))
     check(not failed, "; ".join(failed))
 
 
@@ -308,6 +340,7 @@ def hostile_short(setup):
 
 def sealed_scene(setup):
     """The scene with a key, and the key."""
+    (setup.folder / "scenes/press.csv").write_text(PRESS)
     path = setup.folder / "scenes/sealed.toml"
     path.write_text(SCENE.replace("pool = 16", WITH_LEADERS) + '\n[network]\nkey = "exercise.key"\n')
     key = setup.folder / "scenes/exercise.key"

@@ -340,6 +340,7 @@ def run(case):
     parser.add_argument("--runs", type=int, default=1, help="so many seeds of each family of attacks")
     parser.add_argument("--seed", type=int, default=None, help="the first of them")
     parser.add_argument("--family", default="", help="this one alone")
+    parser.add_argument("--write", type=pathlib.Path, help="the page whose table of families is replaced")
     parser.add_argument("-v", action="store_true", help="reports of the peers too")
     parser.add_argument("--snooping", action="store_true", help="a bridge that floods nothing")
     arguments = parser.parse_args()

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/support/arriving_hand.hpp"
 #include "reckon/tests/support/climb.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
@@ -106,9 +107,10 @@ Rub rub(const std::string& text, std::size_t shower, std::uint64_t seed,
   law.delay = delay;
   law.jitter = jitter;
   world.network().impair(law);
+  world.move_by(scene.devices.empty() ? 0 : 1, arriving(scene.operators[0], {0, 0, 0.1}));
   world.start(0, scene);
   world.start(1, scene);
-  world.run(2000);
+  world.run(3000);
   haptics::TraceRing steps(64);
   world.peer(shower).trace(&steps);
   const auto sent = [&] {

@@ -19,6 +19,7 @@
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/version.hpp"
+#include "reckon/tools/terminal/foreign_text.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -50,9 +51,8 @@ int report_error(const Console& console, Arguments arguments, const std::excepti
   const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
   std::string_view text = error.what();
   while (text.ends_with('\n')) text.remove_suffix(1);
-  std::fprintf(console.err, "reckon %.*s: %s%.*s\n", static_cast<int>(verb.size()), verb.data(),
-               code == ExitCode::internal ? "internal fault: " : "", static_cast<int>(text.size()),
-               text.data());
+  std::fprintf(console.err, "reckon %.*s: %s%s\n", static_cast<int>(verb.size()), verb.data(),
+               code == ExitCode::internal ? "internal fault: " : "", clean_lines(text).c_str());
   return exit_status(code);
 }
 

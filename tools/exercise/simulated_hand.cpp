@@ -24,6 +24,9 @@ constexpr double kMeshSize =
 constexpr double kDip = 0.015;  // [m], how far a fitted trace goes above and below the top
 constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: they press a little
 
+// They come from farther aside in this time: hands that appear inside each other feel nothing.
+constexpr nanoseconds kComes = std::chrono::seconds(1);
+
 constexpr double kAside = 6.0;  // radii that hands with the same operator are apart, upwards
 
 // Of a way, by minimum jerk.
@@ -347,8 +350,9 @@ void put_trace(peer::SceneFile& scene, const std::filesystem::path& file) {
     config.fit_to = Eigen::AlignedBox3d(centre - half, centre + half);
     config.position =
         Eigen::Vector3d(kSideBySide * scene.hand.radius * static_cast<double>(i), 0, 0);
-    config.start = config.begin = nanoseconds(0);
-    config.approach.setZero();
+    config.start = kComes;
+    config.begin = nanoseconds(0);
+    config.approach = {static_cast<double>(i) * scene.hand.radius, 0, 0};
     config.speed = 1.0;
   }
 }

@@ -61,4 +61,16 @@ void append_clean_text(std::string& out, std::string_view text) {
   }
 }
 
+std::string clean_lines(std::string_view text) {
+  std::string out;
+  for (std::size_t end = 0; !text.empty(); text.remove_prefix(end)) {
+    end = std::min(text.find('\n'), text.size());
+    append_clean_text(out, text.substr(0, end));
+    if (end == text.size()) continue;
+    out += '\n';
+    ++end;
+  }
+  return out;
+}
+
 }  // namespace reckon::tools

@@ -28,6 +28,7 @@
 #include "reckon/tools/exercise/device_measuring.hpp"
 #include "reckon/tools/exercise/real_measuring.hpp"
 #include "reckon/tools/exercise/serial_lines.hpp"
+#include "reckon/tools/terminal/foreign_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -72,7 +73,7 @@ void print_json(std::FILE* out, const AttachedDevice& device) {
 }
 
 void print_device(std::FILE* out, const AttachedDevice& device) {
-  fmt::print(out, "{:<8} {}\n         {}\n", device.driver, device.name, device.use);
+  fmt::print(out, "{:<8} {}\n         {}\n", device.driver, clean_lines(device.name), device.use);
   if (!device.problem.empty()) fmt::print(out, "         not now: {}\n", device.problem);
   if (!device.remedy.empty()) fmt::print(out, "         fix: {}\n", device.remedy);
 }
@@ -127,7 +128,7 @@ void print_descriptor(std::FILE* out, const std::filesystem::path& file,
   };
   const Eigen::Vector3d size = 1e3 * (device.work_space.to - device.work_space.from);
   const peer::DeviceStiffness can = stiffness_of(device);
-  fmt::print(out, "{}  {}\n", device.name, file.string());
+  fmt::print(out, "{}  {}\n", clean_lines(device.name), file.string());
   line("is", fmt::format("{} axes, {}", device.axes, ids_of(device)));
   const std::string lasting =
       device.continuous_force > 0

@@ -57,6 +57,11 @@ void make_file(const KeyOptions& options, const Console& console) {
 
 void add_epoch(const KeyOptions& options, const Console& console) {
   const std::chrono::seconds from = time_of(options);
+  if (from <= peer::SteadyClock().utc_now())
+    throw UsageError(fmt::format(
+        "--from {} is over: this host would change its epoch at once, and members without "
+        "the new file would not hear it; write a time by which all have it",
+        options.from));
   GroupKey key = peer::load_group_key(options.file);
   const auto number = static_cast<std::uint16_t>(key.epochs.back().number + 1);
   key.epochs.push_back(peer::draw_epoch(number, from));

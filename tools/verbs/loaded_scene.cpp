@@ -31,6 +31,21 @@ LoadedScene load_whole_scene(const std::string& path) {
   return scene;
 }
 
+namespace {
+
+// What a scene without `touch` admits.
+std::string touch_note(const peer::SceneFile& file) {
+  const peer::NetworkConfig& network = file.network;
+  if (network.touch || !network.key.empty()) return {};
+  if (network.interop)
+    return "without 'touch' everybody on the LAN may press a hand, and no body of the scene is felt "
+           "from another program: list those who may in touch";
+  return "without 'touch' the peers of this scene may press a hand; plain DIS programs are shown, "
+         "not felt, unless touch lists them or is \"all\"";
+}
+
+}  // namespace
+
 std::vector<std::string> scene_notes(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
   std::vector<std::string> notes;
@@ -56,6 +71,7 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
         format_quantity(tier.channel.farthest, "m"), format_quantity(file.aoim.radius, "m")));
     break;
   }
+  if (std::string note = touch_note(file); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }
 

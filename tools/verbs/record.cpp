@@ -11,6 +11,7 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/tools/captures/stamp_order.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
@@ -29,7 +30,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Longest wait for a quiet source, and longest time until received datagrams are on disk.
+/// Longest wait for a quiet source, and for the disk once datagrams are in order (StampOrder).
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
 constexpr std::string_view kSummary =
@@ -109,6 +110,7 @@ class Recording {
   std::unique_ptr<peer::DatagramSource> source_;
   std::unique_ptr<MetricsServer> metrics_;  ///< null: nobody asks
   std::unique_ptr<peer::CaptureWriter> writer_;
+  StampOrder order_{[this](const peer::SourceDatagram& datagram) { writer_->write(datagram); }};
   peer::SteadyClock clock_;
   nanoseconds begin_{clock_.now()};
   StatusLine status_;
@@ -147,6 +149,7 @@ void Recording::record() {
     if (event == peer::SourceEvent::datagram) take(datagram);
     flush_when_due(now, event == peer::SourceEvent::nothing_yet);
   }
+  order_.flush();
   status_.clear();
   const std::uint64_t lost = source_->report().dropped;
   writer_->finish(datagrams_ + left_out_ + lost, lost);
@@ -161,7 +164,7 @@ void Recording::take(const peer::SourceDatagram& datagram) {
     ++left_out_;
     return;
   }
-  writer_->write(datagram);
+  order_.add(datagram);
   ++datagrams_;
   octets_ += datagram.bytes.size();
   if (!is_read) return;
@@ -171,6 +174,7 @@ void Recording::take(const peer::SourceDatagram& datagram) {
 }
 
 void Recording::flush_when_due(nanoseconds now, bool quiet) {
+  if (quiet) order_.flush();
   if (quiet || now - flushed_ >= kPatience) {
     writer_->flush();
     flushed_ = now;

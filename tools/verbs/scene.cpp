@@ -8,6 +8,7 @@
 
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/terminal/foreign_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
@@ -78,7 +79,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
 
 void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,
                     std::FILE* out) {
-  if (!json) return fmt::print(out, "{}\n", error.what());
+  if (!json) return fmt::print(out, "{}\n", clean_lines(error.what()));
   std::string text;
   for (const peer::SceneProblem& problem : error.problems()) {
     JsonObject(text)

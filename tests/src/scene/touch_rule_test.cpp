@@ -29,9 +29,21 @@ std::string touch_problem(const std::string& network) {
   return "none";
 }
 
-TEST(TouchRule, LetsAllTouchUnlessTheSceneSaysElse) {
-  EXPECT_TRUE(TouchRule().allows({1, 2}, false));
-  EXPECT_TRUE(parse_scene_file("", "x").network.touch.allows({1, 2}, false));
+TouchRule rule_of(const std::string& network) {
+  return parse_scene_file("[network]\n" + network, "x").network.touch_rule();
+}
+
+TEST(TouchRule, AdmitsThePeersOfTheSceneByDefault) {
+  EXPECT_EQ(rule_of("").text(), "scene");
+  EXPECT_TRUE(rule_of("").allows({1, 2}, true));
+  EXPECT_FALSE(rule_of("").allows({1, 2}, false));
+}
+
+TEST(TouchRule, AdmitsAllByDefaultInAnInteropExercise) {
+  EXPECT_EQ(rule_of("interop = true\n").text(), "all");
+  EXPECT_TRUE(rule_of("interop = true\n").allows({1, 2}, false));
+  EXPECT_THAT(touch_problem("interop = true\ntouch = \"scene\"\n"),
+              HasSubstr("no peer announces itself in an 'interop' exercise"));
 }
 
 TEST(TouchRule, BindsNamesToLivingPeersAlone) {
@@ -43,21 +55,19 @@ TEST(TouchRule, BindsNamesToLivingPeersAlone) {
 }
 
 TEST(TouchRule, IsWrittenAsItIsRead) {
-  for (const char* text : {"all", "members", "1:2", "1:2, 40:1"})
+  for (const char* text : {"all", "scene", "members", "1:2", "1:2, 40:1"})
     EXPECT_EQ(touch_rule(text).text(), text);
   for (const char* text : {"", "nobody", "1", "1:", "0:1", "1:65535", "1:2,"})
     EXPECT_FALSE(TouchRule::parse(text)) << text;
 }
 
 TEST(TouchRule, IsAListOrATextInAScene) {
-  const auto of = [](const std::string& text) {
-    return parse_scene_file("[network]\n" + text, "x").network.touch.text();
-  };
+  const auto of = [](const std::string& text) { return rule_of(text).text(); };
   EXPECT_EQ(of("touch = [\"1:2\", \"40:1\"]\n"), "1:2, 40:1");
   EXPECT_EQ(of("touch = \"1:2\"\n"), "1:2");
   EXPECT_EQ(of("touch = \"all\"\n"), "all");
-  EXPECT_THAT(touch_problem("touch = \"friends\"\n"), HasSubstr("it wants all, members, or"));
-  EXPECT_THAT(touch_problem("touch = []\n"), HasSubstr("it wants all, members, or"));
+  EXPECT_THAT(touch_problem("touch = \"friends\"\n"), HasSubstr("it wants scene, all, members, or"));
+  EXPECT_THAT(touch_problem("touch = []\n"), HasSubstr("it wants scene, all, members, or"));
   EXPECT_THAT(touch_problem("touch = 7\n"), HasSubstr("x:2:"));
 }
 

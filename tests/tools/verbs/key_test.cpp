@@ -70,6 +70,13 @@ TEST_F(KeyVerb, AddsTheSecretOfALaterTime) {
   EXPECT_THAT(before.err, HasSubstr("have to grow"));
 }
 
+TEST_F(KeyVerb, RefusesANextEpochInThePast) {
+  const ProgramResult past = run_reckon({"key", "next", key(), "--from", "1970-01-01T00:00:00Z"});
+  EXPECT_EQ(past.status, 2);
+  EXPECT_THAT(past.err, HasSubstr("--from 1970-01-01T00:00:00Z is over"));
+  EXPECT_THAT(run_reckon({"key", "show", key()}).out, Not(HasSubstr("epoch  2")));
+}
+
 TEST_F(KeyVerb, EndsWithStatus2AndTheRemedyWhereAKeyCannotBeUsed) {
   EXPECT_EQ(run_reckon({"key", "new", key()}).status, 2);
   const std::string capture = sealed_capture();

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Reports to the user that datagrams of others are lost on their way.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "reckon/aoim/groups/sequence_tracker.hpp"
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/loops/notice.hpp"
+
+namespace reckon::peer {
+
+/// Looks at the losses of each kWindow, and reports those above kShare, at most once in kQuiet. One
+/// thread; no allocation.
+class LossWatch {
+ public:
+  using Nanoseconds = std::chrono::nanoseconds;
+  static constexpr Nanoseconds kWindow = std::chrono::seconds(10);
+  static constexpr Nanoseconds kQuiet = std::chrono::minutes(1);
+  static constexpr double kShare = 0.05;
+  /// Fewer lost datagrams in a window are no share.
+  static constexpr std::uint64_t kLeast = 10;
+
+  /// Call it some times a second.  @param counts of all senders  @param out receives notices
+  void look(const aoim::SequenceCounts& counts, Nanoseconds now,
+            haptics::SpscRing<Notice>& out) noexcept;
+
+ private:
+  Nanoseconds window_{-1}, reported_ = Nanoseconds::min() / 2;
+  std::uint64_t received_ = 0, lost_ = 0;  // at its begin
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The owner of a scene's bodies: its first peer, by its announcement.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/presence.hpp"
+#include "reckon/aoim/presence/source_address.hpp"
+
+namespace reckon::peer {
+
+/// A peer that announces the number of the scene's first peer while another has it.
+struct BodyRival {
+  aoim::PeerId name, owner;
+  aoim::SourceAddress from;
+};
+
+/// The epoch that owns the bodies. Of several peers that announce number 1, the one that was
+/// received first owns them, until it is gone. One thread; no allocation; linear in the peers.
+class BodyOwner {
+ public:
+  /// Finds owner and rival among the peers. Call it some times a second.
+  void look(const aoim::Presence& presence) noexcept;
+  /// Epoch of the owner; 0 if it is this peer or not known.
+  [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }
+  /// The last peer to announce number 1 beside the owner, if there is one.
+  [[nodiscard]] const std::optional<BodyRival>& rival() const noexcept { return rival_; }
+
+ private:
+  std::uint32_t epoch_ = 0;
+  std::optional<BodyRival> rival_;
+};
+
+}  // namespace reckon::peer
