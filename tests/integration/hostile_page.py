@@ -10,6 +10,7 @@ import ssl
 import statistics
 import struct
 import subprocess
+import threading
 import time
 
 from testbed import Testbed, check
@@ -19,7 +20,8 @@ ALICE, MALLORY = 1, 3
 SECONDS = 6.0
 FIRST_PICTURE = 0.5  # [s] within which the user's tab has one, whatever strangers do
 EVERY = 0.3          # [s] between two tabs of the user
-AT_ONCE = 40         # connections that are opened before the user has a turn
+AT_ONCE = 20         # connections that strangers open, then they pause
+PAUSE = 0.005        # [s]
 MARKING = "ALICE"
 PICTURE, TEXT = 0x82, 0x81
 
@@ -65,10 +67,12 @@ def frames(octets):
     return found
 
 
-class Strangers:
+class Strangers(threading.Thread):
     """Their connections, each renewed when it is closed."""
 
     def __init__(self, bed, drawn, address):
+        super().__init__(daemon=True)
+        self._ended = threading.Event()
         self._bed, self._drawn, self._address = bed, drawn, address
         self._port = int(address.rsplit(":", 1)[1])
         self._waiting = ["silent"] * drawn.silent + ["reader"] * drawn.readers + ["head"] * drawn.heads
@@ -78,7 +82,11 @@ class Strangers:
         self.pictures = self.named = self.opened = 0
         self._heard = {}
 
-    def step(self):
+    def run(self):
+        while not self._ended.wait(PAUSE):
+            self._step()
+
+    def _step(self):
         """Opens some of those that are closed, and reads what there is for those that read."""
         for _ in range(min(AT_ONCE, len(self._waiting))):
             self._begin(self._waiting.pop(0))
@@ -86,7 +94,9 @@ class Strangers:
             self._take(key.fileobj)
 
     def end(self):
-        """Reads what silent ones were sent."""
+        """Stops, and reads what silent ones were sent."""
+        self._ended.set()
+        self.join()
         for sock in list(self._open):
             if self._open[sock] == "silent":
                 self._take(sock, again=False)
@@ -196,10 +206,10 @@ def attack(setup, seed):
     with setup.testbed(MALLORY) as bed:
         peer, address, word = start(setup, bed, drawn)
         strangers, times = Strangers(bed, drawn, address), []
+        strangers.start()
         begin = time.monotonic()
         while time.monotonic() - begin < SECONDS:
             turn = time.monotonic()
-            strangers.step()
             times.append(first_picture(bed, drawn, address, word, drawn.draw.choice((ALICE, MALLORY - 1))))
             time.sleep(max(0.0, EVERY - (time.monotonic() - turn)))
         strangers.end()

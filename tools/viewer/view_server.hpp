@@ -35,8 +35,8 @@ struct ViewServerOptions {
   static constexpr std::uint16_t kDefaultPort = 8642;
   std::string address = "127.0.0.1";  ///< of an interface of this host; "0.0.0.0": of all
   /// None: kDefaultPort or the next that is free. 0: any that is free.
-  std::optional<std::uint16_t> port;
-  std::string word;            ///< by which tabs may push; see draw_word
+  std::optional<std::uint16_t> port = {};
+  std::string word = {};       ///< by which tabs may push; see draw_word
   ServedMetrics metrics = {};  ///< of a server without a page
   bool needs_word = false;     ///< to look, too: the exercise has a key
   TlsFiles tls = {};           ///< without: plain HTTP
