@@ -76,9 +76,10 @@ TEST_F(NativeCode, IsSaidFirstAndNotLoadedByReaders) {
 TEST_F(NativeCode, AnyPathOfASceneIsRefusedWithTheRemedy) {
   for (const std::string& plugin : {std::string("elsewhere/honey.so"), driver_,
                                     std::string("honey.so"), std::string("../../x/honey.so")}) {
-    for (const auto& result : {demo(scene_of(plugin)), run_reckon({scene_of(plugin)}),
-                               run_reckon({"peer", scene_of(plugin), "--iface", "lo", "--for",
-                                           "50ms", "--operator", "1"})}) {
+    for (const auto& result :
+         {demo(scene_of(plugin)), run_reckon({scene_of(plugin), "--for", "50ms"}),
+          run_reckon(
+              {"peer", scene_of(plugin), "--iface", "lo", "--for", "50ms", "--operator", "1"})}) {
       EXPECT_EQ(result.status, 2) << result.err;
       EXPECT_THAT(result.err, AllOf(HasSubstr("runs native code: " + plugin + " (driver"),
                                     HasSubstr("asks for native code at " + plugin +
