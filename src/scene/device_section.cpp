@@ -77,7 +77,10 @@ void check_mapping(TomlReader& table, const DeviceConfig& device) {
 }
 
 // What only one kind of device has.
-void check_kind(TomlReader& table, const DeviceConfig& device) {
+void check_kind(TomlReader& table, DeviceConfig& device) {
+  std::string plugin;
+  table.read("plugin", plugin);
+  device.plugin = plugin;
   if (device.driver != DeviceDriver::falcon && table.has("firmware"))
     table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
   for (const char* key : {"plugin", "plugin_options"}) {
@@ -87,7 +90,7 @@ void check_kind(TomlReader& table, const DeviceConfig& device) {
                     "take it out");
     }
   }
-  if (device.driver == DeviceDriver::plugin && device.plugin.empty())
+  if (device.driver == DeviceDriver::plugin && !device.plugin.has_filename())
     table.problem("driver", "a plugin is a shared library: name it with plugin = \"driver.so\"");
   for (const char* key : {"port", "baud"}) {
     if (device.driver != DeviceDriver::serial && table.has(key)) {
@@ -314,7 +317,7 @@ Section<ProbeConfig> probe_section() {
 Section<DeviceConfig> device_section() {
   using Device = DeviceConfig;
   const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
-  const auto no_descriptor = [](const Device&) { return std::string(); };
+  const auto no_text = [](const Device&) { return std::string(); };
   const auto rate = [](const Device&) { return kStandardRate; };
   const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };
   Section<Device> section{
@@ -330,11 +333,12 @@ Section<DeviceConfig> device_section() {
            "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
            "which a person holds; evdev, a wheel or stick with force feedback; or a plugin, a "
            "driver of yours; in simulated time its operator stands in"},
-          {"descriptor", no_descriptor,
+          {"descriptor", no_text,
            "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
            "before it: docs/devices.md"},
-          {"plugin", &Device::plugin,
-           "of a plugin: the shared library of the driver; what the device can do, it says itself"},
+          {"plugin", no_text,
+           "of a plugin: name of the driver's shared library, which is installed or given by "
+           "--plugin; what the device can do, it says itself"},
           {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
           {"firmware", &Device::firmware,
            "of a Falcon: file of its program, which is its maker's; absent: it has it already"},

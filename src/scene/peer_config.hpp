@@ -184,7 +184,7 @@ struct DeviceConfig {
   double travel = 0.0;           ///< [m], of an event device, from end to end of an axis; 0: unsaid
   double full_force = 0.0;       ///< [N], of an event device at its greatest level; 0: unsaid
   double full_stiffness = 0.0;   ///< [N/m], of its greatest coefficient; 0: unsaid
-  std::filesystem::path plugin;  ///< shared library of its driver; absolute once loaded
+  std::filesystem::path plugin;  ///< shared library of its driver, as the scene says
   std::string plugin_options;    ///< for that driver
   AdmittanceConfig admittance;
   double reach = 0.5;   ///< [m] > 0, of a pointer from the start, along each of the device's axes

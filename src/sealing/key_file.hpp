@@ -67,9 +67,14 @@ class KeyFileError : public std::runtime_error {
 /// Reads the text of a key file; `file` is its name in messages.  @throws KeyFileError
 [[nodiscard]] GroupKey parse_group_key(std::string_view text, const std::string& file);
 
-/// Reads the file and checks that this CPU supports its suite. The file must belong to the user of
-/// this process, and nobody else may read or write it (mode 0600 or less). From then on the process
-/// writes no core dump and cannot be traced (PR_SET_DUMPABLE, RLIMIT_CORE).
+/// Checks an open file with a secret: it must belong to the user of this process, and nobody else
+/// may read or write it (mode 0600 or less). @param path its name in messages
+/// @throws KeyFileError with the remedy
+void check_owner_alone(const std::filesystem::path& path, int file);
+
+/// Reads the file and checks that this CPU supports its suite; check_owner_alone()
+/// holds for it. From then on the process writes no core dump and cannot be traced
+/// (PR_SET_DUMPABLE, RLIMIT_CORE).
 /// @throws KeyFileError with the remedy
 [[nodiscard]] GroupKey load_group_key(const std::filesystem::path& path);
 

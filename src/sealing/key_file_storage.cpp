@@ -47,20 +47,6 @@ class File {
   throw KeyFileError(fmt::format("{}: {}", path.string(), sentence));
 }
 
-void check_owner_alone(const std::filesystem::path& path, const File& file) {
-  struct stat state {};
-  if (::fstat(file.number(), &state) != 0 || !S_ISREG(state.st_mode))
-    fail(path, "is no file; name a key file, as `reckon key new FILE` makes one");
-  if (state.st_uid != ::geteuid())
-    fail(path,
-         fmt::format("belongs to another user (uid {}), who can read and change it: copy it to "
-                     "a file of your own with `install -m 600`",
-                     state.st_uid));
-  if ((state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    fail(path, fmt::format("others than its owner may read it (mode {:04o}): chmod 600 {}",
-                           state.st_mode & 07777, path.string()));
-}
-
 // Hides the process's memory from core dumps and from debuggers of the same user.
 void keep_out_of_core_dumps() noexcept {
   static_cast<void>(::prctl(PR_SET_DUMPABLE, 0));
@@ -102,12 +88,26 @@ bool write_whole(const File& file, std::string_view text) {
 
 }  // namespace
 
+void check_owner_alone(const std::filesystem::path& path, int file) {
+  struct stat state {};
+  if (::fstat(file, &state) != 0 || !S_ISREG(state.st_mode))
+    fail(path, "is no file; name one with a key in it");
+  if (state.st_uid != ::geteuid())
+    fail(path,
+         fmt::format("belongs to another user (uid {}), who can read and change it: copy it to "
+                     "a file of your own with `install -m 600`",
+                     state.st_uid));
+  if ((state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    fail(path, fmt::format("others than its owner may read it (mode {:04o}): chmod 600 {}",
+                           state.st_mode & 07777, path.string()));
+}
+
 GroupKey load_group_key(const std::filesystem::path& path) {
   const File file(path, O_RDONLY | O_NONBLOCK);
   if (!file.is_open())
     fail(path, errno == ENOENT ? "there is no such key file; `reckon key new FILE` makes one"
                                : fmt::format("cannot be read: {}", std::strerror(errno)));
-  check_owner_alone(path, file);
+  check_owner_alone(path, file.number());
   keep_out_of_core_dumps();
   SecretText text;
   if (!text.read(file)) fail(path, "cannot be read, or is longer than a key file is");

@@ -15,6 +15,7 @@ import threading
 import time
 
 import hostile_drawn
+import hostile_page
 import testbed
 from hostile_attacks import ALICE, ATTACKS, BOB, Heard
 from hostile_leaders import FORGED, LEADER_ATTACKS
@@ -276,6 +277,7 @@ def attack_all(setup, names, seconds, fresh):
 def hostile_table(setup):
     """Every attack, each against a fresh pair in contact: none interrupts it, none outlasts itself, each is told."""
     attack_all(setup, ATTACKS, 4.0, fresh=True)
+    hostile_page.hostile_page(setup)
 
 
 def hostile_leaders(setup):
@@ -305,7 +307,10 @@ def hostile_families(setup):
     failed, results = [], {}
     print(HEAD, flush=True)
     for seed in range(first, first + setup.runs):
-        for name in (setup.family,) if setup.family else hostile_drawn.FAMILIES:
+        for name in (setup.family,) if setup.family else (*hostile_drawn.FAMILIES, hostile_page.NAME):
+            if name == hostile_page.NAME:
+                failed.extend(f"{name} {seed}: {problem}" for problem in hostile_page.attack(setup, seed))
+                continue
             with setup.testbed(CAROL) as bed:
                 attack = hostile_drawn.of(name, seed)
                 aoim = "\n".join(("pool = 16", *attack.aoim))
@@ -410,7 +415,7 @@ def hostile_sealed_short(setup):
     forge(setup, 200_000)
 
 
-CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_families, hostile_short, hostile_sealed, hostile_sealed_short)}
+CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_families, hostile_short, hostile_sealed, hostile_sealed_short, hostile_page.hostile_page)}
 
 
 def one_attack(name):

@@ -252,6 +252,11 @@ void CommandLine::option(const std::string& name, std::vector<std::string>& targ
   parser_->app.add_option(name, target, help)->type_name("TEXT")->allow_extra_args(false);
 }
 
+void CommandLine::option(const std::string& name, std::pair<std::string, std::string>& target,
+                         const std::string& help, const std::string& values) {
+  parser_->app.add_option(name, target, help)->type_name(values);
+}
+
 void CommandLine::option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
                          const std::string& help) {
   parser_->add(name, help, "DURATION",

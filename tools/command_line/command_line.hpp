@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "reckon/tools/command_line/console.hpp"
@@ -49,6 +50,9 @@ class CommandLine {
   void option(const std::string& name, std::optional<std::uint64_t>& target,
               const std::string& help);
   void option(const std::string& name, double& target, const std::string& help);
+  /// An option with two values. @param values their names, as in "CERT KEY"
+  void option(const std::string& name, std::pair<std::string, std::string>& target,
+              const std::string& help, const std::string& values);
   /// An option with one of a few words.
   void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
               const std::string& help);

@@ -62,7 +62,9 @@ struct Exercise::Hand {
 };
 
 Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
-    : options_(options), manual_(std::chrono::seconds(1), std::chrono::hours(1)) {
+    : options_(options),
+      manual_(std::chrono::seconds(1), std::chrono::hours(1)),
+      real_(options.plugins) {
   if (options.peers < 1 || options.peers > 64) {
     throw std::invalid_argument(
         fmt::format("{} peers: between 1 and 64 can be run", options.peers));

@@ -50,6 +50,7 @@ struct ExerciseOptions {
   bool even_if_slow = false;                 ///< real time: see FederateOptions
   haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null: none
   bool time_servo = false;                   ///< simulated time: measure what servo steps take
+  std::vector<std::string> plugins = {};     ///< real time: files of drivers that may be loaded
 };
 
 /// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory

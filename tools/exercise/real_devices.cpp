@@ -21,6 +21,7 @@
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -137,6 +138,14 @@ void add_device_flags(CommandLine& line, DeviceChoice& choice) {
           fmt::join(driver_words(), ", ")));
   line.option("--firmware", choice.firmware,
               "file of the program that a Falcon runs, where it has lost it");
+  line.option("--plugin", choice.plugins,
+              "file of a driver that the scene may load by its name; may be given again");
+}
+
+std::vector<std::string> plugins_of(const DeviceChoice& choice) {
+  std::vector<std::string> files = choice.plugins;
+  if (is_plugin(choice.device)) files.push_back(choice.device);
+  return files;
 }
 
 void check_device_choice(const DeviceChoice& choice) {
@@ -157,6 +166,9 @@ void check_device_choice(const DeviceChoice& choice) {
         "./DRIVER.so",
         name, meant, fmt::join(words, ", ")));
   }
+  for (const std::string& file : choice.plugins)
+    if (std::error_code none; !std::filesystem::is_regular_file(file, none))
+      throw UsageError(fmt::format("--plugin: there is no file '{}'", file));
   if (choice.firmware.empty()) return;
   try {
     static_cast<void>(haptics::FalconFirmware::load(choice.firmware));
@@ -230,12 +242,12 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const DeviceConfig& device = devices[i];
     if (device.driver == DeviceDriver::plugin) {
-      plugins_.push_back(
-          std::make_unique<haptics::PluginDevice>(device.plugin, device.plugin_options));
+      const std::filesystem::path file = trusted_plugin(device.plugin, trusted_);
+      plugins_.push_back(std::make_unique<haptics::PluginDevice>(file, device.plugin_options));
       wired[i].device = as_mapped(*plugins_.back(), device);
       sentences_.push_back(fmt::format(
           "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
-          plugins_.back()->name(), plugins_.back()->limits().damping, device.plugin.string()));
+          plugins_.back()->name(), plugins_.back()->limits().damping, file.string()));
       continue;
     }
     if (device.driver == DeviceDriver::evdev) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
@@ -20,12 +21,16 @@
 
 namespace reckon::tools {
 
-/// --device and --firmware of a demo or a peer.
+/// --device, --firmware and --plugin of a demo or a peer.
 struct DeviceChoice {
   std::string device;    ///< name of a driver, file of one, line of a board, with @BAUD where it
                          ///< is not the usual, or path of a wheel; empty: as the scene says
   std::string firmware;  ///< file; empty: as the scene says
+  std::vector<std::string> plugins = {};  ///< files of --plugin
 };
+
+/// Files of drivers that the user named, by --plugin or --device.
+[[nodiscard]] std::vector<std::string> plugins_of(const DeviceChoice& choice);
 
 /// Whether a --device is the path of one that renders springs by itself.
 [[nodiscard]] bool is_event_device(const std::string& device);
@@ -46,10 +51,13 @@ void choose_device(const DeviceChoice& choice, peer::SceneFile& scene, std::uint
 /// Holds the real devices of a process; outlives the peers that use them.
 class RealDevices {
  public:
+  /// @param plugins files of drivers that may be loaded, besides those of plugin_folder()
+  explicit RealDevices(std::vector<std::string> plugins = {}) : trusted_(std::move(plugins)) {}
+
   /// Puts real devices in the place of the simulated ones of peer `number` that have a driver.
   /// @param wired that of make_simulated_hands() for that peer @throws std::runtime_error with the
   /// remedy where a plugin is refused, the host has no USB, a firmware cannot be read, or a second
-  /// device of a kind, or on a line, is asked for
+  /// device of a kind, or on a line, is asked for, UsageError for a plugin that is not trusted
   void plug_in(const peer::SceneFile& scene, std::uint32_t number,
                std::vector<peer::PeerDevice>& wired);
   /// Sentences since the last call.
@@ -69,6 +77,7 @@ class RealDevices {
   [[nodiscard]] haptics::HapticDevice* as_mapped(haptics::HapticDevice& device,
                                                  const peer::DeviceConfig& config);
 
+  std::vector<std::string> trusted_;
   peer::SteadyClock clock_;
   struct Plugged {
     peer::DeviceDriver driver;

@@ -66,7 +66,8 @@ class OpenedDevice {
  public:
   /// @throws UsageError, EnvironmentError with the remedy
   explicit OpenedDevice(const RealMeasuring& wanted)
-      : scene_(peer::parse_scene_file("[[operator]]\npassive = true\n", "measure")) {
+      : scene_(peer::parse_scene_file("[[operator]]\npassive = true\n", "measure")),
+        real_(plugins_of(wanted.choice)) {
     choose_device(wanted.choice, scene_, 1, 1);
     peer::DeviceConfig& config = scene_.devices.front();
     if (config.driver == peer::DeviceDriver::serial) {

@@ -23,6 +23,7 @@
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
+#include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_slice.hpp"
@@ -297,6 +298,7 @@ ExerciseOptions exercise_options(const DemoOptions& options) {
   made.simulated_time = options.simulated_time;
   made.transfer = !options.no_transfer;
   made.even_if_slow = options.scene.even_if_slow;
+  made.plugins = plugins_of(options.device);
   made.trace_bodies = !options.traces.bodies.empty();
   made.trace_loops = !options.traces.loop.empty();
   made.impairment_changes = made.trace_contacts = flags_of_switch(options.view).has_value();
@@ -332,6 +334,7 @@ int run(const DemoOptions& asked, const Console& console) {
   DemoOptions options = asked;
   check_flags(options);
   peer::SceneFile scene = load_scene(options.scene, kDefaultScene, options.asked_peers.value_or(2));
+  if (!options.simulated_time) say_native_code(scene, console);
   options.peers = peers_of(options, scene);
   if (!scene.network.peers.empty())
     fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
@@ -340,6 +343,8 @@ int run(const DemoOptions& asked, const Console& console) {
   choose_device(options.device, scene, 1, options.peers);
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   const auto flags = flags_of_switch(options.view);
+  const bool has_key = !scene.network.key.empty();
+  if (flags) (void)server_options(*flags, has_key);  // refused before anything begins
   if (flags) let_pages_move_hands(scene, options.peers);
   StopControl stop;  // before the devices
   std::optional<Exercise> exercise;
@@ -349,6 +354,8 @@ int run(const DemoOptions& asked, const Console& console) {
     exercise.emplace(scene, made);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
+  } catch (const UsageError&) {
+    throw;
   } catch (const peer::StepTooDear& slow) {
     throw EnvironmentError(refusal_of(slow));
   } catch (const std::runtime_error& error) {
@@ -358,6 +365,7 @@ int run(const DemoOptions& asked, const Console& console) {
   std::optional<HandTwins> twins;
   if (flags) twins.emplace(scene, *exercise);
   std::optional<DemoPage> page;
+  std::unique_ptr<BrowserRedirect> browser;
   if (traces.takes_steps() || flags) {
     exercise->on_step(
         [&](std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
@@ -375,7 +383,8 @@ int run(const DemoOptions& asked, const Console& console) {
   if (flags) {
     exercise->run(SelfView::kLookEvery);  // till its hands have numbers
     page.emplace(*flags, scene, page_options(options, *exercise), *exercise, *twins);
-    show_address(page->view(), *flags, display);
+    show_address(page->view(), has_key, display);
+    browser = open_browser(*flags, page->view().address());
   } else if (!options.simulated_time) {
     display.put_in_head("with --view it is shown in a browser, where the mouse is a hand");
   }

@@ -8,8 +8,7 @@
 
 namespace reckon::tools {
 
-/// Puts the page's address in the display's head, and among its notices whom else it lets in; opens
-/// the browser where that is asked for.
-void show_address(const SelfView& view, const ViewFlags& flags, LiveDisplay& display);
+/// Puts the page's address in the display's head, and among its notices whom else it lets in.
+void show_address(const SelfView& view, bool has_key, LiveDisplay& display);
 
 }  // namespace reckon::tools

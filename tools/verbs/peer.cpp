@@ -22,6 +22,7 @@
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
+#include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/exercise/real_devices.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
@@ -126,7 +127,8 @@ class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
               EntityEvents& events, peer::DatagramTap* tap)
-      : joined_(federate_options(scene, options, hands_, real_, tap, stop_.stop()),
+      : real_(plugins_of(options.device)),
+        joined_(federate_options(scene, options, hands_, real_, tap, stop_.stop()),
                 options.events ? &events : nullptr) {
     if (joined_.options().deal) {
       fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
@@ -322,6 +324,8 @@ std::unique_ptr<RunningPeer> joined_peer(const peer::SceneFile& scene,
                                          EntityEvents& events, peer::DatagramTap* tap) {
   try {
     return std::make_unique<RunningPeer>(scene, options, console, events, tap);
+  } catch (const UsageError&) {
+    throw;
   } catch (const peer::StepTooDear& slow) {
     throw EnvironmentError(refusal_of(slow));
   } catch (const std::runtime_error& error) {
@@ -333,8 +337,12 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const std::vector<peer::NamedPeer> list = read_list(options.to);
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                      options.operator_number.value_or(peer::kMostPeers));
+  say_native_code(scene, console);
   check_balance(scene, options);
   check_application(scene, options);
+  const auto flags = flags_of_switch(options.view);
+  const bool has_key = !scene.network.key.empty();
+  if (flags) (void)server_options(*flags, has_key);  // refused before it joins
   send_to(list, scene.network, console);
   follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer
@@ -348,8 +356,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1);
   if (metrics) display.add({metrics->sentence()});
-  const auto flags = flags_of_switch(options.view);
   std::optional<PeerPage> page;
+  std::unique_ptr<BrowserRedirect> browser;
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};
   bool shown = false;  // a picture has come: it has the hands
@@ -364,7 +372,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
       const PeerPageOptions named{options.scene.scene, options.scene.iface};
       page.emplace(*flags, scene, named, view, running->pointers());
       page->add_receiver(running->peer());
-      show_address(page->view(), *flags, display);
+      show_address(page->view(), has_key, display);
+      browser = open_browser(*flags, page->view().address());
     }
     if (page) page->show(view);
     if (metrics && metrics->is_due(running->now()))

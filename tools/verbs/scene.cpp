@@ -8,6 +8,7 @@
 
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/terminal/foreign_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -57,6 +58,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .value("entities", entities)
         .value("nodes", node_count(scene.file))
         .text("hash", hash_text(scene.file.hash))
+        .array("native_code", native_code_of(scene.file), append_json_string)
         .array("notes", notes, append_json_string)
         .array("meshes", meshes,
                [](std::string& row, const MeshFacts& mesh) { append_mesh_json(row, mesh); })
@@ -64,6 +66,8 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .end("\n");
     return fmt::print(out, "{}", text);
   }
+  for (const std::string& line : native_code_of(scene.file))
+    fmt::print(out, "{}: {}\n", path, line);
   std::string more;
   if (const std::size_t nodes = node_count(scene.file); nodes > 0)
     more += ", " + counted(nodes, "node");

@@ -17,6 +17,7 @@
 #include "reckon/haptics/regions/region_types.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/step_cost/stage_costs.hpp"
+#include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/scene_graph_text.hpp"
@@ -152,6 +153,7 @@ std::string step_text(const peer::StageCosts& costs) {
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   const std::vector<SceneDevice> devices = devices_in(scene.file, scene.plan);
   const auto stages = stages_of(scene, devices);
+  for (const std::string& line : native_code_of(scene.file)) fmt::print(out, "{}\n", line);
   fmt::print(out, "{}   hash {}\n\n", scene.file.name, hash_text(scene.file.hash));
   const peer::StageCosts costs =
       peer::measure_stages(scene.file.scene, scene.plan, scene.file.hand.contact_radius);
@@ -210,6 +212,7 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
       .text("kind", "scene")
       .text("name", scene.file.name)
       .text("hash", hash_text(scene.file.hash))
+      .array("native_code", native_code_of(scene.file), append_json_string)
       .value("stages", stages.size())
       .end("\n");
   const peer::StageCosts costs =

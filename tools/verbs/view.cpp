@@ -122,8 +122,9 @@ void show_metrics(MetricsServer& server, Viewing& viewing, nanoseconds now, nano
 int serve(const ViewOptions& options, const Console& console) {
   const auto metrics = metrics_server(options.metrics);
   const std::optional<peer::SceneFile> scene = scene_of(options.source);
+  const bool has_key = !options.key.empty() || (scene && !scene->network.key.empty());
   ViewingOptions viewing_options;
-  viewing_options.server = server_options(options.view);
+  viewing_options.server = server_options(options.view, has_key);
   viewing_options.key = options.key;
   StageOptions& stage = viewing_options.stage = stage_options(options);
   stage.scene = scene ? &*scene : nullptr;
@@ -132,7 +133,8 @@ int serve(const ViewOptions& options, const Console& console) {
   if (is_live(options.source))
     fmt::print(console.err, "listening to {}\n", listening_text(options.source, source->report()));
   Viewing viewing(viewing_options, std::move(source));
-  tell_addresses(viewing.server(), options.view, console);
+  tell_addresses(viewing.server(), has_key, console);
+  const auto browser = open_browser(options.view, viewing.server().address());
   if (metrics) fmt::print(console.err, "{}\n", metrics->sentence());
   const peer::SteadyClock clock;
   const nanoseconds begin = clock.now();
@@ -158,8 +160,8 @@ int serve(const ViewOptions& options, const Console& console) {
 
 void check_save(const ViewOptions& options) {
   const ViewFlags& view = options.view;
-  if (view.port || view.open || view.listen != ViewFlags().listen)
-    throw UsageError("--save serves no page: leave --port, --listen and --open out");
+  if (const std::string_view given = view.port ? "--port" : given_flag(view); !given.empty())
+    throw UsageError(fmt::format("--save serves no page: leave {} out", given));
   if (!options.metrics.empty())
     throw UsageError("--metrics: with --save nothing is served; leave it out");
   if (is_live(options.source) && !options.duration)

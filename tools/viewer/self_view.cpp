@@ -32,7 +32,7 @@ SelfView::SelfView(const ViewFlags& flags, const peer::SceneFile& scene,
                    const SelfViewOptions& options, OwnHands hands)
     : knows_all_(options.knows_all), hands_(std::move(hands)) {
   ViewingOptions viewing;
-  viewing.server = server_options(flags);
+  viewing.server = server_options(flags, !scene.network.key.empty());
   viewing.key = scene.network.key.string();
   viewing.hands = hands_.names();
   StageOptions& stage = viewing.stage;

@@ -3,24 +3,23 @@
 #include "reckon/tools/viewer/view_server.hpp"
 
 #include <fmt/format.h>
-#include <ifaddrs.h>
-#include <netinet/in.h>
 
 #include <algorithm>
 #include <array>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
-#include <asio/write.hpp>
-#include <cstring>
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "reckon/tools/viewer/page_files.hpp"
 #include "reckon/tools/viewer/protocol/short_messages.hpp"
+#include "reckon/tools/viewer/web/byte_stream.hpp"
 #include "reckon/tools/viewer/web/http_answer.hpp"
 #include "reckon/tools/viewer/web/http_request.hpp"
+#include "reckon/tools/viewer/web/listening_address.hpp"
+#include "reckon/tools/viewer/web/tls_context.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -28,72 +27,14 @@ namespace {
 using asio::ip::tcp;
 using std::chrono::nanoseconds;
 
-constexpr int kPortsTried = 32;
 constexpr std::size_t kReadSize = 1024;
 /// A file of the page takes no longer.
 constexpr nanoseconds kSlowest = std::chrono::minutes(1);
+constexpr ServerPurpose kPage{"the page", "--port or --listen"}, kMetrics{"metrics", "--metrics"};
 
-/// As a browser writes it.
-std::string address_text(const asio::ip::address& address) {
-  return address.is_v6() ? fmt::format("[{}]", address.to_string()) : address.to_string();
-}
-
-/// By which a server that listens at `bound` is reached.
-std::vector<std::string> own_addresses(const asio::ip::address& bound) {
-  std::vector<std::string> own{"localhost"};
-  if (!bound.is_unspecified()) {
-    own.push_back(address_text(bound));
-    return own;
-  }
-  ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return own;
-  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
-    if (one->ifa_addr == nullptr) continue;
-    if (one->ifa_addr->sa_family == AF_INET) {
-      sockaddr_in address{};
-      std::memcpy(&address, one->ifa_addr, sizeof address);
-      own.push_back(asio::ip::address_v4(ntohl(address.sin_addr.s_addr)).to_string());
-    } else if (one->ifa_addr->sa_family == AF_INET6 && bound.is_v6()) {
-      sockaddr_in6 address{};
-      std::memcpy(&address, one->ifa_addr, sizeof address);
-      asio::ip::address_v6::bytes_type octets{};
-      std::memcpy(octets.data(), &address.sin6_addr, octets.size());
-      own.push_back(address_text(asio::ip::address_v6(octets)));
-    }
-  }
-  freeifaddrs(all);
-  return own;
-}
-
-/// What a server hands out, and by which flags it goes elsewhere.
-struct Purpose {
-  std::string_view what, flags;
-};
-constexpr Purpose kPage{"the page", "--port or --listen"}, kMetrics{"metrics", "--metrics"};
-
-tcp::acceptor open_acceptor(asio::io_context& io, const ViewServerOptions& options,
-                            const Purpose& purpose) {
-  std::error_code error;
-  const auto address = asio::ip::make_address(options.address, error);
-  if (error)
-    throw std::runtime_error(fmt::format(
-        "'{}' is no address; write that of an interface of this host, or 0.0.0.0 for all",
-        options.address));
-  const int first = options.port.value_or(ViewServerOptions::kDefaultPort);
-  const int tried = options.port ? 1 : kPortsTried;
-  for (int i = 0; i < tried; ++i) {
-    tcp::acceptor acceptor(io);
-    const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(first + i));
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (!error) return acceptor;
-    if (error != asio::error::address_in_use) break;
-  }
-  throw std::runtime_error(fmt::format("cannot serve {} at {}:{}: {}; choose another by {}",
-                                       purpose.what, address_text(address), first, error.message(),
-                                       purpose.flags));
+std::optional<asio::ssl::context> tls_of(const TlsFiles& files) {
+  if (files.certificate.empty()) return std::nullopt;
+  return open_tls(files);
 }
 
 }  // namespace
@@ -105,10 +46,14 @@ class ViewServer::Connections {
   Connections(ViewStage* stage, const ViewServerOptions& options)
       : stage_(stage),
         metrics_(options.metrics),
-        acceptor_(open_acceptor(io_, options, stage == nullptr ? kMetrics : kPage)),
+        needs_word_(options.needs_word),
+        tls_(tls_of(options.tls)),
+        acceptor_(open_acceptor(io_, options.address, options.port, ViewServerOptions::kDefaultPort,
+                                stage == nullptr ? kMetrics : kPage)),
         endpoint_(acceptor_.local_endpoint()),
+        certified_(tls_ ? certified_names(*tls_) : std::vector<std::string>()),
         own_(own_addresses(endpoint_.address())),
-        access_(own_, endpoint_.port(), options.word) {
+        access_(all_names(), endpoint_.port(), options.word, tls_.has_value()) {
     accept();
   }
   ~Connections();
@@ -121,16 +66,21 @@ class ViewServer::Connections {
   }
   void tick(nanoseconds now);
   [[nodiscard]] const tcp::endpoint& endpoint() const { return endpoint_; }
-  /// By which it is reached, as browsers write them.
-  [[nodiscard]] const std::vector<std::string>& own() const { return own_; }
+  /// By which it is reached, as browsers write them: first the names of its certificate.
+  [[nodiscard]] std::vector<std::string> all_names() const {
+    std::vector<std::string> all = certified_;
+    all.insert(all.end(), own_.begin(), own_.end());
+    return all;
+  }
   [[nodiscard]] std::string origin(const std::string& host) const {
-    return fmt::format("http://{}:{}", host, endpoint_.port());
+    return fmt::format("{}{}:{}", access_.scheme(), host, endpoint_.port());
   }
   [[nodiscard]] std::string url(const std::string& host) const {
     return fmt::format("{}/#word={}", origin(host), access_.word());
   }
   /// By which this host reaches it.
   [[nodiscard]] std::string own_host() const {
+    if (!certified_.empty()) return certified_.front();
     const asio::ip::address bound = endpoint_.address();
     return bound.is_unspecified() ? "127.0.0.1" : address_text(bound);
   }
@@ -142,15 +92,29 @@ class ViewServer::Connections {
   using Pointer = std::shared_ptr<Connection>;
 
   void accept();
+  /// For one more connection of this address.
+  void make_room(const std::string& from);
+  template <typename Which>
+  [[nodiscard]] std::size_t count(Which&& which) const {
+    return static_cast<std::size_t>(std::ranges::count_if(all_, which));
+  }
+  /// Null: none.
+  template <typename Which>
+  [[nodiscard]] Pointer oldest(Which&& which) const {
+    const auto found = std::ranges::find_if(all_, which);
+    return found == all_.end() ? nullptr : *found;
+  }
 
   ViewStage* stage_;
   ServedMetrics metrics_;
+  bool needs_word_;
+  std::optional<asio::ssl::context> tls_;
   asio::io_context io_;
   tcp::acceptor acceptor_;
   tcp::endpoint endpoint_;
-  std::vector<std::string> own_;
+  std::vector<std::string> certified_, own_;
   Access access_;
-  std::set<Pointer> all_;
+  std::vector<Pointer> all_;  // the oldest first
   bool is_accepting_ = false;
   nanoseconds now_{};
   ViewServerCounts counts_;
@@ -160,44 +124,54 @@ class ViewServer::Connections {
 class ViewServer::Connections::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Connections& all, tcp::socket socket)
-      : all_(all), socket_(std::move(socket)), since_(all.now_) {}
+      : all_(all), stream_(std::move(socket), all.tls_ ? &*all.tls_ : nullptr), since_(all.now_) {}
   ~Connection() { leave(); }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   [[nodiscard]] bool is_tab() const { return watcher_ != nullptr; }
+  [[nodiscard]] bool is_head() const { return !is_tab() && !is_answered_; }
+  /// A tab without the word.
+  [[nodiscard]] bool is_stranger() const { return is_tab() && !knows_word_; }
+  [[nodiscard]] const std::string& from() const { return stream_.from(); }
 
-  void read() {
-    socket_.async_read_some(asio::buffer(room_),
-                            [me = shared_from_this()](std::error_code error, std::size_t size) {
-                              if (error || !me->socket_.is_open()) return me->close();
-                              me->in_.append(me->room_.data(), size);
-                              if (me->take_in()) me->read();
-                            });
+  void open() {
+    stream_.open([me = shared_from_this()](std::error_code error) {
+      if (error || !me->stream_.is_open()) return me->close();
+      me->read();
+    });
   }
   void tick() {
-    if (is_tab()) return send_next();
-    if (all_.now_ - since_ > (is_answered_ ? kSlowest : kPatience)) close();
+    if (!is_tab()) {
+      if (all_.now_ - since_ > (is_answered_ ? kSlowest : kPatience)) close();
+      return;
+    }
+    if (!is_writing_ && watcher_->under_way.empty()) since_ = all_.now_;
+    if (is_stranger() && all_.now_ - since_ > kSilence) return close();
+    send_next();
   }
   /// The last words to a tab, as far as they go out at once.
   void say_bye(std::string_view text) {
     if (!is_tab() || is_writing_) return;
-    const std::string message = bye_message(text);
-    const FrameHead head = frame_head(WebSocketOpcode::text, message.size());
-    std::error_code ignored;
-    socket_.non_blocking(true, ignored);
-    socket_.write_some(std::array{asio::buffer(head.octets.data(), head.size),
-                                  asio::buffer(message.data(), message.size())},
-                       ignored);
+    const std::string last = last_frames(bye_message(text));
+    stream_.write_now({asio::buffer(last), {}});
   }
   void close() {
-    std::error_code ignored;
-    socket_.close(ignored);
+    const auto me = shared_from_this();
+    stream_.close();
     leave();
-    all_.all_.erase(shared_from_this());
+    std::erase(all_.all_, me);
   }
 
  private:
+  void read() {
+    stream_.read(asio::buffer(room_),
+                 [me = shared_from_this()](std::error_code error, std::size_t size) {
+                   if (error || !me->stream_.is_open()) return me->close();
+                   me->in_.append(me->room_.data(), size);
+                   if (me->take_in()) me->read();
+                 });
+  }
   void leave() {
     if (!watcher_) return;
     all_.stage_->leave(*watcher_);
@@ -217,12 +191,14 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     while (true) {
       const FrameVerdict verdict = read_client_frame(octets.subspan(at), frame);
       if (verdict == FrameVerdict::incomplete) break;
+      const std::size_t under_way = watcher_->under_way.size();
       const bool is_good =
           verdict == FrameVerdict::good && all_.stage_->answer(*watcher_, frame.payload());
       if (!is_good) {
         close();
         return false;
       }
+      if (watcher_->under_way.size() < under_way) since_ = all_.now_;
       at += frame.length;
     }
     in_.erase(0, at);
@@ -272,30 +248,41 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     if (request.origin.empty() || request.version != "13" || !is_web_socket_key(request.key) ||
         !lists_word(request.upgrade, "websocket") || !lists_word(request.connection, "upgrade"))
       return refuse(400, "Bad Request", "/stream takes a WebSocket of version 13");
-    std::string head = upgrade_answer(request.key);
-    if (all_.tabs() >= kMostTabs) return turn_away(std::move(head));
     const bool knows_word = all_.access_.is_word(value_in_query(request.query, "word"));
+    std::string head = upgrade_answer(request.key);
+    if (const std::string why = refusal_of(knows_word); !why.empty()) {
+      ++all_.counts_.refused;
+      return end_with(head.append(last_frames(bye_message(why))));
+    }
     in_.erase(0, request.length);
+    knows_word_ = knows_word;
+    since_ = all_.now_;
     watcher_ = all_.stage_->admit(knows_word);
     ++all_.counts_.tabs;
     send(std::make_shared<const std::string>(std::move(head)), nullptr);
     if (!in_.empty()) (void)take_frames();
   }
 
-  // A sentence that the page can show, then the end.
-  void turn_away(std::string head) {
-    ++all_.counts_.refused;
-    const std::string bye = bye_message(fmt::format(
-        "{} tabs look already, which is the most; close one and load this page again", kMostTabs));
-    const FrameHead text = frame_head(WebSocketOpcode::text, bye.size());
-    const FrameHead end = frame_head(WebSocketOpcode::close, 0);
-    const auto append = [&head](const FrameHead& frame) {
-      head.append(reinterpret_cast<const char*>(frame.octets.data()), frame.size);
+  // Why it becomes no tab, as the page shows it; empty: it may, and there is room.
+  [[nodiscard]] std::string refusal_of(bool knows_word) {
+    if (!knows_word && all_.needs_word_)
+      return "this exercise has a key: open the address that reckon printed";
+    const auto is_here = [this](const Pointer& one) {
+      return one->is_stranger() && one->from() == from();
     };
-    append(text);
-    head.append(bye);
-    append(end);
-    end_with(std::move(head));
+    if (!knows_word && all_.count(is_here) >= kMostStrangers)
+      return fmt::format(
+          "{} tabs without the word look from your address already, which is the "
+          "most; open the address that reckon printed",
+          kMostStrangers);
+    if (all_.tabs() < kMostTabs) return {};
+    const Pointer stranger = all_.oldest([](const Pointer& one) { return one->is_stranger(); });
+    if (!knows_word || !stranger)
+      return fmt::format(
+          "{} tabs look already, which is the most; close one and load this page again", kMostTabs);
+    stranger->say_bye("a tab with the word has taken this place");
+    stranger->close();
+    return {};
   }
 
   void refuse(int status, std::string_view reason, std::string_view text) {
@@ -307,12 +294,11 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     is_answered_ = true;
     since_ = all_.now_;
     const auto kept = std::make_shared<const std::string>(std::move(text));
-    asio::async_write(socket_, asio::buffer(*kept),
-                      [me = shared_from_this(), kept](std::error_code, std::size_t) {
-                        std::error_code ignored;
-                        me->socket_.shutdown(tcp::socket::shutdown_both, ignored);
-                        me->close();
-                      });
+    stream_.write({asio::buffer(*kept), {}},
+                  [me = shared_from_this(), kept](std::error_code error, std::size_t) {
+                    if (error) return me->close();
+                    me->stream_.end([me] { me->close(); });
+                  });
   }
 
   void send_next() {
@@ -329,42 +315,50 @@ class ViewServer::Connections::Connection : public std::enable_shared_from_this<
     is_writing_ = true;
     out_ = std::move(payload);
     all_.counts_.octets += out_->size();
-    const std::array<asio::const_buffer, 2> parts{
-        head == nullptr ? asio::const_buffer{} : asio::buffer(head->octets.data(), head->size),
-        asio::buffer(*out_)};
-    asio::async_write(socket_, parts,
-                      [me = shared_from_this()](std::error_code error, std::size_t) {
-                        me->is_writing_ = false;
-                        if (error || !me->socket_.is_open()) return me->close();
-                        me->send_next();
-                      });
+    stream_.write(
+        {head == nullptr ? asio::const_buffer{} : asio::buffer(head->octets.data(), head->size),
+         asio::buffer(*out_)},
+        [me = shared_from_this()](std::error_code error, std::size_t) {
+          me->is_writing_ = false;
+          if (error || !me->stream_.is_open()) return me->close();
+          me->send_next();
+        });
   }
 
   Connections& all_;
-  tcp::socket socket_;
-  nanoseconds since_;
+  ByteStream stream_;
+  nanoseconds since_;  // it began, was answered, or as a tab owes a drawing
   std::string in_;
   std::array<char, kReadSize> room_{};
   std::unique_ptr<Watcher> watcher_;
-  bool is_answered_ = false, is_writing_ = false;
+  bool knows_word_ = false, is_answered_ = false, is_writing_ = false;
   FrameHead head_;
   std::shared_ptr<const std::string> out_;
 };
 
 ViewServer::Connections::~Connections() {
-  for (const auto& connection : std::set(all_)) connection->say_bye("the program has ended");
+  for (const auto& connection : all_) connection->say_bye("the program has ended");
   all_.clear();
 }
 
 void ViewServer::Connections::tick(nanoseconds now) {
   now_ = now;
   if (!is_accepting_) accept();
-  for (const auto& connection : std::set(all_)) connection->tick();
+  for (const auto& connection : std::vector(all_)) connection->tick();
 }
 
 std::size_t ViewServer::Connections::tabs() const {
-  return static_cast<std::size_t>(
-      std::count_if(all_.begin(), all_.end(), [](const auto& one) { return one->is_tab(); }));
+  return count([](const Pointer& one) { return one->is_tab(); });
+}
+
+void ViewServer::Connections::make_room(const std::string& from) {
+  const auto is_head_here = [&](const Pointer& one) {
+    return one->is_head() && one->from() == from;
+  };
+  if (count(is_head_here) >= kMostHeads) oldest(is_head_here)->close();
+  if (all_.size() < kMostConnections) return;
+  if (const Pointer one = oldest([](const Pointer& other) { return !other->is_tab(); }))
+    one->close();
 }
 
 void ViewServer::Connections::accept() {
@@ -373,14 +367,10 @@ void ViewServer::Connections::accept() {
     if (error == asio::error::operation_aborted) return;
     // With no descriptor left, for example, another try would fail at once: the next tick tries.
     if (error) return void(is_accepting_ = false);
-    if (all_.size() < kMostConnections) {
-      std::error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
-      socket.set_option(asio::socket_base::keep_alive(true), ignored);
-      const auto connection = std::make_shared<Connection>(*this, std::move(socket));
-      all_.insert(connection);
-      connection->read();
-    }
+    const auto connection = std::make_shared<Connection>(*this, std::move(socket));
+    make_room(connection->from());
+    all_.push_back(connection);
+    connection->open();
     accept();
   });
 }
@@ -405,7 +395,7 @@ std::string ViewServer::address() const { return connections_->url(connections_-
 
 std::vector<std::string> ViewServer::addresses_for_others() const {
   std::vector<std::string> out;
-  for (const std::string& host : connections_->own())
+  for (const std::string& host : connections_->all_names())
     if (host != "localhost" && host != "[::1]" && !host.starts_with("127."))
       out.push_back(connections_->url(host));
   return out;

@@ -17,6 +17,7 @@
 
 #include "reckon/tools/viewer/view_stage.hpp"
 #include "reckon/tools/viewer/web/access.hpp"
+#include "reckon/tools/viewer/web/tls_files.hpp"
 
 namespace reckon::tools {
 
@@ -34,9 +35,11 @@ struct ViewServerOptions {
   static constexpr std::uint16_t kDefaultPort = 8642;
   std::string address = "127.0.0.1";  ///< of an interface of this host; "0.0.0.0": of all
   /// None: kDefaultPort or the next that is free. 0: any that is free.
-  std::optional<std::uint16_t> port;
-  std::string word;            ///< by which tabs may push; see draw_word
+  std::optional<std::uint16_t> port = {};
+  std::string word = {};       ///< by which tabs may push; see draw_word
   ServedMetrics metrics = {};  ///< of a server without a page
+  bool needs_word = false;     ///< to look, too: the exercise has a key
+  TlsFiles tls = {};           ///< without: plain HTTP
 };
 
 /// What it has done so far.
@@ -57,14 +60,22 @@ struct ViewServerCounts {
   }
 };
 
-/// One thread. What comes from a socket neither throws nor takes more than some 10 kB a connection.
+/// One thread. What comes from a socket neither throws nor takes more than some 10 kB a connection,
+/// 50 kB with TLS.
 class ViewServer {
  public:
   static constexpr std::size_t kMostTabs = 64;
-  /// Connections beyond it are closed at once.
+  /// Beyond it the oldest connection that is no tab makes room for the next.
   static constexpr std::size_t kMostConnections = 256;
+  /// Connections of one address without a request yet; the oldest makes room for the next.
+  static constexpr std::size_t kMostHeads = 8;
+  /// Tabs of one address without the word. One with the word makes the oldest without end where
+  /// there are kMostTabs.
+  static constexpr std::size_t kMostStrangers = 8;
   /// Who has not sent its request by then is closed.
   static constexpr std::chrono::nanoseconds kPatience = std::chrono::seconds(5);
+  /// A tab without the word that draws nothing of what it was sent for so long is closed.
+  static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(10);
   static constexpr std::chrono::nanoseconds kTick = std::chrono::nanoseconds(1'000'000'000 / 30);
 
   /// Listens. @param stage outlives it. @throws std::runtime_error with the value and the remedy
@@ -83,7 +94,8 @@ class ViewServer {
   void tick(std::chrono::nanoseconds now);
 
   [[nodiscard]] std::uint16_t port() const noexcept;
-  /// Where it is reached from this host: "http://127.0.0.1:8642".
+  /// Where it is reached from this host: "http://127.0.0.1:8642"; with TLS by the first name of its
+  /// certificate.
   [[nodiscard]] std::string origin() const;
   /// What a user opens: "http://127.0.0.1:8642/#word=1f2e..".
   [[nodiscard]] std::string address() const;

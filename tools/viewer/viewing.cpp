@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <pthread.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -157,13 +156,6 @@ void ViewThread::run() {
     for (const auto& [level, text] : notes) viewing_.stage().note(level, text);
     viewing_.step();
   }
-}
-
-void open_browser(const std::string& address) {
-  std::string program = "xdg-open", word = address;
-  char* const arguments[] = {program.data(), word.data(), nullptr};
-  pid_t child = 0;
-  (void)posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
 }
 
 }  // namespace reckon::tools

@@ -102,7 +102,4 @@ class ViewThread {
   std::thread thread_;
 };
 
-/// Starts the browser of this host with the page; nothing where there is none.
-void open_browser(const std::string& address);
-
 }  // namespace reckon::tools

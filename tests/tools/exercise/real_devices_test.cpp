@@ -158,7 +158,7 @@ TEST(RealDevices, AFileOfADriverIsLoadedAndTold) {
   choose_device({file, ""}, scene, 2, 2);
   EXPECT_EQ(scene.devices.at(1).driver, DeviceDriver::plugin);
   SimulatedHands hands = make_simulated_hands(scene, 2);
-  RealDevices real;
+  RealDevices real(plugins_of({file, ""}));
   real.plug_in(scene, 2, hands.wired);
   EXPECT_NE(hands.wired.at(0).device, hands.devices.at(0).get());
   EXPECT_EQ(hands.wired.at(0).device->limits().max_force, 10.0);
@@ -166,7 +166,8 @@ TEST(RealDevices, AFileOfADriverIsLoadedAndTold) {
               ::testing::ElementsAre(AllOf(HasSubstr("dummy: 1 N s/m"), HasSubstr(file))));
 
   scene.devices[1].plugin = "none.so";
-  EXPECT_THROW(RealDevices().plug_in(scene, 2, hands.wired), std::runtime_error);
+  EXPECT_THROW(RealDevices({"none.so"}).plug_in(scene, 2, hands.wired), std::runtime_error);
+  EXPECT_THROW(RealDevices().plug_in(scene, 2, hands.wired), UsageError);
 }
 
 TEST(RealDevices, AFirmwareNeedsADeviceThatTakesIt) {

@@ -184,9 +184,10 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
 
   // Of a flag that is not in this list nobody knows what it does.
   // The test two_applications shows what --application does, those of the viewer the page's flags,
-  // and StepTooDear --even-if-slow.
-  Facts known{"SCENE",  "--help",        "--operator", "--json", "--follow",   "--iface",
-              "--seed", "--application", "--listen",   "--open", "--firmware", "--even-if-slow"};
+  // NativeCode --plugin, and StepTooDear --even-if-slow.
+  Facts known{"SCENE",      "--help",         "--operator",    "--json",          "--follow",
+              "--iface",    "--seed",         "--application", "--listen",        "--open",
+              "--firmware", "--even-if-slow", "--tls",         "--behind-tunnel", "--plugin"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
@@ -200,6 +201,11 @@ TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
       {"--operator", "0"},
       {"--application", "2"},   // peers agree on their IDs
       {"--listen", "0.0.0.0"},  // there is no page
+      {"--tls", "a.crt", "a.key"},
+      {"--behind-tunnel"},
+      {"--listen", "0.0.0.0", "--view=0", "--key", key_},  // in clear
+      {"--tls", "a.crt", "a.key", "--view=0"},             // there is no such file
+      {"--plugin", folder_.file("none.so")},
       {"--metrics", "crane"},   // no port
       {"--device", "crane"},    // no such driver
       {"--firmware", corner_},  // no program of a device

@@ -13,6 +13,7 @@
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
+#include "reckon/tests/tools/support/test_certificate.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -39,6 +40,32 @@ TEST(ViewVerb, SaysWhomElseAnAddressLetsIn) {
       run_reckon({"view", capture.path(), "--port", "0", "--listen", "0.0.0.0", "--for", "50ms"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("http://127.0.0.1:"));
+}
+
+TEST(ViewVerb, KeyIsServedToOthersByTlsOrATunnelAlone) {
+  test::CaptureBuilder capture;
+  const test::ScratchFolder folder;
+  const std::string key = folder.file("k.key"), own = test::write_certificate(folder.file("own"));
+  ASSERT_EQ(run_reckon({"key", "new", key}).status, 0);
+  const auto view = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"view", capture.path(), "--port", "0", "--for", "50ms"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_reckon(words);
+  };
+  const auto clear = view({"--key", key, "--listen", "0.0.0.0"});
+  EXPECT_EQ(clear.status, 2);
+  EXPECT_THAT(clear.err, AllOf(HasSubstr("has a key"), HasSubstr("add --tls CERT KEY"),
+                               HasSubstr("--behind-tunnel")));
+  EXPECT_EQ(view({"--key", key}).status, 0);
+  EXPECT_EQ(view({"--key", key, "--listen", "0.0.0.0", "--behind-tunnel"}).status, 0);
+  const auto secure =
+      view({"--key", key, "--listen", "0.0.0.0", "--tls", own + ".crt", own + ".key"});
+  EXPECT_EQ(secure.status, 0) << secure.err;
+  EXPECT_THAT(secure.out, MatchesRegex("https://localhost:[0-9]+/#word=[0-9a-f]+\n"));
+  EXPECT_EQ(view({"--tls", own + ".crt", own + ".key"}).status, 0) << "without a key";
+  const auto swapped = view({"--tls", own + ".key", own + ".crt"});
+  EXPECT_EQ(swapped.status, 2);
+  EXPECT_THAT(swapped.err, HasSubstr("is no certificate in PEM"));
 }
 
 TEST(ViewVerb, RefusesWhatItCannotServe) {

@@ -2,199 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/viewer/view_server.hpp"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <string>
+#include <vector>
 
-#include "reckon/tests/tools/support/driven_trucks.hpp"
+#include "reckon/tests/tools/support/served_page.hpp"
 
 namespace reckon::tools {
 namespace {
 
-using trucks::kStart;
-using trucks::milliseconds;
-using trucks::nanoseconds;
-using trucks::seconds;
-
-constexpr std::string_view kKey = "dGhlIHNhbXBsZSBub25jZQ==";
-/// What is not here after so many rounds does not come.
-constexpr int kMostRounds = 2000;
-
-/// A server of trucks whose time is stepped by hand.
-class Served {
- public:
-  explicit Served(std::size_t trucks = 3, const std::string& marking = "TRUCK")
-      : server(stage, {"127.0.0.1", std::uint16_t{0}, "1f2e"}) {
-    for (std::size_t i = 1; i <= trucks; ++i) {
-      trucks::Sent sent{{}, kStart};
-      test::append_pdu(sent.octets, trucks::truck(static_cast<std::uint16_t>(i), 0, marking));
-      (void)stage.take(trucks::datagram_of(sent));
-    }
-    tick();
-  }
-  /// A thirtieth of a second passes.
-  void tick() {
-    now += ViewServer::kTick;
-    stage.pass(kStart + now);
-    server.tick(now);
-    poll();
-  }
-  void poll() {
-    for (int i = 0; i < 4; ++i) server.poll(milliseconds(1));
-  }
-  [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(server.port()); }
-
-  nanoseconds now{0};
-  ViewStage stage{StageOptions{}};
-  ViewServer server;
-};
-
-/// A connection of whoever.
-class Client {
- public:
-  explicit Client(Served& served, int receive_buffer = 0) : served_(served) {
-    socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
-    if (receive_buffer > 0)
-      setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(served.server.port());
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    (void)connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
-    served.poll();
-  }
-  ~Client() { ::close(socket_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  void send(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
-      if (sent < 0 && errno != EAGAIN) return;  // it has hung up already
-      if (sent > 0) text.remove_prefix(static_cast<std::size_t>(sent));
-      served_.poll();
-    }
-  }
-  /// Takes what has come. @return false where the server has hung up
-  bool receive() {
-    served_.poll();
-    std::array<char, 65536> room;
-    for (;;) {
-      const ssize_t size = ::recv(socket_, room.data(), room.size(), 0);
-      if (size > 0) in.append(room.data(), static_cast<std::size_t>(size));
-      if (size == 0 || (size < 0 && errno != EAGAIN)) return false;
-      if (size < 0) return true;
-    }
-  }
-  /// All till it hangs up.
-  const std::string& receive_all() {
-    for (int i = 0; i < kMostRounds && receive(); ++i) continue;
-    return in;
-  }
-  [[nodiscard]] bool hangs_up() {
-    for (int i = 0; i < kMostRounds; ++i)
-      if (!receive()) return true;
-    return false;
-  }
-
-  std::string in;
-
- private:
-  Served& served_;
-  int socket_;
-};
-
-/// The head of a request, with what is named changed, or left out where it is empty.
-std::string request(const Served& served, const std::string& line,
-                    std::map<std::string, std::string> fields = {}) {
-  fields.try_emplace("Host", served.host());
-  std::string text = line + " HTTP/1.1\r\n";
-  for (const auto& [name, value] : fields)
-    if (!value.empty()) text += name + ": " + value + "\r\n";
-  return text + "\r\n";
-}
-
-std::string upgrade(const Served& served, std::map<std::string, std::string> fields = {},
-                    const std::string& query = "") {
-  fields.try_emplace("Origin", "http://" + served.host());
-  fields.try_emplace("Upgrade", "websocket");
-  fields.try_emplace("Connection", "Upgrade");
-  fields.try_emplace("Sec-WebSocket-Key", std::string(kKey));
-  fields.try_emplace("Sec-WebSocket-Version", "13");
-  return request(served, "GET /stream" + query, fields);
-}
-
-std::string answer_to(Served& served, const std::string& text) {
-  Client client(served);
-  client.send(text);
-  return client.receive_all();
-}
-
-std::string status_of(const std::string& answer) { return answer.substr(0, 12); }
-
-/// A tab: a client after its handshake.
-class Tab : public Client {
- public:
-  explicit Tab(Served& served, const std::string& query = "", int receive_buffer = 0)
-      : Client(served, receive_buffer) {
-    send(upgrade(served, {}, query));
-    for (int i = 0; i < kMostRounds && in.find("\r\n\r\n") == std::string::npos; ++i)
-      if (!receive()) break;
-    head = in.substr(0, in.find("\r\n\r\n"));
-    in.erase(0, std::min(in.size(), head.size() + 4));
-  }
-
-  /// A masked frame.
-  void frame(const std::string& payload, unsigned first = 0x82) {
-    std::string text{static_cast<char>(first), static_cast<char>(0x80U | payload.size())};
-    text += std::string("\x01\x02\x03\x04");
-    for (std::size_t i = 0; i < payload.size(); ++i)
-      text += static_cast<char>(payload[i] ^ static_cast<char>(1 + i % 4));
-    send(text);
-  }
-  /// Sorts what has come into texts and pictures; @return false where the server has hung up
-  bool take() {
-    const bool goes_on = receive();
-    while (in.size() >= 2) {
-      const auto octet = [this](std::size_t i) { return static_cast<unsigned char>(in[i]); };
-      std::size_t size = octet(1), at = 2;
-      if (size == 126) at = 4;
-      if (size == 127) at = 10;
-      if (in.size() < at) break;
-      if (at > 2) {
-        size = 0;
-        for (std::size_t i = 2; i < at; ++i) size = size << 8 | octet(i);
-      }
-      if (in.size() < at + size) break;
-      const std::string payload = in.substr(at, size);
-      if (octet(0) == 0x81) texts.push_back(nlohmann::json::parse(payload));
-      if (octet(0) == 0x82) pictures.push_back(payload);
-      if (octet(0) == 0x88) closed = true;
-      in.erase(0, at + size);
-    }
-    return goes_on;
-  }
-  void draw() { frame(std::string("\x01") + pictures.back().substr(4, 4)); }
-  [[nodiscard]] double time() const {
-    double time = 0;
-    std::memcpy(&time, pictures.back().data() + 8, sizeof time);
-    return time;
-  }
-
-  std::string head;
-  std::vector<nlohmann::json> texts;
-  std::vector<std::string> pictures;
-  bool closed = false;
-};
+using served::answer_to;
+using served::Client;
+using served::kMostRounds;
+using served::request;
+using served::Served;
+using served::status_of;
+using served::Tab;
+using served::upgrade;
 
 TEST(ViewServer, GivesThePageAndItsFilesWithTheirPolicy) {
   Served served;
@@ -338,9 +166,9 @@ TEST(ViewServer, TurnsTheNextTabAwayWithASentenceAndTakesItWhenOneHasGone) {
   Served served;
   std::vector<std::unique_ptr<Tab>> tabs;
   for (std::size_t i = 0; i < ViewServer::kMostTabs; ++i)
-    tabs.push_back(std::make_unique<Tab>(served));
+    tabs.push_back(std::make_unique<Tab>(served, "?word=1f2e"));
   EXPECT_EQ(served.server.tabs(), ViewServer::kMostTabs);
-  Tab one_more(served);
+  Tab one_more(served, "?word=1f2e");
   for (int i = 0; i < kMostRounds && one_more.take(); ++i) continue;
   ASSERT_EQ(one_more.texts.size(), 1U);
   EXPECT_EQ(one_more.texts[0]["type"], "bye");

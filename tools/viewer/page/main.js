@@ -228,8 +228,9 @@ class Page {
     const notice = byId('notice');
     notice.hidden = !lost && !empty;
     if (notice.hidden) return;
-    notice.querySelector('h2').textContent = lost ? 'No server' : 'Nothing is heard yet';
-    notice.querySelector('p').textContent = lost
+    const bye = lost && this.source.bye;
+    notice.querySelector('h2').textContent = bye ? 'Closed' : lost ? 'No server' : 'Nothing is heard yet';
+    notice.querySelector('p').textContent = bye ? `${foreign(bye, 300)}. The page tries again by itself.` : lost
       ? 'The program has ended, or the way to it is cut. The page tries again by itself; this is the last picture.'
       : foreign(this.moment.hello.help || 'Start a peer: reckon peer SCENE, or reckon demo.', 300);
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The world as a server streams it. A lost connection is tried again by itself, at most every 4 s.
+// The world as a server streams it. A lost connection is tried again by itself, at most every 4 s, and not while the tab is hidden:
+// there it draws nothing, and a server ends tabs that draw nothing.
 import { COMMANDS } from './commands.js';
 import { decodePicture } from './picture.js';
 
@@ -15,6 +16,7 @@ export class Server {
     this.octets = 0;
     this.bad = 0;
     this.wait = 500;
+    this.bye = ''; // why the server ended the connection
     this.open();
   }
 
@@ -22,19 +24,15 @@ export class Server {
     const socket = new WebSocket(this.url);
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
-    socket.onopen = () => {
-      this.wait = 500;
-      this.hear.state('live', '');
-    };
     socket.onclose = () => {
-      this.hear.state('lost', `No server at ${location.host}.`);
-      setTimeout(() => this.open(), this.wait);
+      this.hear.state('lost', this.bye || `No server at ${location.host}.`);
+      setTimeout(() => this.openWhenSeen(), this.wait);
       this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
     };
     socket.onmessage = ({ data }) => {
       this.octets += data.byteLength ?? data.length;
       try {
-        if (typeof data === 'string') this.hear.text(JSON.parse(data));
+        if (typeof data === 'string') this.text(JSON.parse(data));
         else this.hear.picture(decodePicture(data));
       } catch (error) {
         ++this.bad;
@@ -42,6 +40,20 @@ export class Server {
         if (typeof data !== 'string') this.tell('drawn', numberOf(data));
       }
     };
+  }
+
+  openWhenSeen() {
+    if (document.hidden) document.addEventListener('visibilitychange', () => this.openWhenSeen(), { once: true });
+    else this.open();
+  }
+
+  text(message) {
+    if (message.type === 'hello') {
+      this.wait = 500;
+      this.hear.state('live', '');
+    }
+    if (message.type === 'hello' || message.type === 'bye') this.bye = message.type === 'bye' ? message.text : '';
+    this.hear.text(message);
   }
 
   tell(name, ...values) {

@@ -11,16 +11,17 @@
 namespace reckon::tools {
 namespace {
 
-constexpr std::uint16_t kHttpPort = 80;  // which browsers leave out
-constexpr std::string_view kScheme = "http://";
+// Which browsers leave out.
+constexpr std::uint16_t kHttpPort = 80, kHttpsPort = 443;
 
 }  // namespace
 
-Access::Access(const std::vector<std::string>& addresses, std::uint16_t port, std::string word)
-    : word_(std::move(word)) {
+Access::Access(const std::vector<std::string>& addresses, std::uint16_t port, std::string word,
+               bool is_secure)
+    : scheme_(is_secure ? "https://" : "http://"), word_(std::move(word)) {
   for (const std::string& address : addresses) {
     hosts_.push_back(fmt::format("{}:{}", address, port));
-    if (port == kHttpPort) hosts_.push_back(address);
+    if (port == (is_secure ? kHttpsPort : kHttpPort)) hosts_.push_back(address);
   }
 }
 
@@ -29,7 +30,7 @@ bool Access::is_own_host(std::string_view host) const noexcept {
 }
 
 bool Access::is_own_origin(std::string_view origin, std::string_view host) const noexcept {
-  return is_own_host(host) && origin.starts_with(kScheme) && origin.substr(kScheme.size()) == host;
+  return is_own_host(host) && origin.starts_with(scheme_) && origin.substr(scheme_.size()) == host;
 }
 
 bool Access::is_word(std::string_view word) const noexcept {

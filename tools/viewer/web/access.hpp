@@ -16,8 +16,9 @@ namespace reckon::tools {
 class Access {
  public:
   /// @param addresses by which the server is reached, as a browser writes them: "127.0.0.1",
-  /// "localhost", "[::1]"
-  Access(const std::vector<std::string>& addresses, std::uint16_t port, std::string word);
+  /// "localhost", "[::1]"  @param is_secure served by https
+  Access(const std::vector<std::string>& addresses, std::uint16_t port, std::string word,
+         bool is_secure = false);
 
   /// Whether a request that says this Host is meant for us.
   [[nodiscard]] bool is_own_host(std::string_view host) const noexcept;
@@ -27,9 +28,12 @@ class Access {
   [[nodiscard]] bool is_word(std::string_view word) const noexcept;
 
   [[nodiscard]] const std::string& word() const noexcept { return word_; }
+  /// "http://" or "https://".
+  [[nodiscard]] std::string_view scheme() const noexcept { return scheme_; }
 
  private:
   std::vector<std::string> hosts_;
+  std::string_view scheme_;
   std::string word_;
 };
 

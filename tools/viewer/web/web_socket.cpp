@@ -86,6 +86,17 @@ FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload) noexcept {
   return head;
 }
 
+std::string last_frames(std::string_view text) {
+  std::string frames;
+  const auto append = [&frames](WebSocketOpcode opcode, std::string_view payload) {
+    const FrameHead head = frame_head(opcode, payload.size());
+    frames.append(reinterpret_cast<const char*>(head.octets.data()), head.size).append(payload);
+  };
+  append(WebSocketOpcode::text, text);
+  append(WebSocketOpcode::close, {});
+  return frames;
+}
+
 FrameVerdict read_client_frame(std::span<const std::byte> octets, ClientFrame& out) noexcept {
   constexpr std::size_t kHead = 6;  // with the mask
   constexpr auto kWhole = std::byte{0x80};

@@ -30,6 +30,9 @@ struct FrameHead {
 };
 [[nodiscard]] FrameHead frame_head(WebSocketOpcode opcode, std::size_t payload) noexcept;
 
+/// A text and the end of the connection.
+[[nodiscard]] std::string last_frames(std::string_view text);
+
 /// Longest payload of a frame that is taken from a page.
 inline constexpr std::size_t kLongestClientFrame = 125;
 

@@ -30,6 +30,12 @@ TEST(Access, LeavesOutThePortOfHttpAsBrowsersDo) {
   EXPECT_TRUE(Access({"127.0.0.1"}, 80, "word").is_own_host("127.0.0.1"));
 }
 
+TEST(Access, SecurePagesHaveHttpsAndItsPort) {
+  const Access access({"127.0.0.1"}, 443, "word", true);
+  EXPECT_TRUE(access.is_own_origin("https://127.0.0.1", "127.0.0.1"));
+  EXPECT_FALSE(access.is_own_origin("http://127.0.0.1", "127.0.0.1"));
+}
+
 TEST(Access, TakesTheWordAndNothingElse) {
   const Access access({"127.0.0.1"}, 8642, "1f2e");
   EXPECT_TRUE(access.is_word("1f2e"));
