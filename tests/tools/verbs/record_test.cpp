@@ -290,11 +290,14 @@ TEST(Record, NamesTheMistake) {
   EXPECT_THAT(error_of({}), HasSubstr("FILE"));
   EXPECT_THAT(error_of({folder.file("b.pcapng"), in}), HasSubstr("is not live"));
   EXPECT_THAT(error_of({folder.file("b.pcapng"), "--rotate-size", "big"}), HasSubstr("100MB"));
-  EXPECT_THAT(error_of({folder.file("b.pcapng"), "--rotate-total", "big"}), HasSubstr("100MB"));
-  EXPECT_THAT(error_of({folder.file("b.pcapng"), "--rotate-total", "1GB"}),
-              HasSubstr("needs --rotate-time or --rotate-size"));
-  EXPECT_THAT(error_of({folder.file("b.pcapng"), "--rotate-total", "1GB", "--rotate-size", "1GB"}),
-              HasSubstr("at least twice --rotate-size 1GB"));
+  const auto error_of_total = [&](const std::string& total, const std::string& flag,
+                                  const std::string& value) {
+    return error_of({folder.file("b.pcapng"), from, "--iface", "lo", "--for", "10ms",
+                     "--rotate-total", total, flag, value});
+  };
+  EXPECT_THAT(error_of_total("big", "--rotate-time", "1h"), HasSubstr("100MB"));
+  EXPECT_THAT(error_of_total("1GB", "--pool", "0"), HasSubstr("needs --rotate-time"));
+  EXPECT_THAT(error_of_total("1GB", "--rotate-size", "1GB"), HasSubstr("at least twice"));
   EXPECT_THAT(error_of({in, from, "--iface", "lo"}), HasSubstr("--force"));
   EXPECT_THAT(error_of({folder.file("none/b.pcapng"), from, "--iface", "lo"}),
               HasSubstr("cannot be written: No such file or directory; choose another place"));
