@@ -24,7 +24,10 @@ LICENCES = {"expat": "MIT", "isc": "ISC", "boost": "BSL-1.0", "mpl-2": "MPL-2.0"
 
 
 def output(*command):
-    return subprocess.run(command, capture_output=True, text=True, check=True, env={**os.environ, "LC_ALL": "C"}).stdout
+    result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
+    if result.returncode != 0:
+        sys.exit(f"{command[0]} failed, {result.stderr.strip()}; ./run packages installs what is missing")
+    return result.stdout
 
 
 def spdx_id(kind, name):
