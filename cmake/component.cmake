@@ -34,11 +34,23 @@ elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   target_compile_options(reckon_warnings INTERFACE -Wno-unused-lambda-capture)
 endif()
 
+option(RECKON_HARDENED "Harden our own targets: stack protector, checked calls of the C library, no late binding"
+  ${PROJECT_IS_TOP_LEVEL})
+
 add_library(reckon_options INTERFACE)
 if(RECKON_SANITIZE)
   target_compile_options(reckon_options INTERFACE -fsanitize=${RECKON_SANITIZE}
     -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(reckon_options INTERFACE -fsanitize=${RECKON_SANITIZE})
+elseif(RECKON_HARDENED)
+  # The C library checks calls only in optimised code. Level 3 also checks sizes that are known at run time; GCC 11 lacks it.
+  set(fortify 3)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+    set(fortify 2)
+  endif()
+  target_compile_options(reckon_options INTERFACE -fstack-protector-strong
+    "$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=${fortify}>")
+  target_link_options(reckon_options INTERFACE -Wl,-z,relro,-z,now)
 endif()
 
 option(RECKON_UNITE "Compile files of a room together: from scratch in half the time" ON)

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -54,6 +55,11 @@ int create(const std::string& path, bool overwrite) {
 
 CaptureOutput::CaptureOutput(std::string path, bool overwrite, bool compress)
     : path_(std::move(path)), file_(create(path_, overwrite)) {
+  struct stat created {};
+  if (::fstat(file_, &created) == 0) {
+    device_ = created.st_dev;
+    inode_ = created.st_ino;
+  }
   if (compress) compressor_.emplace();
 }
 
@@ -76,6 +82,16 @@ void CaptureOutput::append(std::span<const std::byte> blocks) {
 void CaptureOutput::finish() {
   if (file_ >= 0 && !frame_.empty()) append_frame({}, true);
   close();
+}
+
+bool CaptureOutput::remove() const {
+  struct stat there {};
+  if (::lstat(path_.c_str(), &there) != 0 || there.st_dev != device_ || there.st_ino != inode_)
+    return false;
+  if (::unlink(path_.c_str()) == 0) return true;
+  throw CaptureWriteError(
+      fmt::format("{} cannot be removed: {}; all files together would exceed their bound", path_,
+                  std::strerror(errno)));
 }
 
 CaptureOutput::Written CaptureOutput::write(std::span<const std::byte> octets) {
@@ -142,6 +158,9 @@ void CaptureOutput::fail(int error, bool whole) {
 
 void CaptureOutput::close() {
   if (file_ >= 0) ::close(std::exchange(file_, -1));
+  compressor_.reset();
+  compressed_ = {};
+  frame_ = {};
 }
 
 }  // namespace reckon::peer

@@ -4,6 +4,8 @@
 // Private to the peer library.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -33,7 +35,11 @@ class CaptureOutput {
   void append(std::span<const std::byte> blocks);
   /// Ends the frame and closes the file.  @throws CaptureWriteError as append().
   void finish();
+  /// Removes the file. Leaves it if it has moved, or if another has its name by now.
+  /// @returns whether it was removed.  @throws CaptureWriteError if it may not be removed.
+  bool remove() const;
 
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] std::uint64_t octets() const noexcept { return position_; }
   /// Packets that are safe in the file.
   [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }
@@ -54,6 +60,8 @@ class CaptureOutput {
 
   std::string path_;
   int file_{-1};
+  dev_t device_{};  ///< with inode_: the file that was created, whatever its name is
+  ino_t inode_{};
   std::uint64_t position_{0};  ///< octets that the kernel has
   std::uint64_t packets_{0};
   std::optional<ZstdCompressor> compressor_;

@@ -22,6 +22,9 @@ constexpr std::uint32_t kPacketOverhead = 32;
 /// Size at which the buffer goes to the kernel [octets].
 constexpr std::size_t kFlushSize = std::size_t{1} << 16;
 
+/// Files that together reach the bound on all, where their size is not given.
+constexpr std::uint64_t kFilesOfTotal = 10;
+
 constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
 
 /// The part of a file's name behind the number: its extension, or two if the last is .zst.
@@ -42,6 +45,7 @@ std::string numbered(const std::string& path, std::size_t number) {
 
 CaptureWriter::CaptureWriter(CaptureWriterOptions options) : options_(std::move(options)) {
   buffer_.reserve(4 * kFlushSize);
+  if (options_.rotate_octets == 0) options_.rotate_octets = options_.rotate_total / kFilesOfTotal;
   open_next();
 }
 
@@ -73,7 +77,7 @@ void CaptureWriter::flush() {
   // If this throws, the rest is not to be written again.
   std::swap(buffer_, flushing_);
   buffer_.clear();
-  file_->append(flushing_);
+  if (file_) file_->append(flushing_);
 }
 
 void CaptureWriter::finish(std::uint64_t received, std::uint64_t dropped) {
@@ -87,10 +91,12 @@ void CaptureWriter::close() {
 }
 
 std::uint64_t CaptureWriter::datagrams() const noexcept {
-  return earlier_packets_ + file_->packets();
+  return earlier_packets_ + (file_ ? file_->packets() : 0);
 }
 
-std::uint64_t CaptureWriter::octets() const noexcept { return earlier_octets_ + file_->octets(); }
+std::uint64_t CaptureWriter::octets() const noexcept {
+  return earlier_octets_ + (file_ ? file_->octets() : 0);
+}
 
 bool CaptureWriter::is_full(nanoseconds time) const noexcept {
   if (in_file_ == 0) return false;
@@ -102,17 +108,39 @@ bool CaptureWriter::is_full(nanoseconds time) const noexcept {
 
 void CaptureWriter::open_next() {
   const bool rotates = options_.rotate_octets > 0 || options_.rotate_after.count() > 0;
-  const std::string path = rotates ? numbered(options_.path, paths_.size() + 1) : options_.path;
-  auto next = std::make_unique<CaptureOutput>(path, options_.overwrite, options_.compress);
-  if (file_) {
-    earlier_octets_ += file_->octets();
-    earlier_packets_ += file_->packets();
-  }
-  file_ = std::move(next);
+  const std::string path =
+      rotates ? numbered(options_.path, paths_.size() + removed_.files + 1) : options_.path;
+  if (file_) put_away();
+  if (options_.rotate_total > 0) make_room();
+  file_ = std::make_unique<CaptureOutput>(path, options_.overwrite, options_.compress);
   paths_.push_back(path);
   in_file_ = 0;
   begin_section();
   flush();
+}
+
+// The finished file.
+void CaptureWriter::put_away() {
+  earlier_octets_ += file_->octets();
+  earlier_packets_ += file_->packets();
+  if (options_.rotate_total > 0) finished_.push_back(std::move(file_));
+  file_.reset();
+}
+
+// Room for the next file: of those that are there the oldest go. One that was moved does not count
+// any more.
+void CaptureWriter::make_room() {
+  while (!finished_.empty() && earlier_octets_ + options_.rotate_octets > options_.rotate_total) {
+    const std::unique_ptr<CaptureOutput> oldest = std::move(finished_.front());
+    finished_.pop_front();
+    earlier_octets_ -= oldest->octets();
+    if (!oldest->remove()) continue;
+    earlier_packets_ -= oldest->packets();
+    ++removed_.files;
+    removed_.datagrams += oldest->packets();
+    removed_.octets += oldest->octets();
+    std::erase(paths_, oldest->path());
+  }
 }
 
 void CaptureWriter::u16(std::uint16_t value) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -37,6 +38,17 @@ struct CaptureWriterOptions {
   std::uint64_t rotate_octets{0};
   /// A file whose first datagram is this old is followed by the next; 0 = never.
   std::chrono::nanoseconds rotate_after{0};
+  /// Bound on all files together [octets on the disk], at least twice `rotate_octets`; 0 = none.
+  /// Before the next file is begun, the oldest of this writer are removed until there is room for
+  /// it. Needs one of the two above. Without `rotate_octets` a file ends at a tenth of the bound.
+  std::uint64_t rotate_total{0};
+};
+
+/// What a writer removed to keep its files within `rotate_total`.
+struct RemovedFiles {
+  std::uint64_t files{0};
+  std::uint64_t datagrams{0};  ///< that were in them
+  std::uint64_t octets{0};
 };
 
 /// Writes datagrams to one file, or with rotation to path_00001.ext, path_00002.ext, ... One
@@ -69,11 +81,14 @@ class CaptureWriter {
   [[nodiscard]] std::uint64_t datagrams() const noexcept;
   /// Octets of all files on the disk.
   [[nodiscard]] std::uint64_t octets() const noexcept;
-  /// The files made so far, in their order.
+  /// The files made so far and not removed, in their order.
   [[nodiscard]] const std::vector<std::string>& paths() const noexcept { return paths_; }
+  [[nodiscard]] const RemovedFiles& removed() const noexcept { return removed_; }
 
  private:
   void open_next();
+  void put_away();
+  void make_room();
   void begin_section();
   std::uint32_t interface_of(std::uint16_t link_type);
   [[nodiscard]] bool is_full(std::chrono::nanoseconds time) const noexcept;
@@ -87,7 +102,9 @@ class CaptureWriter {
 
   CaptureWriterOptions options_;
   std::vector<std::string> paths_;
-  std::unique_ptr<CaptureOutput> file_;
+  std::unique_ptr<CaptureOutput> file_;  ///< null only if the next one could not be created
+  std::deque<std::unique_ptr<CaptureOutput>> finished_;  ///< with a bound: those that count for it
+  RemovedFiles removed_;
   std::vector<std::byte> buffer_;  ///< whole blocks not passed to the kernel yet
   std::vector<std::byte> flushing_;
   std::vector<std::byte> packet_;

@@ -48,6 +48,7 @@ constexpr std::string_view kExamples =
     "reckon record exercise.pcapng\n"
     "reckon record exercise.pcapng --for 10min --iface eth0\n"
     "reckon record day.pcapng udp://239.1.2.3:3000 --rotate-time 1h --rotate-size 1GB\n"
+    "reckon record week.pcapng.zst --rotate-time 1h --rotate-total 100GB\n"
     "reckon record foes.pcapng.zst --where 'side == opposing'\n"
     "reckon record sealed.pcapng --key crane.key\n"
     "reckon record day.pcapng --rotate-time 1h --metrics 127.0.0.1:9464\n"
@@ -57,6 +58,7 @@ struct RecordOptions {
   SourceChoice source;
   peer::CaptureWriterOptions writer;
   std::string rotate_size;
+  std::string rotate_total;
   std::optional<nanoseconds> duration;
   SelectionOptions selection;  ///< only the filter of it
   std::string key;             ///< file; empty: none
@@ -224,8 +226,11 @@ void Recording::for_each_count(Visit&& visit) const {
   visit("left_out", "datagrams that did not match the filter", left_out_);
   visit("sealed_unread", "sealed datagrams that could not be opened", sealed_.unread());
   visit("lost", "datagrams lost before they reached the program", source_->report().dropped);
-  visit("file_octets", "octets of the files on the disk", writer_->octets());
-  visit("files", "files begun", std::uint64_t{writer_->paths().size()});
+  const peer::RemovedFiles& removed = writer_->removed();
+  visit("file_octets", "octets written to files", writer_->octets() + removed.octets);
+  visit("files", "files begun", writer_->paths().size() + removed.files);
+  visit("removed_files", "files removed for --rotate-total", removed.files);
+  visit("removed_datagrams", "datagrams in these files", removed.datagrams);
 }
 
 void Recording::add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const {
@@ -258,12 +263,25 @@ void Recording::summarise(nanoseconds elapsed) const {
   if (left_out_ > 0)
     fmt::print(console_.err, "{} did not match and are not in it\n",
                counted(left_out_, "datagram"));
+  if (const peer::RemovedFiles& removed = writer_->removed(); removed.files > 0)
+    fmt::print(console_.err, "removed the oldest: {} with {} (--rotate-total {})\n",
+               counted(removed.files, "file"), counted(removed.datagrams, "datagram"),
+               options_.rotate_total);
   fmt::print(console_.err, "{}{}", heard_text(source_->report()), sealed_.summary());
   if (dropped > 0)
     fmt::print(console_.err,
                "against loss raise the receive buffer: sysctl -w net.core.rmem_max=33554432\n");
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
+}
+
+/// Octets; 0: not given.
+std::uint64_t size_of(std::string_view flag, const std::string& text) {
+  if (text.empty()) return 0;
+  const auto size = parse_size(text);
+  if (size.has_value()) return *size;
+  throw UsageError(
+      fmt::format("{} {}: not a size; write for example 500k, 100MB or 2GiB", flag, text));
 }
 
 void check(RecordOptions& options) {
@@ -274,13 +292,15 @@ void check(RecordOptions& options) {
         "part of a file",
         options.source.source, options.source.source));
   settle_compression(options.writer);
-  if (options.rotate_size.empty()) return;
-  const auto size = parse_size(options.rotate_size);
-  if (!size.has_value())
-    throw UsageError(
-        fmt::format("--rotate-size {}: not a size; write for example 500k, 100MB or 2GiB",
-                    options.rotate_size));
-  options.writer.rotate_octets = *size;
+  peer::CaptureWriterOptions& writer = options.writer;
+  writer.rotate_octets = size_of("--rotate-size", options.rotate_size);
+  writer.rotate_total = size_of("--rotate-total", options.rotate_total);
+  if (writer.rotate_total == 0) return;
+  if (writer.rotate_octets == 0 && writer.rotate_after.count() == 0)
+    throw UsageError("--rotate-total needs --rotate-time or --rotate-size");
+  if (writer.rotate_total / 2 < writer.rotate_octets)
+    throw UsageError(fmt::format("--rotate-total {}: must be at least twice --rotate-size {}",
+                                 options.rotate_total, options.rotate_size));
 }
 
 int run_record(Arguments arguments, const Console& console) {
@@ -298,6 +318,9 @@ int run_record(Arguments arguments, const Console& console) {
               "begin the next file, FILE_00002, at this size, for example 100MB");
   line.option("--rotate-time", options.writer.rotate_after,
               "begin the next file after this time, for example 1h");
+  line.option("--rotate-total", options.rotate_total,
+              "remove the oldest files of this recording when all together would exceed this, for "
+              "example 100GB");
   line.flag("--compress", options.writer.compress,
             "compress with zstd, as for a FILE that ends in .zst");
   options.selection.declare_filter(line);

@@ -184,5 +184,67 @@ TEST(CaptureWriter, RotatesByTheDatagramsTime) {
   expect_beginning(read, written);
 }
 
+/// Octets of all files in a folder.
+std::uintmax_t octets_in(const ScratchFolder& folder) {
+  std::uintmax_t sum = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.file("")))
+    sum += entry.file_size();
+  return sum;
+}
+
+TEST(CaptureWriter, KeepsAllFilesTogetherWithinTheirBound) {
+  for (const bool compress : {false, true}) {
+    const ScratchFolder folder;
+    const std::vector<Kept> written = small_samples(200);
+    CaptureWriter writer({.path = folder.file("a.pcapng"),
+                          .compress = compress,
+                          .rotate_octets = 1000,
+                          .rotate_total = 4000});
+    for (const Kept& kept : written) {
+      writer.write(kept.view());
+      writer.flush();
+      EXPECT_LE(octets_in(folder), 4000U + 200U);  // the last file may exceed its own by a datagram
+      EXPECT_EQ(octets_in(folder), writer.octets());
+    }
+    writer.close();
+    EXPECT_GT(octets_in(folder), 2000U);
+    const std::vector<Kept> read = read_files(writer.paths());
+    EXPECT_GT(writer.removed().files, 0U);
+    EXPECT_EQ(writer.datagrams(), read.size());
+    EXPECT_EQ(writer.removed().datagrams + read.size(), written.size());
+    const auto begin = written.end() - static_cast<std::ptrdiff_t>(read.size());
+    expect_beginning(read, std::vector<Kept>(begin, written.end()));
+  }
+}
+
+TEST(CaptureWriter, BoundsFilesThatEndByTime) {
+  const ScratchFolder folder;
+  CaptureWriter writer(
+      {.path = folder.file("a.pcapng"), .rotate_after = 1h, .rotate_total = 10'000});
+  for (const Kept& kept : small_samples(200)) writer.write(kept.view());  // 200 s
+  writer.close();
+  EXPECT_LE(octets_in(folder), 10'200U);
+  EXPECT_GT(octets_in(folder), 8'000U);
+}
+
+TEST(CaptureWriter, RemovesNoFileOfAnother) {
+  const ScratchFolder folder;
+  std::ofstream(folder.file("a_00000.pcapng")) << "of an earlier run";
+  CaptureWriter writer(
+      {.path = folder.file("a.pcapng"), .rotate_octets = 1000, .rotate_total = 3000});
+  const std::vector<Kept> written = small_samples(100);
+  for (const Kept& kept : written) {
+    writer.write(kept.view());
+    if (writer.paths().size() != 2 || std::filesystem::exists(folder.file("moved"))) continue;
+    std::filesystem::rename(folder.file("a_00001.pcapng"), folder.file("moved"));
+    std::ofstream(folder.file("a_00001.pcapng")) << "put in its place";
+  }
+  writer.close();
+  EXPECT_GT(writer.removed().files, 0U);
+  for (const char* name : {"a_00000.pcapng", "a_00001.pcapng", "moved"})
+    EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a_00002.pcapng")));
+}
+
 }  // namespace
 }  // namespace reckon::peer

@@ -107,6 +107,30 @@ TEST(Record, TellsProgramsWhatItHas) {
   EXPECT_GT(line["seconds"], 0.0);
 }
 
+TEST(Record, ReportsRemovedFiles) {
+  const ScratchFolder folder;
+  std::atomic<bool> stop{false};
+  ProgramResult result{};
+  std::thread recorder([&] {
+    result = run_reckon({"record", folder.file("a.pcapng"), "udp://" + group(33).text(), "--iface",
+                         "lo", "--json", "--rotate-size", "1kB", "--rotate-total", "3kB"},
+                        &stop);
+  });
+  EXPECT_TRUE(soon([&] { return std::filesystem::exists(folder.file("a_00001.pcapng")); }));
+  send_some(group(33), 15);  // five fill a file
+  const std::string last = folder.file("a_00003.pcapng");
+  EXPECT_TRUE(soon([&] { return std::filesystem::exists(last) && datagrams_in(last) == 5; }));
+  stop = true;
+  recorder.join();
+  EXPECT_THAT(result.err,
+              HasSubstr("removed the oldest: 1 file with 5 datagrams (--rotate-total 3kB)"));
+  const json line = json::parse(result.lines().back());
+  EXPECT_EQ(line["datagrams"], 15);
+  EXPECT_EQ(line["safe"], 10);
+  EXPECT_EQ(line["removed_files"], 1);
+  EXPECT_EQ(line["paths"], json::array({folder.file("a_00002.pcapng"), last}));
+}
+
 TEST(StatusLine, IsDueEveryFiveSeconds) {
   const test::CapturedStream stream;
   StatusLine line(stream.file(), 100s);
@@ -266,6 +290,14 @@ TEST(Record, NamesTheMistake) {
   EXPECT_THAT(error_of({}), HasSubstr("FILE"));
   EXPECT_THAT(error_of({folder.file("b.pcapng"), in}), HasSubstr("is not live"));
   EXPECT_THAT(error_of({folder.file("b.pcapng"), "--rotate-size", "big"}), HasSubstr("100MB"));
+  const auto error_of_total = [&](const std::string& total, const std::string& flag,
+                                  const std::string& value) {
+    return error_of({folder.file("b.pcapng"), from, "--iface", "lo", "--for", "10ms",
+                     "--rotate-total", total, flag, value});
+  };
+  EXPECT_THAT(error_of_total("big", "--rotate-time", "1h"), HasSubstr("100MB"));
+  EXPECT_THAT(error_of_total("1GB", "--pool", "0"), HasSubstr("needs --rotate-time"));
+  EXPECT_THAT(error_of_total("1GB", "--rotate-size", "1GB"), HasSubstr("at least twice"));
   EXPECT_THAT(error_of({in, from, "--iface", "lo"}), HasSubstr("--force"));
   EXPECT_THAT(error_of({folder.file("none/b.pcapng"), from, "--iface", "lo"}),
               HasSubstr("cannot be written: No such file or directory; choose another place"));
