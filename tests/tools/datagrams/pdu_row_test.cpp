@@ -104,8 +104,8 @@ TEST(DatagramInspector, KeepsAndNotesTrailingOctetsOfAnyTypeIfLenient) {
 TEST(DatagramInspector, NotesOctetsBehindTheLastFieldIfLenient) {
   Octets octets;
   append_pdu(octets, entity(1));
-  octets.resize(160, std::byte{0x11});
-  octets[9] = std::byte{160};
+  octets.resize(152, std::byte{0x11});
+  octets[9] = std::byte{152};
   EXPECT_EQ(rows_of(octets, false), std::vector<Row>({Row("entity_state", "", "")}));
   EXPECT_EQ(rows_of(octets, true),
             std::vector<Row>({Row("entity_state", "I-TRAILING",

@@ -197,7 +197,7 @@ constexpr std::array kMalformed = std::to_array<Malformed>(
      {22, "E-COUNT", 1, 72},      {23, "E-COUNT", 1, 32},      {24, "E-RECORD", 1, 40},
      {25, "E-COUNT", 1, 32},      {26, "E-COUNT", 1, 104},     {27, "E-COUNT", 1, 112},
      {28, "E-COUNT", 1, 88},      {29, "E-COUNT", 1, 88},      {30, "E-RECORD", 1, 40},
-     {31, "E-RECORD", 1, 40},     {32, "E-RECORD", 1, 40},     {33, "E-LENGTH", 2, 160},
+     {31, "E-RECORD", 1, 40},     {32, "E-RECORD", 1, 40},     {33, "E-LENGTH", 2, 152},
      {34, "E-TRUNCATED", 2, 244}, {35, "E-TRUNCATED", 2, 144}, {36, "W-NOT-FINITE", 1, 48},
      {37, "W-NOT-FINITE", 1, 48}, {38, "E-VERSION", 1, 0}});
 
