@@ -309,16 +309,14 @@ void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
 }
 
 void AreaOfInterestManager::announce(nanoseconds now) {
-  const std::span<const pdu::Presence> outgoing = presence_.step(now);
+  const ControlStamp sent = stamp(now);
+  const std::span<const pdu::Presence> outgoing = presence_.step(now, sent.utc, sent.timestamp);
   conclude(now);
-  for (pdu::Presence announced : outgoing) {
+  for (const pdu::Presence& announced : outgoing) {
     const bool leaves = (announced.flags & pdu::kPresenceLeaving) != 0;
     // Entities that came before we are known would be dropped.
     if (introduce_ && !leaves) introductions_.begin(kBaseGroup, {}, now);
     introduce_ = introduce_ && leaves;
-    const ControlStamp sender = stamp(now);
-    announced.send_time = static_cast<std::uint64_t>(sender.utc.count());
-    announced.header.timestamp = sender.timestamp;
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
     const std::size_t size = pdu::encode(announced, octets);
     aggregator_.add(kBaseGroup, std::span(octets).first(size), now);

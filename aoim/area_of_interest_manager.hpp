@@ -96,6 +96,10 @@ class AreaOfInterestManager {
     subscriptions_.set_stretch(stretch);
     presence_.set_stretch(stretch);
   }
+  /// One of our hands touches a hand of the peer with this epoch.
+  void note_touched(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept {
+    presence_.note_touched(epoch, now);
+  }
   /// The address from which this peer sends. A change is announced soon.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept {
     presence_.note_own_source(source, now);

@@ -64,6 +64,14 @@ bool AnnouncementPace::note_announced(nanoseconds now, bool acquainted) noexcept
   return is_more;
 }
 
+void AnnouncementPace::align(nanoseconds slot_time) noexcept {
+  constexpr std::chrono::milliseconds kEarly{20};
+  const nanoseconds at = (slot_time + next_ - *last_) % kSlot;
+  if (next_cause_ != Cause::heartbeat || 2 * at <= kSlot) return;
+  next_ += kEarly - at;
+  if (next_ < *last_ + config_.minimum_gap) next_ += kSlot;
+}
+
 void AnnouncementPace::end_repetition() noexcept {
   next_ = *last_ + config_.heartbeat;
   next_cause_ = Cause::heartbeat;

@@ -35,6 +35,9 @@ class AnnouncementPace {
   /// Sets our source address. A change is announced at once and repeated.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept;
 
+  /// Our source address; port 0: unknown.
+  [[nodiscard]] const SourceAddress& own_source() const noexcept { return own_source_; }
+
   /// Whether an announcement is due.
   [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
     return running_ && now >= next_;
@@ -43,6 +46,11 @@ class AnnouncementPace {
   /// received peers list us, so that nothing is repeated  @return whether it is more than a
   /// heartbeat
   bool note_announced(std::chrono::nanoseconds now, bool acquainted) noexcept;
+
+  /// Moves the next heartbeat, if it would come late in its slot, to the begin of a slot: a MAC
+  /// that arrives late proves nothing. Call it after note_announced().
+  /// @param slot_time of the announcement that was just sent
+  void align(std::chrono::nanoseconds slot_time) noexcept;
 
   /// Whether the next one is a repetition for peers that do not list us yet.
   [[nodiscard]] bool is_repeating() const noexcept {

@@ -57,6 +57,14 @@ bool Claims::contains(PeerId id) const noexcept {
   return std::ranges::find(claimants_, id, &Claimant::id) != claimants_.end();
 }
 
+bool Claims::may_speak_for(const Claimant& claimant, const SourceAddress& from) const noexcept {
+  if (may_speak(claimant.source, from)) return true;
+  const std::size_t holder = peers_.find(claimant.id());
+  if (holder == peers_.size() || from.boot != 0) return false;
+  const auto& host = peers_[holder].source.octets;
+  return host == from.octets && host != claimant.source.octets;
+}
+
 Claimant& Claims::add(const Claimant& claimant) { return claimants_.emplace_back(claimant); }
 
 void Claims::forget(std::uint32_t epoch) noexcept {

@@ -21,16 +21,23 @@ void Liveness::note_slept(nanoseconds slept, nanoseconds now) noexcept {
 }
 
 void Liveness::note_heard(Peer& peer, nanoseconds now) noexcept {
+  constexpr std::chrono::milliseconds kBurst{5}, kLongest{1000};
+  constexpr int kSmoothing = 8;
+  const nanoseconds gap = now - peer.last_heard;
+  if (gap >= kBurst)
+    peer.interval += (std::min<nanoseconds>(gap, kLongest) - peer.interval) / kSmoothing;
   if (now - peer.last_heard > config_.quiet) peer.back_since = now;
   peer.last_heard = std::max(peer.last_heard, now);
   peer.confirmed = true;
   look_ = look_ || peer.quiet;
 }
 
-// When this silent peer is to be reported as quiet, or is lost.
+// When this silent peer is to be reported as quiet, or is lost. A link that it revealed shows that
+// it is alive, even if somebody else sent it again.
 nanoseconds Liveness::silence_due(const Peer& peer) const noexcept {
-  const nanoseconds bound = peer.quiet || !peer.joined ? config_.patience() : config_.quiet;
-  return peer.last_heard + bound + nanoseconds(1);
+  const bool is_next_lost = peer.quiet || !peer.joined;
+  const nanoseconds last = is_next_lost ? std::max(peer.last_heard, peer.opened) : peer.last_heard;
+  return last + (is_next_lost ? config_.patience() : config_.quiet) + nanoseconds(1);
 }
 
 void Liveness::watch(const Peer& peer) noexcept {
@@ -41,7 +48,7 @@ void Liveness::watch(const Peer& peer) noexcept {
 
 bool Liveness::is_lost(Peer& peer, nanoseconds now) {
   const nanoseconds silence = now - peer.last_heard;
-  if (silence > config_.patience()) return true;
+  if (now - std::max(peer.last_heard, peer.opened) > config_.patience()) return true;
   if (peer.joined && peer.quiet != (silence > config_.quiet)) {
     peer.quiet = !peer.quiet;
     events_.report(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer);

@@ -13,6 +13,7 @@
 
 #include "reckon/aoim/groups/epoch_index.hpp"
 #include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/address_proof.hpp"
 #include "reckon/aoim/presence/life_chain.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
@@ -32,9 +33,8 @@ struct Hearing {
   std::uint32_t rival = 0;  ///< epoch that claims our ID and that it accepts as the holder; 0: none
 };
 
-/// A peer has proved itself from another address.
+/// A peer has opened its last commitment from another address.
 struct Move {
-  pdu::Presence announced;
   SourceAddress to;
   std::chrono::nanoseconds since{};
 };
@@ -47,10 +47,20 @@ struct Peer {
   std::chrono::nanoseconds known_since{};
   /// When it was received again after it had been quiet or taken for ended.
   std::chrono::nanoseconds back_since = std::chrono::nanoseconds::min() / 2;
-  bool joined = false;                   ///< same scene and grid
-  SourceAddress source;                  ///< the only accepted source; port 0: any
-  SourceAddress former_source;           ///< before it moved
-  std::optional<Move> move;              ///< pending change of its source
+  bool joined = false;                    ///< same scene and grid
+  SourceAddress source;                   ///< the only accepted source; port 0: any
+  SourceAddress held;                     ///< source to return to, after a move on approval ..
+  std::chrono::nanoseconds held_since{};  ///< .. since; port 0: none
+  std::optional<Move> move;               ///< possible move on approval
+  bool may_hurry = false;                 ///< .. which is possible once for each proof
+  bool doubtful = false;                  ///< its source was refuted and nothing proved since
+  std::chrono::nanoseconds opened{};      ///< last link that opened a commitment, from anywhere
+  AddressProof proof;
+  SourceAddress refuted;  ///< last address that was no proof, port 0: none
+  /// Mean interval of its datagrams; bursts of less than 5 ms count as one.
+  std::chrono::nanoseconds interval = std::chrono::seconds(1);
+  /// When a hand of its was touched last.
+  std::chrono::nanoseconds touched = std::chrono::nanoseconds::min() / 2;
   SourceAddress suspect;                 ///< source of an impostor, port 0: none ..
   std::chrono::nanoseconds suspected{};  ///< .. since
   LifeTip tip;

@@ -14,8 +14,7 @@ bool is_leaving(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceLeaving) != 0;
 }
 
-// Whether `heard` was sent before `known` and received after it. A clock set back by more is
-// believed.
+// Whether `heard` was sent before `known` and received after it, unless a clock was set back.
 bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
   constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
   return heard.send_time < known.send_time && known.send_time - heard.send_time < kLongestDelay;
@@ -27,7 +26,7 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
     : config_(config),
       peers_(config.capacity),
       events_(4 * config.capacity + 16),
-      chain_(config.one_way, config.secret),
+      chain_({config.one_way, config.keyed_hash}, config.secret),
       proofs_(config.one_way),
       liveness_(config_, peers_, events_),
       pins_(config_, events_),
@@ -85,12 +84,15 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
 void Presence::receive_from_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
                                   const SourceAddress& from) {
   Peer& peer = peers_[index];
-  const bool at_home = may_speak(peer.source, from);
-  const Opening opening = proofs_.judge(peer.tip, heard, now, at_home);
-  // A copy, or an overtaken one.
-  if (at_home && opening == Opening::known) return liveness_.note_heard(peer, now);
+  pins_.note_sender(peer, from);
+  const Opening opening = proofs_.judge(peer.tip, heard, now, SourcePins::is_home(peer, from));
+  const bool opens = opening == Opening::newer;
+  const bool proves = opens || peer.tip.has_link_of(heard);
+  if (opens) pins_.disclose(peer, heard, now);
+  if (proves) pins_.note_proof(peer, heard, now, from);
+  const bool at_home = SourcePins::is_home(peer, from);
+  if (at_home && opening == Opening::known) return liveness_.note_heard(peer, now);  // a copy
   const bool is_refused = opening == Opening::wrong || opening == Opening::known;
-  const bool proves = opening == Opening::newer;
   if (is_refused || (!at_home && !pins_.may_move(peer, heard, now, from))) {
     if (proves) return;  // its address may have changed
     return pins_.refuse(peer, from, now);
@@ -103,7 +105,6 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
                        const SourceAddress& from) {
   Peer& peer = peers_[index];
   peer.tip = LifeTip(heard, now);
-  peer.move.reset();
   if (is_leaving(heard)) {
     const PeerId known_as = peer.id();
     peer.announced = heard;
@@ -129,7 +130,7 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
   liveness_.watch(peer);
 }
 
-// It has lost its ID to another, or found it taken; its epoch continues.
+// It has lost its ID to another; its epoch continues.
 void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds now,
                       const SourceAddress& from) {
   Peer moved = peers_[index];
@@ -155,7 +156,7 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
 // A peer that is not in the table announces itself.
 void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
   Claimant* claimant = claims_.find(heard.epoch);
-  if (claimant != nullptr && !may_speak(claimant->source, from)) return pins_.refuse();
+  if (claimant != nullptr && !claims_.may_speak_for(*claimant, from)) return pins_.refuse();
   if (!own_.is_taken(heard.simulation)) {
     claims_.forget(heard.epoch);
     return welcome(heard, now, from);
@@ -183,6 +184,7 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   peer.joined = own_.shares_scene(heard);
   peer.source = from;
   peer.tip = LifeTip(heard, now);
+  pins_.note_proof(peer, heard, now, from);
   if (const auto before = former_.take(heard.epoch)) {
     peer.known_since = before->known_since;
     peer.back_since = now;
@@ -280,18 +282,15 @@ void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from, nan
   if (known < peers_.size()) pins_.note_impostor(peers_[known], from, now);
 }
 
+void Presence::note_touched(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::size_t known = peers_.find_epoch(epoch);
+  if (known < peers_.size()) peers_[known].touched = now;
+}
+
 void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
   const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size()) return;
   liveness_.note_heard(peers_[known], now);
-}
-
-void Presence::settle_moves(nanoseconds now) {
-  if (!pins_.begin_settling(now)) return;
-  for (std::size_t i = peers_.size(); i-- > 0;) {
-    if (const auto moved = pins_.settle(peers_[i], now))
-      believe(i, moved->announced, now, moved->to);
-  }
 }
 
 void Presence::settle_silence(nanoseconds now) {
@@ -336,9 +335,12 @@ void Presence::settle(nanoseconds now) {
   while (settle_claims(now));
 }
 
-std::span<const pdu::Presence> Presence::step(nanoseconds now) {
+std::span<const pdu::Presence> Presence::step(nanoseconds now, nanoseconds utc,
+                                              std::uint32_t timestamp) {
   wake(now);
-  settle_moves(now);
+  if (pins_.begin_settling(now)) {
+    for (Peer& peer : peers_) pins_.settle(peer, now);
+  }
   settle(now);
   if (own_.step(now)) {
     fill_free_ids(now);
@@ -346,16 +348,18 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   }
   std::swap(outgoing_, farewells_);
   farewells_.clear();
-  for (pdu::Presence& farewell : outgoing_) {
-    farewell.flags |= pdu::kPresenceLeaving;
-    chain_.sign(farewell);
-  }
-
-  if (is_due(now)) {
+  for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
+  const bool announces = is_due(now);
+  if (announces) {
     outgoing_.push_back(own_.announce(now));
-    chain_.sign(outgoing_.back());
     if (pace_.note_announced(now, hearing_.is_complete())) lists_.send_now(now);
   }
+  for (pdu::Presence& announced : outgoing_) {
+    announced.send_time = static_cast<std::uint64_t>(utc.count());
+    announced.header.timestamp = timestamp;
+    chain_.sign(announced, pace_.own_source(), now);
+  }
+  if (announces && config_.one_way != nullptr) pace_.align(chain_.slot_time());
   counts_.announced += outgoing_.size();
   return outgoing_;
 }

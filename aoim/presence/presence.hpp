@@ -5,7 +5,8 @@
 // scene is reported once and not joined. A claim to an ID of another peer is pending until it is
 // known whether that peer is alive. Two live peers settle a dispute between themselves.
 //
-//   ProofJudge, SourcePins     is the sender the peer that it claims to be?
+//   ProofJudge, AddressProof,
+//   SourcePins                 is the sender the peer that it claims to be?
 //   FormerLives                has its epoch ended?
 //   Claims, Admission          may it get a row?
 //   Liveness                   which peers are silent?
@@ -88,18 +89,25 @@ class Presence {
   /// Notes a datagram of a member as a sign of life: lost announcements do not matter while its
   /// updates arrive. Unknown epochs are ignored. Check its source with standing() first.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
-  /// Sets our source address. A change is announced at once and repeated, so that others receive
-  /// the proof soon.
+  /// Sets our source address, as receivers see it; without it our announcements prove no address.
+  /// A change is announced at once and repeated, so that others receive the proof soon.
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept {
     pace_.note_own_source(source, now);
   }
   /// Notes a datagram with this epoch from another source; see Standing::impostor. If the peer can
-  /// prove its identity, the impostor is reported after half a second without a proof.
+  /// prove its address, see SourcePins::note_impostor.
   void note_impostor(std::uint32_t epoch, const SourceAddress& from, std::chrono::nanoseconds now);
 
+  /// One of our hands touches a hand of this peer, which therefore sends all the time: if its
+  /// address falls silent, a new one is soon accepted on approval. Unknown epochs are ignored.
+  void note_touched(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
+
   /// Finds time-outs, and returns the announcements to send on the base group now (mostly 0 or 1),
-  /// valid until the next step. The caller fills in send times and timestamps.
-  [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now);
+  /// valid until the next step. They must be sent unchanged.
+  /// @param utc since 1970  @param timestamp DIS timestamp of `utc`
+  [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now,
+                                                    std::chrono::nanoseconds utc = {},
+                                                    std::uint32_t timestamp = 0);
   /// The list of received peers if it is due; it may be empty. Valid until the next call. Call it
   /// after step(). See HeardListSender.
   /// @param last_sent when our last datagram was sent, with any content
@@ -197,7 +205,6 @@ class Presence {
   // Time-outs.
   void wake(Nanoseconds now);
   void settle(Nanoseconds now);
-  void settle_moves(Nanoseconds now);
   void settle_silence(Nanoseconds now);
   bool settle_claims(Nanoseconds now);  // whether a claimant has become the holder
   bool fill_free_ids(Nanoseconds now);  // whether an ID was assigned

@@ -37,15 +37,15 @@ struct PresenceConfig {
   /// Two established peers with one ID, as after a partition, count their witnesses after this
   /// time, or after half of it if all witnesses have sent a list.
   std::chrono::nanoseconds dispute = std::chrono::milliseconds(2500);
-  /// A peer that proves its identity from another address is moved there if nothing has come from
-  /// its old address for this time. A return to its former address takes effect at once.
-  std::chrono::nanoseconds still = std::chrono::milliseconds(200);
-  /// An ended epoch without proofs may return from another address after this time.
+  /// A peer that has proved no address, and an ended epoch without proofs, may continue at another
+  /// address after this time.
   std::chrono::nanoseconds pin = std::chrono::seconds(3);
   /// An epoch that proves its identity takes its ID back if it was silent for no longer than this.
   std::chrono::nanoseconds take_back = std::chrono::seconds(30);
   /// One-way function of the proofs of identity; null: no proofs, and epochs keep their address.
   OneWay one_way = nullptr;
+  /// Hash function of the proofs of addresses; null: no epoch proves its address.
+  KeyedHash keyed_hash = nullptr;
   ChainLink secret{};  ///< of this epoch, random
   /// Silence after which a peer is reported as quiet.
   std::chrono::nanoseconds quiet = std::chrono::milliseconds(2500);

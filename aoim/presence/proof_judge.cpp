@@ -9,7 +9,7 @@ namespace {
 
 // Most calls of the function a second for wrong proofs from elsewhere; proofs that are only a
 // little ahead are checked beyond that, too.
-constexpr std::uint32_t kMostWrongSteps = 4096, kAlways = 4;
+constexpr std::uint32_t kMostWrongSteps = 8192, kAlways = 4 * kSlotLinks;
 
 }  // namespace
 

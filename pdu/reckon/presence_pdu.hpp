@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Presence (experimental PDU 140): a peer announces on the base group itself, its world, and the
-// division of that world into groups. 152 octets.
+// division of that world into groups. 160 octets.
 #pragma once
 
 #include <array>
@@ -30,6 +30,8 @@ inline constexpr std::uint8_t kScenePeerWanted = 255;
 
 /// A value of a chain of one-way functions.
 using ChainLink = std::array<std::uint8_t, 16>;
+/// A message authentication code. Its key is revealed within seconds, so it is short.
+using AddressMac = std::array<std::uint8_t, 8>;
 
 struct Presence {
   static constexpr PduType kPduType = PduType::presence;
@@ -56,12 +58,16 @@ struct Presence {
   /// UTC second of the start of the process. If two newcomers claim an address, the older keeps it.
   std::uint32_t started = 0;
   std::array<char, 16> name{};  ///< short name for users, padded with NUL
-  /// Number of earlier announcements of this epoch, and the link that this one reveals. The
-  /// function's value of that link is the link of the announcement before. All zero: no proof.
+  /// Number of the link that this announcement reveals: 16 for each second since the epoch's first
+  /// announcement (its slot), and the number of earlier announcements of that slot. The function's
+  /// value of a link is the link before. All zero: no proof.
   std::uint32_t chain_number = 0;
-  std::uint32_t reserved = 0;  ///< 0
+  std::uint32_t slot_time = 0;  ///< since the begin of the slot [us]
   ChainLink chain_link{};
-  ChainLink next_anchor{};  ///< the function's value of the first of the next 256 links
+  ChainLink next_anchor{};  ///< the function's value of the first of the next 4,096 links
+  /// Binds the announcement to the address that it is sent from, with a key that the first link of
+  /// the next slot reveals. All zero: the sender does not know its address.
+  AddressMac address_mac{};
 
   /// The characters of `name` before the first NUL.
   [[nodiscard]] constexpr std::string_view name_view() const noexcept {
@@ -93,10 +99,11 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("started", pdu.started);
   visitor("name", pdu.name);
   visitor("chain_number", pdu.chain_number);
-  visitor("reserved", pdu.reserved);
+  visitor("slot_time", pdu.slot_time);
   visitor("chain_link", pdu.chain_link);
   visitor("next_anchor", pdu.next_anchor);
+  visitor("address_mac", pdu.address_mac);
 }
-static_assert(kFixedSize<Presence> == 152);
+static_assert(kFixedSize<Presence> == 160);
 
 }  // namespace reckon::pdu

@@ -55,6 +55,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
   config.presence.one_way = follow_chain;
+  config.presence.keyed_hash = hash_with_key;
   add_awareness(scene.aoim.awareness, config);
   config.radius = scene.aoim.radius;
   config.channels = channels_of(scene.aoim.tiers);

@@ -24,6 +24,15 @@ aoim::ChainLink follow_chain(const aoim::ChainLink& link, std::uint32_t number) 
   return value;
 }
 
+aoim::ChainLink hash_with_key(const aoim::ChainLink& key,
+                              std::span<const std::byte> octets) noexcept {
+  aoim::ChainLink value;
+  crypto_generichash(value.data(), value.size(),
+                     reinterpret_cast<const unsigned char*>(octets.data()), octets.size(),
+                     key.data(), key.size());
+  return value;
+}
+
 aoim::ChainLink draw_chain_secret() {
   aoim::ChainLink secret;
   if (!system_random(std::as_writable_bytes(std::span(secret)))) throw RandomSourceError();

@@ -36,6 +36,7 @@ aoim::AreaOfInterestConfig with_secret(aoim::AreaOfInterestConfig config,
 
 ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
+      link_(wiring.link),
       counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
       participant_(
@@ -299,9 +300,10 @@ void ModelLoop::emit(bool everything) noexcept {
     outlet_.push(group, octets);
   };
   pdu::TimeExchange exchange;
-  if (aoim_.presence().is_due(pass_.now) &&
-      time_.echo(owned_.simulation().simulation(), exchange)) {
-    send_pdu(aoim_, exchange, std::nullopt, pass_.now);
+  if (aoim_.presence().is_due(pass_.now)) {
+    aoim_.note_own_source(source_of(link_.local_endpoint(), 0), pass_.now);
+    if (time_.echo(owned_.simulation().simulation(), exchange))
+      send_pdu(aoim_, exchange, std::nullopt, pass_.now);
   }
   if (everything) return participant_.drain(pass_.now, sink);
   aoim_.step(pass_.now, sink);
@@ -410,6 +412,9 @@ void ModelLoop::receive(const aoim::RelayedState& relayed,
 void ModelLoop::doubt_the_silent() noexcept {
   std::array<Touched, kMaxDevices * haptics::kMaxRemoteHands> touched;
   const std::size_t count = touch_.copy_touched(touched);
+  for (const Touched& hand : std::span(touched).first(count)) {
+    if (const RemoteEntity* row = remote_.find(hand.id)) aoim_.note_touched(row->epoch, pass_.now);
+  }
   const bool again =
       watches_.doubt_silent(aoim_.presence(), std::span(touched).first(count), remote_, pass_.now);
   if (again) heard_again_ = pass_.now;

@@ -155,6 +155,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   void report(std::string_view format, const Arguments&... arguments) noexcept;
 
   const SceneFile& scene_;
+  const Link& link_;  // for its address
   LoopTrace trace_;
   Pass pass_;
   ModelCounters counted_;

@@ -72,12 +72,11 @@ void RollCall::listen(nanoseconds longest) {
 
 // Without a trailer, whose numbering would be the peer's.
 void RollCall::speak() {
-  for (pdu::Presence announced : presence_.step(clock_.now())) {
-    const nanoseconds utc = clock_.utc_now();
+  const nanoseconds utc = clock_.utc_now();
+  const std::uint32_t timestamp = pdu::to_dis_timestamp(utc, true);
+  for (pdu::Presence announced : presence_.step(clock_.now(), utc, timestamp)) {
     // A process that leaves now was no peer.
     if (announced.flags & pdu::kPresenceLeaving) announced.scene_peer = pdu::kScenePeerWanted;
-    announced.send_time = static_cast<std::uint64_t>(utc.count());
-    announced.header.timestamp = pdu::to_dis_timestamp(utc, true);
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
     const std::size_t size = pdu::encode(announced, octets);
     static_cast<void>(link_.send(base_, std::span(octets).first(size)));

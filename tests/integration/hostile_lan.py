@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A LAN that lies: two peers touch each other while a third host, at an address of its own, attacks without knowing a
 key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `leaders` those
-on a pair whose cells have leaders; `families` draws the numbers of each attack from a seed; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
+on a pair whose cells have leaders; `relay` against a quiet peer; `families` draws the numbers of each attack from a seed; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
 import json
 import math
 import pathlib
@@ -19,6 +19,7 @@ import hostile_page
 import testbed
 from hostile_attacks import ALICE, ATTACKS, BOB, Heard
 from hostile_leaders import FORGED, LEADER_ATTACKS
+from hostile_relay import hostile_relay
 from namespaces import BASE_GROUP, PORT, run
 from testbed import check
 
@@ -415,7 +416,7 @@ def hostile_sealed_short(setup):
     forge(setup, 200_000)
 
 
-CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_families, hostile_short, hostile_sealed, hostile_sealed_short, hostile_page.hostile_page)}
+CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_families, hostile_short, hostile_sealed, hostile_sealed_short, hostile_page.hostile_page, hostile_relay)}
 
 
 def one_attack(name):

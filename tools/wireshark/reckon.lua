@@ -511,7 +511,7 @@ local PDUS = {
       { kind = "attribute_sets", name = "attribute_record_sets",
         at = 30, width = 2, count = "number_of_attribute_record_sets" },
     } },
-  [140] = { name = "presence", family = 129, size = 152,
+  [140] = { name = "presence", family = 129, size = 160,
     floats = {
       60, 4, "cell_size", 64, 8, "scene_origin.x", 72, 8, "scene_origin.y",
       80, 8, "scene_origin.z", 88, 4, "interest_radius", },
@@ -633,7 +633,7 @@ local OWN = {
     { "need", 20, 2, "u16" },
     { "spring_need", 22, 2, "u16" },
   } },
-  presence = { size = 152, fields = {
+  presence = { size = 160, fields = {
     { "simulation_address.site", 12, 2, "u16" },
     { "simulation_address.application", 14, 2, "u16" },
     { "epoch", 16, 4, "u32" },
@@ -654,9 +654,10 @@ local OWN = {
     { "started", 92, 4, "u32" },
     { "name", 96, 16, "text" },
     { "chain_number", 112, 4, "u32" },
-    { "reserved", 116, 4, "u32" },
+    { "slot_time", 116, 4, "u32" },
     { "chain_link", 120, 16, "octets" },
     { "next_anchor", 136, 16, "octets" },
+    { "address_mac", 152, 8, "octets" },
   } },
   trailer = { size = 24, fields = {
     { "sequence", 12, 4, "u32" },

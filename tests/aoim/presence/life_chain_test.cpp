@@ -22,15 +22,20 @@ ChainLink counted(const ChainLink& link, std::uint32_t number) noexcept {
   return test::scrambled(link, number);
 }
 
+// One each 62.5 ms: 16 in each slot.
 std::vector<pdu::Presence> announcements(std::size_t count, std::uint8_t secret = 1) {
-  LifeChain chain(test::scrambled, {secret});
+  LifeChain chain({test::scrambled, nullptr}, {secret});
   std::vector<pdu::Presence> said(count, presence_of(2, 22));
-  for (pdu::Presence& one : said) chain.sign(one);
+  std::chrono::nanoseconds now = std::chrono::hours(3);
+  for (pdu::Presence& one : said) {
+    chain.sign(one, {}, now);
+    now += std::chrono::microseconds(62'500);
+  }
   return said;
 }
 
 TEST(LifeChain, OfOneLifeEachAnnouncementOpensThoseBeforeItWhateverIsLost) {
-  const auto said = announcements(2000);
+  const auto said = announcements(9000);
   std::mt19937 random(7);
   LifeTip tip(said[0], std::chrono::seconds(0));
   for (std::size_t i = 0; i + 1 < said.size();) {
@@ -57,7 +62,7 @@ TEST(LifeChain, NobodyElseOpensIt) {
       altered.chain_link[random() % 16] ^= static_cast<std::uint8_t>(1 + random() % 255);
       EXPECT_EQ(tip.judge(altered, test::scrambled, 256), Opening::wrong);
       altered = said[i + ahead];
-      altered.chain_number += 256;
+      altered.chain_number += kChainLength;
       EXPECT_EQ(tip.judge(altered, test::scrambled, 256), Opening::wrong);
     }
     pdu::Presence other = said[i];
@@ -67,10 +72,10 @@ TEST(LifeChain, NobodyElseOpensIt) {
 }
 
 TEST(LifeChain, WhatIsJudgedCostsNoMoreCallsThanAllowed) {
-  auto said = announcements(300);
+  auto said = announcements(600);
   const LifeTip tip(said[10], std::chrono::seconds(0));
-  EXPECT_EQ(tip.farthest(std::chrono::seconds(1)), 28u);
-  EXPECT_EQ(tip.farthest(std::chrono::hours(9)), 256u);
+  EXPECT_EQ(tip.farthest(std::chrono::seconds(1)), 49u);
+  EXPECT_EQ(tip.farthest(std::chrono::hours(9)), kChainLength);
   for (const std::uint32_t number : {11u, 14u, 15u, 200u, 256u, 300u, 600u, 0xFFFF'FFFFu}) {
     pdu::Presence one = said[20];
     one.chain_number = number;
@@ -82,10 +87,26 @@ TEST(LifeChain, WhatIsJudgedCostsNoMoreCallsThanAllowed) {
   EXPECT_EQ(tip.judge(said[15], counted, 4), Opening::wrong);
 }
 
+TEST(LifeChain, SlotsFollowTheClockAndBridgeASuspension) {
+  LifeChain chain({test::scrambled, nullptr}, {7});
+  std::chrono::nanoseconds now = std::chrono::hours(1);
+  pdu::Presence last, said = presence_of(2, 22);
+  for (int i = 0; i < 40; ++i) chain.sign(said, {}, now);
+  EXPECT_EQ(said.chain_number, kSlotLinks - 1) << "further announcements repeat the last link";
+  for (const int pause_ms : {1000, 600, 3000, 7900, 86'400'000, 250, 999}) {
+    last = said;
+    now += std::chrono::milliseconds(pause_ms);
+    chain.sign(said, {}, now);
+    EXPECT_EQ(LifeTip(last, now).judge(said, test::scrambled, 9 * kSlotLinks), Opening::newer);
+  }
+  EXPECT_EQ(slot_of(said.chain_number), 21u) << "a day counts as 8 s";
+  EXPECT_EQ(said.slot_time, 749'000u);
+}
+
 TEST(LifeChain, WithoutAFunctionNothingIsProved) {
-  LifeChain chain(nullptr, {5});
+  LifeChain chain({}, {5});
   pdu::Presence said = presence_of(2, 22);
-  chain.sign(said);
+  chain.sign(said, {}, std::chrono::seconds(1));
   EXPECT_EQ(said.chain_link, ChainLink{});
   EXPECT_FALSE(LifeTip(said, std::chrono::seconds(0)).is_chained());
   const LifeTip tip(announcements(1)[0], std::chrono::seconds(0));

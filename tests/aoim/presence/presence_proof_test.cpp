@@ -24,7 +24,8 @@ struct Theft {
 };
 
 std::string name_of(const testing::TestParamInfo<Theft>& info) {
-  return "Outage" + std::to_string(info.param.outage_ms) + "Gap" + std::to_string(info.param.gap_ms);
+  return "Outage" + std::to_string(info.param.outage_ms) + "Gap" +
+         std::to_string(info.param.gap_ms);
 }
 
 class Stolen : public testing::TestWithParam<Theft> {
@@ -50,14 +51,16 @@ class Stolen : public testing::TestWithParam<Theft> {
   }
   [[nodiscard]] bool all_know_the_victim(const SourceAddress& at) {
     for (std::size_t i = 1; i < kPeers; ++i) {
-      if (segment_[i].epoch_of(kName) != kEpoch || segment_[i].source_of(kEpoch) != at) return false;
+      if (segment_[i].epoch_of(kName) != kEpoch || segment_[i].source_of(kEpoch) != at)
+        return false;
     }
     return true;
   }
   // How long it takes until that holds; `limit` where it does not.
   [[nodiscard]] nanoseconds known_after(const SourceAddress& at, nanoseconds limit) {
     const nanoseconds begin = segment_.now();
-    while (!all_know_the_victim(at) && segment_.now() - begin < limit) segment_.run(milliseconds(1));
+    while (!all_know_the_victim(at) && segment_.now() - begin < limit)
+      segment_.run(milliseconds(1));
     return segment_.now() - begin;
   }
 
@@ -93,10 +96,10 @@ TEST_P(Stolen, TheVictimsEpochIsNotBelievedFromElsewhereHoweverLongItIsCutOff) {
 // A life of his own under the victim's name, which he proves as well as anybody.
 TEST_P(Stolen, TheNameGoesBackAtOnceFromALifeThatCameMeanwhile) {
   const auto [outage_ms, attack_ms, gap_ms, seed] = GetParam();
-  LifeChain chain(scrambled, {static_cast<std::uint8_t>(99 + seed)});
+  LifeChain chain({scrambled, nullptr}, {static_cast<std::uint8_t>(99 + seed)});
   const auto speak = [&] {
     pdu::Presence own = established(presence_of(1, 5000));
-    chain.sign(own);
+    chain.sign(own, {}, segment_.now());
     segment_.inject(own, kAttacker, kBeside);
     segment_.run(milliseconds(gap_ms));
   };
@@ -126,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Outages, Stolen,
 
 class Moving : public Stolen {};
 
-TEST_F(Moving, AnHonestChangeOfAddressIsBelievedWithinHalfASecond) {
+TEST_F(Moving, HonestChangeOfAQuietPeerIsAcceptedWithinTwoSeconds) {
   nanoseconds longest{0};
   for (std::uint8_t i = 0; i < 40; ++i) {
     segment_.run(milliseconds(3000 + 131 * i));
@@ -135,18 +138,18 @@ TEST_F(Moving, AnHonestChangeOfAddressIsBelievedWithinHalfASecond) {
     segment_[kVictim].note_own_source(to, segment_.now());
     longest = std::max(longest, known_after(to, seconds(3)));
   }
-  EXPECT_LT(longest, milliseconds(500));
+  EXPECT_LT(longest, seconds(2));
   EXPECT_EQ(segment_.count(1, Kind::moved), 40u);
   EXPECT_EQ(segment_.count(1, Kind::timed_out) + segment_.count(1, Kind::departed), 0u);
 }
 
-TEST_F(Moving, AChangeOfAddressDuringAnOutageIsBelievedWhenItIsOver) {
+TEST_F(Moving, ChangeDuringAnOutageIsAcceptedAfterIt) {
   cut(true);
   segment_.run(milliseconds(4300));
   segment_.move(kVictim, source(101));
   cut(false);
   segment_[kVictim].note_own_source(source(101), segment_.now());
-  EXPECT_LT(known_after(source(101), seconds(3)), milliseconds(500));
+  EXPECT_LT(known_after(source(101), seconds(3)), seconds(2));
 }
 
 class Relayed : public Stolen {
@@ -168,23 +171,19 @@ TEST_F(Relayed, WhoRepeatsWhatItHearsGetsNoNameWhileItsOwnerSpeaks) {
   }
 }
 
-TEST_F(Moving, FromWhoTookItByRepeatingAtAOneWayOutageTheOldAddressTakesItBackAtOnce) {
+TEST_F(Moving, OneWayOutageGivesNothingToARelay) {
   segment_.on_said = [this](std::size_t from, const pdu::Presence& said) {
     if (from == kVictim && is_cut_) segment_.inject(said, kAttacker, kBeside);
   };
-  segment_.on_event = [](auto, const auto&) {};
   cut(true);
-  segment_.run(seconds(3));
-  EXPECT_EQ(segment_[1].source_of(kEpoch), kAttacker) << "what a one-way outage leaves";
-  cut(false);
-  const nanoseconds back = segment_.now();
-  while (!all_know_the_victim(Segment::source_of(kVictim)) && segment_.now() - back < seconds(3)) {
-    segment_.run(milliseconds(1));
-    for (std::size_t i = 1; i < kPeers; ++i) {  // he goes on saying what the victim's hand does
-      if (segment_[i].source_of(kEpoch) == kAttacker) segment_[i].note_alive(kEpoch, segment_.now());
-    }
+  for (int i = 0; i < 50; ++i) {
+    segment_.run(milliseconds(100));
+    EXPECT_TRUE(all_know_the_victim(Segment::source_of(kVictim)));
   }
-  EXPECT_LE(segment_.now() - back, milliseconds(1010));
+  EXPECT_GT(impostors_, 0u);
+  cut(false);
+  segment_.run(seconds(5));
+  EXPECT_TRUE(all_know_the_victim(Segment::source_of(kVictim)));
 }
 
 TEST_F(Moving, AForgedWordFromTheVictimsOwnAddressIsRefusedWithoutItsProof) {

@@ -285,10 +285,10 @@ TEST(PresenceParts, AndAWholeListFitTheDatagramOfAnAnnouncementAndATimeExchange)
   constexpr std::size_t kFixed = pdu::kFixedSize<pdu::Presence> +
                                  pdu::kFixedSize<pdu::TimeExchange> +
                                  pdu::kFixedSize<pdu::PeersHeard>;
-  constexpr std::size_t kEpoch = pdu::kFixedSize<pdu::PeerEpoch>;
+  constexpr std::size_t kHeardEpoch = pdu::kFixedSize<pdu::PeerEpoch>;
   constexpr std::size_t kEcho = pdu::kFixedSize<pdu::TimeEcho>;
-  EXPECT_LE(kFixed + 8 * kEcho + config.most_listed * kEpoch, room);
-  EXPECT_LE(kFixed + 24 * kEcho + config.part * kEpoch, room);
+  EXPECT_LE(kFixed + 8 * kEcho + config.most_listed * kHeardEpoch, room);
+  EXPECT_LE(kFixed + 24 * kEcho + config.part * kHeardEpoch, room);
 }
 
 TEST(PresenceParts, FollowEachOtherUntilAllWhomItHearsAreTold) {

@@ -11,18 +11,20 @@ namespace {
 
 using test::presence_of;
 
-// The announcement of this number, from 0, of a life.
+// The first announcement of the slot with this link.
 pdu::Presence announced(std::uint32_t number, std::uint8_t secret) {
-  LifeChain chain(test::scrambled, {secret});
+  LifeChain chain({test::scrambled, nullptr}, {secret});
   pdu::Presence said = presence_of(2, 22);
-  for (std::uint32_t i = 0; i <= number; ++i) chain.sign(said);
+  for (std::uint32_t i = 0; i <= number; i += kSlotLinks)
+    chain.sign(said, {}, i / kSlotLinks * kSlot);
   return said;
 }
 
 TEST(ProofJudge, ManyWrongProofsDoNotKeepTheOwnerFromItsOwn) {
   const auto now = std::chrono::seconds(100);
   const LifeTip tip(announced(0, 1), std::chrono::seconds(0));
-  const pdu::Presence far = announced(100, 1), near = announced(3, 1), forged = announced(100, 2);
+  const pdu::Presence far = announced(1600, 1), near = announced(48, 1),
+                      forged = announced(1600, 2);
   ProofJudge proofs(test::scrambled);
   EXPECT_EQ(proofs.judge(tip, far, now, false), Opening::newer);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(proofs.judge(tip, forged, now, false), Opening::wrong);

@@ -3,6 +3,7 @@
 // PDUs, records and sinks that several tests of this folder share.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -109,6 +110,18 @@ inline pdu::ChainLink scrambled(const pdu::ChainLink& link, std::uint32_t number
       state ^= state >> 29;
       value[i] = static_cast<std::uint8_t>(state >> 56);
     }
+  }
+  return value;
+}
+
+/// Stands for a keyed hash function.
+inline pdu::ChainLink scrambled_with(const pdu::ChainLink& key,
+                                     std::span<const std::byte> octets) noexcept {
+  pdu::ChainLink value = key;
+  for (std::size_t i = 0; i < octets.size(); i += value.size()) {
+    for (std::size_t k = i; k < std::min(i + value.size(), octets.size()); ++k)
+      value[k - i] ^= std::to_integer<std::uint8_t>(octets[k]);
+    value = scrambled(value, static_cast<std::uint32_t>(i));
   }
   return value;
 }

@@ -53,6 +53,7 @@ class Segment {
   Segment(std::uint64_t seed, double loss, const PresenceConfig& config = {})
       : config_(config), random_(seed), loss_(loss) {
     config_.one_way = scrambled;
+    config_.keyed_hash = scrambled_with;
   }
 
   Presence& add(const pdu::Presence& own) {

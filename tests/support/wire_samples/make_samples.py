@@ -212,7 +212,7 @@ def datums():
 
 
 def experimental():
-    presence = Sample("presence", 140, 129, 152)
+    presence = Sample("presence", 140, 129, 160)
     presence.many("simulation_address", "site application", "H", (0xBEEF, 2))
     presence.put("epoch", "I", 0x89ABCDEF)
     presence.put("pool_size", "H", 256)
@@ -229,9 +229,10 @@ def experimental():
     presence.put("started", "I", 1789999999)
     presence.put("name", "text16", "left hand")
     presence.put("chain_number", "I", 258)
-    presence.put("reserved", "I", 0)
+    presence.put("slot_time", "I", 20123)
     presence.put("chain_link", "hex", bytes(range(0x10, 0x20)).hex())
     presence.put("next_anchor", "hex", bytes(range(0x20, 0x30)).hex())
+    presence.put("address_mac", "hex", bytes(range(0x40, 0x48)).hex())
     trailer = Sample("datagram_trailer", 141, 129, 24)
     trailer.put("sequence", "I", 0xFFFFFFFF)
     trailer.put("epoch", "I", 0x89ABCDEF)
