@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Polygons cut into triangles by clipping ears.
 #include <Eigen/Geometry>
+#include <algorithm>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/haptics/mesh_files/mesh_file.hpp"
 
 namespace reckon::haptics {
@@ -22,7 +24,13 @@ Vector3d area_vector(std::span<const Vector3d> vertices, std::span<const std::ui
   return sum;
 }
 
-/// The rest of a polygon while its ears are cut off.
+// Smaller polygons are as cheap as their triangles.
+constexpr std::size_t kFewCorners = 64;
+// Searches for ears that only appear when a corner elsewhere is gone, as rounding makes them.
+constexpr int kMostSearches = 4;
+
+/// The rest of a polygon while its ears are cut off. An ear that is cut changes those at its two
+/// neighbours.
 class Outline {
  public:
   Outline(std::span<const Vector3d> vertices, std::span<const std::uint32_t> corners)
@@ -39,20 +47,28 @@ class Outline {
     return true;
   }
 
-  /// Cuts one ear off; if rounding leaves none, any corner.
+  /// Cuts one ear off; if there is none, any corner.
   Index3 cut() {
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (!is_ear(i)) continue;
-      best = i;
-      break;
+    auto found = std::ranges::find(is_ear_, true);
+    while (found == is_ear_.end() && searches_ < kMostSearches) {
+      search();
+      found = std::ranges::find(is_ear_, true);
     }
-    const Index3 triangle = ear(best);
-    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(best));
+    const std::ptrdiff_t best = found == is_ear_.end() ? 0 : found - is_ear_.begin();
+    const Index3 triangle = ear(static_cast<std::size_t>(best));
+    left_.erase(left_.begin() + best);
+    is_ear_.erase(is_ear_.begin() + best);
+    const std::size_t n = left_.size(), behind = static_cast<std::size_t>(best) % n;
+    for (const std::size_t i : {behind, (behind + n - 1) % n}) is_ear_[i] = is_ear(i);
     return triangle;
   }
 
  private:
+  void search() {
+    ++searches_;
+    is_ear_.resize(left_.size());
+    for (std::size_t i = 0; i < left_.size(); ++i) is_ear_[i] = is_ear(i);
+  }
   [[nodiscard]] Index3 ear(std::size_t i) const {
     const std::size_t n = left_.size();
     return {left_[(i + n - 1) % n], left_[i], left_[(i + 1) % n]};
@@ -77,6 +93,8 @@ class Outline {
 
   std::span<const Vector3d> vertices_;
   std::vector<std::uint32_t> left_;
+  std::vector<char> is_ear_;  // of each corner that is left, as far as it was looked at
+  int searches_ = 0;
   Vector3d up_;
 };
 
@@ -93,6 +111,8 @@ void cut_polygon(std::span<const Vector3d> vertices, std::span<const std::uint32
     }
     return;
   }
+  if (corners.size() > kFewCorners)
+    LoadBudget::take(LoadWork::corner_pairs, corners.size() * corners.size());
   while (outline.size() >= 3) triangles.push_back(outline.cut());
 }
 
