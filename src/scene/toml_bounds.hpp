@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostTomlOctets = 16 << 20;
 /// Tables and arrays within each other. Each part of a key or a header is one.
 inline constexpr std::size_t kMostTomlLevels = 256;
 /// Keys, parts of keys, and elements of arrays.
-inline constexpr std::size_t kMostTomlValues = 1'000'000;
+inline constexpr std::size_t kMostTomlValues = 300'000;
 
 /// Looks at the text once, without memory for more than its levels. A text that is no TOML may
 /// pass; the parser then refuses it before anything that was not looked at.

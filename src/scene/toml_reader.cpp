@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "reckon/haptics/input_files/input_file.hpp"
+#include "reckon/haptics/input_files/load_progress.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/jitter_text.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
@@ -102,6 +103,7 @@ TomlReader::TomlReader(const toml::table& table, std::string section, fs::path f
       folder_(std::move(folder)),
       vocabulary_(&vocabulary),
       problems_(&problems) {
+  haptics::LoadProgress::look();
   refuse_unknown_keys();
 }
 
@@ -366,6 +368,10 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
   if (array == nullptr ||
       !std::ranges::all_of(*array, [](const auto& e) { return e.is_table(); })) {
     wrong_type(*node, spec(key));
+    return found;
+  }
+  if (array->size() > kMostTables) {
+    problem(key, fmt::format("{} tables '{}'; write {} at most", array->size(), key, kMostTables));
     return found;
   }
   for (const toml::node& element : *array) found.push_back(inside(*element.as_table(), key));

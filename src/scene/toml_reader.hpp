@@ -40,6 +40,8 @@ void throw_problems(const std::string& file, std::vector<SceneProblem> problems)
 
 /// Problems that are reported of one file; those beyond are not looked for.
 inline constexpr std::size_t kMostProblems = 100;
+/// Tables under one key, such as [[entity]].
+inline constexpr std::size_t kMostTables = 100'000;
 
 /// A view of one table of a file. The constructor refuses unknown and renamed keys. A read leaves
 /// its target as it is if the key is absent or invalid; an invalid one becomes a problem.
