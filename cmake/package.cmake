@@ -47,7 +47,7 @@ The program runs peers and demonstrations, inspects, records and replays DIS
 traffic, shows an exercise in a browser, and measures accuracy and cost.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME reckon-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libopenmesh-dev, libpng-dev, libode-dev, libusb-1.0-0-dev, libfmt-dev, libtomlplusplus-dev, libpcap-dev, libzstd-dev, libarchive-dev, libsodium-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libopenmesh-dev, libpng-dev, zlib1g-dev, libode-dev, libusb-1.0-0-dev, libfmt-dev, libtomlplusplus-dev, libpcap-dev, libzstd-dev, libarchive-dev, libsodium-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Static libraries, headers, CMake package and pkg-config files: PDU codec, dead
 reckoning, area of interest, haptics and the peer, each by itself.")
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME reckon-doc)

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
+
 namespace reckon::haptics {
 namespace {
 
@@ -114,6 +116,12 @@ GreyImage heights_of(const HeightsShape& shape) {
     throw std::invalid_argument(shape.file.string() + ": has " +
                                 std::to_string(picture.pixels.size()) +
                                 " pixels, and a solid takes 1048576: scale the picture down");
+  try {
+    LoadBudget::take(LoadWork::triangles, 2 * picture.pixels.size());
+  } catch (const LoadLimitError& error) {
+    throw std::invalid_argument(shape.file.string() + ": with this picture there are " +
+                                error.what());
+  }
   return picture;
 }
 

@@ -10,6 +10,7 @@
 
 #include "reckon/haptics/geometry/mesh_repair.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
+#include "reckon/haptics/input_files/load_progress.hpp"
 
 namespace reckon::haptics {
 
@@ -86,7 +87,9 @@ SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report)
   if (soup.triangles.size() > 0x7fffffffu) throw std::runtime_error("more than 2^31 triangles");
   weld(soup, report_);
   drop_collapsed(soup, report_);
+  LoadProgress::look_now();
   drop_duplicates(soup, report_);
+  LoadProgress::look_now();
   for (const SoupTriangle& triangle : soup.triangles) {
     for (const std::uint32_t corner : triangle.corners) bounds_.extend(soup.vertices[corner]);
   }
@@ -95,6 +98,7 @@ SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report)
   clearance_ = kRelativeClearance * size_;
   report_.extent = bounds_.sizes();
   orient(soup, report_);
+  LoadProgress::look_now();
   drop_thin(soup, kRelativeThinnest * size_, report_);
   if (soup.triangles.empty()) throw no_triangle(report_);
   report_.triangles = soup.triangles.size();

@@ -8,6 +8,7 @@
 #include "reckon/haptics/geometry/height_field.hpp"
 #include "reckon/haptics/geometry/mesh_repair.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/haptics/mesh_files/mesh_file.hpp"
 
 namespace reckon::haptics {
@@ -40,7 +41,21 @@ Vector3d place(const MeshShape& shape, std::vector<Vector3d>& vertices) {
   return shape.centre ? Vector3d::Zero() : Vector3d(middle * factor);
 }
 
-TriangleSoup cut_polygons(MeshFile file, MeshReport& report) {
+/// The triangles of one face.
+void cut_face(const MeshShape& shape, const MeshFile& file, const FileFace& face,
+              std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  triangles.clear();
+  try {
+    if (face.count > 3) LoadBudget::take(LoadWork::triangles, face.count - 3);
+    cut_polygon(file.vertices, file.corners_of(face), triangles);
+  } catch (const LoadLimitError& error) {
+    throw mesh_error(shape, std::string(file.place_word) + " " + std::to_string(face.place) +
+                                ": with this face of " + std::to_string(face.count) +
+                                " corners, there are " + error.what());
+  }
+}
+
+TriangleSoup cut_polygons(const MeshShape& shape, MeshFile file, MeshReport& report) {
   TriangleSoup soup;
   report.place_word = file.place_word;
   report.faces = file.faces.size();
@@ -49,8 +64,7 @@ TriangleSoup cut_polygons(MeshFile file, MeshReport& report) {
   for (const FileFace& face : file.faces) {
     if (face.count > 3) report.polygons.add(face.place);
     if (face.count < 3) report.dropped_degenerate.add(face.place);
-    triangles.clear();
-    cut_polygon(file.vertices, file.corners_of(face), triangles);
+    cut_face(shape, file, face, triangles);
     for (const auto& corners : triangles)
       soup.triangles.push_back({corners, face.place, {face.material, face.group}});
   }
@@ -62,8 +76,9 @@ TriangleSoup cut_polygons(MeshFile file, MeshReport& report) {
 }  // namespace
 
 SurfaceMesh SurfaceMesh::load(const MeshShape& shape) {
+  const LoadBudget budget;
   MeshReport report;
-  TriangleSoup soup = cut_polygons(read_mesh_file(shape.file), report);
+  TriangleSoup soup = cut_polygons(shape, read_mesh_file(shape.file), report);
   const Vector3d origin = place(shape, soup.vertices);
   try {
     SurfaceMesh mesh(std::move(soup), report);
@@ -75,6 +90,7 @@ SurfaceMesh SurfaceMesh::load(const MeshShape& shape) {
 }
 
 SurfaceMesh SurfaceMesh::load_heights(const HeightsShape& shape, std::size_t most_pixels) {
+  const LoadBudget budget;
   const GreyImage picture = heights_of(shape);
   HeightsShape sized = shape;
   sized.length = length_of(shape, picture);

@@ -5,13 +5,14 @@
 #include <png.h>
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "reckon/haptics/image_files/pgm_reader.hpp"
+#include "reckon/haptics/image_files/png_data.hpp"
+#include "reckon/haptics/input_files/input_file.hpp"
+#include "reckon/haptics/input_files/load_budget.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -35,6 +36,7 @@ GreyImage read_png(std::string_view bytes) {
   if (png_image_begin_read_from_memory(&image.png, bytes.data(), bytes.size()) == 0) image.refuse();
   const std::size_t width = image.png.width, height = image.png.height;
   check_pixels(width, height);
+  check_png_data(bytes);
   // 8 bits are brightness as stored, without the gamma of a screen: a height is no light.
   const bool deep = (image.png.format & PNG_FORMAT_FLAG_LINEAR) != 0;
   image.png.format = deep ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_GRAY;
@@ -59,12 +61,7 @@ std::string read_octets(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw std::invalid_argument("is no file; give the path relative to the scene file");
-  if (std::filesystem::file_size(file, error) > kMostImageOctets)
-    throw std::invalid_argument("is larger than 192 MiB; give a picture of at most 4096 x 4096");
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw std::invalid_argument("cannot be read; see that you may open it");
-  return bytes;
+  return read_input_file(file, kMostImageOctets);
 }
 
 }  // namespace
@@ -72,7 +69,7 @@ std::string read_octets(const std::filesystem::path& file) {
 void check_pixels(std::size_t width, std::size_t height) {
   if (width >= kLeastPixels && height >= kLeastPixels && width <= kMostPixels &&
       height <= kMostPixels)
-    return;
+    return LoadBudget::take(LoadWork::pixels, width * height);
   throw std::invalid_argument("has " + std::to_string(width) + " x " + std::to_string(height) +
                               " pixels: give 4 to 4096 along each edge");
 }
@@ -84,6 +81,7 @@ GreyImage decode_image(std::string_view bytes) {
 }
 
 GreyImage read_image(const std::filesystem::path& file) {
+  const LoadBudget budget;
   try {
     return decode_image(read_octets(file));
   } catch (const std::invalid_argument& error) {

@@ -21,11 +21,13 @@ inline constexpr std::size_t kMostPixels = 4096;  ///< along each edge
 /// A file is read up to here [octets]: more than any picture of kMostPixels needs.
 inline constexpr std::size_t kMostImageOctets = 192 << 20;
 
-/// @throws std::invalid_argument for a picture that is too small or too large
+/// @throws std::invalid_argument for a picture that is too small or too large, or exceeds the
+/// pixels of one scene
 void check_pixels(std::size_t width, std::size_t height);
 
 /// The octets of a PNG file of any depth and colour, or of a PGM file (P2 or P5) of 8 or 16 bits,
-/// told apart by how they begin. What is transparent is black.
+/// told apart by how they begin. What is transparent is black. Charges its pixels to LoadBudget
+/// before it takes memory for them.
 /// @throws std::invalid_argument with the fault and the remedy
 [[nodiscard]] GreyImage decode_image(std::string_view bytes);
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
+#include "reckon/haptics/input_files/input_file.hpp"
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/haptics/mesh_files/mesh_readers.hpp"
 
 namespace reckon::haptics {
@@ -31,13 +31,15 @@ std::runtime_error mesh_error(const std::filesystem::path& file, std::size_t lin
 }
 
 std::string read_bytes(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
     throw mesh_error(file, 0, "no such file; give the path relative to the scene file");
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw mesh_error(file, 0, "cannot be read; see that you may open it");
-  return bytes;
+  try {
+    return read_input_file(file, kMostMeshOctets);
+  } catch (const std::invalid_argument& refusal) {
+    throw mesh_error(file, 0, refusal.what());
+  }
 }
 
 const Format& format_of(const std::filesystem::path& file) {
@@ -68,6 +70,7 @@ void check_corners(const MeshFile& file) {
 }  // namespace
 
 MeshFile read_mesh_file(const std::filesystem::path& file) {
+  const LoadBudget budget;
   const Format& format = format_of(file);
   const std::string bytes = read_bytes(file);
   std::string_view text = bytes;
@@ -78,6 +81,8 @@ MeshFile read_mesh_file(const std::filesystem::path& file) {
     check_corners(mesh);
   } catch (const MeshFileError& error) {
     throw mesh_error(file, error.line(), error.what());
+  } catch (const LoadLimitError& error) {
+    throw mesh_error(file, 0, error.what());
   }
   return mesh;
 }
@@ -103,6 +108,7 @@ std::uint32_t FaceNamer::number_of(std::string_view name) {
 }
 
 void begin_face(MeshFile& file, std::size_t place) {
+  LoadBudget::take(LoadWork::triangles, 1);
   file.faces.push_back({file.corners.size(), 0, static_cast<std::uint32_t>(place), 0, 0});
 }
 

@@ -45,14 +45,17 @@ struct MeshFile {
 };
 
 /// Reads a file according to its extension: .obj (polygons, relative indices), .ply (text and
-/// binary, both byte orders), .stl (text and binary), .off (text). 0.3 us a triangle.
+/// binary, both byte orders), .stl (text and binary), .off (text). 0.3 us a triangle. Charges a
+/// triangle for each face to LoadBudget.
 /// @throws std::runtime_error "mesh FILE:LINE: what; remedy": not readable, a vertex that is not
-/// finite, a face with a vertex that does not exist, an end within an element.
+/// finite, a face with a vertex that does not exist, an end within an element, too many faces.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file);
 
 /// Cuts a polygon into count - 2 triangles with the same winding. A polygon that is not convex is
-/// cut along inner diagonals. `corners` index `vertices`; no triangles for fewer than three
-/// corners.
+/// cut along inner diagonals; one that crosses itself, anyhow. `corners` index `vertices`; no
+/// triangles for fewer than three corners. Of a polygon that is not convex and has more than 64
+/// corners, the cost grows with their square, which is charged to LoadBudget.
+/// @throws LoadLimitError
 void cut_polygon(std::span<const Eigen::Vector3d> vertices, std::span<const std::uint32_t> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -3,7 +3,10 @@
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -12,6 +15,7 @@
 #include "reckon/haptics/geometry/implicit_solid.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/haptics/scene/least_mass.hpp"
 
 namespace reckon::haptics {
@@ -79,9 +83,26 @@ using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
 using ImplicitPointer = std::shared_ptr<const ImplicitSolid>;
 
-ContactShape make_shape(const Shape& shape) {
+/// The shapes of one plan. Objects with the same mesh or picture, such as copies, share it.
+class ShapeMaker {
+ public:
+  ContactShape make(const Shape& shape);
+
+ private:
+  using Numbers = std::array<double, 4>;
+  template <class Load>
+  MeshPointer shared(const std::filesystem::path& file, const Numbers& numbers, Load load) {
+    MeshPointer& mesh = meshes_[{file, numbers}];
+    if (!mesh) mesh = std::make_shared<const SurfaceMesh>(load());
+    return mesh;
+  }
+
+  std::map<std::pair<std::filesystem::path, Numbers>, MeshPointer> meshes_;
+};
+
+ContactShape ShapeMaker::make(const Shape& shape) {
   return std::visit(
-      [](const auto& s) -> ContactShape {
+      [this](const auto& s) -> ContactShape {
         using S = std::decay_t<decltype(s)>;
         if constexpr (std::is_same_v<S, PlaneShape>) {
           return HalfSpace(s);
@@ -90,9 +111,11 @@ ContactShape make_shape(const Shape& shape) {
         } else if constexpr (std::is_same_v<S, BoxShape>) {
           return Block(s);
         } else if constexpr (std::is_same_v<S, MeshShape>) {
-          return std::make_shared<const SurfaceMesh>(SurfaceMesh::load(s));
+          return shared(s.file, {s.scale_to, s.centre ? 1.0 : 0.0},
+                        [&] { return SurfaceMesh::load(s); });
         } else if constexpr (std::is_same_v<S, HeightsShape>) {
-          return std::make_shared<const SurfaceMesh>(SurfaceMesh::load_heights(s));
+          return shared(s.file, {s.width, s.length, s.height, s.base},
+                        [&] { return SurfaceMesh::load_heights(s); });
         } else {
           return std::make_shared<const ImplicitSolid>(s);
         }
@@ -170,10 +193,10 @@ Eigen::Quaterniond checked_orientation(const ObjectPose& pose) {
   return q.normalized();
 }
 
-PlannedObject plan_object(const SceneObject& object) {
+PlannedObject plan_object(const SceneObject& object, ShapeMaker& shapes) {
   const Eigen::Quaterniond orientation = checked_orientation(object.pose);
   PlannedObject planned{object.name,
-                        make_shape(object.shape),
+                        shapes.make(object.shape),
                         orientation.toRotationMatrix(),
                         object.pose.position,
                         Vector3d::Zero(),
@@ -267,9 +290,11 @@ EffectPlan::EffectPlan(const Scene& scene) {
       throw std::runtime_error(where + error.what());
     }
   };
+  const LoadBudget budget;
+  ShapeMaker shapes;
   objects_.reserve(scene.objects.size());
   for (const SceneObject& object : scene.objects)
-    objects_.push_back(named("object", object.name, [&] { return plan_object(object); }));
+    objects_.push_back(named("object", object.name, [&] { return plan_object(object, shapes); }));
   regions_.reserve(scene.regions.size());
   for (const SceneRegion& region : scene.regions)
     regions_.push_back(named("region", region.name, [&] { return plan_region(region); }));

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/haptics/input_files/load_budget.hpp"
 
 namespace reckon::haptics {
 
@@ -55,6 +56,7 @@ std::shared_ptr<const SurfacePatches> plan_patches(const SceneObject& object,
                                                    const SurfaceMesh& mesh) {
   if (object.patches.empty()) return nullptr;
   check_names(object.patches);
+  LoadBudget::take(LoadWork::patches, mesh.triangles().size());
   auto out = std::make_shared<SurfacePatches>();
   out->in_file = mesh.names();
   const Friction* friction = object.effects.find<StickSlipFriction>();

@@ -10,6 +10,7 @@
 
 #include "reckon/peer/scene/key_row.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/toml_bounds.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
 
 namespace reckon::peer {
@@ -149,7 +150,7 @@ DeviceDescriptor parse_device_descriptor(std::string_view text, const std::strin
 }
 
 DeviceDescriptor load_device_descriptor(const std::filesystem::path& file) {
-  return parse_device_descriptor(read_bytes(file), file.string());
+  return parse_device_descriptor(read_bytes(file, kMostTomlOctets), file.string());
 }
 
 }  // namespace reckon::peer

@@ -118,14 +118,16 @@ void read_dead_reckoning(TomlReader& table, const DeadReckoningConfig& scene,
                             format_quantity(needed, "s"), format_quantity(needed, "s")));
 }
 
-void check_track(TomlReader& table, TrackShelf& shelf, const EntityConfig& entity) {
+/// @param checked files that were read already
+void check_track(TomlReader& table, std::set<std::filesystem::path>& checked,
+                 const EntityConfig& entity) {
   for (const char* key : {"speed", "repeat"}) {
     if (!table.has(key) || table.has("track")) continue;
     table.problem(key, fmt::format("only a track takes '{}'; this entity has none", key));
   }
-  if (entity.track.empty()) return;
+  if (entity.track.empty() || !checked.insert(entity.track).second) return;
   try {
-    (void)shelf.curve(entity.track, entity.repeat, turn_of(entity));
+    (void)read_track_samples(entity.track);
   } catch (const CsvError& error) {
     table.problem("track", fmt::format("'track': {}", error.what()));
   }
@@ -250,14 +252,14 @@ Section<EntityConfig> entity_section() {
 void read_entities(TomlReader& file, SceneFile& out) {
   static const Section<EntityConfig> section = entity_section();
   const deadreckon::LocalFrame frame(out.origin.latitude, out.origin.longitude, out.origin.height);
-  TrackShelf shelf;
+  std::set<std::filesystem::path> checked_tracks;
   std::set<std::uint32_t> tags;
   for (TomlReader& table : file.tables("entity")) {
     EntityConfig& entity = out.entities.emplace_back();
     section.read(table, entity);
     read_place(table, frame, entity);
     read_dead_reckoning(table, out.dead_reckoning, entity);
-    check_track(table, shelf, entity);
+    check_track(table, checked_tracks, entity);
     check_beacon(table, out, entity, tags);
   }
 }

@@ -21,6 +21,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kLooks = 256;  // at a track
+// Entities and devices that are compared in pairs.
+constexpr std::size_t kMostCompared = 20'000;
 
 /// Something of a peer at the start.
 struct Placed {
@@ -72,6 +74,7 @@ void set_reach_by_extent(SceneFile& scene, const StatedReach& stated) {
 
 std::string unsensed_note(const SceneFile& scene) {
   const std::vector<Placed> all = placed_at_start(scene);
+  if (all.size() > kMostCompared) return {};
   std::size_t unsensed = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Placed& entity : all) {

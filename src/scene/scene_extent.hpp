@@ -26,7 +26,7 @@ struct StatedReach {
 void set_reach_by_extent(SceneFile& scene, const StatedReach& stated);
 
 /// A sentence about entities that no other peer of the scene senses where all are at the start;
-/// empty if there are none.
+/// empty if there are none, or if entities and devices are more than 20,000: each pair is compared.
 [[nodiscard]] std::string unsensed_note(const SceneFile& scene);
 
 }  // namespace reckon::peer

@@ -11,9 +11,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/peer/scene/node_section.hpp"
 #include "reckon/peer/scene/scene_extent.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/scene/toml_bounds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -175,6 +177,7 @@ SceneFileError::SceneFileError(const std::string& file, std::vector<SceneProblem
 SceneFile parse_scene_file(std::string_view text, const std::string& file,
                            const std::filesystem::path& folder,
                            const haptics::CustomEffects& effects) {
+  const haptics::LoadBudget budget;
   const toml::table document = parse_toml(text, file);
   const SceneVocabulary vocabulary = vocabulary_of(effects);
   std::vector<SceneProblem> problems;
@@ -197,7 +200,8 @@ SceneFile load_scene_file(const std::filesystem::path& path,
         path.string(),
         {{0, 0, "there is no such file; name a scene file, for example scenes/two_hands.toml"}});
   if (fs::is_directory(path, error)) throw SceneFileError(path.string(), {{0, 0, "is a folder"}});
-  SceneFile scene = parse_scene_file(read_bytes(path), path.string(), path.parent_path(), effects);
+  SceneFile scene = parse_scene_file(read_bytes(path, kMostTomlOctets), path.string(),
+                                     path.parent_path(), effects);
   scene.path = path;
   return scene;
 }

@@ -5,16 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/input_files/input_file.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/peer/scene/toml_reader.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -45,9 +46,21 @@ class Hash {
     for (const double component : v) fact(name, component);
   }
 
+  /// The content of a file, which is read once for all objects that name it.
+  void content(std::string_view name, const std::filesystem::path& file) {
+    const auto [entry, is_new] = contents_.try_emplace(file);
+    if (is_new) {
+      Hash octets;
+      octets.bytes(read_bytes(file, haptics::kMostMeshOctets));
+      entry->second = fmt::format("{:016x}", octets.value());
+    }
+    fact(name, entry->second);
+  }
+
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
  private:
+  std::map<std::filesystem::path, std::string> contents_;
   std::uint64_t value_ = 0xCBF29CE484222325ULL;
 };
 
@@ -59,23 +72,14 @@ void add(Hash& hash, const haptics::SphereShape& sphere) { hash.fact("sphere", s
 
 void add(Hash& hash, const haptics::BoxShape& box) { hash.fact("box", box.size); }
 
-void add_content(Hash& hash, std::string_view name, const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw SceneFileError(file.string(), {{0, 0, "cannot be read; name a file that can"}});
-  Hash content;
-  content.bytes(std::string{std::istreambuf_iterator<char>(stream), {}});
-  hash.fact(name, fmt::format("{:016x}", content.value()));
-}
-
 void add(Hash& hash, const haptics::MeshShape& mesh) {
-  add_content(hash, "mesh", mesh.file);
+  hash.content("mesh", mesh.file);
   hash.fact("scale_to", mesh.scale_to);
   hash.fact("centre", mesh.centre ? "true" : "false");
 }
 
 void add(Hash& hash, const haptics::HeightsShape& heights) {
-  add_content(hash, "heights", heights.file);
+  hash.content("heights", heights.file);
   hash.fact("width", heights.width);
   hash.fact("length", heights.length);
   hash.fact("height", heights.height);
@@ -125,7 +129,7 @@ template <class Effect>
 void add_values(Hash& hash, const typename Effect::Parameters& values) {
   hash.fact("effect", Effect::kName);
   if constexpr (haptics::TakesFile<Effect>) {
-    if (!values.file.empty()) add_content(hash, Effect::kFile.key, values.file);
+    if (!values.file.empty()) hash.content(Effect::kFile.key, values.file);
   }
   for (const auto& row : Effect::kParameters) hash.fact(row.key, values.*row.field);
 }

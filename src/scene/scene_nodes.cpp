@@ -16,6 +16,8 @@
 namespace reckon::peer {
 namespace {
 
+/// Problems for which the nearest name is looked up among all nodes.
+constexpr std::size_t kMostLookUps = 10;
 /// The root of a file's graph, on which nodes without a parent hang.
 constexpr const char* kRoot = "";
 
@@ -41,12 +43,13 @@ class WrittenNodes {
     for (std::size_t table = 0; table < hung_on.size(); ++table) hang(table, hung_on[table]);
   }
 
-  /// Reports what is wrong; only if that is nothing, copies() ends.
+  /// Reports what is wrong; only if that is nothing, original() may be called.
   void check() {
     const std::size_t before = problems_.size();
     check_tree();
     for (std::size_t node = 0; node < nodes_.size(); ++node) check_use(node);
     if (problems_.size() == before) check_copies_end();
+    if (problems_.size() == before) resolve_copies();
   }
 
   [[nodiscard]] const NodeConfig& operator[](std::size_t node) const { return nodes_[node]; }
@@ -58,10 +61,7 @@ class WrittenNodes {
     return objects_[node];
   }
   /// What a copy is in the end a copy of; else the node itself.
-  [[nodiscard]] std::size_t original(std::size_t node) const {
-    while (!nodes_[node].use.empty()) node = *find(nodes_[node].use);
-    return node;
-  }
+  [[nodiscard]] std::size_t original(std::size_t node) const { return originals_[node].node; }
 
   static GraphNode as_graph_node(const NodeConfig& config) {
     GraphNode node;
@@ -76,6 +76,11 @@ class WrittenNodes {
   }
 
  private:
+  /// What a node is in the end a copy of, and by how many `use`; 0: not known yet, 1: itself.
+  struct Original {
+    std::size_t node = 0, uses = 0;
+  };
+
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const {
     const auto found = places_.find(name);
     return found == places_.end() ? std::nullopt : std::optional(found->second);
@@ -87,7 +92,8 @@ class WrittenNodes {
 
   [[nodiscard]] std::string unknown(std::string_view name) const {
     std::vector<std::string_view> known;
-    for (const NodeConfig& node : nodes_) known.push_back(node.name);
+    if (problems_.size() < kMostLookUps)
+      for (const NodeConfig& node : nodes_) known.push_back(node.name);
     const std::string_view nearest = nearest_word(name, known);
     if (!nearest.empty())
       return fmt::format("there is no node '{}' (did you mean '{}'?)", name, nearest);
@@ -162,6 +168,30 @@ class WrittenNodes {
     }
   }
 
+  /// Goes along each chain of copies once.
+  void resolve_copies() {
+    originals_.resize(nodes_.size());
+    std::vector<std::size_t> chain;
+    for (std::size_t start = 0; start < nodes_.size(); ++start) {
+      std::size_t node = start;
+      for (; originals_[node].uses == 0 && !nodes_[node].use.empty();
+           node = *find(nodes_[node].use))
+        chain.push_back(node);
+      if (originals_[node].uses == 0) originals_[node] = {node, 1};
+      for (Original last = originals_[node]; !chain.empty(); chain.pop_back()) {
+        ++last.uses;
+        if (last.uses > kMostLevels) return report_long_chain(chain.back(), last.node);
+        originals_[chain.back()] = last;
+      }
+    }
+  }
+
+  void report_long_chain(std::size_t node, std::size_t original) {
+    problem(path_of_node(node, "use"),
+            fmt::format("'{}' is a copy of a copy, more than {} times: name '{}' itself",
+                        nodes_[node].name, kMostLevels, nodes_[original].name));
+  }
+
   /// What hangs on a node, and what it is a copy of.
   [[nodiscard]] std::vector<std::size_t> held_by(std::size_t node) const {
     std::vector<std::size_t> held = children_[node];
@@ -183,6 +213,7 @@ class WrittenNodes {
   std::map<std::string_view, std::size_t> places_;
   std::vector<std::size_t> at_root_;
   std::vector<std::vector<std::size_t>> children_, objects_;
+  std::vector<Original> originals_;
 };
 
 /// A leaf before it is known where its object stands in the scene.

@@ -63,7 +63,7 @@ struct NodeProblem {
 
 /// Most nodes and objects in a graph, copies counted.
 inline constexpr std::size_t kMostNodes = 100'000;
-/// Most nodes from the root to an object.
+/// Most nodes from the root to an object, and most copies of copies.
 inline constexpr std::size_t kMostLevels = 256;
 
 /// Makes the graph. The objects that hang on a node get their pose in S and its scale; copies are

@@ -3,21 +3,23 @@
 #include "reckon/peer/scene/toml_reader.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
+#include "reckon/haptics/input_files/input_file.hpp"
+#include "reckon/haptics/input_files/load_progress.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/jitter_text.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/renamed_keys.hpp"
+#include "reckon/peer/scene/toml_bounds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -66,6 +68,7 @@ std::vector<std::string> split_point(std::string_view text) {
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  check_text_bounds(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -79,14 +82,18 @@ void throw_problems(const std::string& file, std::vector<SceneProblem> problems)
   std::ranges::stable_sort(problems, {}, [](const SceneProblem& problem) {
     return std::tuple(problem.line, problem.column);
   });
+  if (problems.size() == kMostProblems)
+    problems.push_back({problems.back().line, problems.back().column,
+                        "mend these first: what is wrong beyond them was not looked for"});
   throw SceneFileError(file, std::move(problems));
 }
 
-std::string read_bytes(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw SceneFileError(path.string(), {{0, 0, "cannot be read"}});
-  return bytes;
+std::string read_bytes(const fs::path& path, std::size_t most_octets) {
+  try {
+    return haptics::read_input_file(path, most_octets);
+  } catch (const std::invalid_argument& error) {
+    throw SceneFileError(path.string(), {{0, 0, error.what()}});
+  }
 }
 
 TomlReader::TomlReader(const toml::table& table, std::string section, fs::path folder,
@@ -96,6 +103,7 @@ TomlReader::TomlReader(const toml::table& table, std::string section, fs::path f
       folder_(std::move(folder)),
       vocabulary_(&vocabulary),
       problems_(&problems) {
+  haptics::LoadProgress::look();
   refuse_unknown_keys();
 }
 
@@ -106,6 +114,7 @@ void TomlReader::refuse_unknown_keys() {
   }
   for (const auto& [key, node] : *table_) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
+    if (problems_->size() >= kMostProblems) return;
     const auto renamed = std::ranges::find_if(renamed_keys(), [&, name = key.str()](auto& one) {
       return one.section == section_ && one.key == name;
     });
@@ -125,6 +134,7 @@ void TomlReader::refuse_unknown_keys() {
 }
 
 void TomlReader::add(const toml::source_region& where, std::string sentence) {
+  if (problems_->size() >= kMostProblems) return;
   problems_->push_back({where.begin.line, where.begin.column, std::move(sentence)});
 }
 
@@ -271,7 +281,7 @@ void TomlReader::read(std::string_view key, fs::path& target) {
   }
   const fs::path path = fs::absolute(folder_ / *said).lexically_normal();
   std::error_code error;
-  if (!fs::is_regular_file(path, error) || !std::ifstream(path)) {
+  if (!fs::is_regular_file(path, error) || ::access(path.c_str(), R_OK) != 0) {
     return problem(key, fmt::format("'{}': cannot read {}; relative names start at the folder of "
                                     "the scene file",
                                     key, path.string()));
@@ -358,6 +368,10 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
   if (array == nullptr ||
       !std::ranges::all_of(*array, [](const auto& e) { return e.is_table(); })) {
     wrong_type(*node, spec(key));
+    return found;
+  }
+  if (array->size() > kMostTables) {
+    problem(key, fmt::format("{} tables '{}'; write {} at most", array->size(), key, kMostTables));
     return found;
   }
   for (const toml::node& element : *array) found.push_back(inside(*element.as_table(), key));

@@ -31,12 +31,17 @@ struct SceneVocabulary {
   haptics::CustomEffects effects;  ///< of the program, in the order of their keys
 };
 
-/// @throws SceneFileError at the place where `text` is no TOML
+/// @throws SceneFileError at the place where `text` is no TOML, or exceeds check_text_bounds()
 [[nodiscard]] toml::table parse_toml(std::string_view text, const std::string& file);
 /// @throws SceneFileError with the problems in the order of their places, if there are any
 void throw_problems(const std::string& file, std::vector<SceneProblem> problems);
-/// @throws SceneFileError where the file cannot be read
-[[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
+/// @throws SceneFileError where the file cannot be read, is no regular file, or is larger
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& path, std::size_t most_octets);
+
+/// Problems that are reported of one file; those beyond are not looked for.
+inline constexpr std::size_t kMostProblems = 100;
+/// Tables under one key, such as [[entity]].
+inline constexpr std::size_t kMostTables = 100'000;
 
 /// A view of one table of a file. The constructor refuses unknown and renamed keys. A read leaves
 /// its target as it is if the key is absent or invalid; an invalid one becomes a problem.

@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <system_error>
+
+#include "reckon/haptics/input_files/load_budget.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -30,12 +29,14 @@ std::string shown(std::string_view text) {
 
 }  // namespace
 
-CsvReader::CsvReader(const std::filesystem::path& path) : name_(path.string()) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw CsvError(fmt::format("{} is a folder; name a file in it", name_));
-  file_.reset(std::fopen(name_.c_str(), "rb"));
-  if (!file_) throw CsvError(fmt::format("{}: {}", name_, std::strerror(errno)));
+haptics::InputFile CsvReader::opened(const std::filesystem::path& file) try {
+  return {file, haptics::kMostTableOctets};
+} catch (const std::invalid_argument& error) {
+  throw CsvError(fmt::format("{}: {}", file.string(), error.what()));
+}
+
+CsvReader::CsvReader(const std::filesystem::path& path)
+    : name_(path.string()), file_(opened(path)) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   if (peek() != kEnd && std::string_view(buffer_.data(), filled_).starts_with(kMark))
     at_ = kMark.size();
@@ -57,12 +58,21 @@ std::optional<std::size_t> CsvReader::find(std::string_view name) const {
 bool CsvReader::next() {
   while (read_record()) {
     if (cells_.size() == 1 && text(0).empty()) continue;
-    if (cells_.size() == columns_.size()) return true;
+    if (cells_.size() == columns_.size()) {
+      charge_row();
+      return true;
+    }
     fail(cells_.size() - 1,
          fmt::format("{} cells where the header has {}; give every row as many, empty ones too",
                      cells_.size(), columns_.size()));
   }
   return false;
+}
+
+void CsvReader::charge_row() const try {
+  haptics::LoadBudget::take(haptics::LoadWork::rows, 1);
+} catch (const haptics::LoadLimitError& error) {
+  fail(0, error.what());
 }
 
 std::string_view CsvReader::text(std::size_t column) const noexcept {
@@ -100,9 +110,11 @@ void CsvReader::fail(std::size_t column, std::string_view what) const {
 int CsvReader::peek() {
   if (at_ == filled_) {
     at_ = 0;
-    filled_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
-    if (filled_ == 0 && std::ferror(file_.get()) != 0)
-      throw CsvError(fmt::format("{}: it cannot be read on after line {}", name_, line_));
+    try {
+      filled_ = file_.read(buffer_);
+    } catch (const std::invalid_argument& error) {
+      throw CsvError(fmt::format("{}: after line {} it {}", name_, line_, error.what()));
+    }
     if (filled_ == 0) return kEnd;
   }
   return static_cast<unsigned char>(buffer_[at_]);

@@ -10,14 +10,14 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "reckon/haptics/input_files/input_file.hpp"
 
 namespace reckon::peer {
 
@@ -26,7 +26,7 @@ struct CsvError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a file once from begin to end; memory is that of the longest row. One thread.
+/// Reads a regular file once from begin to end; memory is that of the longest row. One thread.
 class CsvReader {
  public:
   /// Longest row [octets]; a file with a longer one is no valid table.
@@ -34,7 +34,8 @@ class CsvReader {
 
   static constexpr std::size_t kMostColumns = 4096;
 
-  /// Reads the header.  @throws CsvError if the file cannot be read or has none.
+  /// Reads the header.
+  /// @throws CsvError if the file cannot be read, has no header or more than 128 MiB.
   explicit CsvReader(const std::filesystem::path& path);
 
   /// Names of the columns in lower case, without blanks around them.
@@ -42,8 +43,9 @@ class CsvReader {
   /// Place of the column `name`, or nothing.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
 
-  /// Reads the next row that is not empty; false at the end.
-  /// @throws CsvError if it has more or fewer cells than the header, or an unclosed quote.
+  /// Reads the next row that is not empty; false at the end. Charges it to haptics::LoadBudget.
+  /// @throws CsvError if it has more or fewer cells than the header, an unclosed quote, or if the
+  /// tables of one scene have too many rows.
   [[nodiscard]] bool next();
 
   /// Text of a cell of this row, without blanks around it. `column` < columns().size().
@@ -61,10 +63,9 @@ class CsvReader {
     std::size_t begin = 0, end = 0;  // in row_
     std::size_t column = 1;          // of its first character in the line, from 1
   };
-  struct Close {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
+  static haptics::InputFile opened(const std::filesystem::path& file);
 
+  void charge_row() const;
   int letter();
   int peek();
   /// One record into row_ and cells_; false at the end of the file.
@@ -74,7 +75,7 @@ class CsvReader {
   void keep(int octet);
 
   std::string name_;
-  std::unique_ptr<std::FILE, Close> file_;
+  haptics::InputFile file_;
   std::array<char, 65536> buffer_{};
   std::size_t at_ = 0, filled_ = 0;
   std::size_t line_ = 1, column_ = 0;  // of the last character read

@@ -7,12 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/peer/tracks/motion_columns.hpp"
 
 namespace reckon::peer {
 
 haptics::HandTrace read_hand_trace(const std::filesystem::path& file,
                                    const haptics::HandTraceOptions& options) {
+  const haptics::LoadBudget budget;
   CsvReader csv(file);
   MotionColumns columns(csv);
   std::vector<double> times;

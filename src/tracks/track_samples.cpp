@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
 #include "reckon/peer/tracks/motion_columns.hpp"
 
@@ -60,6 +61,7 @@ class OrientationColumns {
 }  // namespace
 
 TrackSamples read_track_samples(const std::filesystem::path& file) {
+  const haptics::LoadBudget budget;
   CsvReader csv(file);
   MotionColumns motion(csv);
   const OrientationColumns turning(csv);

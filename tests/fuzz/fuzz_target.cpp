@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
+#include <fcntl.h>
 #include <sanitizer/allocator_interface.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -38,6 +40,20 @@ void require(bool holds, std::string_view sentence) noexcept {
   if (holds) return;
   std::fprintf(stderr, "reckon fuzz: %.*s\n", static_cast<int>(sentence.size()), sentence.data());
   std::abort();
+}
+
+InputOnDisk::InputOnDisk(std::string_view ending)
+    : name_("/dev/shm/reckon_fuzz_" + std::to_string(::getpid()) + std::string(ending)) {}
+
+InputOnDisk::~InputOnDisk() { ::unlink(name_.c_str()); }
+
+const std::string& InputOnDisk::write(std::string_view octets) const {
+  const int file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  const bool whole =
+      ::write(file, octets.data(), octets.size()) == static_cast<ssize_t>(octets.size());
+  ::close(file);
+  require(whole, "no room for the input");
+  return name_;
 }
 
 HeapMeter::HeapMeter() noexcept { count = {}; }

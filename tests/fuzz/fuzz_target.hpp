@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace reckon::fuzz {
@@ -19,6 +20,21 @@ void require(bool holds, std::string_view sentence) noexcept;
                                                           std::size_t size) noexcept {
   return std::as_bytes(std::span(data, size));
 }
+
+/// A file in memory that has the octets of one input after the other.
+class InputOnDisk {
+ public:
+  /// @param ending of its name, as ".obj"
+  explicit InputOnDisk(std::string_view ending);
+  ~InputOnDisk();
+  InputOnDisk(const InputOnDisk&) = delete;
+  InputOnDisk& operator=(const InputOnDisk&) = delete;
+  /// @return its name
+  const std::string& write(std::string_view octets) const;
+
+ private:
+  std::string name_;
+};
 
 /// Counts what this thread takes from the heap while the meter lives; one at a time.
 class HeapMeter {

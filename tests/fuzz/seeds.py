@@ -221,6 +221,25 @@ def image_seeds():
             b"P2\n# heights\n4 4\n15\n" + b"0 3 12 15 " * 4]
 
 
+def mesh_seeds():
+    """A tetrahedron in each format, and a polygon that is not convex; the first octet is the format."""
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    obj = ("".join("v %g %g %g\n" % p for p in points) + "usemtl a\ng b\n" +
+           "".join("f %d/1 %d//2 %d\n" % tuple(i + 1 for i in f) for f in faces)).encode()
+    dart = b"v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 .5 0\nv 0 2 0\nf 1 2 3 4 -1\n"
+    off = ("OFF\n4 4 0\n" + "".join("%g %g %g\n" % p for p in points) + "".join("3 %d %d %d\n" % f for f in faces)).encode()
+    head = ("element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 4\nproperty list uchar int vertex_indices\nend_header\n").encode()
+    text = b"ply\nformat ascii 1.0\n" + head + off.split(b"\n", 2)[2]
+    plies = [b"ply\nformat binary_%s_endian 1.0\n" % name + head + b"".join(struct.pack(end + "3f", *p) for p in points) +
+             b"".join(struct.pack(end + "B3i", 3, *f) for f in faces) for name, end in ((b"little", "<"), (b"big", ">"))]
+    stl = bytes(80) + struct.pack("<I", 4) + b"".join(struct.pack("<12fH", 0, 0, 1, *sum((points[i] for i in f), ()), 0) for f in faces)
+    solid = ("solid a\n" + "".join("facet normal 0 0 1\nouter loop\n" + "".join("vertex %g %g %g\n" % points[i] for i in f) +
+                                   "endloop\nendfacet\n" for f in faces) + "endsolid\n").encode()
+    return [bytes([kind]) + text for kind, text in ((0, obj), (0, dart), (1, off), (2, text), (2, plies[0]), (2, plies[1]), (3, stl), (3, solid))]
+
+
 def words(paths):
     """Lower-case names in quotes: the words of lists in the sources."""
     text = "".join((ROOT / path).read_text() for path in paths)
@@ -244,7 +263,9 @@ def main(folder):
     write(seeds / "bundle", every + pair + [b"".join(own.values())])
     write(seeds / "force_model", [own["attribute"], *pair])
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
-    write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")] + [NODES])
+    write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")] + [NODES] +
+          [b".".join([b"a"] * parts) + b" = 1\n" for parts in (200, 300, 30_927, 500_000)] +
+          [b"[" + b".".join([b"a"] * 300) + b"]\n", b"x = " + b"[" * 300, b"x = " + b"{a.b = " * 100])
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0), mixed_pcapng(pair),
                               gzip.compress(pcap(pair), mtime=0), lzma.compress(pcap(pair)),
                               bz2.compress(pcap(pair))] + [f.read_bytes() for f in files])
@@ -280,7 +301,14 @@ def main(folder):
     write(seeds / "leading", leading_seeds(own))
     write(seeds / "viewer", viewer_seeds())
     write(seeds / "image", image_seeds())
+    write(seeds / "mesh", mesh_seeds())
+    rows = b"".join(b"%g,%d,%d,0,1,0,0,0\n" % (i / 2, i * i, i) for i in range(6))
+    write(seeds / "track", [b"t_s,px_m,py_m,pz_m,qw,qx,qy,qz\n" + rows, b"t_s,px_m,py_m,pz_m,heading_rad,a,b,c\n" + rows,
+                            b"\"T_s\", pz_m,\"px_m\",py_m\r\n0,1,2,3\r\n\"1\",1,2,3\r\n"])
+    write(seeds / "density", [b"x_m,y_m\n1,2\n-3,4e2\n", b"t_s,px_m,py_m,pz_m\n0,1,2,3\n1,1,2,3\n"])
+    write(seeds / "descriptor", [p.read_bytes() for p in (ROOT / "devices").glob("*.toml")])
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
+                          ("descriptor", ["src/scene/device_descriptor.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/aoim_section.cpp",
                                      "src/scene/tier_section.cpp", "src/scene/network_section.cpp", "src/scene/node_section.cpp",
                                      "src/scene/object_section.cpp",

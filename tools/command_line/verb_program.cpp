@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -16,6 +17,7 @@
 #include <system_error>
 #include <vector>
 
+#include "reckon/haptics/input_files/load_progress.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/version.hpp"
@@ -148,6 +150,13 @@ int refuse_verb(const VerbProgram& program, std::string_view name, const Console
 int run_verb_program(const VerbProgram& program, Arguments arguments,
                      const Console& console) noexcept {
   try {
+    const haptics::LoadProgress progress(
+        [] { return std::chrono::steady_clock::now().time_since_epoch(); },
+        [&](const std::filesystem::path& file, std::chrono::seconds since) {
+          std::string name;
+          append_clean_text(name, file.string());
+          fmt::print(console.err, "{}: reading {}, {} s\n", program.name, name, since.count());
+        });
     const int status = dispatch(program, arguments, console);
     errno = 0;
     if (std::fflush(console.out) != 0 && errno != EPIPE)

@@ -19,8 +19,9 @@ namespace {
 using Eigen::Vector3d;
 using haptics::PlannedObject;
 
-constexpr double kNearAxis = 1e-6;     // of a direction, from an axis of the scene
-constexpr double kRoundedUp = 0.1e-6;  // [m]
+constexpr double kNearAxis = 1e-6;           // of a direction, from an axis of the scene
+constexpr std::size_t kMostPairs = 100'000;  // that are measured
+constexpr double kRoundedUp = 0.1e-6;        // [m]
 
 // "+z", or "(0.6, 0, 0.8)"
 std::string direction_text(const Vector3d& direction) {
@@ -63,8 +64,14 @@ std::vector<peer::SceneProblem> crowded_bodies(const haptics::EffectPlan& plan) 
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     if (!is_passed_through(objects[i])) grid.place(i, objects[i].bounds);
   }
-  const auto pairs = grid.overlaps();
-  std::vector<haptics::BoxPair> near(pairs.begin(), pairs.end());
+  std::vector<haptics::BoxPair> near;
+  for (std::uint32_t i = 0; i < objects.size() && near.size() < kMostPairs; ++i) {
+    if (!objects[i].moves() || is_passed_through(objects[i])) continue;
+    grid.visit(objects[i].bounds, [&](std::uint32_t other) {
+      if (other < i || (other > i && !objects[other].moves()))
+        near.push_back({std::min(i, other), std::max(i, other)});
+    });
+  }
   std::sort(near.begin(), near.end(), [](const auto& one, const auto& other) {
     return one.second != other.second ? one.second < other.second : one.first < other.first;
   });
@@ -72,7 +79,6 @@ std::vector<peer::SceneProblem> crowded_bodies(const haptics::EffectPlan& plan) 
   for (const haptics::BoxPair& pair : near) {
     const PlannedObject& first = objects[pair.first];
     const PlannedObject& second = objects[pair.second];
-    if (!first.moves() && !second.moves()) continue;
     // Of two bodies the later one is the one to move.
     auto problem = second.moves() ? problem_of(second, first) : problem_of(first, second);
     if (problem) problems.push_back(std::move(*problem));

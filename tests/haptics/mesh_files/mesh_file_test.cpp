@@ -11,6 +11,7 @@
 #include <numeric>
 #include <random>
 
+#include "reckon/haptics/input_files/load_budget.hpp"
 #include "reckon/tests/support/mesh_text.hpp"
 
 namespace reckon::haptics {
@@ -262,6 +263,43 @@ TEST(MeshFile, CutsPolygonsThatAreNotConvexWithoutOverlap) {
       EXPECT_NEAR(sum, whole, 1e-12) << "from corner " << first;
     }
   }
+}
+
+std::vector<Vector3d> star(std::size_t points) {
+  std::vector<Vector3d> outline;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double turn = 2.0 * M_PI * static_cast<double>(i) / static_cast<double>(points);
+    outline.push_back((i % 2 == 0 ? 1.0 : 0.5) * Vector3d(std::cos(turn), std::sin(turn), 0.0));
+  }
+  return outline;
+}
+
+TEST(MeshFile, CutsPolygonsThatCrossThemselves) {
+  std::vector<Vector3d> outline;
+  for (std::size_t i = 0; i < 2000; ++i)
+    outline.emplace_back(static_cast<double>(i * 7919 % 10007), static_cast<double>(i * i % 10009),
+                         0.0);
+  std::vector<std::uint32_t> corners(outline.size());
+  std::iota(corners.begin(), corners.end(), 0u);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  cut_polygon(outline, corners, triangles);
+  EXPECT_EQ(triangles.size(), outline.size() - 2);
+}
+
+TEST(MeshFile, BoundsTheCornersOfFacesThatAreNotConvex) {
+  const auto cut = [](std::size_t points) {
+    const std::vector<Vector3d> outline = star(points);
+    std::vector<std::uint32_t> corners(outline.size());
+    std::iota(corners.begin(), corners.end(), 0u);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    cut_polygon(outline, corners, triangles);
+    return triangles.size();
+  };
+  EXPECT_EQ(cut(1000), 998u);
+  EXPECT_THROW((void)cut(10'002), LoadLimitError) << "before the work";
+  const LoadBudget scene;
+  for (int i = 0; i < 25; ++i) EXPECT_EQ(cut(2000), 1998u);
+  EXPECT_THROW((void)cut(2000), LoadLimitError) << "all faces together";
 }
 
 }  // namespace

@@ -45,6 +45,18 @@ std::string message_of(F&& f) {
   return {};
 }
 
+TEST(EffectPlan, SharesMeshesThatAreTheSame) {
+  const test::TemporaryMesh file(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  Scene scene;
+  for (const double size : {0.1, 0.1, 0.2})
+    scene.objects.push_back(object("o", MeshShape{file.path(), size, false}));
+  const EffectPlan plan(scene);
+  using Mesh = std::shared_ptr<const SurfaceMesh>;
+  const auto mesh = [&](std::size_t i) { return std::get<Mesh>(plan.objects()[i].shape).get(); };
+  EXPECT_EQ(mesh(0), mesh(1));
+  EXPECT_NE(mesh(0), mesh(2));
+}
+
 TEST(EffectPlan, NeverConstructsNorCallsAnEffectThatNoObjectDeclares) {
   for_each_effect([]<class Effect>(std::type_identity<Effect>) {
     if constexpr (AlwaysThere<Effect>) return;

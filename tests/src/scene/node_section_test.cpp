@@ -238,6 +238,18 @@ TEST(NodeSection, RefuseCopiesWithoutBound) {
   EXPECT_THAT(refusal(deep), HasSubstr("more than 256 nodes would hang on each other"));
 }
 
+TEST(NodeSection, BoundChainsOfCopies) {
+  const auto chain = [](int copies) {
+    std::string text = node("n0");
+    for (int i = 1; i <= copies; ++i)
+      text += node(fmt::format("n{}", i), fmt::format("use = \"n{}\"\n", i - 1));
+    return text;
+  };
+  EXPECT_THAT(refusal(chain(255)), IsEmpty());
+  EXPECT_THAT(refusal(chain(20'000)),
+              HasSubstr("'n256' is a copy of a copy, more than 256 times: name 'n0' itself"));
+}
+
 TEST(NodeSection, RefuseWhatACopyCannotHave) {
   const std::string arm = node("arm") + ball("cube", "arm");
   EXPECT_THAT(refusal(arm + node("b", "use = \"arm\"\nturn_rate = 1\n")),

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as a mesh file, the first of them its format: a surface with finite triangles, or a
+// sentence. The heap stays within what its octets can be triangles of.
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+// A triangle takes 8 octets of an OBJ, and some 600 of memory.
+constexpr std::size_t kMostHeapOfOctet = 200, kMostHeap = 1 << 16;
+
+void check(const InputOnDisk& file, std::string_view octets) {
+  const std::string& name = file.write(octets);
+  const HeapMeter meter;
+  try {
+    const auto mesh = haptics::SurfaceMesh::load({name, 0.0, false});
+    require(!mesh.triangles().empty(), "a mesh without a triangle");
+    require(mesh.bounds().min().allFinite() && mesh.bounds().max().allFinite(), "no finite bounds");
+    require(mesh.size() > 0.0, "a mesh without size");
+    haptics::ClosestPoint near;
+    require(mesh.closest(mesh.bounds().center(), 2.0 * mesh.size(), near), "nothing is near");
+    require(near.triangle < mesh.triangles().size(), "a triangle that is none");
+  } catch (const std::runtime_error& error) {
+    require(std::string_view(error.what()).starts_with("mesh "), "refused without a sentence");
+  }
+  require(meter.peak() <= kMostHeap + kMostHeapOfOctet * octets.size(),
+          "more heap than its octets");
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::array<reckon::fuzz::InputOnDisk, 4> files{
+      reckon::fuzz::InputOnDisk(".obj"), reckon::fuzz::InputOnDisk(".off"),
+      reckon::fuzz::InputOnDisk(".ply"), reckon::fuzz::InputOnDisk(".stl")};
+  if (size == 0) return 0;
+  const std::string_view octets(reinterpret_cast<const char*>(data), size);
+  reckon::fuzz::check(files[data[0] % files.size()], octets.substr(1));
+  return 0;
+}
