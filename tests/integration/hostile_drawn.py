@@ -4,6 +4,7 @@
 meaning alone is wrong."""
 import math
 import random
+import re
 import struct
 import time
 
@@ -236,6 +237,28 @@ def invented(draw):
             say(group, out)
 
     return Attack(f"{50 * a_turn} new entities a second{', with force models' if haptic else ''}", 50, send, told=False)
+
+
+HEAD = ("| family | attacks | held | longest interruption [s] | more memory [MiB] | lines a second |\n"
+        "|---|---:|---:|---:|---:|---:|")
+PLACE = re.compile(r"(<!-- table of families -->\n).*?(<!-- end of it -->)", re.S)
+
+
+def show_summary(results, page):
+    """Prints the worst of each family, from (gap, memory, lines, held) of each of its attacks, and writes the table into a
+    page; None: into none."""
+    rows = [HEAD]
+    for name, attacks in results.items():
+        gap, memory, lines, _ = (max(column) for column in zip(*attacks))
+        held = sum(attack[3] for attack in attacks)
+        rows.append(f"| `{name}` | {len(attacks)} | {held} | {gap:.1f} | {max(0.0, memory):.0f} | {lines:.1f} |")
+    table = "\n".join(rows) + "\n"
+    print("\n" + table, flush=True)
+    if page:
+        text = page.read_text()
+        if not PLACE.search(text):
+            raise SystemExit(f"{page} has no place for the table of families")
+        page.write_text(PLACE.sub(lambda match: match[1] + table + match[2], text))
 
 
 FAMILIES = {"guests": guests, "pushers": pushers, "one_shot": one_shot, "bodies": bodies, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}
