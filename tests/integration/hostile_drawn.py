@@ -137,6 +137,14 @@ box = "40 40 40 mm"
 position = "0 -200 -80 mm"
 mass = "50 g"
 surface = {stiffness = "400 N/m"}
+
+[[device]]
+peer = 1
+operator = 1
+
+[[device]]
+peer = 2
+operator = 2
 """
 
 

@@ -308,6 +308,7 @@ class Setup:
         self.runs = arguments.runs
         self.seed = arguments.seed
         self.family = arguments.family
+        self.write = arguments.write
         self.snooping = arguments.snooping
         self.data = pathlib.Path(arguments.data)
         shutil.copytree(arguments.scenes, self.folder / "scenes")
