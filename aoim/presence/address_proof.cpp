@@ -18,7 +18,7 @@ using std::chrono::nanoseconds;
 // Uses of the one-way function for keys of MACs; numbers of links are below.
 constexpr std::uint32_t kMacKeys = 0x4000'0000;
 // Bound of the shortest transit, with the drift of both clocks.
-constexpr std::chrono::milliseconds kClockBound{250};
+constexpr std::chrono::milliseconds kClockBound{100};
 constexpr std::chrono::seconds kWindow{8};
 
 }  // namespace

@@ -41,7 +41,7 @@ class SlotClock {
   /// Whether the slot may not be over at `now`.
   [[nodiscard]] bool is_running(std::uint32_t slot, Nanoseconds now) const noexcept;
   /// Whether the key of this slot is still secret at `now`, if the shortest transit took less than
-  /// 250 ms.
+  /// 100 ms.
   [[nodiscard]] bool is_secret(std::uint32_t slot, Nanoseconds now) const noexcept;
 
  private:

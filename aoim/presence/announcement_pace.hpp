@@ -47,8 +47,8 @@ class AnnouncementPace {
   /// heartbeat
   bool note_announced(std::chrono::nanoseconds now, bool acquainted) noexcept;
 
-  /// Moves the next heartbeat, if it would come late in its slot, to the begin of a slot: a MAC
-  /// that arrives late proves nothing. Call it after note_announced().
+  /// Delays the next heartbeat, if it would come late in its slot, to the begin of the next slot: a
+  /// MAC that arrives late proves nothing. Call it after note_announced().
   /// @param slot_time of the announcement that was just sent
   void align(std::chrono::nanoseconds slot_time) noexcept;
 

@@ -83,7 +83,8 @@ void LifeChain::sign(pdu::Presence& announced, const SourceAddress& source,
 }
 
 std::uint32_t LifeTip::farthest(nanoseconds now) const noexcept {
-  constexpr std::int64_t kSpare = 2 * kSlotLinks, kEachSecond = kSlotLinks + 1;
+  // Datagrams of several seconds are received at once after a suspension, and some were lost.
+  constexpr std::int64_t kSpare = 10 * kSlotLinks, kEachSecond = kSlotLinks + 8;
   const auto seconds = std::max<std::int64_t>((now - heard_) / std::chrono::seconds(1), 0);
   return static_cast<std::uint32_t>(
       std::min<std::int64_t>(kSpare + kEachSecond * seconds, kChainLength));

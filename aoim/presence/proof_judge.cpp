@@ -7,9 +7,10 @@
 namespace reckon::aoim {
 namespace {
 
-// Most calls of the function a second for wrong proofs from elsewhere; proofs that are only a
-// little ahead are checked beyond that, too.
-constexpr std::uint32_t kMostWrongSteps = 8192, kAlways = 4 * kSlotLinks;
+// Most calls of the function a second for wrong proofs from elsewhere, and after that also from the
+// source of the epoch, which somebody forges; proofs that are only a little ahead are checked
+// beyond that, too.
+constexpr std::uint32_t kMostWrongSteps = 8192, kMostAtHome = 131'072, kAlways = 4 * kSlotLinks;
 
 }  // namespace
 
@@ -19,10 +20,10 @@ Opening ProofJudge::judge(const LifeTip& tip, const pdu::Presence& heard,
     wrong_since_ = now;
     wrong_steps_ = 0;
   }
-  const bool is_tired = !at_home && wrong_steps_ >= kMostWrongSteps;
+  const bool is_tired = wrong_steps_ >= (at_home ? kMostAtHome : kMostWrongSteps);
   const std::uint32_t most = is_tired ? kAlways : tip.farthest(now);
   const Opening opening = tip.judge(heard, one_way_, most);
-  if (opening == Opening::wrong) wrong_steps_ += std::min(most, kChainLength);
+  if (opening == Opening::wrong && !is_tired) wrong_steps_ += std::min(most, kChainLength);
   return opening;
 }
 

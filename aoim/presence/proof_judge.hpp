@@ -17,7 +17,7 @@ class ProofJudge {
   explicit ProofJudge(OneWay one_way) noexcept : one_way_(one_way) {}
 
   /// @param tip of the epoch in `heard`  @param at_home whether it came from the source of that
-  /// epoch: such a proof is judged for any number of recent wrong ones
+  /// epoch: such a proof is judged after many more wrong ones
   [[nodiscard]] Opening judge(const LifeTip& tip, const pdu::Presence& heard,
                               std::chrono::nanoseconds now, bool at_home) noexcept;
 
