@@ -34,8 +34,7 @@ elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   target_compile_options(reckon_warnings INTERFACE -Wno-unused-lambda-capture)
 endif()
 
-option(RECKON_HARDENED "Harden our own targets: stack protector, checked calls of the C library, no late binding"
-  ${PROJECT_IS_TOP_LEVEL})
+option(RECKON_HARDENED "Harden our own targets: stack protector, checked calls of the C library, no late binding" OFF)
 
 add_library(reckon_options INTERFACE)
 if(RECKON_SANITIZE)

@@ -80,11 +80,26 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
   report(*peer, doubt != nullptr ? *doubt : doubt_of(*peer, look.now), look);
 }
 
+// Many bodies of one silent host come one after the other: it has one patience for all.
+nanoseconds SilenceWatch::pressed_since(const RemoteEntity& row, const Look& look) noexcept {
+  const nanoseconds pressed = look.remote.note_pressed(row.id, look.now);
+  if (row.epoch != 0) return pressed;
+  const aoim::SourceAddress& from = look.remote.owner(row);
+  auto host = std::ranges::find(hosts_, from.octets, &Host::octets);
+  if (host == hosts_.end()) {
+    host = std::ranges::min_element(hosts_, {}, &Host::since);
+    *host = {from.octets, nanoseconds(-1), look.now};
+  }
+  const nanoseconds heard = look.remote.owner_heard(row);
+  if (heard > host->heard) *host = {from.octets, heard, look.now};
+  return std::min(pressed, host->since);
+}
+
 // A body without a hand, or any of a plain DIS program.
 void SilenceWatch::look_at_body(const Touched& touched, const RemoteEntity& row,
                                 const Look& look) noexcept {
   if (row.felt_until != RemoteEntity::kTrusted) return;
-  const nanoseconds pressed = look.remote.note_pressed(row.id, look.now);
+  const nanoseconds pressed = pressed_since(row, look);
   const bool unaware = row.epoch != 0 && row.last_heard <= touched.since;
   const nanoseconds patience = row.epoch == 0 ? kGuestPatience : kContactPatience;
   const nanoseconds since = std::max(pressed, listening_since_);

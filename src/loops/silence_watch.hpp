@@ -4,6 +4,7 @@
 // move on when the peer is received again. Part of the model loop.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <span>
@@ -36,8 +37,8 @@ class SilenceWatch {
   /// owner that was silent before the touch began may not know of it yet: it has twice the time
   /// from then on.
   static constexpr std::chrono::nanoseconds kContactPatience = std::chrono::milliseconds(650);
-  /// The same for a plain DIS program, from the touch on: with the fade of 100 ms, half the force
-  /// is gone after 0.5 s.
+  /// The same for a plain DIS program, from the first touch of any of its bodies after its host's
+  /// last datagram on: with the fade of 100 ms, half the force is gone after 0.5 s.
   static constexpr std::chrono::nanoseconds kGuestPatience = std::chrono::milliseconds(450);
   /// A longer gap [ns] between two looks shows that this peer itself was suspended: others are not
   /// silent then.
@@ -69,6 +70,12 @@ class SilenceWatch {
     bool whole = false;  // all its entities, not only touched ones
     bool reported = false;
   };
+  // Of plain DIS programs whose bodies press a hand.
+  struct Host {
+    decltype(aoim::SourceAddress::octets) octets{};
+    std::chrono::nanoseconds heard{-1};  // its last datagram
+    std::chrono::nanoseconds since{0};   // when it pressed first after that
+  };
   struct Look {
     std::span<const Touched> touched;
     RemoteEntities& remote;
@@ -80,6 +87,8 @@ class SilenceWatch {
   void look_at_touched(const Touched& touched, const aoim::Presence& presence,
                        const Look& look) noexcept;
   void look_at_body(const Touched& touched, const RemoteEntity& row, const Look& look) noexcept;
+  [[nodiscard]] std::chrono::nanoseconds pressed_since(const RemoteEntity& row,
+                                                       const Look& look) noexcept;
   void believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
   void report(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;
   [[nodiscard]] Doubt* find(std::uint32_t epoch) noexcept;
@@ -91,6 +100,7 @@ class SilenceWatch {
   std::chrono::nanoseconds listening_since_{0};
   Counter &doubted_, &faded_;
   Untouchable last_faded_;
+  std::array<Host, 32> hosts_{};  // the one that pressed longest ago makes room
 };
 
 }  // namespace reckon::peer

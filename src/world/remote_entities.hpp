@@ -197,6 +197,10 @@ class RemoteEntities {
   [[nodiscard]] const aoim::SourceAddress& owner(const RemoteEntity& row) const noexcept {
     return owners_.owner(table_.place_of(row));
   }
+  /// Time of the last datagram from the owner of a row of rows().
+  [[nodiscard]] std::chrono::nanoseconds owner_heard(const RemoteEntity& row) const noexcept {
+    return owners_.last_heard(table_.place_of(row));
+  }
   /// Steady time at which the first one was accepted; negative before.
   [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
 
