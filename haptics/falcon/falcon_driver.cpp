@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_kinematics.hpp"
+#include "reckon/haptics/input_files/input_file.hpp"
 #include "reckon/haptics/usb/usb_torques.hpp"
 
 namespace reckon::haptics {
@@ -95,18 +95,19 @@ const UsbFacts& falcon_facts() noexcept {
 }
 
 FalconFirmware FalconFirmware::load(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
   FalconFirmware firmware;
-  std::vector<char> read(kMost + 1);
-  in.read(read.data(), static_cast<std::streamsize>(read.size()));
-  const auto count = static_cast<std::size_t>(in.gcount());
-  if (in.bad() || (!in.eof() && count == 0))
-    throw std::runtime_error(file + ": cannot be read; name the file of the Falcon's firmware");
-  if (count < kLeast || count > kMost) {
+  std::string read;
+  try {
+    read = read_input_file(file, 4 * kMost);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(file + ": cannot be read (" + error.what() +
+                             "); name the file of the Falcon's firmware");
+  }
+  if (read.size() < kLeast || read.size() > kMost) {
     throw std::runtime_error(file + ": is no firmware of a Falcon, which has 1,000 to 262,144 " +
                              "octets; it is part of the drivers of Novint");
   }
-  firmware.octets.assign(read.begin(), read.begin() + static_cast<std::ptrdiff_t>(count));
+  firmware.octets.assign(read.begin(), read.end());
   return firmware;
 }
 

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/scene/scaled_shape.hpp"
 
+#include <fmt/format.h>
+
 #include <variant>
 
 namespace reckon::peer {
 namespace {
+
+constexpr double kFarthest = 1e6;  // [m]
 
 void enlarge(haptics::PlaneShape&, double) {}  // a half-space is one at any size
 
@@ -48,14 +52,32 @@ void enlarge(haptics::CsgShape& solid, double scale) {
   }
 }
 
-}  // namespace
-
+// Makes `shape` so many times as large about its origin. False for a mesh whose size only its file
+// knows.
 bool scale_shape(haptics::Shape& shape, double scale) {
   const auto* const mesh = std::get_if<haptics::MeshShape>(&shape);
   if (scale == 1.0) return true;
   if (mesh != nullptr && mesh->scale_to == 0.0) return false;
   std::visit([&](auto& one) { enlarge(one, scale); }, shape);
   return true;
+}
+
+}  // namespace
+
+std::optional<std::string> put_at(const NodePose& pose, haptics::SceneObject& object) {
+  object.pose.position = pose.position;
+  object.pose.orientation = pose.orientation;
+  if (!(pose.position.cwiseAbs().maxCoeff() <= kFarthest))
+    return fmt::format(
+        "'{}' lies farther than 1000 km from the origin of S: bring its nodes nearer", object.name);
+  if (!(pose.scale >= 1e-3 && pose.scale <= 1e3))
+    return fmt::format("the scales above '{}' come to {:.3g}; let it be 0.001 to 1000", object.name,
+                       pose.scale);
+  if (scale_shape(object.shape, pose.scale)) return std::nullopt;
+  return fmt::format(
+      "'{}' is a mesh in metres as drawn, and the scales above it come to {:.3g}: give it "
+      "'scale_to', or take the scales out",
+      object.name, pose.scale);
 }
 
 }  // namespace reckon::peer

@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of another size. Private to the scene reader.
+// Objects placed by the graph, of another size. Private to the scene reader.
 #pragma once
 
-#include "reckon/haptics/geometry/shape.hpp"
+#include <optional>
+#include <string>
+
+#include "reckon/haptics/scene/scene.hpp"
+#include "reckon/peer/scene/graph/node_pose.hpp"
 
 namespace reckon::peer {
 
-/// Makes `shape` so many times as large about its origin. False if it cannot be: a mesh whose size
-/// only its file knows.
-[[nodiscard]] bool scale_shape(haptics::Shape& shape, double scale);
+/// Sets the pose and the size of an object in S. @return what is wrong with them, if anything is:
+/// too far away, too large or small, or a mesh whose size only its file knows
+[[nodiscard]] std::optional<std::string> put_at(const NodePose& pose, haptics::SceneObject& object);
 
 }  // namespace reckon::peer

@@ -329,25 +329,6 @@ class Expansion {
   bool is_full_ = false;
 };
 
-constexpr double kFarthest = 1e6;  // [m]
-
-/// Sets the pose and size of an object in S; what is wrong with that, if anything is.
-std::optional<std::string> put_at(const NodePose& pose, haptics::SceneObject& object) {
-  object.pose.position = pose.position;
-  object.pose.orientation = pose.orientation;
-  if (!(pose.position.cwiseAbs().maxCoeff() <= kFarthest))
-    return fmt::format(
-        "'{}' lies farther than 1000 km from the origin of S: bring its nodes nearer", object.name);
-  if (!(pose.scale >= 1e-3 && pose.scale <= 1e3))
-    return fmt::format("the scales above '{}' come to {:.3g}; let it be 0.001 to 1000", object.name,
-                       pose.scale);
-  if (scale_shape(object.shape, pose.scale)) return std::nullopt;
-  return fmt::format(
-      "'{}' is a mesh in metres as drawn, and the scales above it come to {:.3g}: give it "
-      "'scale_to', or take the scales out",
-      object.name, pose.scale);
-}
-
 /// Where each object stands in the end: those of the file that are felt first, in its order.
 std::vector<std::uint32_t> places_of(const std::vector<Leaf>& leaves, std::size_t objects) {
   std::vector<bool> taken_out(objects, false);

@@ -274,6 +274,28 @@ std::vector<Vector3d> star(std::size_t points) {
   return outline;
 }
 
+// Three turns of a strip: most ears appear only where others were cut.
+TEST(MeshFile, CutsSpiralsWithoutOverlap) {
+  constexpr int kPoints = 150;
+  std::vector<Vector3d> outline;
+  const auto add = [&](int i, double in) {
+    const double turn = 6.0 * M_PI * i / kPoints, radius = 1.0 + turn / M_PI - in;
+    outline.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0.0);
+  };
+  for (int i = 0; i <= kPoints; ++i) add(i, 0.0);
+  for (int i = kPoints; i >= 0; --i) add(i, 0.2);
+  std::vector<std::uint32_t> corners(outline.size());
+  std::iota(corners.begin(), corners.end(), 0u);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  cut_polygon(outline, corners, triangles);
+  double whole = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    whole += 0.5 * outline[i].cross(outline[(i + 1) % outline.size()]).z();
+  for (const auto& triangle : triangles) sum += std::abs(area(outline, triangle));
+  EXPECT_EQ(triangles.size(), outline.size() - 2);
+  EXPECT_NEAR(sum, std::abs(whole), 1e-9);
+}
+
 TEST(MeshFile, CutsPolygonsThatCrossThemselves) {
   std::vector<Vector3d> outline;
   for (std::size_t i = 0; i < 2000; ++i)

@@ -69,7 +69,7 @@ TEST(TomlBounds, CountDepthBehindTexts) {
   const std::string deep = repeated("a.", 300) + "a = 1\n";
   for (const char* text :
        {"x = \"\\\\\"\n", "x = '\\'\n", "x = \"\"\"a\"\"\"\"\"\n", "x = ''''''\n", "x = \"\"\n",
-        "x = '''\n\\'''\n", "# '''\n", "\"'\".b = '\"'\n"})
+        "x = '''\n\\'''\n", "x = [\"\"\"a\"\"\"\", {", "# '''\n", "\"'\".b = '\"'\n"})
     EXPECT_THAT(bound_of(text + deep), HasSubstr("more than 256 tables")) << text;
 }
 
@@ -83,7 +83,7 @@ TEST(TomlBounds, LimitTablesAndProblems) {
   EXPECT_THAT(refusal(repeated("[[entity]]\n", kMostTables + 1)),
               HasSubstr("100001 tables 'entity'; write 100000 at most"));
   std::string wrong;
-  for (std::size_t i = 0; i < 2 * kMostProblems; ++i) wrong += "zz" + std::to_string(i) + " = 1\n";
+  for (std::size_t i = 0; i < 2 * kMostProblems; ++i) wrong += "[[entity]]\npeer = true\n";
   const std::string said = refusal(wrong);
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), kMostProblems);
   EXPECT_THAT(said, HasSubstr("mend these first"));
