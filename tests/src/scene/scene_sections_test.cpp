@@ -106,7 +106,7 @@ TEST(SceneSections, FillEveryMemberOfADeviceANodeAndAnEntity) {
       without_key(device_section(),
                   {place_of(device, device.orientation), place_of(device, device.descriptor),
                    place_of(device, device.described), place_of(device, device.delay_samples),
-                   place_of(device, device.period)}),
+                   place_of(device, device.period), place_of(device, device.plugin)}),
       testing::IsEmpty());
   const NodeConfig node;
   EXPECT_THAT(without_key(node_section(), {place_of(node, node.orientation)}), testing::IsEmpty());
