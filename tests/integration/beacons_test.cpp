@@ -106,9 +106,10 @@ TEST_F(FollowedTruck, IsSeenFromTenKilometresAway) {
 
 TEST_F(FollowedTruck, IsSeenOnABorderOrACornerOfCells) {
   const double edge = 50.0;  // [m] from the middle of a cell
+  std::uint32_t life = 500;
   for (const auto& [east, north] : {std::pair{edge, 0.0}, {edge, edge}, {edge + 9900, -edge}}) {
     SCOPED_TRACE(testing::Message() << east << " m, " << north << " m");
-    field_.world_.start(kOwner, field_.scene_);
+    field_.world_.start(kOwner, field_.scene_, ++life, 1 + kOwner);
     field_.world_.peer(kOwner).model().add(1, post("gate"), field_.truth({east, north, 0}));
     const auto is_seen = [&] { return seen(kFollower) != nullptr; };
     EXPECT_LT(field_.world_.run_until(is_seen, 8000), 8000U);

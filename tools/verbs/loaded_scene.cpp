@@ -33,15 +33,12 @@ LoadedScene load_whole_scene(const std::string& path) {
 
 namespace {
 
-// What a scene without `touch` admits.
-std::string touch_note(const peer::SceneFile& file) {
-  const peer::NetworkConfig& network = file.network;
-  if (network.touch || !network.key.empty()) return {};
-  if (network.interop)
-    return "without 'touch' everybody on the LAN may press a hand, and no body of the scene is felt "
-           "from another program: list those who may in touch";
-  return "without 'touch' the peers of this scene may press a hand; plain DIS programs are shown, "
-         "not felt, unless touch lists them or is \"all\"";
+// Whom `touch` admits besides the peers of the scene.
+std::string touch_note(const peer::NetworkConfig& network) {
+  if (network.touch_rule().text() != "all" || !network.key.empty()) return {};
+  std::string note = "everybody on the LAN may press a hand ('touch' is all)";
+  if (network.interop) note += ", and no body of the scene is felt from another program";
+  return note + ": list those who may";
 }
 
 }  // namespace
@@ -71,7 +68,7 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
         format_quantity(tier.channel.farthest, "m"), format_quantity(file.aoim.radius, "m")));
     break;
   }
-  if (std::string note = touch_note(file); !note.empty()) notes.push_back(std::move(note));
+  if (std::string note = touch_note(file.network); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }
 

@@ -52,7 +52,10 @@ TEST(StopControl, TakesTheForceOffAllHandsOfAProgram) {
   const auto scene = peer::parse_scene_file(
       "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nsurface = { stiffness = 500 }\n"
       "[[operator]]\npassive = true\nposition = \"0 0 -5 mm\"\n"
-      "[[device]]\npeer = 1\n[[device]]\npeer = 2\n[[device]]\npeer = 2\nrate = \"500 Hz\"\n",
+      "[[operator]]\npassive = true\nposition = \"100 0 -5 mm\"\n"
+      "[[operator]]\npassive = true\nposition = \"200 0 -5 mm\"\n"
+      "[[device]]\npeer = 1\n[[device]]\npeer = 2\noperator = 2\n"
+      "[[device]]\npeer = 2\noperator = 3\nrate = \"500 Hz\"\n",
       "x.toml");
   ExerciseOptions options;
   options.simulated_time = true;
