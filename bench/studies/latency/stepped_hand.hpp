@@ -15,9 +15,12 @@
 
 namespace reckon::bench {
 
-/// The device; whatever force is written, it does not yield. One thread.
+/// The device; whatever force is written, it does not yield. For its first kComes it is four times
+/// as far from the origin: hands that appear inside each other feel nothing. One thread.
 class SteppedHand final : public haptics::HapticDevice {
  public:
+  static constexpr std::chrono::nanoseconds kComes = std::chrono::seconds(1);
+
   /// Stays at `place` [m], frame D.
   explicit SteppedHand(const Eigen::Vector3d& place) : places_{place, place} {}
   /// Jumps between the places [m], after 40 to 80 ms each time.
@@ -38,7 +41,8 @@ class SteppedHand final : public haptics::HapticDevice {
       next_ = now + std::chrono::microseconds(pause_(random_));
     }
     haptics::DeviceSample sample;
-    sample.position = places_[at_];
+    if (begun_ < std::chrono::nanoseconds(0)) begun_ = now;
+    sample.position = (now - begun_ < kComes ? 4.0 : 1.0) * places_[at_];
     sample.has_velocity = sample.ok = true;
     return sample;
   }
@@ -48,7 +52,7 @@ class SteppedHand final : public haptics::HapticDevice {
   std::array<Eigen::Vector3d, 2> places_;
   std::mt19937_64 random_;
   std::uniform_int_distribution<int> pause_{40'000, 80'000};  // [us]
-  std::chrono::nanoseconds next_{0};
+  std::chrono::nanoseconds next_{0}, begun_{-1};
   std::size_t at_ = 0;
 };
 

@@ -291,7 +291,8 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--device", {"falcon"}},   {"--firmware", {corner}},
   };
   Words flags = flags_of({"demo"});
-  const std::set<std::string> refused{"--view", "--listen", "--open", "--even-if-slow"};
+  const std::set<std::string> refused{"--view", "--listen",        "--open",  "--even-if-slow",
+                                      "--tls",  "--behind-tunnel", "--plugin"};
   std::erase_if(flags, [&](const std::string& flag) {
     return flag == "SCENE" || flag == "--help" || refused.contains(flag);
   });
@@ -314,7 +315,8 @@ TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {
   const auto slow = run({"demo", "--simulated-time", "--for", "1s", "--even-if-slow"});
   EXPECT_EQ(slow.status, 2);
   EXPECT_THAT(slow.err, HasSubstr("--even-if-slow: --simulated-time takes what time it takes"));
-  for (const Words& page : {Words{"--listen", "0.0.0.0"}, Words{"--open"}}) {
+  for (const Words& page : {Words{"--listen", "0.0.0.0"}, Words{"--open"},
+                            Words{"--tls", "page.crt", "page.key"}, Words{"--behind-tunnel"}}) {
     const auto pageless = run(Words{"demo", "--simulated-time", "--for", "1s"} + page);
     EXPECT_EQ(pageless.status, 2);
     EXPECT_THAT(pageless.err, HasSubstr(page.front()));
