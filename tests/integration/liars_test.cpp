@@ -20,6 +20,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/notice_gate.hpp"
 #include "reckon/tests/pdu/support/random_pdu.hpp"
+#include "reckon/tests/support/arriving_hand.hpp"
 #include "reckon/tests/support/in_process.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
 
@@ -129,10 +130,11 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
  protected:
   Liars() : random_(GetParam()), scene_(drawn()) {
     world_.listen(scene_);
+    world_.move_by(0, arriving(scene_.operators[0], {-0.03, 0, 0}));
     world_.start(0, scene_);
     world_.start(1, scene_);
     if (random_() % 2 == 0) world_.start(2, scene_);  // the liar has joined
-    world_.run(3000);
+    world_.run(4000);
     usual_ = std::min(felt(0), felt(1));
     names_ = {world_.peer(0).own_id(), world_.peer(1).own_id(), {1, 3, 1}, {1, 3, 9}, {9, 9, 9},
               {0xFFFF, 0xFFFF, 0xFFFF}};
