@@ -46,7 +46,7 @@ PLANTS = [
     ("nobody introduced", "presence/introductions.cpp",
      "      introduction_.begin(group, now);\n", ""),
     ("pin not checked", "presence/presence.cpp",
-     "const bool at_home = may_speak(peer.source, from);", "const bool at_home = true;"),
+     "const bool at_home = SourcePins::is_home(peer, from);", "const bool at_home = true;"),
     ("no patience after sleep", "presence/presence.cpp",
      "if (!pace_.is_running() || slept <= config_.heartbeat + config_.minimum_gap) return;", "if (slept >= nanoseconds(0)) return;"),
     ("patience one beat short", "presence/presence_config.cpp",
