@@ -25,9 +25,9 @@ inline constexpr std::size_t kMostImageOctets = 192 << 20;
 /// pixels of one scene
 void check_pixels(std::size_t width, std::size_t height);
 
-/// The octets of a PNG file of any depth and colour, or of a PGM file (P2 or P5) of 8 or 16 bits,
-/// told apart by how they begin. What is transparent is black. Charges its pixels to LoadBudget
-/// before it takes memory for them.
+/// Decodes a PNG file of any depth and colour, or a PGM file (P2 or P5) of 8 or 16 bits. The first
+/// octets decide which. Transparent pixels become black. The pixels are charged to LoadBudget
+/// before memory is taken for them.
 /// @throws std::invalid_argument with the fault and the remedy
 [[nodiscard]] GreyImage decode_image(std::string_view bytes);
 
