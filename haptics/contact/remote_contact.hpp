@@ -119,6 +119,8 @@ class RemoteContact {
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return hand_.id; }
   /// A hand with a device; else a body that no hand holds.
   [[nodiscard]] bool is_hand() const noexcept { return hand_.has_device; }
+  /// A body of a plain DIS program, which keeps no account and has no energy to give.
+  [[nodiscard]] bool is_guest() const noexcept { return !hand_.has_device && hand_.epoch == 0; }
   [[nodiscard]] bool occupied() const noexcept { return account_ != nullptr; }
   [[nodiscard]] bool faded() const noexcept { return leaving_ && fade_ <= 0; }
   void clear() noexcept { account_ = nullptr; }

@@ -350,8 +350,33 @@ typename ServoStepOf<axes>::Load ServoStepOf<axes>::load() noexcept {
   return load;
 }
 
+// Largest b in [0, 1] with |held + b more|^2 <= most; 0 if there is none.
+double share_within(const Vector3d& held, const Vector3d& more, double most) noexcept {
+  const double room = most - held.squaredNorm();
+  if (!(room > 0)) return 0.0;
+  const double square = more.squaredNorm(), along = held.dot(more);
+  return std::clamp((std::sqrt(along * along + square * room) - along) / square, 0.0, 1.0);
+}
+
+// A guest has no energy to give. Beside hands it is felt only as far as the energy of the device
+// goes beyond what they need: else its spring would take theirs, and part them for seconds.
+template <int axes>
+void ServoStepOf<axes>::make_room_for_hands(double walls_slope) noexcept {
+  Vector3d hands = Vector3d::Zero(), guests = Vector3d::Zero();
+  for (const RemoteContact* remote : hands_.all()) {
+    if (remote->touching()) (remote->is_guest() ? guests : hands) += remote->spring().force();
+  }
+  double goal = 1.0;
+  if (!hands.isZero(0.0) && !guests.isZero(0.0)) {
+    const double spare = std::max(0.0, tool_.at_probe(port_.spare(walls_slope, period_)));
+    goal = share_within(hands, guests, 4 * spare * std::max(0.0, port_.level()));
+  }
+  guest_share_ = std::min(goal, guest_share_ + step_.dt / RemoteContact::kRamp);
+}
+
 template <int axes>
 void ServoStepOf<axes>::load_hands(Load& load) noexcept {
+  make_room_for_hands(load.walls_slope);
   LoadSum<axes> sum(load);
   PortLoad& one = sum.of_probe();
   Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
@@ -359,11 +384,12 @@ void ServoStepOf<axes>::load_hands(Load& load) noexcept {
   for (const RemoteContact* remote : hands_.all()) {
     if (!remote->touching()) continue;
     const ContactSpring& spring = remote->spring();
-    one.springs += spring.force();
-    one.stored += spring.stored();
-    one.extra += remote->damper(step_);
-    one.springs_slope = std::max(one.springs_slope, spring.greatest_slope());
-    slopes += spring.slope();
+    const double share = remote->is_guest() ? guest_share_ : 1.0;
+    one.springs += share * spring.force();
+    one.stored += share * spring.stored();
+    one.extra += share * remote->damper(step_);
+    one.springs_slope = std::max(one.springs_slope, share * spring.greatest_slope());
+    slopes += share * spring.slope();
     ++touched;
   }
   if (touched > 0) tally_.hands += step_.dt;
@@ -409,7 +435,9 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
   const double whole = held_.force.norm();
   const double reached = whole > 0 ? std::min(1.0, (force - port_.shaking()).norm() / whole) : 1.0;
   const double share = crowd_share_ * held_.springs * reached;
-  for (RemoteContact* remote : hands_.all()) remote->shown(share, port_.free());
+  for (RemoteContact* remote : hands_.all()) {
+    remote->shown(remote->is_guest() ? guest_share_ * share : share, port_.free());
+  }
   tally_.rate.note(reached, newtons(held_.force), step_.dt);
   if (softening_.share() < 1.0) {
     tally_.softened.note(softening_.share(), newtons(load.springs) / softening_.share(), step_.dt);

@@ -60,6 +60,7 @@ class ServoStepOf final : public ServoCore {
   void push_bodies(double scale) noexcept;
   [[nodiscard]] Load load() noexcept;
   void load_hands(Load& load) noexcept;
+  void make_room_for_hands(double walls_slope) noexcept;
   void soften_crowd(Load& load) noexcept;
   [[nodiscard]] Force hold(Load& load) noexcept;
   void shake(const Load& load, const Force& wish) noexcept;
@@ -80,6 +81,7 @@ class ServoStepOf final : public ServoCore {
   double held_share_ = 1.0;  // of the force, since the reading before
   Softening softening_;
   double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
+  double guest_share_ = 1.0;  // share of the springs of guests that is left beside hands
   PortHoldOf<axes> held_;     // shares of the load that the port held
   double took_ = 0.0;         // [s], the handle for its last way
   double limit_share_ = 1.0;  // share of that within the greatest force

@@ -12,7 +12,9 @@ namespace {
 using haptics::RemoteHand;
 using std::chrono::nanoseconds;
 
-void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, RemoteHand& hand) {
+// Plain DIS programs have no hands: what they call one neither feels ours nor keeps accounts.
+void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, bool interop,
+                 RemoteHand& hand) {
   hand.id = row.id;
   hand.state = row.state;
   hand.state_time = row.state_time;
@@ -24,7 +26,7 @@ void fill_remote(const RemoteEntity& row, const ReceivedAccount* account, Remote
   hand.spring_need = account == nullptr ? 0.0 : account->spring_need;
   hand.epoch = row.epoch;
   hand.neighbours = row.neighbours;
-  hand.has_device = row.type.kind == pdu::EntityKind::life_form;
+  hand.has_device = row.type.kind == pdu::EntityKind::life_form && (row.epoch != 0 || interop);
 }
 
 // An own body: its prediction is not older than the last pass, and no update is lost.
@@ -76,7 +78,7 @@ void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodie
     if (!body.may_press) continue;
     RemoteHand& out = set.hands[set.count++];
     if (body.row != nullptr) {
-      fill_remote(*body.row, sources.books.find(port.hand(), body.row->id), out);
+      fill_remote(*body.row, sources.books.find(port.hand(), body.row->id), sources.interop, out);
       continue;
     }
     const auto other =

@@ -22,6 +22,7 @@ struct ContactSources {
   std::span<const PortlessBody> bodies;
   std::chrono::nanoseconds now{0};
   std::uint32_t epoch = 0;  ///< of this process
+  bool interop = false;     ///< peers do not announce themselves
 };
 
 /// Publishes the bodies near a port to its servo.

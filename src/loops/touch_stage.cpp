@@ -24,7 +24,8 @@ constexpr double kNearlyTouching = 0.002;
 void report_softened(std::string_view marking, const DeviceStiffness& device,
                      haptics::SpscRing<Notice>& notices) noexcept {
   const auto report = [&](std::string_view format, double shown, double asked) {
-    static_cast<void>(notices.push(make_notice(format, marking, shown, asked)));
+    static_cast<void>(
+        notices.push(make_notice(NoticeKind::softened, format, marking, shown, asked)));
   };
   if (device.hand_asked > device.hands)
     report("hand '{}' is {:.6g} N/m to others, of {:.6g} asked: its device holds no more",
@@ -205,7 +206,7 @@ void TouchStage::send_impact(const HandPort& port, const RemoteEntity& row,
 }
 
 void TouchStage::publish_contacts(const Pass& pass) noexcept {
-  const ContactSources sources{books_, hands_, bodies_, pass.now, epoch_};
+  const ContactSources sources{books_, hands_, bodies_, pass.now, epoch_, scene_.network.interop};
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const OwnedEntity& hand = *owned_.find(hands_[i].hand());
     peer::publish_contacts(hands_[i], hand.id(), near_[i], hand.is_frozen(), sources);

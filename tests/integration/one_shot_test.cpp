@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -54,8 +56,8 @@ class Guest {
  public:
   static constexpr float kRadius = 0.03F;  // [m]
 
-  explicit Guest(const std::string& touch)
-      : scene_(scene_of(with(kHeldHand, "TOUCH", touch))), world_(3) {
+  explicit Guest(const std::string& touch, std::string_view more = {})
+      : scene_(scene_of(with(kHeldHand, "TOUCH", touch) + std::string(more))), world_(3) {
     world_.listen(scene_);
     world_.move_by(0, [this](double) {
       haptics::HandTarget target;
@@ -63,6 +65,7 @@ class Guest {
       return target;
     });
     world_.start(0, scene_);
+    if (!more.empty()) world_.start(1, scene_);
     world_.run(1500);
     for (const pdu::EntityState& state : world_.heard_pdus<pdu::EntityState>()) state_ = state;
     state_.variable_parameters = {};
@@ -73,10 +76,16 @@ class Guest {
   }
   // Its ball of 250 N/m, so far east of the scene's origin [m], at that speed [m/s].
   void say(double east, double speed = 0.0, std::size_t link = 1) {
+    say_ball(1, {east, 0, 0}, {speed, 0, 0}, link);
+  }
+  // One of its balls there [m], moving so [m/s].
+  void say_ball(std::uint16_t number, const Eigen::Vector3d& at, const Eigen::Vector3d& moving,
+                std::size_t link) {
     const deadreckon::LocalFrame frame(scene_.origin.latitude, scene_.origin.longitude,
                                        scene_.origin.height);
-    const Eigen::Vector3d place = frame.world_from_scene(Eigen::Vector3d(east, 0, 0));
-    const Eigen::Vector3f motion = frame.world_from_scene_vector({speed, 0, 0}).cast<float>();
+    const Eigen::Vector3d place = frame.world_from_scene(at);
+    const Eigen::Vector3f motion = frame.world_from_scene_vector(moving).cast<float>();
+    state_.entity_id.entity = number;
     state_.header.timestamp = pdu::to_dis_timestamp(world_.clock().utc_now(), true);
     state_.location = {place.x(), place.y(), place.z()};
     state_.linear_velocity = {motion.x(), motion.y(), motion.z()};
@@ -160,6 +169,53 @@ TEST(OneShot, ThatPassesThroughIsFeltForHalfASecond) {
     Guest guest("touch = \"all\"");
     guest.say(0.06, speed);
     EXPECT_LE(guest.run(6000), 600u) << speed;
+  }
+}
+
+constexpr std::string_view kSecondHand = R"(
+[[operator]]
+passive = true
+position = [0.0175, 0.0, 0.0]
+stiffness = "300 N/m"
+)";
+
+// [N], of the other hand.
+double pressure_of_hands(InProcess& world, std::size_t link) {
+  const haptics::ServoSnapshot& servo = world.view(link).servo();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < servo.count; ++i) {
+    if (servo.contacts[i].id.site != 900) sum += servo.contacts[i].force.norm();
+  }
+  return sum;
+}
+
+TEST(Guests, WithoutEnergyPartNoHands) {
+  for (const double speed : {0.1, 0.2, 0.4}) {
+    Guest guests("touch = \"all\"", kSecondHand);
+    guests.press(-0.02);
+    guests.run(1000);
+    guests.press(0.0);
+    guests.run(3000);
+    InProcess& world = guests.world();
+    const std::array<double, 2> before{pressure_of_hands(world, 0), pressure_of_hands(world, 1)};
+    ASSERT_GT(std::min(before[0], before[1]), 0.2);
+    for (int i = 0; i < 9; ++i) {
+      const double around = 0.7 * i;
+      const Eigen::Vector3d away(std::cos(around), std::sin(around), 0.3 * (i % 3));
+      guests.say_ball(static_cast<std::uint16_t>(1 + i), 0.12 * away, -speed * away, 2);
+    }
+    std::array<int, 2> low{}, longest{};
+    double felt = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+      world.run(1);
+      felt = std::max(felt, pressure_on(world) - pressure_of_hands(world, 0));
+      for (std::size_t hand = 0; hand < 2; ++hand) {
+        low[hand] = pressure_of_hands(world, hand) < 0.5 * before[hand] ? low[hand] + 1 : 0;
+        longest[hand] = std::max(longest[hand], low[hand]);
+      }
+    }
+    EXPECT_GT(felt, 0.05) << "they were there";
+    EXPECT_LT(std::max(longest[0], longest[1]), 500) << speed;
   }
 }
 
