@@ -25,7 +25,7 @@
 namespace reckon::peer {
 
 inline constexpr std::size_t kUpdate = 144, kPerDatagram = 9, kDatagrams = 64;
-inline constexpr std::size_t kRounds = 8;  // in a turn, so that the caches are its own
+inline constexpr std::size_t kRounds = 8;         // in a turn, so that the caches are its own
 inline constexpr std::size_t kRoundsBehind = 22;  // as many as the ring of a peer holds
 inline constexpr std::uint16_t kEntities = 1000;
 inline constexpr std::size_t kBuffer = std::size_t{8} << 20;  // a round fits
@@ -50,12 +50,14 @@ class Cable {
     check(unshare(CLONE_NEWNET) == 0, "needs root for network namespaces");
     near_ = open("/proc/thread-self/ns/net", O_RDONLY);
     std::thread([this] {
-      if (unshare(CLONE_NEWNET) == 0) far_ = open("/proc/thread-self/ns/net", O_RDONLY);
-      std::system(("ip link set lo up && ip link add b0 type veth peer name a0 netns " +
-                   std::to_string(getpid()) +
-                   " && ip addr add 10.66.0.2/24 dev b0 && "
-                   "ip link set b0 up")
-                      .c_str());
+      if (unshare(CLONE_NEWNET) != 0) return;
+      const bool good =
+          std::system(("ip link set lo up && ip link add b0 type veth peer name a0 netns " +
+                       std::to_string(getpid()) +
+                       " && ip addr add 10.66.0.2/24 dev b0 && "
+                       "ip link set b0 up")
+                          .c_str()) == 0;
+      if (good) far_ = open("/proc/thread-self/ns/net", O_RDONLY);
     }).join();
     check(far_ >= 0 && std::system("ip link set lo up && ip addr add 10.66.0.1/24 dev a0 && "
                                    "ip link set a0 up") == 0,

@@ -81,8 +81,7 @@ TEST(ApplicationHold, IsFreeWhenItsProcessIsKilled) {
   const pid_t child = ::fork();
   if (child == 0) {
     const ApplicationHold hold(scope(), 5);
-    static_cast<void>(::write(ready[1], "x", 1));
-    ::pause();
+    if (::write(ready[1], "x", 1) == 1) ::pause();
     ::_exit(0);
   }
   ApplicationScope of_child = scope();
