@@ -44,12 +44,14 @@ void AoimWatch::report_cap(const aoim::SubscriptionChange& change) noexcept {
   const Turn turn = capped_.turn(change.uncovered > 0, now_);
   if (turn == Turn::begins) {
     report(
+        NoticeKind::groups_capped,
         "{} groups within the radius are not joined: [aoim] groups = {} is reached; all is heard "
         "within {:.3g} m of {:.3g} m only",
         change.uncovered, scene_.aoim.groups, change.covered_share * scene_.aoim.radius,
         scene_.aoim.radius);
   }
-  if (turn == Turn::ends) report("all groups within the radius are joined again");
+  if (turn == Turn::ends)
+    end(NoticeKind::groups_capped, "all groups within the radius are joined again");
 }
 
 void AoimWatch::report_full(const aoim::Presence& presence) noexcept {
@@ -57,10 +59,12 @@ void AoimWatch::report_full(const aoim::Presence& presence) noexcept {
   const Turn turn = full_.turn(count > peers_not_joined_.value(), now_);
   peers_not_joined_.set(count);
   if (turn == Turn::begins) {
-    report("{} peers are known and there is room for no more: others are not joined",
+    report(NoticeKind::peers_full,
+           "{} peers are known and there is room for no more: others are not joined",
            presence.peers().size());
   }
-  if (turn == Turn::ends) report("no peer is left out for want of room any more");
+  if (turn == Turn::ends)
+    end(NoticeKind::peers_full, "no peer is left out for want of room any more");
 }
 
 void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept {
@@ -68,10 +72,11 @@ void AoimWatch::report_given_up(const aoim::SequenceTracker& sequences) noexcept
   const Turn turn = given_up_.turn(count > given_up_before_, now_);
   given_up_before_ = count;
   if (turn == Turn::begins) {
-    report("more than {} senders in groups are heard: lost datagrams are not all counted",
+    report(NoticeKind::numberings_full,
+           "more than {} senders in groups are heard: lost datagrams are not all counted",
            sequences.size());
   }
-  if (turn == Turn::ends) report("all lost datagrams are counted again");
+  if (turn == Turn::ends) end(NoticeKind::numberings_full, "all lost datagrams are counted again");
 }
 
 // If plain DIS comes in one group, only the radius keeps an entity from being shown. Else what is
@@ -97,11 +102,13 @@ void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   all_outside_reported_ = true;
   if (scene_.network.interop) {
     report(
+        NoticeKind::nothing_near,
         "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
         "{:.4g} m; raise it to see them",
         nearest, scene_.aoim.radius);
   } else {
     report(
+        NoticeKind::nothing_near,
         "{} other peers are there and nothing of theirs is within [aoim] radius = {:.4g} m; raise "
         "it to see farther",
         peers, scene_.aoim.radius);
@@ -109,8 +116,14 @@ void AoimWatch::report_outside(aoim::AreaOfInterestManager& aoim) noexcept {
 }
 
 template <typename... Arguments>
-void AoimWatch::report(const char* format, const Arguments&... arguments) noexcept {
-  static_cast<void>(out_->push(make_notice(format, arguments...)));
+void AoimWatch::report(NoticeKind kind, const char* format,
+                       const Arguments&... arguments) noexcept {
+  static_cast<void>(out_->push(make_notice(kind, format, arguments...)));
+}
+
+template <typename... Arguments>
+void AoimWatch::end(NoticeKind kind, const char* format, const Arguments&... arguments) noexcept {
+  static_cast<void>(out_->push(make_end(kind, format, arguments...)));
 }
 
 }  // namespace reckon::peer

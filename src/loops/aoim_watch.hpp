@@ -36,7 +36,9 @@ class AoimWatch {
   void report_given_up(const aoim::SequenceTracker& sequences) noexcept;
   void report_outside(aoim::AreaOfInterestManager& aoim) noexcept;
   template <typename... Arguments>
-  void report(const char* format, const Arguments&... arguments) noexcept;
+  void report(NoticeKind kind, const char* format, const Arguments&... arguments) noexcept;
+  template <typename... Arguments>
+  void end(NoticeKind kind, const char* format, const Arguments&... arguments) noexcept;
 
   const SceneFile& scene_;
   Counter& updates_refused_;

@@ -44,11 +44,12 @@ void BeaconWatch::report_followed(const aoim::FollowedBeacon& now, Followed& bef
   if (now.found && (!before.reported || before.cell != now.cell)) {
     before.reported = true;
     before.cell = now.cell;
-    static_cast<void>(
-        out.push(make_notice("beacon {} is in cell {},{}", before.name, now.cell.q, now.cell.r)));
+    static_cast<void>(out.push(make_notice(NoticeKind::beacon, "beacon {} is in cell {},{}",
+                                           before.name, now.cell.q, now.cell.r)));
   } else if (!listens && before.reported) {
     before.reported = false;
-    static_cast<void>(out.push(make_notice("beacon {} is nowhere", before.name)));
+    static_cast<void>(
+        out.push(make_notice(NoticeKind::beacon, "beacon {} is nowhere", before.name)));
   }
 }
 
@@ -64,7 +65,8 @@ void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseco
     } else if (now - one.ours >= kDisputed && !one.reported) {
       one.reported = true;
       static_cast<void>(out.push(
-          make_notice("beacon {} is another peer's, in cell {},{}: who follows it goes there, give "
+          make_notice(NoticeKind::beacon_disputed,
+                      "beacon {} is another peer's, in cell {},{}: who follows it goes there, give "
                       "one of the two another name",
                       one.name, row->column, row->row)));
     }

@@ -46,11 +46,13 @@ void BudgetKeeper::ask_for_less(const RemoteEntities& remote, aoim::AreaOfIntere
   const NoticeCondition::Turn turn = stretched_.turn(budget.stretch > 1.0, now);
   if (turn == NoticeCondition::Turn::begins) {
     static_cast<void>(out.push(make_notice(
+        NoticeKind::stretched,
         "entities in range would send more than {:.4g} B/s: distances count {:.3g} times as long "
         "([aoim] budget)",
         budget_, budget.stretch)));
   } else if (turn == NoticeCondition::Turn::ends) {
-    static_cast<void>(out.push(make_notice("all entities in range fit the budget again")));
+    static_cast<void>(
+        out.push(make_end(NoticeKind::stretched, "all entities in range fit the budget again")));
   }
 }
 
@@ -59,7 +61,8 @@ void BudgetKeeper::report_reach(Nanoseconds now, haptics::SpscRing<Notice>& out)
   most_heard_ = limit_.is_cut() ? std::max(most_heard_, limit_.heard()) : limit_.heard();
   if (unmet_.turn(limit_.is_unmet(), now) == NoticeCondition::Turn::begins) {
     static_cast<void>(out.push(
-        make_notice("[aoim] budget of {:.4g} B/s cannot be met: {:.4g} B/s are heard from the "
+        make_notice(NoticeKind::budget_unmet,
+                    "[aoim] budget of {:.4g} B/s cannot be met: {:.4g} B/s are heard from the "
                     "cells of our own entities and what our hands can reach, all others are left",
                     budget_, limit_.heard())));
   }
@@ -68,11 +71,13 @@ void BudgetKeeper::report_reach(Nanoseconds now, haptics::SpscRing<Notice>& out)
   const NoticeCondition::Turn turn = cut_.turn(limit_.is_cut(), now);
   if (turn == NoticeCondition::Turn::begins) {
     static_cast<void>(out.push(make_notice(
+        NoticeKind::budget_cut,
         "cells farther than {:.3g} m are left: {:.4g} B/s were heard, {:.4g} B/s are now ([aoim] "
         "budget of {:.4g} B/s)",
         limit_.cut(), most_heard_, limit_.heard(), budget_)));
   } else if (turn == NoticeCondition::Turn::ends) {
-    static_cast<void>(out.push(make_notice("all cells in range fit the budget again")));
+    static_cast<void>(
+        out.push(make_end(NoticeKind::budget_cut, "all cells in range fit the budget again")));
   }
 }
 

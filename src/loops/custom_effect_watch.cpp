@@ -43,8 +43,9 @@ void CustomEffectWatch::look(haptics::SpscRing<Notice>& out) noexcept {
       const GuardReport& report = *watched.report;
       if ((watched.told & bit) == 0 && fault.seen(report)) {
         watched.told |= bit;
-        static_cast<void>(out.push(make_notice(fault.sentence, report.key, report.object,
-                                               1e-6 * static_cast<double>(report.slowest.load()))));
+        static_cast<void>(
+            out.push(make_notice(NoticeKind::effect, fault.sentence, report.key, report.object,
+                                 1e-6 * static_cast<double>(report.slowest.load()))));
       }
       bit <<= 1;
     }

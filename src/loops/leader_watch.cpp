@@ -118,7 +118,8 @@ void LeaderWatch::report_cells(const aoim::AreaOfInterestManager& aoim, std::uin
     if (cell.leader != leader || cell.reported == leader) continue;
     cell.reported = leader;
     if (cell.id == aoim::kWholeScene) {
-      static_cast<void>(out.push(make_notice("the scene is led by {} now", name.view())));
+      static_cast<void>(
+          out.push(make_notice(NoticeKind::leader, "the scene is led by {} now", name.view())));
       continue;
     }
     if (count++ >= kNamedCells) continue;
@@ -129,9 +130,11 @@ void LeaderWatch::report_cells(const aoim::AreaOfInterestManager& aoim, std::uin
   const std::string_view named(cells.data(), static_cast<std::size_t>(end - cells.data()));
   const std::size_t more = count - std::min(count, kNamedCells);
   static_cast<void>(out.push(
-      count == 1 ? make_notice("cell {} is led by {} now", named, name.view())
-      : more > 0 ? make_notice("cells {} and {} more are led by {} now", named, more, name.view())
-                 : make_notice("cells {} are led by {} now", named, name.view())));
+      count == 1 ? make_notice(NoticeKind::leader, "cell {} is led by {} now", named, name.view())
+      : more > 0
+          ? make_notice(NoticeKind::leader, "cells {} and {} more are led by {} now", named, more,
+                        name.view())
+          : make_notice(NoticeKind::leader, "cells {} are led by {} now", named, name.view())));
 }
 
 }  // namespace reckon::peer

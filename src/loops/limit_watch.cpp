@@ -32,37 +32,45 @@ void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
                       const pdu::EntityId& refused, std::chrono::nanoseconds now,
                       haptics::SpscRing<Notice>& out) noexcept {
   using Turn = NoticeCondition::Turn;
-  const auto report = [&](Turn turn, const char* begins, const char* ends, std::size_t number) {
+  const auto report = [&](NoticeKind kind, Turn turn, const char* begins, const char* ends,
+                          std::size_t number) {
     if (turn == Turn::none) return;
-    static_cast<void>(out.push(make_notice(turn == Turn::begins ? begins : ends, number)));
+    static_cast<void>(out.push(turn == Turn::begins ? make_notice(kind, begins, number)
+                                                    : make_end(kind, ends, number)));
   };
   most_unfelt_.set(std::max<std::uint64_t>(most_unfelt_.value(), unfelt));
   const Turn crowds = unfelt_.turn(unfelt > 0, now);
   if (crowds == Turn::begins)
     static_cast<void>(out.push(make_notice(
+        NoticeKind::crowded,
         "more is near a hand than the {} bodies that a servo takes, most of it from {}: what goes "
         "beyond a host's share is not felt",
         haptics::kMaxRemoteHands, AddressText(crowder).view())));
   if (crowds == Turn::ends)
-    static_cast<void>(out.push(make_notice("all that is near a hand is felt again")));
-  report(table_full_.turn(now),
+    static_cast<void>(
+        out.push(make_end(NoticeKind::crowded, "all that is near a hand is felt again")));
+  report(NoticeKind::table_full, table_full_.turn(now),
          "the table of remote entities is full with {} rows: further ones are not shown",
          "all entities heard have room in the table again", capacity_);
-  report(write_overflow_.turn(now), "the ring towards the network is full: updates are dropped",
+  report(NoticeKind::write_full, write_overflow_.turn(now),
+         "the ring towards the network is full: updates are dropped",
          "the ring towards the network has room again", 0);
-  report(read_waits_.turn(now),
+  report(NoticeKind::read_waits, read_waits_.turn(now),
          "the ring from the network is full: what comes waits in the kernel's buffer",
          "the ring from the network has room again", 0);
-  report(sealed_.turn(now), "sealed exercise on this group: give [network] key, or --key FILE",
+  report(NoticeKind::sealed, sealed_.turn(now),
+         "sealed exercise on this group: give [network] key, or --key FILE",
          "no sealed datagram has been heard since", 0);
   const Turn refuses = models_refused_.turn(now);
   if (refuses == Turn::begins)
     static_cast<void>(out.push(make_notice(
+        NoticeKind::model_refused,
         "the force model of {}:{}:{} is refused, its values are impossible: it is felt as before, "
         "until that expires",
         refused.site, refused.application, refused.entity)));
   if (refuses == Turn::ends)
-    static_cast<void>(out.push(make_notice("no force model has been refused since")));
+    static_cast<void>(
+        out.push(make_end(NoticeKind::model_refused, "no force model has been refused since")));
 }
 
 }  // namespace reckon::peer

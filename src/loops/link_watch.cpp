@@ -47,7 +47,8 @@ void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& ou
   const std::uint64_t unjoined = groups_unjoined_.value();
   at_ = link_.statistics();
   LinkEvent event;
-  while (link_.take_event(event)) report("{}", std::string_view(event.text.data()));
+  while (link_.take_event(event))
+    report(NoticeKind::interface, "{}", std::string_view(event.text.data()));
   report_payload();
   report_base(is_deaf);
   report_groups(unjoined - std::min<std::uint64_t>(unjoined, is_deaf ? 1 : 0));
@@ -60,7 +61,8 @@ void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& ou
 void LinkWatch::report_payload() noexcept {
   const std::size_t asked = std::exchange(longest_bundle_, 0), most = link_.max_payload();
   if (most > 0 && asked > most)
-    report("bundles are of at most {} octets, for the MTU takes no more: [network.bundle] max = {}",
+    report(NoticeKind::payload_cut,
+           "bundles are of at most {} octets, for the MTU takes no more: [network.bundle] max = {}",
            most, asked);
 }
 
@@ -69,11 +71,13 @@ void LinkWatch::report_base(bool is_deaf) noexcept {
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
     report(
+        NoticeKind::base_unjoined,
         "DEAF: no peer can be heard, for the base group {} cannot be joined: {}{}{}; tried again "
         "each second",
         base_.data(), reason.what, reason.separator, reason.remedy);
   }
-  if (turn == Turn::ends) report("the base group {} is joined: peers can be heard", base_.data());
+  if (turn == Turn::ends)
+    end(NoticeKind::base_unjoined, "the base group {} is joined: peers can be heard", base_.data());
 }
 
 // Confirmed by a second look: the two counts are written one after the other, and the base group
@@ -83,12 +87,12 @@ void LinkWatch::report_groups(std::uint64_t count) noexcept {
   const Turn turn = unjoined_.turn(were_any && count > 0, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
-    report(
-        "{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
-        "each second",
-        count, reason.what, reason.separator, reason.remedy);
+    report(NoticeKind::groups_unjoined,
+           "{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
+           "each second",
+           count, reason.what, reason.separator, reason.remedy);
   }
-  if (turn == Turn::ends) report("all groups could be joined");
+  if (turn == Turn::ends) end(NoticeKind::groups_unjoined, "all groups could be joined");
 }
 
 // Whether all sends fail is known only after the look that finds the first failure, which also
@@ -104,35 +108,45 @@ void LinkWatch::report_sends() noexcept {
   const Turn turn = unsent_.turn(fails, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_send_error, send_remedy);
-    report("{} fails: {}{}{}", at_.sent > refusal_->sent ? "sending some datagrams" : "SENDING",
-           reason.what, reason.separator, reason.remedy);
+    report(NoticeKind::send_fails, "{} fails: {}{}{}",
+           at_.sent > refusal_->sent ? "sending some datagrams" : "SENDING", reason.what,
+           reason.separator, reason.remedy);
     refusal_->reported = true;
   }
   if (turn == Turn::ends) refusal_.reset();
-  if (turn == Turn::ends) report("sending works again; {} datagrams were refused", at_.send_errors);
+  if (turn == Turn::ends)
+    end(NoticeKind::send_fails, "sending works again; {} datagrams were refused", at_.send_errors);
   const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
   if (held == Turn::begins) {
-    report(
-        "the interface takes less than is sent: states that would wait for more than 50 ms are "
-        "left out; wider thresholds in [dead_reckoning] need less");
+    report(NoticeKind::held_back,
+           "the interface takes less than is sent: states that would wait for more than 50 ms are "
+           "left out; wider thresholds in [dead_reckoning] need less");
   }
-  if (held == Turn::ends) report("the interface takes all again; {} were left out", at_.held_back);
+  if (held == Turn::ends)
+    end(NoticeKind::held_back, "the interface takes all again; {} were left out", at_.held_back);
 }
 
 void LinkWatch::report_drops() noexcept {
   const Turn turn = dropped_.turn(at_.kernel_drops > before_.kernel_drops, now_);
   if (turn == Turn::begins) {
-    report(
-        "the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
-        "net.core.rmem_max=33554432");
+    report(NoticeKind::kernel_drops,
+           "the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
+           "net.core.rmem_max=33554432");
   }
   if (turn == Turn::ends)
-    report("the kernel drops no more; {} datagrams were lost", at_.kernel_drops);
+    end(NoticeKind::kernel_drops, "the kernel drops no more; {} datagrams were lost",
+        at_.kernel_drops);
 }
 
 template <typename... Arguments>
-void LinkWatch::report(const char* format, const Arguments&... arguments) noexcept {
-  static_cast<void>(out_->push(make_notice(format, arguments...)));
+void LinkWatch::report(NoticeKind kind, const char* format,
+                       const Arguments&... arguments) noexcept {
+  static_cast<void>(out_->push(make_notice(kind, format, arguments...)));
+}
+
+template <typename... Arguments>
+void LinkWatch::end(NoticeKind kind, const char* format, const Arguments&... arguments) noexcept {
+  static_cast<void>(out_->push(make_end(kind, format, arguments...)));
 }
 
 }  // namespace reckon::peer

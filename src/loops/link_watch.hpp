@@ -38,7 +38,9 @@ class LinkWatch {
   void report_sends() noexcept;
   void report_drops() noexcept;
   template <typename... Arguments>
-  void report(const char* format, const Arguments&... arguments) noexcept;
+  void report(NoticeKind kind, const char* format, const Arguments&... arguments) noexcept;
+  template <typename... Arguments>
+  void end(NoticeKind kind, const char* format, const Arguments&... arguments) noexcept;
 
   Link& link_;
   std::array<char, 64> base_{};  ///< "239.192.1.0:3000"

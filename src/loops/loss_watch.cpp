@@ -22,6 +22,7 @@ void LossWatch::look(const aoim::SequenceCounts& counts, Nanoseconds now,
   if (first || lost < kLeast || share < kShare || now - reported_ < kQuiet) return;
   reported_ = now;
   static_cast<void>(out.push(make_notice(
+      NoticeKind::lost,
       "{} of {} datagrams of the other peers ({} %) were lost in 10 s: see kernel_drops for this "
       "host, and the network otherwise",
       lost, sent, std::lround(100.0 * share))));

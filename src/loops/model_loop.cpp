@@ -78,7 +78,8 @@ void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
   time_.begin(now, utc);
   pass_ = {now, time_.utc()};
   aoim_.set_utc_offset(pass_.utc - pass_.now, time_.is_aligned());
-  if (const auto leap = time_.leap()) report("this host's clock leapt by {:+.3f} s", *leap);
+  if (const auto leap = time_.leap())
+    report(NoticeKind::clock_leap, "this host's clock leapt by {:+.3f} s", *leap);
 }
 
 // Datagrams that became due while this process was suspended are stale and dropped: the predictors
@@ -434,8 +435,9 @@ void ModelLoop::send_what_is_felt() noexcept {
 }
 
 template <typename... Arguments>
-void ModelLoop::report(std::string_view format, const Arguments&... arguments) noexcept {
-  static_cast<void>(watches_.notices().push(make_notice(format, arguments...)));
+void ModelLoop::report(NoticeKind kind, std::string_view format,
+                       const Arguments&... arguments) noexcept {
+  static_cast<void>(watches_.notices().push(make_notice(kind, format, arguments...)));
 }
 
 }  // namespace reckon::peer

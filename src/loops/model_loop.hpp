@@ -152,7 +152,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   void publish_view() noexcept;
   void emit(bool everything) noexcept;
   template <typename... Arguments>
-  void report(std::string_view format, const Arguments&... arguments) noexcept;
+  void report(NoticeKind kind, std::string_view format, const Arguments&... arguments) noexcept;
 
   const SceneFile& scene_;
   const Link& link_;  // for its address
@@ -172,7 +172,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   haptics::TripleBuffer<haptics::BodyStates>* own_bodies_;  // null: there are none of ours
   EntityNumber first_body_ = 0;
   BodyMover* mover_;  // null: nothing is carried
-  bool has_bodies_;  // the scene, whoever owns them
+  bool has_bodies_;   // the scene, whoever owns them
   BodyOwner body_owner_;
   std::optional<RemoteBodies> remote_bodies_;
   Subscriber subscriber_;

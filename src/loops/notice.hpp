@@ -5,30 +5,99 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string_view>
 
 #include "reckon/aoim/presence/presence.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
 
 namespace reckon::peer {
 
-/// Subject of a notice, for readers that collect those of one kind.
+/// Subject of a notice. docs/notices.md has what each means.
 enum class NoticeKind : std::uint8_t {
-  other,         ///< anything else
-  joined,        ///< a peer appeared
-  started_anew,  ///< a peer restarted
-  left,          ///< a peer sent a farewell
-  silent,        ///< a peer was silent for too long
-  other_scene,   ///< a peer was not joined, because it runs another scene
-  quiet,         ///< nothing is received from a peer at present
-  unheard,       ///< a peer does not receive this one
-  heard_again,   ///< the end of either
+  other,
+  joined,
+  started_anew,
+  left,
+  silent,
+  other_scene,
+  quiet,
+  unheard,
+  heard_again,
+  renamed,
+  number_taken,
+  claimed_twice,
+  moved,
+  impostor,
+  crowd,
+  slept,
+  muted,
+  left_out,
+  interface,
+  payload_cut,
+  base_unjoined,
+  groups_unjoined,
+  send_fails,
+  held_back,
+  kernel_drops,
+  groups_capped,
+  peers_full,
+  numberings_full,
+  nothing_near,
+  frozen,
+  order_refused,
+  name_disputed,
+  touch_refused,
+  body_disputed,
+  first_peer_disputed,
+  inside_hand,
+  rows_evicted,
+  strangers_full,
+  presses,
+  body_silent,
+  hands_silent,
+  softened,
+  crowded,
+  table_full,
+  write_full,
+  read_waits,
+  sealed,
+  model_refused,
+  clock_leap,
+  lost,
+  stretched,
+  budget_unmet,
+  budget_cut,
+  leader,
+  beacon,
+  beacon_disputed,
+  effect,
+  number_held,
+  servo_slow,
+  key,
+  device,
 };
+
+enum class Severity : std::uint8_t { info, warning, error };
+
+/// What is the same for all notices of a kind.
+struct NoticeFacts {
+  std::string_view id;  ///< stable, for programs that read notices
+  Severity severity;    ///< of the notice that begins a condition; the one that ends it is `info`
+  std::string_view meaning;
+};
+
+[[nodiscard]] const NoticeFacts& facts_of(NoticeKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(Severity severity) noexcept;
+/// All of them, in the order of NoticeKind.
+[[nodiscard]] std::span<const NoticeFacts> all_notice_facts() noexcept;
 
 /// A sentence for the user.
 struct Notice {
   std::array<char, 240> text{};  ///< printable ASCII, NUL at the end
   NoticeKind kind = NoticeKind::other;
-  aoim::PeerId about{};  ///< the peer; set for all kinds but `other`
+  Severity severity = Severity::info;
+  aoim::PeerId about{};  ///< the peer, where a presence event is the cause
 };
 
 /// The notice of a presence event. No allocation.

@@ -92,7 +92,8 @@ void NoticeGate::look(nanoseconds now, haptics::SpscRing<Notice>& out) noexcept 
     if (host.left_out == 0 || !take_line(host.strangers, kAtOnce, now)) continue;
     const AddressText address({host.address, 0});
     static_cast<void>(out.push(
-        make_notice("{} more lines about strangers at {} are left out, the last: {}", host.left_out,
+        make_notice(NoticeKind::left_out,
+                    "{} more lines about strangers at {} are left out, the last: {}", host.left_out,
                     i + 1 < kHosts ? address.view() : "other addresses", host.latest.text.data())));
     host.left_out = 0;
   }

@@ -12,18 +12,30 @@
 
 namespace reckon::peer {
 
-/// The sentence, cut if it is too long. Names and markings of others may hold any octets, and
-/// sentences go to terminals: any other character than printable ASCII is shown as '?'. No
+/// The sentence of a kind, cut if it is too long. Names and markings of others may hold any octets,
+/// and sentences go to terminals: any other character than printable ASCII is shown as '?'. No
 /// allocation.
 template <typename... Arguments>
-[[nodiscard]] Notice make_notice(std::string_view format, const Arguments&... arguments) noexcept {
+[[nodiscard]] Notice make_notice(NoticeKind kind, std::string_view format,
+                                 const Arguments&... arguments) noexcept {
   Notice notice;
+  notice.kind = kind;
+  notice.severity = facts_of(kind).severity;
   const auto written = fmt::format_to_n(notice.text.data(), notice.text.size() - 1,
                                         fmt::runtime(format), arguments...);
   std::replace_if(
       notice.text.data(), written.out, [](char letter) { return letter < ' ' || letter > '~'; },
       '?');
   *written.out = '\0';
+  return notice;
+}
+
+/// The same for the end of a condition.
+template <typename... Arguments>
+[[nodiscard]] Notice make_end(NoticeKind kind, std::string_view format,
+                              const Arguments&... arguments) noexcept {
+  Notice notice = make_notice(kind, format, arguments...);
+  notice.severity = Severity::info;
   return notice;
 }
 

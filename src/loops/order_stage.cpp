@@ -59,9 +59,10 @@ void OrderStage::acknowledge(const Inbound& order, const Arrival& arrival, const
   answer.response_flag = pdu::ResponseFlag::able_to_comply;
   answer.request_id = order.request_id;
   send_pdu(aoim_, answer, std::nullopt, pass.now);
-  static_cast<void>(watches_.notices().push(make_notice(
-      "{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", order.originator.site,
-      order.originator.application, order.originator.entity, AddressText(arrival.from).view())));
+  static_cast<void>(watches_.notices().push(
+      make_notice(NoticeKind::frozen, "{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed",
+                  order.originator.site, order.originator.application, order.originator.entity,
+                  AddressText(arrival.from).view())));
 }
 
 }  // namespace reckon::peer

@@ -16,7 +16,8 @@ bool RefusalWatch::Growing::begins(std::uint64_t count, Nanoseconds now) noexcep
 void RefusalWatch::note_order(const pdu::EntityId& originator, std::string_view order,
                               const aoim::SourceAddress& from, Nanoseconds now) noexcept {
   if (orders_.turn(true, now) != NoticeCondition::Turn::begins) return;
-  report(make_notice("{}:{}:{} at {} orders to {}: refused, see allow_management in the scene",
+  report(make_notice(NoticeKind::order_refused,
+                     "{}:{}:{} at {} orders to {}: refused, see allow_management in the scene",
                      originator.site, originator.application, originator.entity,
                      AddressText(from).view(), order),
          from, now);
@@ -27,10 +28,12 @@ void RefusalWatch::report_dispute(const Dispute& dispute, const aoim::PeerId& ow
   const AddressText owner(dispute.owner), speaker(dispute.speaker);
   const auto [site, application] = dispute.name;
   report(dispute.name == own
-             ? make_notice("somebody at {} speaks in our name, {}:{} (refused); to plain DIS "
+             ? make_notice(NoticeKind::name_disputed,
+                           "somebody at {} speaks in our name, {}:{} (refused); to plain DIS "
                            "programs both are one: give one another application",
                            speaker.view(), site, application)
-             : make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)", site,
+             : make_notice(NoticeKind::name_disputed,
+                           "{}:{} at {}: somebody at {} speaks in its name (refused)", site,
                            application, owner.view(), speaker.view()),
          dispute.speaker, now);
 }
@@ -40,13 +43,15 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
   if (const auto dispute = remote.take_dispute(now)) report_dispute(*dispute, own, now);
   if (untouchable_.begins(remote.untouchable(), now)) {
     const Untouchable& last = remote.last_untouchable();
-    report(make_notice("{}:{}:{} at {} is not felt: see touch in the scene", last.id.site,
+    report(make_notice(NoticeKind::touch_refused,
+                       "{}:{}:{} at {} is not felt: see touch in the scene", last.id.site,
                        last.id.application, last.id.entity, AddressText(last.from).view()),
            last.from, now);
   }
   if (bodies_.begins(remote.disputed_bodies(), now)) {
     const Untouchable& last = remote.last_disputed_body();
-    report(make_notice("{}:{}:{} at {} is a body of the scene, but not of its first peer: refused",
+    report(make_notice(NoticeKind::body_disputed,
+                       "{}:{}:{} at {} is a body of the scene, but not of its first peer: refused",
                        last.id.site, last.id.application, last.id.entity,
                        AddressText(last.from).view()),
            last.from, now);
@@ -55,19 +60,22 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
     const pdu::EntityId id = remote.beginnings().last_held_back();
     const RemoteEntity* row = remote.find(id);
     const aoim::SourceAddress from = row == nullptr ? aoim::SourceAddress() : remote.owner(*row);
-    report(make_notice("{}:{}:{} at {} appeared inside a hand: not felt until it was outside",
+    report(make_notice(NoticeKind::inside_hand,
+                       "{}:{}:{} at {} appeared inside a hand: not felt until it was outside",
                        id.site, id.application, id.entity, AddressText(from).view()),
            from, now);
   }
   if (evicted_.begins(remote.evicted(), now)) {
     const aoim::SourceAddress& by = remote.last_evicted();
-    report(make_notice("somebody at {} fills the table of entities: his rows make room for others'",
+    report(make_notice(NoticeKind::rows_evicted,
+                       "somebody at {} fills the table of entities: his rows make room for others'",
                        AddressText(by).view()),
            by, now);
   }
   if (strangers_.begins(remote.strangers_refused(), now)) {
     const aoim::SourceAddress& by = remote.last_stranger();
-    report(make_notice("somebody at {} fills what [network] strangers_memory gives plain DIS "
+    report(make_notice(NoticeKind::strangers_full,
+                       "somebody at {} fills what [network] strangers_memory gives plain DIS "
                        "programs: his further entities are not shown",
                        AddressText(by).view()),
            by, now);
@@ -77,7 +85,8 @@ void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanosec
 void RefusalWatch::look(const BodyOwner& bodies, Nanoseconds now) noexcept {
   const auto& rival = bodies.rival();
   if (rivals_.turn(rival.has_value(), now) != NoticeCondition::Turn::begins || !rival) return;
-  report(make_notice("{}:{} at {} claims to be the scene's first peer: its bodies stay with {}:{}",
+  report(make_notice(NoticeKind::first_peer_disputed,
+                     "{}:{} at {} claims to be the scene's first peer: its bodies stay with {}:{}",
                      rival->name.site, rival->name.application, AddressText(rival->from).view(),
                      rival->owner.site, rival->owner.application),
          rival->from, now);
@@ -93,16 +102,18 @@ void RefusalWatch::look(std::span<const Touched> touched, RemoteEntities& remote
   }
   const auto pusher = pushers_.take_news(now);
   if (!pusher) return;
-  report(make_notice("{}:{} at {} presses a hand: see touch in the scene", pusher->name.site,
-                     pusher->name.application, AddressText(pusher->speaker).view()),
-         pusher->speaker, now);
+  report(
+      make_notice(NoticeKind::presses, "{}:{} at {} presses a hand: see touch in the scene",
+                  pusher->name.site, pusher->name.application, AddressText(pusher->speaker).view()),
+      pusher->speaker, now);
 }
 
 void RefusalWatch::look(const SilenceWatch& silence, Nanoseconds now) noexcept {
   if (!silent_.begins(silence.faded(), now)) return;
   const Untouchable& last = silence.last_faded();
   report(
-      make_notice("{}:{}:{} at {} is silent for 0.5 s in contact: not felt until it speaks",
+      make_notice(NoticeKind::body_silent,
+                  "{}:{}:{} at {} is silent for 0.5 s in contact: not felt until it speaks",
                   last.id.site, last.id.application, last.id.entity, AddressText(last.from).view()),
       last.from, now);
 }

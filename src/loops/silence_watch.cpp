@@ -112,9 +112,9 @@ void SilenceWatch::look_at_body(const Touched& touched, const RemoteEntity& row,
 void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
   look.remote.believe_peer(doubt.epoch, doubt.since, look.now);
   if (doubt.reported) {
-    static_cast<void>(
-        look.out.push(make_notice("peer {}:{} is heard again after {:.1f} s", peer.id().site,
-                                  peer.id().application, pdu::to_seconds(look.now - doubt.heard))));
+    static_cast<void>(look.out.push(
+        make_end(NoticeKind::hands_silent, "peer {}:{} is heard again after {:.1f} s",
+                 peer.id().site, peer.id().application, pdu::to_seconds(look.now - doubt.heard))));
   }
   doubts_.erase(doubts_.begin() + (&doubt - doubts_.data()));
 }
@@ -122,9 +122,9 @@ void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& loo
 void SilenceWatch::report(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
   if (doubt.reported) return;
   doubt.reported = true;
-  static_cast<void>(look.out.push(
-      make_notice("peer {}:{} is silent for {:.2g} s: its hands are no longer felt", peer.id().site,
-                  peer.id().application, pdu::to_seconds(look.now - peer.last_heard))));
+  static_cast<void>(look.out.push(make_notice(
+      NoticeKind::hands_silent, "peer {}:{} is silent for {:.2g} s: its hands are no longer felt",
+      peer.id().site, peer.id().application, pdu::to_seconds(look.now - peer.last_heard))));
 }
 
 SilenceWatch::Doubt* SilenceWatch::find(std::uint32_t epoch) noexcept {

@@ -16,8 +16,10 @@ namespace reckon::tools {
 
 using std::chrono::nanoseconds;
 
-LiveDisplay::LiveDisplay(const Console& console, bool wants_table, std::size_t peers)
+LiveDisplay::LiveDisplay(const Console& console, bool wants_table, std::size_t peers,
+                         const std::string& log)
     : console_(console),
+      log_(log, console),
       screen_(wants_table ? TerminalScreen::open(console.out, console.colour) : nullptr),
       tells_status_(wants_table && screen_ == nullptr && isatty(fileno(console.out)) == 1),
       digest_(peers > 1) {}
@@ -30,7 +32,15 @@ LiveDisplay::~LiveDisplay() {
   }
 }
 
-void LiveDisplay::add(const ReceivedNotice& heard) { digest_.add(heard, clock_.now()); }
+void LiveDisplay::add(const ReceivedNotice& heard) {
+  log_.add(heard);
+  digest_.add(heard, clock_.now());
+}
+
+void LiveDisplay::add_of_devices(std::vector<std::string> sentences) {
+  for (const std::string& sentence : sentences) log_.add(sentence);
+  add(std::move(sentences));
+}
 
 void LiveDisplay::put_in_head(std::string sentence) {
   if (screen_ == nullptr)

@@ -16,6 +16,7 @@
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/live_table.hpp"
 #include "reckon/tools/exercise/notice_digest.hpp"
+#include "reckon/tools/exercise/notice_log.hpp"
 #include "reckon/tools/terminal/screen.hpp"
 
 namespace reckon::tools {
@@ -33,8 +34,9 @@ class LiveDisplay {
   /// Notices that are printed after the table; what is older is counted.
   static constexpr std::size_t kMostKept = 20;
 
-  /// @param console outlives it  @param peers of this program
-  LiveDisplay(const Console& console, bool wants_table, std::size_t peers);
+  /// @param console outlives it  @param peers of this program  @param log file of notices, may be
+  /// empty  @throws UsageError if it cannot be written
+  LiveDisplay(const Console& console, bool wants_table, std::size_t peers, const std::string& log);
   ~LiveDisplay();
   LiveDisplay(const LiveDisplay&) = delete;
   LiveDisplay& operator=(const LiveDisplay&) = delete;
@@ -42,8 +44,10 @@ class LiveDisplay {
   /// Whether the table is shown.
   [[nodiscard]] bool is_drawn() const noexcept { return screen_ != nullptr; }
   void add(const ReceivedNotice& heard);
-  /// Notices of the program itself, a line each.
+  /// Sentences of the program itself, a line each: not logged.
   void add(std::vector<std::string> sentences);
+  /// Notices of devices, a line each.
+  void add_of_devices(std::vector<std::string> sentences);
   /// A sentence of the program's own: in the table's head from now on; without one on `err` at
   /// once.
   void put_in_head(std::string sentence);
@@ -61,6 +65,7 @@ class LiveDisplay {
   void take_keys();
 
   const Console& console_;
+  NoticeLog log_;
   peer::SteadyClock clock_;
   std::unique_ptr<TerminalScreen> screen_;  // null where none can be drawn
   bool tells_status_;

@@ -44,6 +44,10 @@ constexpr Words kWords[] = {
     {NoticeKind::heard_again, "and this one hear each other again", "and {} hear each other again"},
 };
 
+bool has_words(NoticeKind kind) {
+  return std::ranges::find(kWords, kind, &Words::kind) != std::end(kWords);
+}
+
 std::string names(const std::set<Numbers>& peers) {
   std::string text;
   std::size_t named = 0;
@@ -60,7 +64,7 @@ void NoticeDigest::add(const ReceivedNotice& heard, nanoseconds now) {
   const auto same = [&](const Group& group) {
     const peer::Notice& other = group.members.front().notice;
     if (other.kind != heard.notice.kind) return false;
-    return other.kind != NoticeKind::other ||
+    return has_words(other.kind) ||
            std::string_view(other.text.data()) == heard.notice.text.data();
   };
   auto group = std::find_if(groups_.begin(), groups_.end(), same);

@@ -55,6 +55,7 @@ struct DemoOptions {
   bool json = false;
   bool simulated_time = false;
   bool no_transfer = false;
+  std::string log;
   ViewSwitch view;
 };
 
@@ -81,6 +82,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
             "give no energy on demand: shows that one hand then cannot push another");
   line.flag("--json", options.json, "one JSON object on the last line");
   add_view_switch(line, options.view);
+  add_log_flag(line, options.log);
   return line.parse(arguments, console);
 }
 
@@ -260,8 +262,8 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
       display.add(heard);
       if (page != nullptr) page->note(heard);
     }
-    display.add(exercise.device_notices());
-    display.add(stop.take_notices());
+    display.add_of_devices(exercise.device_notices());
+    display.add_of_devices(stop.take_notices());
   };
   while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
     exercise.run(std::min(slice, end - exercise.elapsed()));
@@ -376,7 +378,7 @@ int run(const DemoOptions& asked, const Console& console) {
   }
 
   say_where(options, scene, console);
-  LiveDisplay display(console, !options.json, options.peers);
+  LiveDisplay display(console, !options.json, options.peers, options.log);
   if (!display.is_drawn() && !options.json && !options.duration) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
   }

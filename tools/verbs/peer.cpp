@@ -57,7 +57,7 @@ struct PeerVerbOptions {
   std::string to;
   std::string follow;
   ViewSwitch view;
-  std::string metrics;
+  std::string metrics, log;
 };
 
 /// Letters of an entity marking on the wire.
@@ -113,6 +113,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "sender and group; with --operator, unless the scene has one peer");
   add_view_switch(line, options.view);
   add_metrics_flag(line, options.metrics);
+  add_log_flag(line, options.log);
   return line.parse(arguments, console);
 }
 
@@ -202,12 +203,15 @@ void print_line(std::FILE* out, const std::string& text) {
   std::fflush(out);
 }
 
-void print_notice(std::FILE* out, std::string_view text, double seconds) {
+void print_notice(std::FILE* out, peer::NoticeKind kind, peer::Severity severity,
+                  std::string_view text, double seconds) {
   std::string line;
   JsonObject(line)
       .text("event", "notice")
       .decimals("seconds", seconds, 3)
       .text("text", text)
+      .text("notice", peer::facts_of(kind).id)
+      .text("severity", peer::name_of(severity))
       .end("\n");
   print_line(out, line);
 }
@@ -250,7 +254,8 @@ void tell_notices(RunningPeer& running, const Console& console, bool as_events,
     display.add({own, notice});
     if (page != nullptr) page->note(notice);
     if (as_events)
-      print_notice(console.out, notice.text.data(), pdu::to_seconds(running.elapsed()));
+      print_notice(console.out, notice.kind, notice.severity, notice.text.data(),
+                   pdu::to_seconds(running.elapsed()));
   };
   while (const peer::Notice* notice = running.peer().notices().front()) {
     tell(*notice);
@@ -258,8 +263,11 @@ void tell_notices(RunningPeer& running, const Console& console, bool as_events,
   }
   for (const peer::Notice& notice : running.sealing_notices()) tell(notice);
   for (std::string& sentence : running.device_notices()) {
-    if (as_events) print_notice(console.out, sentence, pdu::to_seconds(running.elapsed()));
-    display.add({std::move(sentence)});
+    constexpr auto kDevice = peer::NoticeKind::device;
+    if (as_events)
+      print_notice(console.out, kDevice, peer::facts_of(kDevice).severity, sentence,
+                   pdu::to_seconds(running.elapsed()));
+    display.add_of_devices({std::move(sentence)});
   }
 }
 
@@ -354,7 +362,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
       joined_peer(scene, options, console, events, balance ? &balance->tap() : nullptr);
 
   const bool lines = options.events || options.felt || options.balance;
-  LiveDisplay display(console, !options.json && !lines, 1);
+  LiveDisplay display(console, !options.json && !lines, 1, options.log);
   if (metrics) display.add({metrics->sentence()});
   std::optional<PeerPage> page;
   std::unique_ptr<BrowserRedirect> browser;

@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/notice.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/tests/support/places.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -49,23 +53,25 @@ bool is_printable(std::string_view text) {
 }
 
 TEST(Notice, CarriesNoEscapeSequenceWhereverANameComesFrom) {
-  EXPECT_STREQ(make_notice("'{}' joined", "\x1b[2J\x1b]0;me\x07").text.data(),
+  EXPECT_STREQ(make_notice(NoticeKind::other, "'{}' joined", "\x1b[2J\x1b]0;me\x07").text.data(),
                "'?[2J?]0;me?' joined");
-  EXPECT_STREQ(make_notice("'{}'", "two\nlines\r\ttab").text.data(), "'two?lines??tab'");
-  EXPECT_STREQ(make_notice("'{}'", "a\x7f\x08z").text.data(), "'a??z'");
-  EXPECT_STREQ(make_notice("'{}'",
+  EXPECT_STREQ(make_notice(NoticeKind::other, "'{}'", "two\nlines\r\ttab").text.data(),
+               "'two?lines??tab'");
+  EXPECT_STREQ(make_notice(NoticeKind::other, "'{}'", "a\x7f\x08z").text.data(), "'a??z'");
+  EXPECT_STREQ(make_notice(NoticeKind::other, "'{}'",
                            "\xc2\x9b"
                            "31m \x9b"
                            "31m")
                    .text.data(),
                "'??31m ?31m'");  // C1
-  EXPECT_EQ(make_notice("{}", "\xff\xfe\xe2\x82").text.data(), std::string(4, '?'));
+  EXPECT_EQ(make_notice(NoticeKind::other, "{}", "\xff\xfe\xe2\x82").text.data(),
+            std::string(4, '?'));
 }
 
 TEST(Notice, IsPrintableForEachOctetThereIs) {
   for (int octet = 1; octet < 256; ++octet) {
     const std::string name(3, static_cast<char>(octet));
-    const Notice notice = make_notice("{} is {}", name, octet);
+    const Notice notice = make_notice(NoticeKind::other, "{} is {}", name, octet);
     const std::string_view text = notice.text.data();
     EXPECT_TRUE(is_printable(text)) << octet;
     EXPECT_TRUE(text.ends_with("is " + std::to_string(octet))) << text;
@@ -73,7 +79,7 @@ TEST(Notice, IsPrintableForEachOctetThereIs) {
 }
 
 TEST(Notice, IsCutWhereItIsTooLongAndStillEnds) {
-  const Notice notice = make_notice("{}", std::string(1000, '\x1b'));
+  const Notice notice = make_notice(NoticeKind::other, "{}", std::string(1000, '\x1b'));
   EXPECT_EQ(std::string_view(notice.text.data()), std::string(notice.text.size() - 1, '?'));
 }
 
@@ -84,6 +90,23 @@ TEST(Notice, OfAPeerShowsItsNameWithoutControlCharacters) {
   std::copy(kName.begin(), kName.end(), reinterpret_cast<char*>(event.announced.name.data()));
   const std::string text = notice_of(event).text.data();
   EXPECT_NE(text.find("'?[31mRED' joined"), std::string::npos) << text;
+}
+
+TEST(Notice, ThatEndsAConditionIsInformation) {
+  EXPECT_EQ(make_notice(NoticeKind::send_fails, "SENDING fails").severity, Severity::error);
+  EXPECT_EQ(make_end(NoticeKind::send_fails, "sending works").severity, Severity::info);
+  EXPECT_EQ(notice_of(event_of(aoim::PresenceEventKind::impostor)).kind, NoticeKind::impostor);
+}
+
+TEST(Notice, OfEachKindIsInTheTable) {
+  std::string table;
+  for (const NoticeFacts& facts : all_notice_facts())
+    table += fmt::format("| `{}` | {} | {} |\n", facts.id, name_of(facts.severity), facts.meaning);
+  std::ifstream page(test::source_dir() + "/docs/notices.md");
+  const std::string text((std::istreambuf_iterator<char>(page)), {});
+  EXPECT_NE(text.find(table), std::string::npos) << "docs/notices.md is behind:\n" << table;
+  EXPECT_EQ(facts_of(NoticeKind::device).id, "device") << "the last of both lists";
+  EXPECT_EQ(all_notice_facts().size(), static_cast<std::size_t>(NoticeKind::device) + 1);
 }
 
 }  // namespace
