@@ -20,15 +20,17 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kToSpare = 1.05;        // times the energy that the whole force needs
-constexpr double kShakeRate = 0.5;       // of the fastest growth of the force, for oscillations
-constexpr int kHoldSteps = 100;          // of zero force after a trip
-constexpr double kStill = 0.02;          // [m/s], a hand with a tremor is at rest too
-constexpr double kRest = 1.0;            // [s]
-constexpr double kReadFor = 0.002;       // [s]: within it an encoder step may be no motion
-constexpr double kUnit = 1e-6;           // of a quaternion's length
-constexpr std::uint64_t kPartsEach = 8;  // steps between two checks for solids between hands
-constexpr double kTurnMisfit = 1e-4;     // [rad], of the filter of turns
+constexpr double kToSpare = 1.05;          // times the energy that the whole force needs
+constexpr double kShakeRate = 0.5;         // of the fastest growth of the force, for oscillations
+constexpr int kHoldSteps = 100;            // of zero force after a trip
+constexpr double kStill = 0.02;            // [m/s], a hand with a tremor is at rest too
+constexpr double kRest = 1.0;              // [s]
+constexpr double kRestAfterGuests = 0.05;  // [s], guests took the energy that hands lack
+constexpr double kGuestsAreOver = 2.0;     // [s], after the last one
+constexpr double kReadFor = 0.002;         // [s]: within it an encoder step may be no motion
+constexpr double kUnit = 1e-6;             // of a quaternion's length
+constexpr std::uint64_t kPartsEach = 8;    // steps between two checks for solids between hands
+constexpr double kTurnMisfit = 1e-4;       // [rad], of the filter of turns
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -166,13 +168,13 @@ void ServoStepOf<axes>::part_hands() noexcept {
 }
 
 // Energy has been short for a second while the hand held still in touch, so that nobody will supply
-// it. Hands that part and meet again ring, and would go on for as long as a loan pays.
+// it; for less where guests took it. Hands that part and meet again ring, and would go on for as long as a loan pays.
 template <int axes>
 bool ServoStepOf<axes>::at_rest() noexcept {
   const bool touches = std::ranges::any_of(hands_.all(), &RemoteContact::touching);
   const bool is = touches && softening_.share() < 1.0 && sure_speed() <= kStill;
   rested_ = is ? rested_ + step_.dt : 0.0;
-  return rested_ >= kRest;
+  return rested_ >= (pressed_by_guests_ > 0 ? kRestAfterGuests : kRest);
 }
 
 template <int axes>
@@ -363,14 +365,19 @@ double share_within(const Vector3d& held, const Vector3d& more, double most) noe
 template <int axes>
 void ServoStepOf<axes>::make_room_for_hands(double walls_slope) noexcept {
   Vector3d hands = Vector3d::Zero(), guests = Vector3d::Zero();
+  double stored = 0.0;  // [J], in the springs of hands
   for (const RemoteContact* remote : hands_.all()) {
-    if (remote->touching()) (remote->is_guest() ? guests : hands) += remote->spring().force();
+    if (!remote->touching()) continue;
+    (remote->is_guest() ? guests : hands) += remote->spring().force();
+    if (!remote->is_guest()) stored += remote->spring().stored();
   }
+  const bool both = !hands.isZero(0.0) && !guests.isZero(0.0);
   double goal = 1.0;
-  if (!hands.isZero(0.0) && !guests.isZero(0.0)) {
+  if (both) {
     const double spare = std::max(0.0, tool_.at_probe(port_.spare(walls_slope, period_)));
-    goal = share_within(hands, guests, 4 * spare * std::max(0.0, port_.level()));
+    goal = share_within(hands, guests, 4 * spare * std::max(0.0, port_.level() - stored));
   }
+  pressed_by_guests_ = both ? kGuestsAreOver : std::max(0.0, pressed_by_guests_ - step_.dt);
   guest_share_ = std::min(goal, guest_share_ + step_.dt / RemoteContact::kRamp);
 }
 

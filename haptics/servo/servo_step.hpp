@@ -94,8 +94,9 @@ class ServoStepOf final : public ServoCore {
   std::uint64_t next_search_ = 0;                     // of surfaces, by count_
   bool near_surface_ = true;
   PressedBodiesOf<axes> pressed_;
-  std::uint32_t buttons_ = 0;  // of the last good reading
-  double rested_ = 0.0;        // [s], time short of energy and at rest
+  std::uint32_t buttons_ = 0;       // of the last good reading
+  double rested_ = 0.0;             // [s], time short of energy and at rest
+  double pressed_by_guests_ = 0.0;  // [s], until a contact of hands and guests is over
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};  // last good reading
   Force written_ = Force::Zero();           // held since the last step
