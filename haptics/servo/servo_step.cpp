@@ -26,7 +26,6 @@ constexpr int kHoldSteps = 100;            // of zero force after a trip
 constexpr double kStill = 0.02;            // [m/s], a hand with a tremor is at rest too
 constexpr double kRest = 1.0;              // [s]
 constexpr double kRestAfterGuests = 0.05;  // [s], guests took the energy that hands lack
-constexpr double kGuestsAreOver = 2.0;     // [s], after the last one
 constexpr double kReadFor = 0.002;         // [s]: within it an encoder step may be no motion
 constexpr double kUnit = 1e-6;             // of a quaternion's length
 constexpr std::uint64_t kPartsEach = 8;    // steps between two checks for solids between hands
@@ -168,13 +167,14 @@ void ServoStepOf<axes>::part_hands() noexcept {
 }
 
 // Energy has been short for a second while the hand held still in touch, so that nobody will supply
-// it; for less where guests took it. Hands that part and meet again ring, and would go on for as long as a loan pays.
+// it; for less where guests took it. Hands that part and meet again ring, and would go on for as
+// long as a loan pays.
 template <int axes>
 bool ServoStepOf<axes>::at_rest() noexcept {
   const bool touches = std::ranges::any_of(hands_.all(), &RemoteContact::touching);
   const bool is = touches && softening_.share() < 1.0 && sure_speed() <= kStill;
   rested_ = is ? rested_ + step_.dt : 0.0;
-  return rested_ >= (pressed_by_guests_ > 0 ? kRestAfterGuests : kRest);
+  return rested_ >= (guests_.pressed_lately() ? kRestAfterGuests : kRest);
 }
 
 template <int axes>
@@ -352,38 +352,10 @@ typename ServoStepOf<axes>::Load ServoStepOf<axes>::load() noexcept {
   return load;
 }
 
-// Largest b in [0, 1] with |held + b more|^2 <= most; 0 if there is none.
-double share_within(const Vector3d& held, const Vector3d& more, double most) noexcept {
-  const double room = most - held.squaredNorm();
-  if (!(room > 0)) return 0.0;
-  const double square = more.squaredNorm(), along = held.dot(more);
-  return std::clamp((std::sqrt(along * along + square * room) - along) / square, 0.0, 1.0);
-}
-
-// A guest has no energy to give. Beside hands it is felt only as far as the energy of the device
-// goes beyond what they need: else its spring would take theirs, and part them for seconds.
-template <int axes>
-void ServoStepOf<axes>::make_room_for_hands(double walls_slope) noexcept {
-  Vector3d hands = Vector3d::Zero(), guests = Vector3d::Zero();
-  double stored = 0.0;  // [J], in the springs of hands
-  for (const RemoteContact* remote : hands_.all()) {
-    if (!remote->touching()) continue;
-    (remote->is_guest() ? guests : hands) += remote->spring().force();
-    if (!remote->is_guest()) stored += remote->spring().stored();
-  }
-  const bool both = !hands.isZero(0.0) && !guests.isZero(0.0);
-  double goal = 1.0;
-  if (both) {
-    const double spare = std::max(0.0, tool_.at_probe(port_.spare(walls_slope, period_)));
-    goal = share_within(hands, guests, 4 * spare * std::max(0.0, port_.level() - stored));
-  }
-  pressed_by_guests_ = both ? kGuestsAreOver : std::max(0.0, pressed_by_guests_ - step_.dt);
-  guest_share_ = std::min(goal, guest_share_ + step_.dt / RemoteContact::kRamp);
-}
-
 template <int axes>
 void ServoStepOf<axes>::load_hands(Load& load) noexcept {
-  make_room_for_hands(load.walls_slope);
+  guests_.make_room(hands_.all(), tool_.at_probe(port_.spare(load.walls_slope, period_)),
+                    port_.level(), step_.dt);
   LoadSum<axes> sum(load);
   PortLoad& one = sum.of_probe();
   Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
@@ -391,7 +363,7 @@ void ServoStepOf<axes>::load_hands(Load& load) noexcept {
   for (const RemoteContact* remote : hands_.all()) {
     if (!remote->touching()) continue;
     const ContactSpring& spring = remote->spring();
-    const double share = remote->is_guest() ? guest_share_ : 1.0;
+    const double share = guests_.share_of(*remote);
     one.springs += share * spring.force();
     one.stored += share * spring.stored();
     one.extra += share * remote->damper(step_);
@@ -443,7 +415,7 @@ typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
   const double reached = whole > 0 ? std::min(1.0, (force - port_.shaking()).norm() / whole) : 1.0;
   const double share = crowd_share_ * held_.springs * reached;
   for (RemoteContact* remote : hands_.all()) {
-    remote->shown(remote->is_guest() ? guest_share_ * share : share, port_.free());
+    remote->shown(guests_.share_of(*remote) * share, port_.free());
   }
   tally_.rate.note(reached, newtons(held_.force), step_.dt);
   if (softening_.share() < 1.0) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "reckon/haptics/contact/guest_share.hpp"
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/haptics/passivity/softening.hpp"
@@ -60,7 +61,6 @@ class ServoStepOf final : public ServoCore {
   void push_bodies(double scale) noexcept;
   [[nodiscard]] Load load() noexcept;
   void load_hands(Load& load) noexcept;
-  void make_room_for_hands(double walls_slope) noexcept;
   void soften_crowd(Load& load) noexcept;
   [[nodiscard]] Force hold(Load& load) noexcept;
   void shake(const Load& load, const Force& wish) noexcept;
@@ -81,7 +81,7 @@ class ServoStepOf final : public ServoCore {
   double held_share_ = 1.0;  // of the force, since the reading before
   Softening softening_;
   double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
-  double guest_share_ = 1.0;  // share of the springs of guests that is left beside hands
+  GuestShare guests_;
   PortHoldOf<axes> held_;     // shares of the load that the port held
   double took_ = 0.0;         // [s], the handle for its last way
   double limit_share_ = 1.0;  // share of that within the greatest force
@@ -94,9 +94,8 @@ class ServoStepOf final : public ServoCore {
   std::uint64_t next_search_ = 0;                     // of surfaces, by count_
   bool near_surface_ = true;
   PressedBodiesOf<axes> pressed_;
-  std::uint32_t buttons_ = 0;       // of the last good reading
-  double rested_ = 0.0;             // [s], time short of energy and at rest
-  double pressed_by_guests_ = 0.0;  // [s], until a contact of hands and guests is over
+  std::uint32_t buttons_ = 0;  // of the last good reading
+  double rested_ = 0.0;        // [s], time short of energy and at rest
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};  // last good reading
   Force written_ = Force::Zero();           // held since the last step
