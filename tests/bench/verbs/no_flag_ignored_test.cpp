@@ -289,6 +289,7 @@ TEST_F(NoFlagIgnored, ByASimulatedDemo) {
       {"--trace-loop", {csv_}},   {"--simulated-time", {}},
       {"--no-transfer", {}},      {"--json", {}},
       {"--device", {"falcon"}},   {"--firmware", {corner}},
+      {"--log", {csv_}},
   };
   Words flags = flags_of({"demo"});
   const std::set<std::string> refused{"--view", "--listen",        "--open",  "--even-if-slow",

@@ -141,6 +141,7 @@ class PeerFlags : public testing::Test {
   test::ScratchFolder folder_;
   std::string scene_ = folder_.file("flags.toml"), led_ = folder_.file("led.toml"),
               corner_ = folder_.file("corner.obj"), key_ = folder_.file("group.key"),
+              log_ = folder_.file("notices.log"),
               trace_ = test::source_dir() + "/scenes/wall_trace.csv";
   const Words mode_{"--operator", "1", "--for", "1500ms", "--json"};
 };
@@ -172,6 +173,9 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
     EXPECT_EQ(facts.contains(change.fact), change.is_gained)
         << change.flag << ": " << testing::PrintToString(facts);
   }
+  (void)facts_of(scene_, with(mode_, "--log", log_));
+  EXPECT_NE(std::ifstream(log_).peek(), std::ifstream::traits_type::eof()) << "no notice in it";
+
   // Those that the mode has.
   EXPECT_THAT(facts_of(scene_, {"--operator", "1", "--for", "500ms"}), Contains("prints text"));
   EXPECT_THAT(facts_of(scene_, {"--for", "500ms", "--json"}), Contains("finds its number"));
@@ -185,9 +189,9 @@ TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
   // Of a flag that is not in this list nobody knows what it does.
   // The test two_applications shows what --application does, those of the viewer the page's flags,
   // NativeCode --plugin, and StepTooDear --even-if-slow.
-  Facts known{"SCENE",      "--help",         "--operator",    "--json",          "--follow",
-              "--iface",    "--seed",         "--application", "--listen",        "--open",
-              "--firmware", "--even-if-slow", "--tls",         "--behind-tunnel", "--plugin"};
+  Facts known{"SCENE",  "--help",          "--operator", "--json", "--follow",   "--iface",
+              "--seed", "--application",   "--listen",   "--open", "--firmware", "--even-if-slow",
+              "--tls",  "--behind-tunnel", "--plugin",   "--log"};
   for (const Change& change : changes) known.insert(change.flag);
   for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
 }
