@@ -134,7 +134,8 @@ void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGue
   if (lan_) check_step_cost();
   if (sealed_) sealed_->count_in(peer_->counters());
   if (hold_ && !hold_->report().empty())
-    static_cast<void>(peer_->notices().push(make_notice(NoticeKind::number_held, "{}", hold_->report())));
+    static_cast<void>(
+        peer_->notices().push(make_notice(NoticeKind::number_held, "{}", hold_->report())));
   peer_->model().receive(guest);
   begun_ = clock_->now();
   peer_->start(begun_);
@@ -154,7 +155,8 @@ void JoinedPeer::check_step_cost() {
                                        peer_->servo_period());
   if (!slow) return;
   if (!options_.even_if_slow) throw *slow;
-  static_cast<void>(peer_->notices().push(make_notice(NoticeKind::servo_slow, "{}", slow->finding())));
+  static_cast<void>(
+      peer_->notices().push(make_notice(NoticeKind::servo_slow, "{}", slow->finding())));
 }
 
 std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& own) {
@@ -203,7 +205,8 @@ void JoinedPeer::resign() noexcept {
 std::vector<Notice> JoinedPeer::take_sealing_notices() {
   std::vector<Notice> notices;
   if (!sealed_) return notices;
-  for (const std::string& line : sealed_->take_news()) notices.push_back(make_notice(NoticeKind::key, "{}", line));
+  for (const std::string& line : sealed_->take_news())
+    notices.push_back(make_notice(NoticeKind::key, "{}", line));
   return notices;
 }
 

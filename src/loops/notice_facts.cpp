@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <cstddef>
 
 #include "reckon/peer/loops/notice.hpp"
 
@@ -16,7 +16,7 @@ constexpr NoticeFacts kFacts[]{
     {"other-scene", Severity::warning, "a peer was not joined, because it runs another scene"},
     {"quiet", Severity::warning, "nothing is received from a peer at present"},
     {"unheard", Severity::warning, "a peer does not receive this one"},
-    {"heard-again", Severity::info, "the end of either"},
+    {"heard-again", Severity::info, "the end of `quiet` or `unheard`"},
     {"renamed", Severity::info, "a peer took another number"},
     {"number-taken", Severity::warning, "this peer took another number, because its own was taken"},
     {"claimed-twice", Severity::warning, "two hosts claim the number of one peer"},

@@ -147,14 +147,14 @@ class Liars : public testing::TestWithParam<std::uint32_t> {
       std::string aoim, network;
     };
     const std::array<Ways, 9> ways{{{"", ""},
-                                     {"", "compression = \"compact\""},
-                                     {"", "compression = \"residual\""},
-                                     {kTouchTier, ""},
-                                     {kTouchTier, "compression = \"residual\""},
-                                     {"leaders = true", ""},
-                                     {"leaders = true\nhand_out = true", ""},
-                                     {kDistanceTiers, ""},
-                                     {kOwnTiers, ""}}};
+                                    {"", "compression = \"compact\""},
+                                    {"", "compression = \"residual\""},
+                                    {kTouchTier, ""},
+                                    {kTouchTier, "compression = \"residual\""},
+                                    {"leaders = true", ""},
+                                    {"leaders = true\nhand_out = true", ""},
+                                    {kDistanceTiers, ""},
+                                    {kOwnTiers, ""}}};
     const Ways& way = ways[random_() % ways.size()];
     return scene_of(with(with(kPair, "#aoim", way.aoim), "#network", way.network));
   }

@@ -64,8 +64,7 @@ void NoticeDigest::add(const ReceivedNotice& heard, nanoseconds now) {
   const auto same = [&](const Group& group) {
     const peer::Notice& other = group.members.front().notice;
     if (other.kind != heard.notice.kind) return false;
-    return has_words(other.kind) ||
-           std::string_view(other.text.data()) == heard.notice.text.data();
+    return has_words(other.kind) || std::string_view(other.text.data()) == heard.notice.text.data();
   };
   auto group = std::find_if(groups_.begin(), groups_.end(), same);
   if (group == groups_.end()) group = groups_.insert(group, {now, now, {}});
