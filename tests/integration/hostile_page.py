@@ -22,7 +22,7 @@ EVERY = 0.3          # [s] between two tabs of the user
 AT_ONCE = 20         # connections that strangers open, then they pause
 PAUSE = 0.005        # [s]
 MARKING = "ALICE"
-PICTURE = b"RKV1"  # how one begins
+PICTURE = b"RKV2"  # how one begins
 
 
 class Drawn:

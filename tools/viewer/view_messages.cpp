@@ -132,7 +132,7 @@ std::string ViewStage::hello(const Watcher& watcher) const {
   std::string out;
   JsonObject object(out);
   object.text("type", "hello")
-      .value("version", 1)
+      .value("version", 2)
       .text("program", fmt::format("reckon {}", program_version()))
       .text("source", options_.source)
       .text("kind", options_.kind)

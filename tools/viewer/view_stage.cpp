@@ -303,7 +303,9 @@ std::uint16_t ViewStage::flags_for(const Watcher& watcher, Time time) const {
   if (watcher.state == PlayState::live) flags |= kPictureLive;
   if (watcher.state == PlayState::paused) flags |= kPicturePaused;
   if (watcher.state == PlayState::end) flags |= kPictureEnd;
-  const bool is_fast = watcher.state == PlayState::playing && watcher.speed > 1;
+  // Fast playback takes its last step in state `end`.
+  const bool plays = watcher.state == PlayState::playing || watcher.state == PlayState::end;
+  const bool is_fast = plays && watcher.speed > 1;
   const Time apart = is_fast ? pdu::from_seconds(watcher.speed * pdu::to_seconds(kGap)) : kGap;
   const bool leaps = watcher.shown && (time < *watcher.shown || time - *watcher.shown > apart);
   if (leaps || watcher.gaps != gaps_) flags |= kPictureGap;

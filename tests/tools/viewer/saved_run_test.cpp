@@ -121,14 +121,14 @@ TEST(SavedRun, IsTheEndOfALongOne) {
 
 TEST(SavedRun, PutsPicturesApartUntilTheyFit) {
   TakenTrucks taken(100, 70);
-  for (const std::size_t budget : {2'000'000U, 200'000U, 40'000U}) {
+  for (const std::size_t budget : {2'000'000U, 200'000U, 50'000U}) {
     const SavedRun run = save_run(taken.stage, {.span = kMinute, .budget = budget});
     const Parts parts(run);
     std::size_t octets = 0;
     for (const std::string& picture : parts.pictures) octets += picture.size();
     EXPECT_LE(octets, budget + 2 * parts.pictures[0].size());
     EXPECT_GE(octets, budget / 2);
-    EXPECT_NEAR(run.spacing, 4432.0 * 60 / static_cast<double>(budget), 0.1 * run.spacing);
+    EXPECT_NEAR(run.spacing, 5632.0 * 60 / static_cast<double>(budget), 0.1 * run.spacing);
     EXPECT_NEAR(run.seconds, 60, 0.1);
     for (const std::string& picture : parts.pictures)
       EXPECT_EQ(value_at<std::uint16_t>(picture, 22) & kPictureGap, 0) << budget;

@@ -123,7 +123,7 @@ TEST(ViewStage, GreetsATabThenShowsWhatIsThereThirtyTimesASecond) {
   live.run(seconds(2), {&tab});
   ASSERT_FALSE(tab.texts.empty());
   EXPECT_EQ(tab.texts[0]["type"], "hello");
-  EXPECT_EQ(tab.texts[0]["version"], 1);
+  EXPECT_EQ(tab.texts[0]["version"], 2);
   EXPECT_EQ(tab.texts[0]["may_push"], false);
   EXPECT_TRUE(tab.texts[0]["origin"].is_null());
   EXPECT_EQ(tab.texts[1]["type"], "play");

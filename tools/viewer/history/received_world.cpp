@@ -103,7 +103,7 @@ void ReceivedWorld::add_marks(nanoseconds time, nanoseconds start, const Roster&
     mark.side = side_of(entity);
     mark.cause = row.cause;
     mark.group = group_number(row.group);
-    mark.position = frame.scene_from_world(pose.position).cast<float>();
+    mark.position = frame.scene_from_world(pose.position);
     mark.orientation = frame.scene_from_world(pose.orientation);
     if (slot < errors_.size() && errors_[slot].converging(seconds)) {
       const deadreckon::Pose shown = errors_[slot].shown(pose, seconds);

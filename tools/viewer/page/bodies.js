@@ -54,11 +54,15 @@ export class Bodies {
     this.floats = 9 * faces;
   }
 
-  begin() { this.write = 0; }
+  begin(anchor) {
+    this.write = 0;
+    this.mesh.position.copy(anchor);
+  }
 
   // Body i at a place, turned by a unit quaternion; calls come in order.
   set(i, x, y, z, turns, scale) {
     const { corner, at } = this;
+    const anchor = this.mesh.position;
     const [corners, faces] = this.shapes[i];
     const w = turns[4 * i];
     const q0 = turns[4 * i + 1];
@@ -71,9 +75,9 @@ export class Bodies {
       const tx = 2 * (q1 * c - q2 * b);
       const ty = 2 * (q2 * a - q0 * c);
       const tz = 2 * (q0 * b - q1 * a);
-      corner[3 * k] = x + a + w * tx + q1 * tz - q2 * ty;
-      corner[3 * k + 1] = y + b + w * ty + q2 * tx - q0 * tz;
-      corner[3 * k + 2] = z + c + w * tz + q0 * ty - q1 * tx;
+      corner[3 * k] = x - anchor.x + a + w * tx + q1 * tz - q2 * ty;
+      corner[3 * k + 1] = y - anchor.y + b + w * ty + q2 * tx - q0 * tz;
+      corner[3 * k + 2] = z - anchor.z + c + w * tz + q0 * ty - q1 * tx;
     }
     let o = this.write;
     for (const face of faces) {

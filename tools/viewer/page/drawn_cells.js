@@ -32,7 +32,8 @@ class Cells {
   update(moment) {
     const { cells, size, shape } = moment.cells;
     const reach = roundUp((this.view.extent?.radius ?? 1) * 1.2);
-    const key = `${moment.cellsNumber} ${moment.followed} ${cells.length ? '' : reach}`;
+    const { anchor, anchored } = this.view.orbit;
+    const key = `${moment.cellsNumber} ${moment.followed} ${cells.length ? '' : reach} ${anchored}`;
     if (key === this.key) return;
     this.key = key;
     const z = this.floor(moment);
@@ -45,7 +46,8 @@ class Cells {
       const all = around(cell);
       return all.slice(2).flatMap((corner, i) => [all[0], all[i + 1], corner]);
     });
-    const points = (list) => new Float32BufferAttribute(list.flatMap(([x, y]) => [x, y, z]), 3);
+    const points = (list) => new Float32BufferAttribute(list.flatMap(([x, y]) => [x - anchor.x, y - anchor.y, z - anchor.z]), 3);
+    for (const part of [this.lines, this.lit]) part.position.copy(anchor);
     this.lines.geometry.setAttribute('position', points(lines));
     this.lit.geometry.setAttribute('position', points(faces));
   }

@@ -42,7 +42,7 @@ class Entities {
     }
     const scale = leastScale(this.view);
     const { shown, turns } = moment;
-    this.bodies.begin();
+    this.bodies.begin(this.view.orbit.anchor);
     for (let i = 0; i < moment.count; ++i) {
       const x = shown[3 * i];
       const y = shown[3 * i + 1];

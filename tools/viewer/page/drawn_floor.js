@@ -46,7 +46,7 @@ class Floor {
     const tint = [];
     // Each line in pieces, so that it fades towards the edge.
     const point = (x, y) => {
-      at.push(cx + x * step, cy + y * step, z);
+      at.push(x * step, y * step, 0);
       const share = Math.min(1, Math.hypot(x, y) / HALF) ** 1.5;
       tint.push(near.r + (far.r - near.r) * share, near.g + (far.g - near.g) * share, near.b + (far.b - near.b) * share);
     };
@@ -60,6 +60,7 @@ class Floor {
     }
     this.lines.geometry.setAttribute('position', new Float32BufferAttribute(at, 3));
     this.lines.geometry.setAttribute('color', new Float32BufferAttribute(tint, 3));
+    this.lines.position.set(cx, cy, z);
     this.corner = [cx, cy - 2 * step, z];
   }
 }

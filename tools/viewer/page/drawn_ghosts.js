@@ -65,16 +65,20 @@ class Ghosts {
   write({ shown, predicted, turns }, off) {
     const scale = leastScale(this.view);
     const { way } = this;
+    const { anchor } = this.view.orbit;
+    const from = anchor.toArray();
     const turn = new Float32Array(4 * off.length);
-    this.bodies.begin();
+    this.lines.position.copy(anchor);
+    this.bodies.begin(anchor);
     off.forEach((i, n) => {
-      for (let k = 0; k < 3; ++k) {
-        const x = shown[3 * i + k];
-        way[6 * n + k] = x;
-        way[6 * n + 3 + k] = x + TIMES * (predicted[3 * i + k] - x);
-      }
+      const [x, y, z] = from.map((a, k) => {
+        const at = shown[3 * i + k];
+        const twin = at + TIMES * (predicted[3 * i + k] - at);
+        way[6 * n + k] = at - a;
+        way[6 * n + 3 + k] = twin - a;
+        return twin;
+      });
       for (let k = 0; k < 4; ++k) turn[4 * n + k] = turns[4 * i + k];
-      const [x, y, z] = [way[6 * n + 3], way[6 * n + 4], way[6 * n + 5]];
       this.bodies.set(n, x, y, z, turn, scale(x, y, z, this.rows[i]?.radius || 1));
     });
     this.bodies.end();

@@ -45,6 +45,7 @@ class Groups {
 
   update(moment) {
     this.written = 0;
+    this.lines.position.copy(this.view.orbit.anchor);
     for (const { tier, group, slots } of moment.groups.groups.slice(0, MOST_GROUPS)) {
       if (tier === this.tier) this.outline(this.around(moment, slots), this.shades[group % this.shades.length]);
     }
@@ -93,7 +94,7 @@ class Groups {
   // A point of the picture, just behind its front.
   put(o, [x, y], shade) {
     const { width, height } = this.view.rectangle;
-    this.corner.set((2 * x) / width, (2 * y) / height, 0).unproject(this.view.orbit.camera).toArray(this.at, o);
+    this.corner.set((2 * x) / width, (2 * y) / height, 0).unproject(this.view.orbit.camera).sub(this.lines.position).toArray(this.at, o);
     shade.toArray(this.tint, o);
   }
 }

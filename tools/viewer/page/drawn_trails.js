@@ -47,7 +47,9 @@ class Trails {
   room(count) {
     this.pieces = Math.min(FINE, Math.max(COARSE, Math.round((this.view.software ? MOST_LINES_BY_SOFTWARE : MOST_LINES) / Math.max(1, count))));
     const corners = 2 * count * (this.pieces + 1);
-    this.at = new Float32Array(3 * corners);
+    this.places = new Float64Array(3 * corners);
+    this.at = new Float32Array(3 * corners); // the same from the anchor
+    this.anchored = -1;
     this.born = new Float32Array(corners).fill(-1e9);
     this.team = new Float32Array(corners);
     this.lines.geometry.dispose();
@@ -55,7 +57,7 @@ class Trails {
     geometry.setAttribute('position', new BufferAttribute(this.at, 3).setUsage(DynamicDrawUsage));
     geometry.setAttribute('born', new BufferAttribute(this.born, 1).setUsage(DynamicDrawUsage));
     geometry.setAttribute('team', new BufferAttribute(this.team, 1).setUsage(DynamicDrawUsage));
-    this.old = new Float32Array(3 * count);
+    this.old = new Float64Array(3 * count);
     this.piece = 0;
     this.next = -Infinity;
   }
@@ -91,19 +93,34 @@ class Trails {
     for (let i = 0; i < count; ++i) {
       const v = first + 2 * i;
       for (let k = 0; k < 3; ++k) {
-        this.at[3 * v + k] = this.old[3 * i + k];
-        this.at[3 * v + 3 + k] = shown[3 * i + k];
+        this.places[3 * v + k] = this.old[3 * i + k];
+        this.places[3 * v + 3 + k] = shown[3 * i + k];
       }
       this.born[v] = this.since;
       this.born[v + 1] = now;
       this.team[v] = picture.side(i);
       this.team[v + 1] = picture.side(i);
     }
+    const { anchored } = this.view.orbit;
+    const [begin, number] = anchored === this.anchored ? [first, 2 * count] : [0, this.born.length];
+    this.anchored = anchored;
+    this.stand(begin, number);
     for (const name of ['position', 'born', 'team']) {
       const attribute = this.lines.geometry.attributes[name];
       attribute.clearUpdateRanges();
-      attribute.addUpdateRange(first * attribute.itemSize, 2 * count * attribute.itemSize);
+      attribute.addUpdateRange(begin * attribute.itemSize, number * attribute.itemSize);
       attribute.needsUpdate = true;
+    }
+  }
+
+  // Corners from the anchor; all of them where it has moved.
+  stand(begin, number) {
+    const { anchor } = this.view.orbit;
+    this.lines.position.copy(anchor);
+    for (let v = 3 * begin; v < 3 * (begin + number); v += 3) {
+      this.at[v] = this.places[v] - anchor.x;
+      this.at[v + 1] = this.places[v + 1] - anchor.y;
+      this.at[v + 2] = this.places[v + 2] - anchor.z;
     }
   }
 }

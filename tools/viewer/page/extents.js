@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sphere that a camera should hold: of the world, and of what is touched.
 
+const FARTHEST = 1e9; // [m] that anybody stands from the origin
+
 // All but the outermost fiftieth, so that one straggler does not make all others specks; at least a cell.
 export function worldExtent(moment) {
   if (!moment.count) return null;
   const columns = [0, 1, 2].map((k) => {
     const step = Math.max(1, Math.floor(moment.count / 400));
     const list = [];
-    for (let i = 0; i < moment.count; i += step) if (Number.isFinite(moment.shown[3 * i + k])) list.push(moment.shown[3 * i + k]);
+    for (let i = 0; i < moment.count; i += step) if (Math.abs(moment.shown[3 * i + k]) < FARTHEST) list.push(moment.shown[3 * i + k]);
     return list.sort((a, b) => a - b);
   });
   if (!columns[0].length) return null;

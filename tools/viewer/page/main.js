@@ -19,7 +19,7 @@ import { Steering } from './steering.js';
 import { TimeLine } from './time_line.js';
 import { bitRate, byId, digits, foreign } from './words.js';
 
-const VERSION = 1;
+const VERSION = 2;
 const SLOW = 250; // [ms] between two looks at table and numbers
 const wishes = new URLSearchParams(location.hash.slice(1)); // word, theme, main, fine
 

@@ -6,8 +6,8 @@ import { NONE } from './picture.js';
 export class Moment {
   constructor() {
     this.count = 0;
-    this.shown = new Float32Array(0); // 3 each
-    this.predicted = new Float32Array(0);
+    this.shown = new Float64Array(0); // 3 each
+    this.predicted = new Float64Array(0);
     this.turns = new Float32Array(0); // 4 each: w x y z, body to east-north-up
     this.hands = [];
     this.contacts = [];
@@ -33,8 +33,8 @@ export class Moment {
     const count = b.entities;
     if (this.shown.length < 3 * count) {
       const room = Math.ceil(1.2 * count);
-      this.shown = new Float32Array(3 * room);
-      this.predicted = new Float32Array(3 * room);
+      this.shown = new Float64Array(3 * room);
+      this.predicted = new Float64Array(3 * room);
       this.turns = new Float32Array(4 * room);
     }
     this.picture = b;
@@ -50,11 +50,13 @@ export class Moment {
     const same = a === b || (i < a.entities && a.slot(i) === b.slot(i));
     const old = same ? i : a.indexOf(b.slot(i));
     const from = old < 0 ? b : a;
-    const p = b.floatAt(i);
-    const q = old < 0 ? p : a.floatAt(old);
+    const p = b.placeAt(i);
+    const q = old < 0 ? p : a.placeAt(old);
+    const e = b.errorAt(i);
+    const f = old < 0 ? e : a.errorAt(old);
     for (let k = 0; k < 3; ++k) {
-      const x = from.floats[q + k] + (b.floats[p + k] - from.floats[q + k]) * s;
-      const error = from.floats[q + 5 + k] + (b.floats[p + 5 + k] - from.floats[q + 5 + k]) * s;
+      const x = from.doubles[q + k] + (b.doubles[p + k] - from.doubles[q + k]) * s;
+      const error = from.floats[f + k] + (b.floats[e + k] - from.floats[f + k]) * s;
       this.predicted[3 * i + k] = x;
       this.shown[3 * i + k] = x + error;
     }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures as the server sends them: little endian, fixed sizes, read where they lie without a copy.
 
-const MAGIC = 0x31564b52; // "RKV1"
+const MAGIC = 0x32564b52; // "RKV2"
 const HEAD = 32;
-const ENTITY = 44;
+const ENTITY = 56;
 const HAND = 72;
-const CONTACT = 28;
+const CONTACT = 40;
 const TOOL = 124;
 const BODY = 20;
 
@@ -40,12 +40,13 @@ class Picture {
     this.time = view.getFloat64(8, true);
     this.flags = view.getUint16(22, true);
     this.epoch = view.getUint32(24, true);
-    // Views of the whole buffer: sizes are multiples of 4, so each field lies on its own boundary.
+    // Views of the buffer: each field of an entity lies on its own boundary.
     this.octets = new Uint8Array(buffer);
     this.words = new Uint16Array(buffer);
     this.shorts = new Int16Array(buffer);
     this.floats = new Float32Array(buffer);
     const firstHand = HEAD + ENTITY * entities;
+    this.doubles = new Float64Array(buffer, 0, firstHand >> 3);
     this.hands = Array.from({ length: hands }, (_, i) => this.hand(view, firstHand + HAND * i));
     const firstContact = firstHand + HAND * hands;
     this.contacts = Array.from({ length: contacts }, (_, i) => this.contact(view, firstContact + CONTACT * i));
@@ -87,10 +88,10 @@ class Picture {
   }
 
   contact(view, at) {
-    const vector = (offset) => [0, 4, 8].map((k) => number(view.getFloat32(at + offset + k, true)));
-    const force = vector(16);
+    const point = [4, 12, 20].map((k) => number(view.getFloat64(at + k, true)));
+    const force = [28, 32, 36].map((k) => number(view.getFloat32(at + k, true)));
     return {
-      felt: view.getUint16(at, true), feeling: view.getUint16(at + 2, true), point: vector(4), force,
+      felt: view.getUint16(at, true), feeling: view.getUint16(at + 2, true), point, force,
       newtons: Math.hypot(...force),
     };
   }
@@ -100,12 +101,14 @@ class Picture {
   cause(i) { return this.octets[HEAD + ENTITY * i + 3]; }
   cell(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 2]; }
   group(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 3]; }
-  // Index of the first float of the predicted position; that of the error is 5 on.
-  floatAt(i) { return (HEAD >> 2) + (ENTITY >> 2) * i + 2; }
+  // Index of the first of three doubles: the predicted position.
+  placeAt(i) { return (HEAD >> 3) + (ENTITY >> 3) * i + 1; }
+  // Index of the first of three floats: shown minus predicted.
+  errorAt(i) { return (HEAD >> 2) + (ENTITY >> 2) * i + 10; }
   // Index of the first of four shorts: w x y z.
-  turnAt(i) { return (HEAD >> 1) + (ENTITY >> 1) * i + 10; }
-  rate(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 20] / 100; }
-  jump(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 21]; }
+  turnAt(i) { return (HEAD >> 1) + (ENTITY >> 1) * i + 16; }
+  rate(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 26] / 100; }
+  jump(i) { return this.words[((HEAD + ENTITY * i) >> 1) + 27]; }
 
   // Index of the entity in a slot, or -1.
   indexOf(slot) {

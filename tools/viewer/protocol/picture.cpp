@@ -24,6 +24,9 @@ class Writer {
   void vector(const Eigen::Vector3f& value) {
     for (const float part : value) f32(part);
   }
+  void vector(const Eigen::Vector3d& value) {
+    for (const double part : value) f64(part);
+  }
 
  private:
   void put(std::uint64_t value, int octets) {

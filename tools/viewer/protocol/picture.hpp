@@ -16,9 +16,9 @@
 
 namespace reckon::tools {
 
-inline constexpr std::uint32_t kPictureMagic = 0x31564B52;  ///< "RKV1": the version of the layout
-inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 44, kHandOctets = 72,
-                             kContactOctets = 28, kToolOctets = 28 + 12 * 8, kBodyOctets = 20;
+inline constexpr std::uint32_t kPictureMagic = 0x32564B52;  ///< "RKV2": the version of the layout
+inline constexpr std::size_t kPictureHead = 32, kEntityOctets = 56, kHandOctets = 72,
+                             kContactOctets = 40, kToolOctets = 28 + 12 * 8, kBodyOctets = 20;
 inline constexpr std::uint16_t kNoNumber = 0xFFFF;  ///< no slot, no cell
 /// Rows of a kind that a picture has at most; more are left out.
 inline constexpr std::size_t kMostPictureRows = 0xFFFE;
@@ -52,7 +52,7 @@ struct EntityMark {
   UpdateCause cause = UpdateCause::none;
   std::uint16_t cell = kNoNumber;
   std::uint16_t group = 0;  ///< low 16 bits of the address of the last update; 0: none
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();               ///< predicted
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< predicted
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to east, north, up
   Eigen::Vector3f error = Eigen::Vector3f::Zero();                  ///< shown minus predicted
   double rate = 0;                                                  ///< updates a second
@@ -95,7 +95,7 @@ struct BodyMark {
 /// A contact between two entities, as a listener computes it.
 struct ContactMark {
   std::uint16_t felt = kNoNumber, feeling = kNoNumber;  ///< slots: whose model, and who is pushed
-  Eigen::Vector3f point = Eigen::Vector3f::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3f force = Eigen::Vector3f::Zero();  ///< [N], on who feels
 };
 

@@ -18,8 +18,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 aoim::Position position_of(const EntityMark& mark) {
-  return {static_cast<double>(mark.position.x()), static_cast<double>(mark.position.y()),
-          static_cast<double>(mark.position.z())};
+  return {mark.position.x(), mark.position.y(), mark.position.z()};
 }
 
 void append_group(std::string& out, const SharedGroup& shared) {

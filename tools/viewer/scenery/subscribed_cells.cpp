@@ -11,8 +11,7 @@ namespace reckon::tools {
 namespace {
 
 aoim::Position place_of(const EntityMark& mark) {
-  return {static_cast<double>(mark.position.x()), static_cast<double>(mark.position.y()),
-          static_cast<double>(mark.position.z())};
+  return {mark.position.x(), mark.position.y(), mark.position.z()};
 }
 
 std::string_view shape_of(aoim::CellScheme scheme) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "reckon/pdu/reckon/cell_roles.hpp"
@@ -67,7 +68,7 @@ std::vector<EntityMark> marks_of(const ReceivedWorld& world, const History& hist
 void expect_same(const std::vector<EntityMark>& marks, const std::vector<Eigen::Vector3d>& places) {
   ASSERT_EQ(marks.size(), places.size());
   for (std::size_t i = 0; i < marks.size(); ++i)
-    EXPECT_LT((marks[i].position.cast<double>() - places[marks[i].slot]).norm(), kMillimetre);
+    EXPECT_LT((marks[i].position - places[marks[i].slot]).norm(), kMillimetre);
 }
 
 TEST(History, ShowsAnyInstantOfACaptureAsTheInspectorDoes) {
@@ -122,6 +123,29 @@ TEST(History, ShowsTheErrorOfAnUpdateAndLetsItGo) {
   EXPECT_LT(error_at(second.time + milliseconds(400)), 0.9);
   EXPECT_EQ(error_at(second.time + seconds(2)), 0.0);
   EXPECT_NEAR(marks_of(history.live(), history, second.time).at(0).jump, 1.0, 1e-6);
+}
+
+TEST(History, ShowsAMillimetreSixThousandKilometresAway) {
+  History history(whole());
+  Sent near{{}, kStart}, far{{}, kStart}, moved{{}, kStart + seconds(1)};
+  pdu::EntityState walker = trucks::truck(2, 0);
+  walker.linear_velocity = {0, 0, 0};
+  constexpr double kAngle = 0.98;  // [rad] of longitude: a chord of 6,000 km
+  walker.location = {trucks::kRadius * std::cos(kAngle), trucks::kRadius * std::sin(kAngle), 0};
+  test::append_pdu(near.octets, trucks::truck(1, 0));
+  test::append_pdu(far.octets, walker);
+  walker.header.timestamp = pdu::to_dis_timestamp(moved.time, true);
+  walker.location.z += 0.001;  // to the north
+  test::append_pdu(moved.octets, walker);
+  take(history, {near, far, moved});
+  history.roster().publish();
+  std::unique_ptr<History::Cursor> cursor;
+  history.seek(cursor, kStart + milliseconds(999));
+  const EntityMark before = marks_of(cursor->world(), history, cursor->time()).at(1);
+  const EntityMark after = marks_of(history.live(), history, moved.time).at(1);
+  EXPECT_NEAR(before.position.norm(), 6.0e6, 0.02e6);
+  EXPECT_NEAR(after.position.y() - before.position.y(), 0.001, 1e-8);
+  EXPECT_NEAR(after.error.y(), -0.001F, 1e-8F) << "shown where it was";
 }
 
 TEST(History, FindsTheUpdatesBesideAnInstant) {

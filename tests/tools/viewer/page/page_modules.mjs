@@ -2,19 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The modules of the page that need no browser:  node page_modules.mjs tools/viewer/page
 import assert from 'node:assert/strict';
-import { copyFileSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import test, { after } from 'node:test';
-import { pathToFileURL } from 'node:url';
-
-// Node takes a .js file as a module where a package says so; the page needs none.
-const page = process.argv[2];
-const copy = mkdtempSync(join(tmpdir(), 'reckon-page-'));
-after(() => rmSync(copy, { recursive: true }));
-for (const name of readdirSync(page)) if (name.endsWith('.js')) copyFileSync(join(page, name), join(copy, name));
-writeFileSync(join(copy, 'package.json'), '{"type": "module"}');
-const take = (name) => import(pathToFileURL(join(copy, name)));
+import test from 'node:test';
+import { picture } from './made_picture.mjs';
+import { take } from './page_copy.mjs';
 
 const { decodePicture, HAND_FLAGS } = await take('picture.js');
 const { Samples } = await take('samples.js');
@@ -30,51 +20,6 @@ const { plotError } = await take('plot_error.js');
 const { plotForce } = await take('plot_force.js');
 const { plotEnergy } = await take('plot_energy.js');
 const { digits, foreign, roundUp } = await take('words.js');
-
-function picture({ time = 0, number = 1, entities = [], hands = [], contacts = 0, tools = [], bodies = [], flags = 1 }) {
-  const view = new DataView(new ArrayBuffer(32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * tools.length + 20 * bodies.length));
-  view.setUint32(0, 0x31564b52, true);
-  view.setUint32(4, number, true);
-  view.setFloat64(8, time, true);
-  [entities.length, hands.length, contacts, flags].forEach((x, i) => view.setUint16(16 + 2 * i, x, true));
-  view.setUint32(24, 7, true);
-  view.setUint16(28, tools.length, true);
-  view.setUint16(30, bodies.length, true);
-  entities.forEach(({ slot, x = 0, error = 0, turn = [32767, 0, 0, 0] }, i) => {
-    const at = 32 + 44 * i;
-    view.setUint16(at, slot, true);
-    view.setUint8(at + 2, 1);
-    view.setUint8(at + 3, 2);
-    view.setUint16(at + 4, 27, true);
-    view.setUint16(at + 6, 513, true);
-    view.setFloat32(at + 8, x, true);
-    turn.forEach((q, k) => view.setInt16(at + 20 + 2 * k, q, true));
-    view.setFloat32(at + 28, error, true);
-    view.setUint16(at + 40, 250, true);
-    view.setUint16(at + 42, 12, true);
-  });
-  hands.forEach(({ index = 0, flags: of = 0, patch = 0, force = [0, 0, 0], position = [0, 0, 0] }, i) => {
-    const at = 32 + 44 * entities.length + 72 * i;
-    view.setUint16(at, index, true);
-    view.setUint16(at + 2, of, true);
-    view.setUint16(at + 6, patch, true);
-    position.forEach((x, k) => view.setFloat32(at + 8 + 4 * k, x, true));
-    force.forEach((x, k) => view.setFloat32(at + 32 + 4 * k, x, true));
-    [5, 6, 7, 8].forEach((x, k) => view.setFloat32(at + 56 + 4 * k, x, true));
-  });
-  tools.forEach(({ hand, torque = [0, 0, 0], handle = [0, 0, 0], probes }, i) => {
-    const at = 32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * i;
-    view.setUint16(at, hand, true);
-    view.setUint16(at + 2, probes.length, true);
-    [handle, torque, ...probes].forEach((v, j) => v.forEach((x, k) => view.setFloat32(at + 4 + 12 * j + 4 * k, x, true)));
-  });
-  bodies.forEach(({ position, turn = [32767, 0, 0, 0] }, i) => {
-    const at = 32 + 44 * entities.length + 72 * hands.length + 28 * contacts + 124 * tools.length + 20 * i;
-    position.forEach((x, k) => view.setFloat32(at + 4 * k, x, true));
-    turn.forEach((q, k) => view.setInt16(at + 12 + 2 * k, q, true));
-  });
-  return view.buffer;
-}
 
 test('A body is where its picture has it, and between two of them half way', () => {
   const at = (time, z) => decodePicture(picture({ time, bodies: [{ position: [0, 0, z] }, { position: [1, 0, z], turn: [0, 0, 32767, 0] }] }));
@@ -101,7 +46,7 @@ test('A picture gives each field back', () => {
   assert.deepEqual([decoded.time, decoded.number, decoded.epoch, decoded.entities], [12.5, 9, 7, 2]);
   assert.deepEqual([decoded.slot(1), decoded.side(1), decoded.cause(1), decoded.cell(1), decoded.group(1), decoded.rate(1), decoded.jump(1)],
     [8, 1, 2, 27, 513, 2.5, 12]);
-  assert.deepEqual([decoded.floats[decoded.floatAt(1)], decoded.floats[decoded.floatAt(1) + 5], decoded.shorts[decoded.turnAt(1)]], [4, 0.5, 32767]);
+  assert.deepEqual([decoded.doubles[decoded.placeAt(1)], decoded.floats[decoded.errorAt(1)], decoded.shorts[decoded.turnAt(1)]], [4, 0.5, 32767]);
   assert.deepEqual([decoded.indexOf(8), decoded.indexOf(4)], [1, -1]);
   const [hand] = decoded.hands;
   assert.deepEqual([hand.index, hand.patch, hand.newtons, hand.trueForce, hand.energy, hand.loan, hand.twin], [1, 5, 5, 5, 6, 7, null]);
@@ -121,7 +66,7 @@ test('A picture whose length does not follow from its counts is refused', () => 
 
 test('A picture of another version is refused', () => {
   const other = picture({});
-  new DataView(other).setUint32(0, 0x32564b52, true);
+  new DataView(other).setUint32(0, 0x31564b52, true);
   assert.throws(() => decodePicture(other), /version/);
 });
 

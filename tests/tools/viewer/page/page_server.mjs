@@ -2,18 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a page holds on to its server, with a browser that is stepped by hand:  node page_server.mjs tools/viewer/page
 import assert from 'node:assert/strict';
-import { copyFileSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import test, { after } from 'node:test';
-import { pathToFileURL } from 'node:url';
+import test from 'node:test';
+import { take } from './page_copy.mjs';
 
-const page = process.argv[2];
-const copy = mkdtempSync(join(tmpdir(), 'reckon-page-'));
-after(() => rmSync(copy, { recursive: true }));
-for (const name of readdirSync(page)) if (name.endsWith('.js')) copyFileSync(join(page, name), join(copy, name));
-writeFileSync(join(copy, 'package.json'), '{"type": "module"}');
-const { Server } = await import(pathToFileURL(join(copy, 'server.js')));
+const { Server } = await take('server.js');
 
 test('A refused page shows why, and comes back when it is seen', (context) => {
   const sockets = [], waits = [], states = [], seen = [];

@@ -30,7 +30,7 @@ PictureRows rows() {
   entity.cause = UpdateCause::event;
   entity.cell = 11;
   entity.group = 0x0105;
-  entity.position = {1.5F, -2.5F, 3.5F};
+  entity.position = {1.5, -2.5, 3.5};
   entity.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
   entity.error = {0.25F, 0, -0.25F};
   entity.rate = 12.34;
@@ -42,6 +42,7 @@ PictureRows rows() {
   picture.hands[0].twin_force = 4.5F;
   picture.contacts.resize(1);
   picture.contacts[0].feeling = 9;
+  picture.contacts[0].point = {6.5, 0, 0};
   picture.contacts[0].force = {0, 0, 2};
   picture.tools.resize(1);
   picture.tools[0].hand = 3;
@@ -57,7 +58,7 @@ PictureRows rows() {
 TEST(Picture, IsAsLongAsItsCountsSay) {
   std::string octets;
   encode_picture(rows(), octets);
-  EXPECT_EQ(octets.size(), 32U + 2 * 44 + 72 + 28 + 124 + 20);
+  EXPECT_EQ(octets.size(), 32U + 2 * 56 + 72 + 40 + 124 + 20);
   encode_picture({}, octets);
   EXPECT_EQ(octets.size(), 32U);
 }
@@ -66,7 +67,7 @@ TEST(Picture, HasEachThingAtItsPlace) {
   std::string octets;
   encode_picture(rows(), octets);
   number_picture(octets, 99);
-  EXPECT_EQ(octets.substr(0, 4), "RKV1");
+  EXPECT_EQ(octets.substr(0, 4), "RKV2");
   EXPECT_EQ(at<std::uint32_t>(octets, 4), 99U);
   EXPECT_EQ(at<double>(octets, 8), 12.5);
   EXPECT_EQ(at<std::uint16_t>(octets, 16), 2);
@@ -74,26 +75,27 @@ TEST(Picture, HasEachThingAtItsPlace) {
   EXPECT_EQ(at<std::uint16_t>(octets, 20), 1);
   EXPECT_EQ(at<std::uint16_t>(octets, 22), 9);
   EXPECT_EQ(at<std::uint32_t>(octets, 24), 7U);
-  const std::size_t entity = 32 + 44;
+  const std::size_t entity = 32 + 56;
   EXPECT_EQ(at<std::uint16_t>(octets, entity), 300);
   EXPECT_EQ(octets[entity + 2], 2);
   EXPECT_EQ(octets[entity + 3], 4);
   EXPECT_EQ(at<std::uint16_t>(octets, entity + 4), 11);
   EXPECT_EQ(at<std::uint16_t>(octets, entity + 6), 0x0105);
-  EXPECT_EQ(at<float>(octets, entity + 12), -2.5F);
-  EXPECT_EQ(at<std::int16_t>(octets, entity + 20), 16384);
-  EXPECT_EQ(at<std::int16_t>(octets, entity + 22), -16384);
-  EXPECT_EQ(at<float>(octets, entity + 36), -0.25F);
-  EXPECT_EQ(at<std::uint16_t>(octets, entity + 40), 1234);
-  EXPECT_EQ(at<std::uint16_t>(octets, entity + 42), 12);
-  const std::size_t hand = 32 + 2 * 44;
+  EXPECT_EQ(at<double>(octets, entity + 16), -2.5);
+  EXPECT_EQ(at<std::int16_t>(octets, entity + 32), 16384);
+  EXPECT_EQ(at<std::int16_t>(octets, entity + 34), -16384);
+  EXPECT_EQ(at<float>(octets, entity + 48), -0.25F);
+  EXPECT_EQ(at<std::uint16_t>(octets, entity + 52), 1234);
+  EXPECT_EQ(at<std::uint16_t>(octets, entity + 54), 12);
+  const std::size_t hand = 32 + 2 * 56;
   EXPECT_EQ(at<std::uint16_t>(octets, hand), 3);
   EXPECT_EQ(at<std::uint16_t>(octets, hand + 6), 6);
   EXPECT_EQ(at<float>(octets, hand + 68), 4.5F);
   EXPECT_EQ(at<std::uint16_t>(octets, hand + 72 + 2), 9);
-  EXPECT_EQ(at<float>(octets, hand + 72 + 24), 2.0F);
+  EXPECT_EQ(at<double>(octets, hand + 72 + 4), 6.5);
+  EXPECT_EQ(at<float>(octets, hand + 72 + 36), 2.0F);
   EXPECT_EQ(at<std::uint16_t>(octets, 28), 1) << "tools";
-  const std::size_t tool = hand + 72 + 28;
+  const std::size_t tool = hand + 72 + 40;
   EXPECT_EQ(at<std::uint16_t>(octets, tool), 3);
   EXPECT_EQ(at<std::uint16_t>(octets, tool + 2), 2);
   EXPECT_EQ(at<float>(octets, tool + 20), 0.5F);
@@ -108,9 +110,22 @@ TEST(Picture, MarksAHandAsItsReadersOwn) {
   const PictureRows picture = rows();
   encode_picture(picture, octets);
   mark_own_hand(picture, 2, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 88 + 2), kHandInContact);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 112 + 2), kHandInContact);
   mark_own_hand(picture, 3, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 88 + 2), kHandInContact | kHandYours);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 112 + 2), kHandInContact | kHandYours);
+}
+
+TEST(Picture, SaysMillimetresSixThousandKilometresAway) {
+  PictureRows picture = rows();
+  const Eigen::Vector3d away(-4'461'603.0, 2'757'549.5, -2'740'670.75);
+  std::string before, after;
+  picture.entities[0].position = picture.contacts[0].point = away;
+  encode_picture(picture, before);
+  picture.entities[0].position.y() += 0.001;
+  picture.contacts[0].point = picture.entities[0].position;
+  encode_picture(picture, after);
+  for (const std::size_t place : {32U + 8 + 8, 32U + 2 * 56 + 72 + 4 + 8})
+    EXPECT_NEAR(at<double>(after, place) - at<double>(before, place), 0.001, 1e-8) << place;
 }
 
 TEST(Picture, CutsWhatDoesNotFit) {
@@ -121,9 +136,9 @@ TEST(Picture, CutsWhatDoesNotFit) {
   picture.entities[0].orientation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
   std::string octets;
   encode_picture(picture, octets);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 40), 0);
-  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 42), 65535);
-  EXPECT_EQ(at<std::int16_t>(octets, 32 + 20), 0);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 52), 0);
+  EXPECT_EQ(at<std::uint16_t>(octets, 32 + 54), 65535);
+  EXPECT_EQ(at<std::int16_t>(octets, 32 + 32), 0);
 }
 
 }  // namespace

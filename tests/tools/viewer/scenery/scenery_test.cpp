@@ -30,7 +30,7 @@ peer::AoimConfig squares() {
   return config;
 }
 
-EntityMark mark_at(std::uint16_t slot, float x, float y) {
+EntityMark mark_at(std::uint16_t slot, double x, double y) {
   EntityMark mark;
   mark.slot = slot;
   mark.position = {x, y, 0};
