@@ -31,7 +31,7 @@ struct AllFlags : FixedFields {
 /// Calls `f` with PDUs of this type that differ in the fields they have.
 template <typename Pdu, typename F>
 void each_variant(F&& f) {
-  static constexpr std::array<std::byte, 64> kZeros{};
+  static constexpr std::array<std::byte, 128> kZeros{};
   const auto pdu = std::make_unique<Pdu>();
   AllFlags flags;
   fields(flags, *pdu);
@@ -58,6 +58,19 @@ void each_variant(F&& f) {
     f(std::as_const(*pdu));
     pdu->number_of_silent_entity_systems = 1;  // more than there are: octets
     pdu->silent_systems_and_variable_datums.bytes = {};
+    f(std::as_const(*pdu));
+  }
+  if constexpr (std::same_as<Pdu, IsGroupOf>) {
+    pdu->number_of_grouped_entities = 1;
+    for (const std::size_t size : {20, 24, 20, 24, 24, 28, 20, 24, 16}) {
+      ++pdu->grouped_entity_category;
+      pdu->grouped_entity_descriptions.bytes = std::span(kZeros).first(size);
+      f(std::as_const(*pdu));
+    }
+  } else if constexpr (std::same_as<Pdu, MinefieldData>) {
+    pdu->number_of_mines = 1;
+    pdu->data_filter = 0x7FF;
+    pdu->mines.bytes = std::span(kZeros).first(12 + 3 * 4 + 12 + 2 * 4 + 8 + 2 + 2 + 1 + 3 + 4);
     f(std::as_const(*pdu));
   }
   pdu->header.protocol_version = 6;

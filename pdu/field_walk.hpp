@@ -38,8 +38,15 @@ void each_layout(const Head& head, F&& f) {
   const std::span<const std::byte> zeros(kZeros);
   if constexpr (std::is_same_v<Head, IffLayer>) {
     for (const auto& [layer, size] :
-         {std::pair<std::uint8_t, std::size_t>{2, 24}, {3, 24}, {4, 0}, {5, 12}})
+         {std::pair<std::uint8_t, std::size_t>{2, 24}, {3, 24}, {4, 0}, {4, 32}, {5, 12}})
       f(IffLayer{layer}, zeros.first(size));
+    // Mode S of a transponder, which has an aircraft.
+    static constexpr std::array<std::byte, 32> kTransponder = [] {
+      std::array<std::byte, 32> octets{};
+      octets[8] = std::byte{'A'};
+      return octets;
+    }();
+    f(IffLayer{4}, std::span<const std::byte>(kTransponder));
   } else if constexpr (std::is_same_v<Head, EnvironmentRecord>) {
     for (const std::uint32_t type : {0U, 65536U, 655360U, 786432U, 1048576U, 5242880U})
       f(EnvironmentRecord{type}, zeros);

@@ -4,8 +4,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace reckon::deadreckon {
+
+/// An angle in degrees, for people to read.
+[[nodiscard]] constexpr double in_degrees(double radians) noexcept {
+  return radians * (180.0 / std::numbers::pi);
+}
 
 /// Unit quaternion of the rotation by |v| rad about v. Exact at zero, any finite angle.
 [[nodiscard]] Eigen::Quaterniond exponential(const Eigen::Vector3d& rotation_vector) noexcept;

@@ -59,6 +59,13 @@ void note_size(const MeshReport& report, std::vector<std::string>& notes) {
   }
 }
 
+void note_octets(const MeshReport& report, std::vector<std::string>& notes) {
+  if (report.octets_behind == 0) return;
+  notes.push_back(counted(report.octets_behind, "octet", "octets") + " behind the " +
+                  counted(report.faces, "face", "faces") +
+                  " that the file counts were not read; write it again if faces are missing");
+}
+
 void note_drops(const MeshReport& report, std::vector<std::string>& notes) {
   if (const MeshFinding& found = report.dropped_degenerate; found.count > 0) {
     notes.push_back(
@@ -138,6 +145,7 @@ std::string mesh_summary(const MeshReport& report) {
 std::vector<std::string> mesh_notes(const MeshReport& report) {
   std::vector<std::string> notes;
   note_size(report, notes);
+  note_octets(report, notes);
   note_drops(report, notes);
   note_sides(report, notes);
   note_openings(report, notes);

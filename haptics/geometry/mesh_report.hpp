@@ -27,8 +27,9 @@ struct MeshReport {
   std::string_view place_word = "triangle";  ///< "line" or "face" of a file, else "triangle"
 
   // Input.
-  std::size_t faces = 0;  ///< triangles and polygons
-  MeshFinding polygons;   ///< of more than three corners, cut into triangles
+  std::size_t faces = 0;          ///< triangles and polygons
+  MeshFinding polygons;           ///< of more than three corners, cut into triangles
+  std::size_t octets_behind = 0;  ///< of a binary STL, behind the faces that it counts
 
   // Repaired.
   std::size_t merged_vertices = 0;  ///< at the position of another

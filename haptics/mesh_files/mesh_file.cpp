@@ -53,6 +53,18 @@ const Format& format_of(const std::filesystem::path& file) {
   return *found;
 }
 
+/// Refuses text in UTF-16, with or without a mark at its begin. A binary STL may begin with any
+/// octets.
+void check_encoding(std::string_view text, const Format& format) {
+  if (format.read == read_stl || text.size() < 4) return;
+  const bool has_mark = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  const bool is_little = text[has_mark ? 3 : 1] == 0 && text[2] != 0;
+  const bool is_big = text[has_mark ? 2 : 0] == 0 && text[3] != 0;
+  if (!is_little && !is_big) return;
+  throw MeshFileError(0, std::string("is text in UTF-16 (") + (is_little ? "little" : "big") +
+                             "-endian); save it in UTF-8");
+}
+
 void check_corners(const MeshFile& file) {
   const bool lines = file.place_word == "line";
   for (const FileFace& face : file.faces) {
@@ -77,6 +89,7 @@ MeshFile read_mesh_file(const std::filesystem::path& file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   MeshFile mesh;
   try {
+    check_encoding(text, format);
     format.read(text, mesh);
     check_corners(mesh);
   } catch (const MeshFileError& error) {

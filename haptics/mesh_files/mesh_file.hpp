@@ -38,6 +38,7 @@ struct MeshFile {
   /// `material_index`.
   std::vector<std::string> names;
   std::string_view place_word = "line";  ///< unit of FileFace::place: "line" or "face"
+  std::size_t octets_behind = 0;         ///< of a binary STL, behind the faces that it counts
 
   [[nodiscard]] std::span<const std::uint32_t> corners_of(const FileFace& face) const noexcept {
     return {corners.data() + face.first, face.count};
@@ -47,8 +48,9 @@ struct MeshFile {
 /// Reads a file according to its extension: .obj (polygons, relative indices), .ply (text and
 /// binary, both byte orders), .stl (text and binary), .off (text). 0.3 us a triangle. Charges a
 /// triangle for each face to LoadBudget.
-/// @throws std::runtime_error "mesh FILE:LINE: what; remedy": not readable, a vertex that is not
-/// finite, a face with a vertex that does not exist, an end within an element, too many faces.
+/// @throws std::runtime_error "mesh FILE:LINE: what; remedy": not readable, text in UTF-16, a
+/// vertex that is not finite, a face with a vertex that does not exist, an end within an element,
+/// too many faces.
 [[nodiscard]] MeshFile read_mesh_file(const std::filesystem::path& file);
 
 /// Cuts a polygon into count - 2 triangles with the same winding. A polygon that is not convex is

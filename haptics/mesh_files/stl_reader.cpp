@@ -64,16 +64,19 @@ void read_text(std::string_view bytes, MeshFile& file) {
 }  // namespace
 
 void read_stl(std::string_view bytes, MeshFile& file) {
-  // A binary file may begin with "solid" too; its length identifies it.
-  if (bytes.size() >= kHeader && bytes.size() == kHeader + facets_of(bytes) * kFacet) {
+  // A binary file may begin with "solid" too; its length identifies it. The letters of a text, read
+  // as a number of facets, are more than any file holds.
+  const std::size_t octets = kHeader + facets_of(bytes) * kFacet;
+  const bool holds_facets = facets_of(bytes) > 0 && bytes.size() > octets;
+  if (bytes.size() == octets || holds_facets) {
+    file.octets_behind = bytes.size() - octets;
     return read_binary(bytes, file);
   }
   if (bytes.starts_with("solid")) return read_text(bytes, file);
   throw MeshFileError(
       0, "cannot be read as STL: it does not begin with 'solid', and as binary it would have " +
-             std::to_string(facets_of(bytes)) + " facets, " +
-             std::to_string(kHeader + facets_of(bytes) * kFacet) + " octets, where it has " +
-             std::to_string(bytes.size()) + "; write the mesh again");
+             std::to_string(facets_of(bytes)) + " facets, " + std::to_string(octets) +
+             " octets, where it has " + std::to_string(bytes.size()) + "; write the mesh again");
 }
 
 }  // namespace reckon::haptics

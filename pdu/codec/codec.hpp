@@ -5,6 +5,7 @@
 // and stay in the datagram as views.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -196,7 +197,8 @@ template <Pdu T>
 
 /// Reads exactly one PDU from the start of `bytes`, which may be longer. Views in `out` point into
 /// `bytes`. Octets within the length field but beyond all fields are skipped, because a later
-/// revision may add fields at the end. On an error `out` is reset. About 5 ns for an Entity State.
+/// revision may add fields at the end; trailing_octets() gives them. On an error `out` is reset.
+/// About 5 ns for an Entity State.
 template <Pdu T>
 [[nodiscard]] DecodeError decode(std::span<const std::byte> bytes, T& out) noexcept {
   DecodeError error = check_header(bytes);
@@ -216,6 +218,19 @@ template <Pdu T>
     out = T{};
   }
   return error;
+}
+
+/// The octets of a PDU behind its last field, which decode() skips and encode() does not write.
+/// Empty unless a sender adds octets of its own, or a count or length in the PDU is too small.
+///
+///   if (decode(bytes, pdu) == DecodeError::none && !trailing_octets(bytes, pdu).empty()) warn();
+///
+/// @param bytes from which `pdu` was decoded; the result points into them. About 1 ns.
+template <Pdu T>
+[[nodiscard]] std::span<const std::byte> trailing_octets(std::span<const std::byte> bytes,
+                                                         const T& pdu) noexcept {
+  const auto whole = bytes.first(std::min<std::size_t>(bytes.size(), pdu.header.length));
+  return whole.subspan(std::min(whole.size(), wire_size(pdu)));
 }
 
 /// Writes one PDU and sets length, type and family in its octets. Returns the octets written.

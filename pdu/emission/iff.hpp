@@ -3,6 +3,7 @@
 // IFF PDU (type 28, identification friend or foe): basic system data and further layers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -119,6 +120,75 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<IffMode5Layer> == 24);
 
+/// Layer 4: Mode S of an interrogator, which has only padding behind its levels.
+struct IffModeSInterrogatorLayer {
+  SimulationAddress reporting_simulation;
+  std::uint8_t interrogator_status = 0;
+  std::uint8_t padding_1 = 0;
+  std::uint8_t levels_present = 0;
+  std::uint8_t padding_2 = 0;
+  std::array<std::uint8_t, 20> padding_3{};
+  std::uint16_t padding_4 = 0;
+  std::uint16_t number_of_data_records = 0;
+};
+
+template <typename Visitor, Is<IffModeSInterrogatorLayer> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("reporting_simulation", record.reporting_simulation);
+  visitor("interrogator_status", record.interrogator_status);
+  visitor("padding_1", record.padding_1);
+  visitor("levels_present", record.levels_present);
+  visitor("padding_2", record.padding_2);
+  visitor("padding_3", record.padding_3);
+  visitor("padding_4", record.padding_4);
+  visitor("number_of_data_records", record.number_of_data_records);
+}
+static_assert(kFixedSize<IffModeSInterrogatorLayer> == 32);
+
+/// Layer 4: Mode S of a transponder.
+struct IffModeSTransponderLayer {
+  SimulationAddress reporting_simulation;
+  std::uint16_t transponder_status = 0;
+  std::uint8_t levels_present = 0;
+  std::uint8_t aircraft_present_domain = 0;
+  std::array<char, 8> aircraft_identification{};
+  std::uint32_t aircraft_address = 0;
+  std::uint8_t aircraft_identification_type = 0;
+  std::uint8_t dap_source = 0;
+  std::uint16_t altitude = 0;
+  std::uint8_t capability_report = 0;
+  std::uint8_t padding_1 = 0;
+  std::uint16_t padding_2 = 0;
+  std::uint16_t padding_3 = 0;
+  std::uint16_t number_of_data_records = 0;
+};
+
+template <typename Visitor, Is<IffModeSTransponderLayer> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("reporting_simulation", record.reporting_simulation);
+  visitor("transponder_status", record.transponder_status);
+  visitor("levels_present", record.levels_present);
+  visitor("aircraft_present_domain", record.aircraft_present_domain);
+  visitor("aircraft_identification", record.aircraft_identification);
+  visitor("aircraft_address", record.aircraft_address);
+  visitor("aircraft_identification_type", record.aircraft_identification_type);
+  visitor("dap_source", record.dap_source);
+  visitor("altitude", record.altitude);
+  visitor("capability_report", record.capability_report);
+  visitor("padding_1", record.padding_1);
+  visitor("padding_2", record.padding_2);
+  visitor("padding_3", record.padding_3);
+  visitor("number_of_data_records", record.number_of_data_records);
+}
+static_assert(kFixedSize<IffModeSTransponderLayer> == 32);
+
+/// Whether the body of a layer 4 has zeros where a transponder has its aircraft.
+[[nodiscard]] inline bool is_mode_s_interrogator(std::span<const std::byte> body) noexcept {
+  constexpr std::size_t kAircraft = 8, kEnd = 28;
+  return body.size() >= kEnd && std::ranges::all_of(body.subspan(kAircraft, kEnd - kAircraft),
+                                                    [](std::byte o) { return o == std::byte{0}; });
+}
+
 /// Visits a head and its data records. False if they do not fill the body exactly.
 template <typename Head, typename Visitor>
 bool show_iff_layer(Visitor& visitor, std::span<const std::byte> body) {
@@ -146,11 +216,18 @@ bool show_iff_emission(Visitor& visitor, std::span<const std::byte> body) {
   return true;
 }
 
-/// Visits layers 2, 3 and 5 field by field if the fields fill the layer, anything else as octets.
+template <typename Visitor>
+bool show_iff_mode_s(Visitor& visitor, std::span<const std::byte> body) {
+  return is_mode_s_interrogator(body) ? show_iff_layer<IffModeSInterrogatorLayer>(visitor, body)
+                                      : show_iff_layer<IffModeSTransponderLayer>(visitor, body);
+}
+
+/// Visits layers 2 to 5 field by field if the fields fill the layer, anything else as octets.
 template <typename Visitor>
 void parts(Visitor& visitor, const IffLayer& layer, std::span<const std::byte> body) {
   const bool shown = (layer.layer_number == 2 && show_iff_emission(visitor, body)) ||
                      (layer.layer_number == 3 && show_iff_layer<IffMode5Layer>(visitor, body)) ||
+                     (layer.layer_number == 4 && show_iff_mode_s(visitor, body)) ||
                      (layer.layer_number == 5 && show_iff_layer<IffDataLayer>(visitor, body));
   if (!shown) visitor.walked("body", RestOfPdu{body});
 }

@@ -22,6 +22,22 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("y", record.y);
 }
 
+/// One number of a mine, in the columns of Minefield Data.
+struct MineReal {
+  float value = 0.0F;
+};
+struct MineWord {
+  std::uint16_t value = 0;
+};
+struct MineOctet {
+  std::uint8_t value = 0;
+};
+
+template <typename Visitor, IsOneOf<MineReal, MineWord, MineOctet> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("value", record.value);
+}
+
 /// A sensor that detects mines.
 struct SensorType {
   std::uint16_t sensor_type = 0;

@@ -25,6 +25,9 @@ def encode(pdu: Pdu) -> bytes:
     ValueError or TypeError with the field where a value does not fit.
     """
 
+def trailing(octets: Octets) -> bytes:
+    """The octets of a PDU behind its last field; b"" if there are none."""
+
 def make_classes(base: Type[Record], pdu_base: Type[Pdu]) -> None: ...
 def initial(kind: Type[R]) -> R: ...
 def fields_of_classes() -> Dict[str, Dict[str, str]]: ...

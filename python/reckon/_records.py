@@ -64,6 +64,24 @@ class Pdu(Record):
     __slots__ = ()
     header: PduHeader
 
+    @property
+    def trailing(self) -> bytes:
+        """Octets behind the last field, which decode() found and encode() writes again.
+
+        A vendor extension, or data that a wrong count or length omits; b"" in nearly all PDUs.
+        """
+        return _native.trailing(_native.encode(self))
+
+    def __repr__(self) -> str:
+        text = super().__repr__()
+        if not getattr(self, "_padding", b""):
+            return text
+        try:
+            trailing = self.trailing
+        except (TypeError, ValueError):  # a field holds what no octets say
+            return text
+        return f"{text[:-1]}, trailing={trailing!r})" if trailing else text
+
     def __reduce__(self) -> typing.Any:
         return _decoded, (_native.encode(self),)
 

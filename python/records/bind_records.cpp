@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/python/records/classes.hpp"
 #include "reckon/python/records/codec_calls.hpp"
@@ -26,6 +27,17 @@ py::object decode_one(const py::object& given) {
 py::bytes encode_one(const py::object& pdu) {
   const std::vector<std::byte> octets = encode_pdu(pdu);
   return {reinterpret_cast<const char*>(octets.data()), octets.size()};
+}
+
+py::bytes trailing_of(const py::object& given) {
+  const OctetBuffer buffer(given);
+  pdu::PduHeader header;
+  std::span<const std::byte> trailing;
+  if (pdu::decode_header(buffer.octets(), header) == pdu::DecodeError::none)
+    static_cast<void>(pdu::visit(buffer.octets(), header, [&](const auto& pdu) {
+      trailing = pdu::trailing_octets(buffer.octets(), pdu);
+    }));
+  return {reinterpret_cast<const char*>(trailing.data()), trailing.size()};
 }
 
 py::object initial(const py::type& kind) {
@@ -66,6 +78,7 @@ void bind_records(py::module_& module) {
       [](const py::object& octets) { return decode_datagram(OctetBuffer(octets).octets(), ""); },
       py::arg("octets"));
   module.def("encode", encode_one, py::arg("pdu"));
+  module.def("trailing", trailing_of, py::arg("octets"));
   module.def("pdu_name",
              [](unsigned type) { return std::string(pdu::name(static_cast<pdu::PduType>(type))); });
 }

@@ -21,10 +21,11 @@ void put_padding(PyObject* object, const Shape& shape, bool fills_words,
   std::vector<std::byte> padding;
   PyObject* const kept = value_at(object, shape.padding_offset());
   if (kept != nullptr) put_octets(kept, shape.name() + "._padding", padding);
-  // Bits are filled up to words, unless they came without.
-  if (fills_words && (kept == nullptr || !padding.empty()) &&
-      (out.size() + padding.size()) % 4 != 0)
-    padding.assign((4 - out.size() % 4) % 4, std::byte{0});
+  // Pads bits to whole words, unless the decoded PDU had no padding or other octets there.
+  constexpr std::size_t kWord = 4;
+  const bool is_filling = kept == nullptr || (!padding.empty() && padding.size() < kWord);
+  if (fills_words && is_filling && (out.size() + padding.size()) % kWord != 0)
+    padding.assign((kWord - out.size() % kWord) % kWord, std::byte{0});
   out.insert(out.end(), padding.begin(), padding.end());
 }
 

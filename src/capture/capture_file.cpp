@@ -34,6 +34,7 @@ class CaptureSource final : public DatagramSource {
   const SourceReport& report() const noexcept override { return report_; }
   bool is_live() const noexcept override { return is_live_; }
   std::uint16_t link_type() const noexcept override { return frames_->link_type(); }
+  std::string_view interface_name() const noexcept override { return frames_->interface_name(); }
   void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
 
  private:
@@ -52,7 +53,8 @@ class CaptureSource final : public DatagramSource {
   std::atomic<bool> stopped_{false};
   bool ended_{false};
   IpReassembler reassembler_;
-  std::map<std::uint16_t, std::uint64_t> unread_;  ///< frames of each unknown link type
+  std::map<std::uint16_t, std::uint64_t> unread_;             ///< frames of each unknown link type
+  std::map<std::string_view, std::uint64_t> unread_content_;  ///< frames by ParsedFrame::unread
   SourceReport report_;
 };
 
@@ -120,6 +122,9 @@ std::string CaptureSource::unread_frames() const {
   for (const auto& [type, frames] : unread_)
     text += fmt::format("{}{} of its frames are skipped: {}", text.empty() ? "" : "; ", frames,
                         unread_link_type(type));
+  for (const auto& [name, frames] : unread_content_)
+    text += fmt::format("{}{} {} of {} {} not read", text.empty() ? "" : "; ", frames,
+                        frames == 1 ? "frame" : "frames", name, frames == 1 ? "is" : "are");
   return text;
 }
 
@@ -141,6 +146,7 @@ bool CaptureSource::take(const CapturedFrame& frame, SourceDatagram& out) {
       parsed.content == FrameContent::udp && take_udp(*frame.layer, parsed, out);
   if (parsed.content == FrameContent::not_udp) ++report_.skipped;
   if (parsed.content == FrameContent::malformed) ++report_.malformed;
+  if (!parsed.unread.empty()) ++unread_content_[parsed.unread];
   report_.fragments = reassembler_.counts();
   if (!is_datagram) return false;
   ++report_.datagrams;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "reckon/peer/capture/capture_output.hpp"
@@ -182,17 +184,26 @@ std::uint32_t CaptureWriter::interface_of(std::uint16_t link_type) {
   const auto number = static_cast<std::uint32_t>(known - link_types_.begin());
   if (known != link_types_.end()) return number;
   link_types_.push_back(link_type);
-  constexpr std::uint32_t kInterfaceLength = 32;
+  const std::string_view name = number == 0 ? options_.interface : std::string_view();
+  const std::size_t option = name.empty() ? 0 : 4 + padded(name.size());
+  const auto length = static_cast<std::uint32_t>(32 + option);
   u32(kInterfaceDescription);
-  u32(kInterfaceLength);
+  u32(length);
   u16(link_type);
   u16(0);
   u32(kSnapLength);
+  if (!name.empty()) {
+    u16(2);  // if_name
+    u16(static_cast<std::uint16_t>(name.size()));
+    const auto octets = std::as_bytes(std::span(name));
+    buffer_.insert(buffer_.end(), octets.begin(), octets.end());
+    buffer_.resize(buffer_.size() + padded(name.size()) - name.size());
+  }
   u16(9);  // if_tsresol
   u16(1);
   buffer_.insert(buffer_.end(), {std::byte{9}, std::byte{0}, std::byte{0}, std::byte{0}});
   u32(0);  // end of options
-  u32(kInterfaceLength);
+  u32(length);
   return number;
 }
 

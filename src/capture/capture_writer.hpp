@@ -33,6 +33,7 @@ struct CaptureWriterOptions {
   /// Of the first interface, that of the source whose frames are written; frames of other link
   /// types get interfaces of their own, which not all programs read in one file.
   std::uint16_t link_type{kLinkTypeRawIp};
+  std::string interface {};  ///< name of the first interface; empty: unknown
   /// A file of this size [octets on the disk] is followed by the next; 0 = one file of any size. A
   /// compressed file may exceed it by up to 64 KiB of blocks.
   std::uint64_t rotate_octets{0};

@@ -130,6 +130,8 @@ class DatagramSource {
   [[nodiscard]] virtual bool is_live() const noexcept = 0;
   /// The link type of the first captured frames by pcap (LINKTYPE_...).
   [[nodiscard]] virtual std::uint16_t link_type() const noexcept { return kLinkTypeRawIp; }
+  /// The interface that captured the last datagram, where the capture names it; else empty.
+  [[nodiscard]] virtual std::string_view interface_name() const noexcept { return {}; }
   /// Makes next() return `end` soon.
   virtual void stop() noexcept = 0;
 };

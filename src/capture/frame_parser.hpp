@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Parses a captured frame down to its UDP payload: link layers, VLAN tags, IPv4 and IPv6 headers.
+// Parses a captured frame down to its UDP payload: link layers, VLAN tags, IPv4 and IPv6 headers,
+// and the tunnels and mirrors around them.
 // Private to the peer library.
 #pragma once
 
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "reckon/peer/capture/datagram_source.hpp"
 
@@ -34,19 +36,26 @@ struct IpFragment {
   std::span<const std::byte> octets;  ///< as many of them as the capture kept
   std::size_t ip_at{0};               ///< octet of the frame at which the IP header begins
   std::size_t octets_at{0};           ///< octet of the frame at which its octets begin
-  std::size_t next_at{0};  ///< IPv6: octet of the frame that announces the fragment header
-  std::byte next{};        ///< IPv6: what follows the fragment header
+  std::size_t next_at{0};    ///< IPv6: octet of the frame that announces the fragment header
+  std::byte next{};          ///< IPv6: what follows the fragment header
+  bool is_tunnelled{false};  ///< what stands before ip_at does not describe the whole packet
 };
 
 /// A frame as it was parsed.
 struct ParsedFrame {
   FrameContent content{FrameContent::not_udp};
   std::optional<IpFragment> fragment;  ///< only with content udp
+  /// Only with content not_udp: what may hold UDP, but is not read ("MPLS"); a literal.
+  std::string_view unread;
 };
 
 /// Finds the UDP payload of one frame; `on_wire` is its length before the capture truncated it
 /// [octets]. Fills source, group, bytes and portion of `out`. Reads only inside `frame`, whatever
-/// its octets are.
+/// its octets are, and allocates nothing.
+///
+/// Inside VXLAN, ERSPAN and other GRE, IP in IP, PPPoE and MPLS it finds the inner datagram, up to
+/// 4 tunnels deep; source and group are those of the inner packet. Fragments of a tunnel's outer
+/// packet are returned as fragments without ports.
 [[nodiscard]] ParsedFrame parse_frame(LinkLayer layer, std::span<const std::byte> frame,
                                       std::size_t on_wire, SourceDatagram& out) noexcept;
 

@@ -44,6 +44,9 @@ class FrameReader {
   [[nodiscard]] virtual std::string problem() const { return {}; }
   /// Of the first interface.
   [[nodiscard]] virtual std::uint16_t link_type() const noexcept = 0;
+  /// The interface that captured the last frame, before that the first interface of the file, where
+  /// it has a name (pcapng if_name).
+  [[nodiscard]] virtual std::string_view interface_name() const noexcept { return {}; }
   /// Waits after nothing_yet; true if there may be a frame before the time has passed.
   virtual bool wait(std::chrono::nanoseconds patience);
   /// Frames that the kernel dropped so far.

@@ -247,13 +247,19 @@ void IpReassembler::keep_head(Incomplete& of, LinkLayer layer, const IpFragment&
   const bool is_first = fragment.offset == 0 && of.head_fragment.offset != 0;
   if (!of.head.empty() && !is_first) return;
   octets_ -= of.head.capacity();
-  const auto head = frame.captured.first(fragment.octets_at);
+  // Outer tunnel headers state the length of one fragment, so the packet begins at its own IP
+  // header.
+  const std::size_t begin = fragment.is_tunnelled ? fragment.ip_at : 0;
+  const auto head = frame.captured.subspan(begin, fragment.octets_at - begin);
   of.head.assign(head.begin(), head.end());
   octets_ += of.head.capacity();
   of.head_fragment = fragment;
   of.head_fragment.octets = {};
-  of.layer = layer;
-  of.first.link_type = frame.link_type;
+  of.head_fragment.ip_at -= begin;
+  of.head_fragment.octets_at -= begin;
+  of.head_fragment.next_at -= begin;
+  of.layer = fragment.is_tunnelled ? LinkLayer::raw_ip : layer;
+  of.first.link_type = fragment.is_tunnelled ? kLinkTypeRawIp : frame.link_type;
 }
 
 FragmentFate IpReassembler::complete(Place place, SourceDatagram& datagram) {

@@ -83,10 +83,12 @@ class PcapFrames final : public FrameReader {
 };
 
 // Passes only what may be UDP: the kernel drops the rest. Later fragments have no ports to filter
-// by.
+// by, and tunnels (IP in IP, GRE, MPLS, PPPoE) have theirs inside.
 void set_udp_filter(pcap_t* handle) {
   bpf_program program{};
-  const char* text = "udp or (ip and ip[6:2] & 0x1fff != 0) or (ip6 and ip6[6] = 44) or vlan";
+  const char* text =
+      "udp or (ip and ip[6:2] & 0x1fff != 0) or (ip6 and ip6[6] = 44) or proto 4 or proto 41 "
+      "or proto 47 or ether proto 0x8847 or ether proto 0x8848 or ether proto 0x8864 or vlan";
   if (pcap_compile(handle, &program, text, 1, PCAP_NETMASK_UNKNOWN) != 0) return;
   pcap_setfilter(handle, &program);
   pcap_freecode(&program);

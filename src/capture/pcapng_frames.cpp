@@ -23,6 +23,7 @@ constexpr std::size_t kBlockOverhead = 12;
 constexpr std::size_t kMaxBlock = std::size_t{16} << 20;  // as libpcap has it
 constexpr std::size_t kPiece = std::size_t{1} << 16;      // read at once
 constexpr std::size_t kMaxInterfaces = 65536;
+constexpr std::size_t kLongestName = 64;  // of an interface; longer ones are not kept
 
 constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
 
@@ -66,6 +67,7 @@ struct Interface {
   std::uint16_t link_type;
   std::uint32_t snap_length;  ///< 0: no limit
   Resolution resolution;
+  std::string name;
 };
 
 class PcapngFrames final : public FrameReader {
@@ -99,6 +101,9 @@ class PcapngFrames final : public FrameReader {
 
   std::string problem() const override { return problem_; }
   std::uint16_t link_type() const noexcept override { return link_type_; }
+  std::string_view interface_name() const noexcept override {
+    return captured_on_ < interfaces_.size() ? interfaces_[captured_on_].name : std::string_view();
+  }
 
  private:
   /// A block without its two lengths; `body` is in buffer_.
@@ -138,6 +143,8 @@ class PcapngFrames final : public FrameReader {
   bool grows_;
   bool is_swapped_{false};
   std::vector<Interface> interfaces_;  ///< of this section
+  std::size_t captured_on_ = 0;        ///< interface of the last frame
+  nanoseconds latest_{};               ///< time of the frame before, which a simple packet takes
   std::uint16_t link_type_{0};
   std::vector<std::byte> buffer_;
   std::string problem_;
@@ -215,7 +222,7 @@ bool PcapngFrames::take_interface(std::span<const std::byte> body) {
   if (interfaces_.size() == kMaxInterfaces)
     return fail(fmt::format("a section describes more than {} interfaces", kMaxInterfaces));
   Interface interface {
-    number<std::uint16_t>(body, 0), number<std::uint32_t>(body, 4), {}
+    number<std::uint16_t>(body, 0), number<std::uint32_t>(body, 4), {}, {}
   };
   for (auto rest = body.subspan(8); rest.size() >= 4;) {
     const auto code = number<std::uint16_t>(rest, 0);
@@ -232,8 +239,11 @@ bool PcapngFrames::take_interface(std::span<const std::byte> body) {
 
 bool PcapngFrames::take_option(std::uint16_t code, std::span<const std::byte> value,
                                Interface& interface) {
+  constexpr std::uint16_t kName = 2;
   constexpr std::uint16_t kTimeResolution = 9;
   constexpr std::uint16_t kTimeOffset = 14;
+  if (code == kName && value.size() <= kLongestName)
+    interface.name.assign(reinterpret_cast<const char*>(value.data()), value.size());
   if (code == kTimeResolution && value.size() == 1) {
     const auto resolution = std::to_integer<std::uint8_t>(value[0]);
     return set_resolution(resolution, interface.resolution) ||
@@ -261,16 +271,17 @@ bool PcapngFrames::take_packet(const Block& block, CapturedFrame& out) {
     out.on_wire = number<std::uint32_t>(body, 0);
     const std::size_t most = interface.snap_length == 0 ? out.on_wire : interface.snap_length;
     held = std::min({out.on_wire, most, body.size() - head});
-    out.time = {};
+    out.time = latest_;
   } else {
     held = number<std::uint32_t>(body, 12);
     out.on_wire = number<std::uint32_t>(body, 16);
     const std::uint64_t stamp =
         std::uint64_t{number<std::uint32_t>(body, 4)} << 32 | number<std::uint32_t>(body, 8);
-    out.time = time_of(stamp, interface.resolution);
+    out.time = latest_ = time_of(stamp, interface.resolution);
   }
   if (held > body.size() - head)
     return fail(fmt::format("a packet of {} octets in a block of {}", held, body.size() + 12));
+  captured_on_ = id;
   out.octets = body.subspan(head, held);
   out.link_type = interface.link_type;
   out.layer = link_layer_of(interface.link_type);

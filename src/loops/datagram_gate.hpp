@@ -16,12 +16,13 @@ namespace reckon::peer {
 /// Why a datagram is refused.
 enum class Refusal : std::uint8_t {
   none,
-  version,   ///< its first octet is not a supported DIS version
-  length,    ///< it is shorter than a PDU header, or its PDU length is
-  exercise,  ///< its first PDU belongs to another exercise
-  sealed,    ///< it is sealed, and the link has no key
+  version,    ///< its first octet is not a supported DIS version
+  length,     ///< it is shorter than a PDU header, or its PDU length is
+  exercise,   ///< its first PDU belongs to another exercise
+  sealed,     ///< it is sealed, and the link has no key
+  no_length,  ///< the length field of its first PDU is 0
 };
-inline constexpr std::size_t kRefusals = 5;
+inline constexpr std::size_t kRefusals = 6;
 
 /// Checks the first PDU header of a datagram. Later stages apply all other rules. Some ns, no
 /// allocation.
@@ -33,7 +34,9 @@ inline constexpr std::size_t kRefusals = 5;
   if (!pdu::is_supported_version(static_cast<std::uint8_t>(octet(0)))) return Refusal::version;
   if (datagram.size() < pdu::kHeaderSize) return Refusal::length;
   if (octet(1) != exercise) return Refusal::exercise;
-  if ((octet(8) << 8 | octet(9)) < pdu::kHeaderSize) return Refusal::length;
+  const unsigned length = octet(8) << 8 | octet(9);
+  if (length == 0) return Refusal::no_length;
+  if (length < pdu::kHeaderSize) return Refusal::length;
   return Refusal::none;
 }
 

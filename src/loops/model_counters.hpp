@@ -23,6 +23,10 @@ struct ModelCounters {
         interactions_refused(counters.make(
             "interactions_refused",
             "interactions (Fire, Detonation, ..) of a sender that does not own the issuer")),
+        emissions_refused(counters.make("emissions_refused",
+                                        "refused states of emitters, IFF systems and radios: "
+                                        "damaged, sent by a host other than "
+                                        "the first, or the table was full")),
         lost(counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
         leaps(counters.make("sequence_leaps", "datagrams with a sequence number too far ahead")),
         doubled(counters.make("datagrams_doubled", "datagrams that arrived again")),
@@ -39,6 +43,7 @@ struct ModelCounters {
   Counter& unicast_refused;
   Counter& orders_refused;
   Counter& interactions_refused;
+  Counter& emissions_refused;
   Counter& lost;
   Counter& leaps;
   Counter& doubled;

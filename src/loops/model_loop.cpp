@@ -339,7 +339,9 @@ void ModelLoop::publish_view() noexcept {
   }
   view.set_out = tracked_.begun();
   view.middle = middle_of_interest();
-  view_.publish(view, remote_, pass_.now);
+  emissions_.expire(pass_.now);
+  counted_.emissions_refused.set(emissions_.refusals().all());
+  view_.publish(view, remote_, emissions_, pass_.now);
 }
 
 // In
@@ -373,7 +375,9 @@ void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) 
     const auto peer = arrival.epoch == 0 ? std::nullopt : aoim_.presence().id_of(arrival.epoch);
     guest_->hear(update.pdu.header, update.pdu.bytes, {arrival.from, peer, voice == Voice::owner});
   }
-  if (order) orders_.carry_out(update, arrival, own_id(), pass_);
+  if (order) return orders_.carry_out(update, arrival, own_id(), pass_);
+  emissions_.take(update.pdu.bytes,
+                  {arrival.from, arrival.arrival, arrival.epoch == 0, voice == Voice::owner});
 }
 
 void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
@@ -382,6 +386,7 @@ void ModelLoop::claim(const aoim::PeerId& name, std::uint32_t epoch) noexcept {
 
 void ModelLoop::drop(const aoim::PresenceEvent::Dropped& life, bool silent) noexcept {
   remote_.drop_peer(life.name, silent ? Gone::silent : Gone::left);
+  emissions_.drop(life.name);
   intake_.forget_keys(life.epoch);
 }
 

@@ -16,6 +16,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/clocks/time_keeper.hpp"
+#include "reckon/peer/emissions/emission_table.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/datagram_intake.hpp"
 #include "reckon/peer/loops/datagram_outlet.hpp"
@@ -117,6 +118,8 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return watches_.notices(); }
   [[nodiscard]] const RemoteEntities& remote() const noexcept { return remote_; }
   [[nodiscard]] RemoteEntities& remote() noexcept { return remote_; }
+  /// What remote entities emit. Rows that are over are dropped before each view.
+  [[nodiscard]] const EmissionTable& emissions() const noexcept { return emissions_; }
   [[nodiscard]] const OwnedEntities& owned() const noexcept { return owned_; }
   [[nodiscard]] const TimeKeeper& time() const noexcept { return time_; }
   /// The present pass, or the last one.
@@ -165,6 +168,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   aoim::AreaOfInterestManager& aoim_ = participant_.manager();
   TimeKeeper time_;
   RemoteEntities remote_;
+  EmissionTable emissions_;
   EntitySender sender_;
   DatagramIntake intake_;
   DatagramOutlet outlet_;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/pdu/zero_length.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -16,12 +17,13 @@ constexpr std::chrono::nanoseconds kRetry = std::chrono::seconds(1);
 
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
                                  DatagramRing& out, Counters& counters,
-                                 std::optional<std::uint8_t> exercise, DatagramTap* tap,
-                                 std::optional<UrgentRing> urgent)
+                                 std::optional<std::uint8_t> exercise, bool lenient,
+                                 DatagramTap* tap, std::optional<UrgentRing> urgent)
     : link_(link),
       commands_(commands),
       out_(out),
       exercise_(exercise),
+      lenient_(lenient),
       tap_(tap),
       urgent_(urgent),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
@@ -39,13 +41,16 @@ NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& co
                &counters.make_in(kRefusedDatagrams, "exercise", "refused_exercise_in",
                                  "datagrams that begin with another exercise"),
                &counters.make_in(kRefusedDatagrams, "sealed_without_key", "sealed_unread_in",
-                                 "sealed datagrams received without a key")},
+                                 "sealed datagrams received without a key"),
+               &counters.make_in(kRefusedDatagrams, "no_length", "refused_no_length_in",
+                                 "datagrams that begin with a PDU whose length field is 0")},
       join_errors_(counters.make("join_errors", "groups that could not be joined")),
       groups_unjoined_(counters.make_level("groups_unjoined", "of these, how many still are not")),
       base_unjoined_(counters.make_level("base_unjoined", "1 while the base group is not joined")),
       stale_(counters.make_in(kRefusedDatagrams, "stale", "stale_datagrams",
                               "datagrams read more than 1 s after they had arrived, dropped")) {
   unjoined_.reserve(aoim::kMaximumPool + 1);
+  if (lenient) mended_.reserve(pdu::kMaxPduSize);
 }
 
 std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
@@ -57,6 +62,7 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
   if (known_.update()) budget_.know(known_.read());
   static_cast<void>(felt_.update());
   budget_.look(now);
+  refused_senders_.look(now);
 
   taken_felt_ = false;
   std::size_t taken = 0;
@@ -125,7 +131,8 @@ bool NetworkReadLoop::take_datagram(const Datagram& datagram,
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
   if (!is_wanted(datagram, came)) return false;
   DatagramRing& ring = ring_of(datagram.group);
-  const bool fits = ring.push(datagram.group, came, datagram.bytes, datagram.sender, datagram.boot);
+  const auto bytes = lenient_ ? mended(datagram.bytes) : datagram.bytes;
+  const bool fits = ring.push(datagram.group, came, bytes, datagram.sender, datagram.boot);
   if (!fits) drop(DatagramFate::too_long, datagram, too_long_);
   taken_felt_ = taken_felt_ || (fits && felt_.read().contains(datagram.sender));
   return fits;
@@ -138,9 +145,19 @@ bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanosecon
     return false;
   }
   const Refusal refusal = exercise_ ? refuse_at_gate(datagram.bytes, *exercise_) : Refusal::none;
-  if (refusal != Refusal::none)
-    drop(DatagramFate::refused, datagram, *refused_[static_cast<std::size_t>(refusal)]);
-  return refusal == Refusal::none;
+  if (refusal == Refusal::none || (lenient_ && refusal == Refusal::no_length)) return true;
+  drop(DatagramFate::refused, datagram, *refused_[static_cast<std::size_t>(refusal)]);
+  refused_senders_.note(datagram, refusal, came);
+  return false;
+}
+
+// A datagram of UDP fits into the room that is reserved.
+std::span<const std::byte> NetworkReadLoop::mended(std::span<const std::byte> bytes) noexcept {
+  const auto at = bytes.size() <= mended_.capacity() ? pdu::find_zero_length(bytes) : std::nullopt;
+  if (!at) return bytes;
+  mended_.assign(bytes.begin(), bytes.end());
+  pdu::set_length(mended_, *at, static_cast<std::uint16_t>(bytes.size() - *at));
+  return mended_;
 }
 
 }  // namespace reckon::peer

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -18,6 +19,7 @@
 #include "reckon/peer/loops/datagram_gate.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/felt_sources.hpp"
+#include "reckon/peer/loops/refused_senders.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
 #include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/link.hpp"
@@ -45,13 +47,15 @@ class NetworkReadLoop {
 
   /// All references outlive the loop. The first group that it joins is the base group.
   /// @param exercise of accepted datagrams; nothing: any octets are accepted
+  /// @param lenient a PDU whose length field is 0 is taken as the rest of its datagram
   /// @param tap receives dropped datagrams with the reason; may be null
   /// @param urgent separate ring for the groups of an urgent tier, so that their datagrams do not
   /// wait behind others; nothing: all use one ring. While one of the two rings is full nothing is
   /// taken.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters, std::optional<std::uint8_t> exercise = {},
-                  DatagramTap* tap = nullptr, std::optional<UrgentRing> urgent = {});
+                  bool lenient = false, DatagramTap* tap = nullptr,
+                  std::optional<UrgentRing> urgent = {});
 
   /// Carries out joins and leaves, then takes arrived datagrams until the ring is full. Returns the
   /// number put there: the model loop has to wake only for these. A failed join is repeated each
@@ -64,6 +68,8 @@ class NetworkReadLoop {
   [[nodiscard]] bool has_taken_felt() const noexcept { return taken_felt_; }
   /// Senders that were muted or are received again, oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
+  /// Senders whose datagrams are refused at once; one reader thread.
+  [[nodiscard]] haptics::SpscRing<RefusedSender>& refused() noexcept { return refused_out_; }
   /// Source addresses of members, which the model loop publishes when they change; one writer
   /// thread.
   [[nodiscard]] haptics::TripleBuffer<KnownSources>& known() noexcept { return known_; }
@@ -79,18 +85,23 @@ class NetworkReadLoop {
   [[nodiscard]] std::size_t room() const noexcept;
   [[nodiscard]] DatagramRing& ring_of(const GroupAddress& group) noexcept;
   bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] std::span<const std::byte> mended(std::span<const std::byte> bytes) noexcept;
   [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
   Link& link_;
   haptics::SpscRing<GroupCommand>& commands_;
   DatagramRing& out_;
   std::optional<std::uint8_t> exercise_;
+  bool lenient_;
+  std::vector<std::byte> mended_;  ///< the datagram at hand, if a length field of it is 0
   DatagramTap* tap_;
   std::optional<UrgentRing> urgent_;
   haptics::SpscRing<MutedSender> muted_{64};
   haptics::TripleBuffer<KnownSources> known_;
   haptics::TripleBuffer<FeltSources> felt_;
   SenderBudget budget_{muted_};
+  haptics::SpscRing<RefusedSender> refused_out_{64};
+  RefusedSenders refused_senders_{refused_out_};
   bool pressed_ = false;  ///< less than half of the ring is free
   std::array<Datagram, kBatch> batch_{};
   bool full_ = false;

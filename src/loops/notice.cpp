@@ -90,6 +90,30 @@ Notice notice_of(const MutedSender& sender) noexcept {
                   who.view(), sender.dropped);
 }
 
+Notice notice_of(const RefusedSender& sender, bool interop) noexcept {
+  constexpr auto kKind = NoticeKind::datagrams_refused;
+  const AddressText who(source_of(sender.who));
+  const char* const plural = sender.count == 1 ? "" : "s";
+  if (sender.who.port == 0)
+    return make_notice(kKind, "{} datagram{} of further senders refused", sender.count, plural);
+  switch (sender.why) {
+    case Refusal::exercise:
+      return make_notice(kKind, "{}: {} datagram{} refused: exercise {}, see exercise in the scene",
+                         who.view(), sender.count, plural, sender.octet);
+    case Refusal::version:
+      return make_notice(kKind, "{}: {} datagram{} refused: first octet {} is no version of DIS",
+                         who.view(), sender.count, plural, sender.octet);
+    case Refusal::no_length:
+      return make_notice(kKind,
+                         "{}: {} datagram{} refused: length field 0; to read them, set {}lenient "
+                         "in the scene",
+                         who.view(), sender.count, plural, interop ? "" : "interop and ");
+    default:
+      return make_notice(kKind, "{}: {} datagram{} refused: no PDU header", who.view(),
+                         sender.count, plural);
+  }
+}
+
 Notice notice_of(const aoim::PresenceEvent& event) noexcept {
   Notice notice = sentence_of(event);
   notice.about = event.peer();

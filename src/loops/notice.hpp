@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "reckon/aoim/presence/presence.hpp"
+#include "reckon/peer/loops/refused_senders.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
 
 namespace reckon::peer {
@@ -62,6 +63,7 @@ enum class NoticeKind : std::uint8_t {
   write_full,
   read_waits,
   sealed,
+  datagrams_refused,
   model_refused,
   clock_leap,
   lost,
@@ -104,5 +106,8 @@ struct Notice {
 [[nodiscard]] Notice notice_of(const aoim::PresenceEvent& event) noexcept;
 /// The notice of a sender that is muted or received again. No allocation.
 [[nodiscard]] Notice notice_of(const MutedSender& sender) noexcept;
+/// The notice of a sender whose datagrams are refused. @param interop whether the exercise is plain
+/// DIS. No allocation.
+[[nodiscard]] Notice notice_of(const RefusedSender& sender, bool interop) noexcept;
 
 }  // namespace reckon::peer

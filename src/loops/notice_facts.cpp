@@ -8,7 +8,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr NoticeFacts kFacts[]{
-    {"other", Severity::info, "a sentence without a subject of its own"},
+    {"other", Severity::info, "a notice of no other kind"},
     {"joined", Severity::info, "a peer appeared"},
     {"started-anew", Severity::info, "a peer restarted"},
     {"left", Severity::info, "a peer sent a farewell"},
@@ -24,7 +24,7 @@ constexpr NoticeFacts kFacts[]{
     {"impostor", Severity::warning, "a host speaks in the name of a peer"},
     {"crowd", Severity::warning, "a host speaks for more peers than one host may"},
     {"slept", Severity::warning, "this host was suspended"},
-    {"muted", Severity::warning, "a host sends too many datagrams, which are not read"},
+    {"muted", Severity::warning, "a host sends too many datagrams; the excess is not read"},
     {"left-out", Severity::warning, "lines about one host were left out"},
     {"interface", Severity::warning, "the network interface changed"},
     {"payload-cut", Severity::warning, "the MTU is smaller than the longest bundle"},
@@ -57,6 +57,8 @@ constexpr NoticeFacts kFacts[]{
     {"write-full", Severity::warning, "the ring to the network is full"},
     {"read-waits", Severity::warning, "the ring from the network is full"},
     {"sealed", Severity::error, "the exercise is sealed and this peer has no key"},
+    {"datagrams-refused", Severity::warning,
+     "datagrams were refused: exercise, DIS version, header or length 0"},
     {"model-refused", Severity::warning, "a force model has impossible values"},
     {"clock-leap", Severity::warning, "the clock of this host was set"},
     {"lost", Severity::warning, "many datagrams of the other peers were lost"},
@@ -69,7 +71,7 @@ constexpr NoticeFacts kFacts[]{
     {"effect", Severity::warning, "an effect of the user was cut or switched off"},
     {"number-held", Severity::info, "which application number this peer has in plain DIS"},
     {"servo-slow", Severity::warning, "a step of the servo takes longer than its period"},
-    {"key", Severity::info, "what became of the key"},
+    {"key", Severity::info, "news of the key"},
     {"device", Severity::warning, "a device changed its state"},
 };
 constexpr std::string_view kSeverities[]{"info", "warning", "error"};

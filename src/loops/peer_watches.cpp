@@ -5,7 +5,12 @@
 namespace reckon::peer {
 
 PeerWatches::PeerWatches(const ModelWiring& wiring)
-    : muted_(wiring.muted), notices_(256), silence_watch_(wiring.counters), hooks_(wiring) {}
+    : muted_(wiring.muted),
+      refused_(wiring.refused),
+      interop_(wiring.scene.network.interop),
+      notices_(256),
+      silence_watch_(wiring.counters),
+      hooks_(wiring) {}
 
 void PeerWatches::report(const aoim::PresenceEvent& event, Nanoseconds now) noexcept {
   // The sender of a discovery request is no peer yet.
@@ -19,6 +24,11 @@ void PeerWatches::look(RemoteEntities& remote, aoim::AreaOfInterestManager& aoim
   while (const MutedSender* sender = muted_ == nullptr ? nullptr : muted_->front()) {
     notice_gate_.report(*sender, now, notices_);
     muted_->pop();
+  }
+  while (const RefusedSender* sender = refused_ == nullptr ? nullptr : refused_->front()) {
+    notice_gate_.report_refusal(notice_of(*sender, interop_), source_of(sender->who), now,
+                                notices_);
+    refused_->pop();
   }
   notice_gate_.look(now, notices_);
   refusal_watch_.look(remote, aoim.presence().id(), now);

@@ -55,6 +55,8 @@ class PeerWatches {
 
  private:
   haptics::SpscRing<MutedSender>* muted_;
+  haptics::SpscRing<RefusedSender>* refused_;
+  bool interop_;
   haptics::SpscRing<Notice> notices_;
   NoticeGate notice_gate_;
   SilenceWatch silence_watch_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/view_publisher.hpp"
 
+#include <span>
+
 namespace reckon::peer {
 
 using std::chrono::nanoseconds;
@@ -14,15 +16,17 @@ void ViewPublisher::publish_shown(const RemoteEntities& remote, nanoseconds now)
 }
 
 void ViewPublisher::publish(PeerView& view, const RemoteEntities& remote,
-                            nanoseconds now) noexcept {
+                            const EmissionTable& emissions, nanoseconds now) noexcept {
   const nanoseconds heard = remote.first_heard();
   view.time = now;
+  view.started = started_;
   view.entities = remote.rows().size();
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
   view.count = 0;
   for (const std::uint32_t place : choice_.choose(remote.rows(), view.middle)) {
     view.rows[view.count++] = view_of(remote.rows()[place], view.own_hands(), now);
   }
+  emissions.summarise(std::span(view.rows).first(view.count));
   views_.publish();
   next_ = now + kPeriod;
 }

@@ -7,6 +7,7 @@
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/peer/emissions/emission_table.hpp"
 #include "reckon/peer/loops/model_wiring.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
@@ -30,8 +31,10 @@ class ViewPublisher {
 
   /// The next view, to be filled in except for remote entities.
   [[nodiscard]] PeerView& begin() noexcept { return views_.write_slot(); }
-  /// Adds the remote entities that are nearest to view.middle, and publishes the view.
-  void publish(PeerView& view, const RemoteEntities& remote, std::chrono::nanoseconds now) noexcept;
+  /// Adds the remote entities that are nearest to view.middle, with what they emit, and publishes
+  /// the view.
+  void publish(PeerView& view, const RemoteEntities& remote, const EmissionTable& emissions,
+               std::chrono::nanoseconds now) noexcept;
 
  private:
   haptics::SpscRing<ShownSample>* shown_;

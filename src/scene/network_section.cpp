@@ -89,8 +89,18 @@ void check_peers(TomlReader& table, NetworkConfig& config) {
   }
 }
 
+void check_lenient(TomlReader& table, const NetworkConfig& config) {
+  if (!config.lenient) return;
+  if (!config.interop)
+    table.problem("lenient",
+                  "'lenient' is only for plain DIS: set 'interop' too, or remove 'lenient'");
+  if (table.has("key"))
+    table.problem("lenient", "a sealed exercise cannot be 'lenient': remove 'lenient' or 'key'");
+}
+
 void check_network(TomlReader& table, NetworkConfig& config) {
   config.exercise_named = table.has("exercise");
+  check_lenient(table, config);
   check_management(table, config);
   check_touch(table, config);
   check_peers(table, config);
@@ -139,6 +149,9 @@ Section<NetworkConfig> network_section() {
           {"port", port, within("", 1, 65535), "UDP port"},
           {"interop", &NetworkConfig::interop,
            "plain DIS to the base group, for other DIS programs"},
+          {"lenient", &NetworkConfig::lenient,
+           "with `interop`: a PDU whose length field is 0, as some free DIS libraries send it, is "
+           "read as the rest of its datagram"},
           {"exercise", &NetworkConfig::exercise, within("", 1, 255),
            "DIS exercise; PDUs of other exercises are ignored"},
           {"ttl", &NetworkConfig::ttl, within("", 1, 255), "hops; 1 stays on this LAN"},

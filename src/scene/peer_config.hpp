@@ -318,6 +318,7 @@ struct BundleClass {
 struct NetworkConfig {
   GroupAddress group = GroupAddress::v4(0xEFC00100, 3000);  ///< base group; the pool follows it
   bool interop = false;           ///< plain DIS to the base group, no Reckon trailer
+  bool lenient = false;           ///< with interop: a length field of 0 is read as the rest
   std::uint8_t exercise = 1;      ///< DIS exercise ID
   bool exercise_named = false;    ///< whether the file gives it; set by the reader
   std::uint8_t ttl = 1;           ///< hops; 1 = this LAN

@@ -82,10 +82,18 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
     case pdu::PduType::cell_snapshot:
     case pdu::PduType::datagram_trailer:
       return;  // handled by the area-of-interest manager and the peers' clocks
+    case pdu::PduType::electromagnetic_emission:
+    case pdu::PduType::iff:
+    case pdu::PduType::transmitter:
+      return take_other(pdu);
     default:
-      if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
+      take_other(pdu);
       return unknown_.add();
   }
+}
+
+void DatagramDecoder::take_other(const pdu::BundledPdu& pdu) noexcept {
+  if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
 }
 
 // Decodes in place, unless an update of this entity is staged already.

@@ -81,6 +81,7 @@ class DatagramDecoder {
                     const pdu::SimulationAddress& own) noexcept;
   void take_control(const pdu::BundledPdu& pdu) noexcept;
   [[nodiscard]] Inbound* find_staged(const pdu::EntityId& entity) noexcept;
+  void take_other(const pdu::BundledPdu& pdu) noexcept;
   Inbound* stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
   void add_staged(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
 

@@ -20,6 +20,23 @@
 
 namespace reckon::peer {
 
+/// What a remote entity emits, in short; see EmissionTable.
+struct EmittedView {
+  std::uint8_t emitters = 0;  ///< emitter systems, also those without a beam
+  std::uint8_t beams = 0;     ///< active ones
+  std::uint16_t targets = 0;  ///< that these beams name
+  std::uint8_t iff = 0;       ///< IFF systems
+  std::uint8_t iff_on = 0;
+  std::uint8_t radios = 0;
+  std::uint8_t transmitting = 0;  ///< of the radios
+  /// Of the first IFF system that is on: its type, and parameter 3 with mode 3/A.
+  std::uint16_t iff_type = 0, mode_3a = 0;
+  float beam_hz = 0, beam_dbm = 0;  ///< frequency and power of the strongest active beam
+  double radio_hz = 0;              ///< frequency of the first transmitting radio
+
+  [[nodiscard]] bool any() const noexcept { return emitters + iff + radios > 0; }
+};
+
 /// One remote entity as a table row.
 struct EntityView {
   pdu::EntityId id;
@@ -39,6 +56,7 @@ struct EntityView {
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
   std::uint8_t parts = 0;  ///< parameters of its articulated parts, one or more for each part
+  EmittedView emits;
 };
 
 /// One hand of this peer.
@@ -82,8 +100,9 @@ struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
 
   std::chrono::nanoseconds time{0};
-  pdu::EntityId own;      ///< first entity of this peer; entity 0 if it has none
-  std::size_t owned = 0;  ///< entities of this peer
+  std::chrono::nanoseconds started{0};  ///< by the same clock
+  pdu::EntityId own;                    ///< first entity of this peer; entity 0 if it has none
+  std::size_t owned = 0;                ///< entities of this peer
   /// When the entities on tracks started; negative: not yet.
   std::chrono::nanoseconds set_out{-1};
   double power_given = 0;  ///< [J] given to hands by entities without a device

@@ -98,9 +98,20 @@ def mixed_pcapng(payloads):
     return out
 
 
-def pcap(payloads):
+def tunnelled(frame):
+    """A frame in VXLAN, ERSPAN, an IP packet, MPLS and PPPoE."""
+    ip = frame[14:]
+    for protocol, inner in ((17, struct.pack(">4HII", 1, 4789, 16 + len(frame), 0, 1 << 27, 7 << 8) + frame),
+                            (47, bytes.fromhex("100088be00000007 1001000000000000") + frame), (4, ip)):
+        head = struct.pack(">BBHHHBBH8x", 0x45, 0, 20 + len(inner), 0, 0, 9, protocol, 0)
+        yield bytes(12) + b"\x08\x00" + head + inner
+    yield bytes(12) + bytes.fromhex("8847 00010040 00011140") + ip
+    yield bytes(12) + bytes.fromhex("8864 11000001") + struct.pack(">HH", 2 + len(ip), 0x21) + ip
+
+
+def pcap(payloads, frames=()):
     head = struct.pack("<IHHiIII", 0xA1B23C4D, 2, 4, 0, 0, 65535, 1)
-    frames = (frame_of(p) for p in payloads)
+    frames = [*frames, *map(frame_of, payloads)]
     return head + b"".join(struct.pack("<4I", 1, 2, len(f), len(f)) + f for f in frames)
 
 
@@ -268,7 +279,8 @@ def main(folder):
           [b"[" + b".".join([b"a"] * 300) + b"]\n", b"x = " + b"[" * 300, b"x = " + b"{a.b = " * 100])
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0), mixed_pcapng(pair),
                               gzip.compress(pcap(pair), mtime=0), lzma.compress(pcap(pair)),
-                              bz2.compress(pcap(pair))] + [f.read_bytes() for f in files])
+                              bz2.compress(pcap(pair)), pcap([], tunnelled(frame_of(pair[0]))),
+                              pcap([], tunnelled(next(fragments_of(pair[0], 1))))] + [f.read_bytes() for f in files])
     pieces = [bytes([4, 0, 151, 1, 0]), bytes([4, 19, 151, 1, 0]), bytes([4, 38, 151, 1, 0]), bytes([0, 57, 143, 1, 0])]
     write(seeds / "fragments", [b"".join(pieces), b"".join(pieces[::-1]), b"".join(pieces[1:]) * 3 + b"".join(pieces),
                                 b"".join(p + p for p in pieces), b"".join(pieces[:3]) + bytes([1, 9, 80, 200, 200]) * 4])

@@ -251,7 +251,34 @@ def truck(setup):
         print(f"  by a replay: {[text for _, text in late.lines]}")
 
 
-CASES = {case.__name__: case for case in (truck, two_handed, without_device, post, crowd)}
+def foreign_client(setup):
+    """A program of the npm package open-dis hears plain DIS peers. Its own PDUs have length 0: a lenient peer shows it,
+    any other says what it refuses and the remedy."""
+    if shutil.which("node") is None:
+        raise Skip("needs node (Debian: nodejs)")
+    lines = "[network]\ninterop = true\n{}\n[hand]"
+    lenient = setup.changed_scene("lenient", "[hand]", lines.format("lenient = true\n"))
+    strict = setup.changed_scene("strict", "[hand]", lines.format(""))
+    path = f"NODE_PATH={setup.node_path}:{os.environ.get('NODE_PATH', '')}"
+    script = str(pathlib.Path(__file__).with_name("open_dis_live.js"))
+    with setup.testbed(3) as bed:
+        alice, bob = bed.peer(1, lenient, "ALICE", 1), bed.peer(2, strict, "BOB", 2)
+        client = bed.run(3, ["env", path, "node", script, Testbed.address(3), BASE_GROUP, str(PORT), "5"])
+        if client.wait() == testbed.SKIP:
+            raise Skip(f"needs npm install --prefix {setup.node_path.split(':')[0][:-13]} open-dis")
+        heard = {text for _, text in client.lines}
+        print(f"  open-dis {sorted(heard)}; {bob.error_text()}")
+        check(heard == {"hears ALICE", "hears BOB"}, f"open-dis: {heard} {client.error_text()}")
+        check(alice.wait_event("appeared", 1, "FOREIGN"), "a lenient peer did not show it")
+        check(not bob.wait_event("appeared", 0, "FOREIGN"), "a strict peer read a PDU of length 0")
+        told = [text for _, text in bob.errors if "refused: length field 0" in text]
+        check(len(told) == 1 and Testbed.address(3) in told[0] and "lenient" in told[0], f"told {told}")
+        refused = bob.report()["refused_no_length_in"]
+        check(refused > 20, f"{refused} datagrams refused")
+        served(alice.report())
+
+
+CASES = {case.__name__: case for case in (foreign_client, truck, two_handed, without_device, post, crowd)}
 
 if __name__ == "__main__":
     sys.exit(testbed.main(CASES, run))

@@ -177,7 +177,33 @@ def silence(setup):
         demo.wait()
 
 
-CASES = {case.__name__: case for case in (one_host, two_interfaces, broadcast, broadcast_peers, silence)}
+def as_typed(setup):
+    """The commands of docs/first_steps/lan_operator.md on two hosts: a recording, its replay, and who hears it."""
+    capture = setup.folder / "today.pcapng"
+    words = [str(setup.reckon), "replay", str(capture), "--rate", "4"]
+    with setup.testbed(2) as bed:
+        sender = bed.multicast_sender(2)
+        recorder = bed.run(1, [str(setup.reckon), "record", str(capture), "--iface", "e0", "--for", "3s"])
+        check(recorder.wait_line("recording", 5, errors=True), recorder.error_text())
+        for number in range(20):
+            sender.sendto(pdu(number), (BASE_GROUP, PORT))
+            time.sleep(0.05)
+        check(recorder.wait() == 0 and "20 datagrams" in recorder.error_text(), recorder.error_text())
+        place = f"{BASE_GROUP}:{PORT} on "
+        for more, reach, here, there in (([], place + "lo (this host alone; --iface e0 for the LAN)", 20, 0),
+                                         (["--iface", "e0"], place + "e0", 20, 20),
+                                         (["--iface", "recorded"], place + "e0", 20, 20)):
+            listeners = [listener(setup, bed, host, seconds=3) for host in (1, 2)]
+            replay = bed.run(1, words + more)
+            check(replay.wait() == 0, replay.error_text())
+            said = [text for _, text in replay.errors + replay.lines]
+            print("  " + " | ".join(said))
+            check(said[0] == "sending to " + reach and reach in said[-1], f"{more}: {said}")
+            counts = [len(heard(program)) for program in listeners]
+            check(counts == [here, there], f"{more}: heard {counts} instead of {here, there}")
+
+
+CASES = {case.__name__: case for case in (as_typed, one_host, two_interfaces, broadcast, broadcast_peers, silence)}
 
 if __name__ == "__main__":
     sys.exit(testbed.main(CASES, run))

@@ -77,6 +77,28 @@ class Decoding(unittest.TestCase):
         self.assertIsInstance(pdu, reckon.UnknownPdu)
         self.assertEqual(reckon.encode(pdu), bytes(octets))
 
+    def test_octets_behind_the_last_field_are_shown_and_kept(self):
+        for name in ("entity_state", "fire", "data", "transmitter"):
+            with self.subTest(name):
+                pdu = SAMPLES[name]
+                self.assertEqual(reckon.decode(pdu).trailing, b"")
+                self.assertNotIn("trailing", repr(reckon.decode(pdu)))
+                longer = pdu[:8] + (len(pdu) + 5).to_bytes(2, "big") + pdu[10:] + b"\x01\x02\x03\x04\x05"
+                made = reckon.decode(longer)
+                self.assertEqual(made.trailing, b"\x01\x02\x03\x04\x05")
+                self.assertTrue(repr(made).endswith(", trailing=b'\\x01\\x02\\x03\\x04\\x05')"))
+                self.assertEqual(reckon.encode(made), longer)
+
+    def test_signal_with_its_length_in_octets_loses_none(self):
+        signal = reckon.encode(reckon.Signal(data=bytes(range(1, 14))))  # 13 octets, 3 of padding
+        self.assertEqual(reckon.decode(signal).trailing, b"")
+        for size in (13, 14, 15, 16):
+            wrong = signal[:8] + (32 + size).to_bytes(2, "big") + signal[10:28] + (13).to_bytes(2, "big")
+            wrong = (wrong + signal[30:])[:32 + size]
+            made = reckon.decode(wrong)
+            self.assertEqual((made.data, made.trailing), (bytes([1, 2]), wrong[36:]))
+            self.assertEqual(reckon.encode(made), wrong)
+
     def test_the_seeds_of_the_fuzz_targets_raise_or_come_back(self):
         generator, told = random.Random(1), {"decoded": 0, "refused": 0, "same": 0}
         with tempfile.TemporaryDirectory() as folder:

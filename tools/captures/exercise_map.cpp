@@ -11,8 +11,8 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/entity/entity_state_update.hpp"
+#include "reckon/pdu/zero_length.hpp"
 #include "reckon/tools/captures/number_list.hpp"
-#include "reckon/tools/datagrams/zero_length.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -63,12 +63,12 @@ void ExerciseMap::parse_exercise(const std::string& text) {
 }
 
 void ExerciseMap::apply(std::span<std::byte> datagram) {
-  const auto without_length = lenient_ ? find_zero_length(datagram) : std::nullopt;
+  const auto without_length = lenient_ ? pdu::find_zero_length(datagram) : std::nullopt;
   if (!without_length.has_value()) return apply_to_all(datagram);
-  set_length(datagram, *without_length,
-             static_cast<std::uint16_t>(datagram.size() - *without_length));
+  pdu::set_length(datagram, *without_length,
+                  static_cast<std::uint16_t>(datagram.size() - *without_length));
   apply_to_all(datagram);
-  set_length(datagram, *without_length, 0);
+  pdu::set_length(datagram, *without_length, 0);
 }
 
 void ExerciseMap::apply_to_all(std::span<std::byte> datagram) {

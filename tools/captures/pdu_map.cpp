@@ -39,6 +39,8 @@ constexpr auto kAxes = std::to_array<std::pair<std::string_view, VectorAxes>>({
     {"lengths", VectorAxes::another},
     {"point", VectorAxes::another},
     {"normal", VectorAxes::another},
+    {"mine_locations", VectorAxes::another},
+    {"wire_vertices", VectorAxes::another},
 });
 
 constexpr std::uint8_t kBeamInWorldAxes = 1;  // UID 168

@@ -44,7 +44,8 @@ void ReplaySchedule::next_lap(nanoseconds now) {
   lap_begin_ += length + (gaps > 0 ? length / gaps : nanoseconds(std::chrono::seconds(1)));
   count_ = 0;
   if (!beyond) return;
-  sought_ = leg_begin_ = reached_ = lap_begin_;
+  sought_ = nanoseconds::min();
+  leg_begin_ = reached_ = lap_begin_;
   begin_line(lap_begin_, now);
   if (paused_) pause_place_ = lap_begin_;
 }
@@ -77,7 +78,8 @@ bool ReplaySchedule::seek(nanoseconds step, nanoseconds now) {
   const nanoseconds there = std::max(lap_begin_, here + step);
   const bool again = there < reached_;
   before_leg_ += here - leg_begin_;
-  sought_ = leg_begin_ = reached_ = there;
+  sought_ = there == lap_begin_ ? nanoseconds::min() : there;
+  leg_begin_ = reached_ = there;
   if (paused_)
     pause_place_ = there;
   else

@@ -44,6 +44,9 @@ class ReplaySenders {
   ReplaySenders(std::string interface, bool broadcast, const peer::Clock& clock)
       : interface_(std::move(interface)), broadcast_(broadcast), clock_(clock) {}
 
+  /// Sends on this interface; call it before prepare().
+  void use(std::string interface) { interface_ = std::move(interface); }
+  [[nodiscard]] const std::string& interface() const noexcept { return interface_; }
   /// Opens the socket for `to`. @throws EnvironmentError if that fails.
   void prepare(const peer::IpEndpoint& to);
   /// False if the kernel refused it. @throws EnvironmentError, see prepare().

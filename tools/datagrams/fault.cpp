@@ -23,6 +23,7 @@ using pdu::DecodeError;
 /// Greatest number of records of varying size that are counted to name the faulty one; an Attribute
 /// PDU has fewer.
 constexpr std::size_t kMostRecords = 65535;
+constexpr std::size_t kLengthFieldAt = 8;
 
 /// Visitor that reads a PDU field by field and stops at the first faulty one. Slower than the
 /// codec; it only runs if the codec refused the PDU or a value is not finite.
@@ -220,6 +221,15 @@ std::size_t least_length(pdu::PduType type, pdu::TypeList<T...>) {
   return size;
 }
 
+std::size_t exchanged(std::uint16_t length) {
+  return static_cast<std::size_t>((length & 0xFF) << 8 | length >> 8);
+}
+
+/// "; 36864 is 144 with its octets exchanged".
+std::string exchanged_text(std::uint16_t length) {
+  return fmt::format("; {} is {} with its octets exchanged", length, exchanged(length));
+}
+
 PduFault truncated(std::span<const std::byte> octets, const pdu::PduHeader& header) {
   if (octets.size() < pdu::kHeaderSize)
     return {DecodeError::truncated, 0,
@@ -227,19 +237,47 @@ PduFault truncated(std::span<const std::byte> octets, const pdu::PduHeader& head
   const PduFault inside = find_fault(octets, header.pdu_type, FaultFinder::Search::end);
   std::string reason =
       fmt::format("header says {} octets, {} remain", header.length, octets.size());
+  if (has_exchanged_length(octets, header, DecodeError::truncated))
+    return {DecodeError::truncated, kLengthFieldAt, reason + exchanged_text(header.length)};
   const bool named = inside.error == DecodeError::truncated;
   if (named) reason += "; " + inside.reason;
-  return {DecodeError::truncated, named ? octets.size() : 8, std::move(reason)};
+  return {DecodeError::truncated, named ? octets.size() : kLengthFieldAt, std::move(reason)};
 }
 
-PduFault length_fault(std::span<const std::byte>, const pdu::PduHeader& header) {
-  return {DecodeError::length, 8,
-          fmt::format("header says {} octets, {} needs at least {}", header.length,
-                      pdu::snake_name(header.pdu_type),
-                      least_length(header.pdu_type, pdu::PduTypes{}))};
+/// "record_r needs at least 40".
+std::string need_text(pdu::PduType type) {
+  return fmt::format("{} needs at least {}", pdu::snake_name(type),
+                     least_length(type, pdu::PduTypes{}));
+}
+
+PduFault length_fault(std::span<const std::byte> octets, const pdu::PduHeader& header) {
+  std::string reason = fmt::format("header says {} octets, ", header.length);
+  if (header.length == 0) reason += fmt::format("{} are there, ", octets.size());
+  reason += need_text(header.pdu_type);
+  if (has_exchanged_length(octets, header, DecodeError::length))
+    reason += exchanged_text(header.length);
+  return {DecodeError::length, kLengthFieldAt, std::move(reason)};
 }
 
 }  // namespace
+
+PduFault explain_shortness(std::span<const std::byte> octets, const pdu::PduHeader& header) {
+  return {DecodeError::length, kLengthFieldAt,
+          fmt::format("{} octets are there, {}", octets.size(), need_text(header.pdu_type))};
+}
+
+bool has_exchanged_length(std::span<const std::byte> octets, const pdu::PduHeader& header,
+                          DecodeError error) {
+  const bool leads_nowhere = error == DecodeError::truncated || error == DecodeError::length;
+  const std::size_t length = exchanged(header.length);
+  if (!leads_nowhere || octets.size() < pdu::kHeaderSize || length > octets.size() ||
+      length < least_length(header.pdu_type, pdu::PduTypes{}))
+    return false;
+  // It leads to the end of the datagram, or to the next PDU of the same version and exercise.
+  const auto next = octets.subspan(length);
+  return next.empty() ||
+         (next.size() >= pdu::kHeaderSize && next[0] == octets[0] && next[1] == octets[1]);
+}
 
 PduFault explain_fault(std::span<const std::byte> octets, const pdu::PduHeader& header,
                        DecodeError error) {

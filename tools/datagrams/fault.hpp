@@ -27,6 +27,15 @@ struct PduFault {
 [[nodiscard]] PduFault explain_fault(std::span<const std::byte> octets,
                                      const pdu::PduHeader& header, pdu::DecodeError error);
 
+/// E-LENGTH of a PDU that is taken to be all of `octets`, whatever its length field says.
+[[nodiscard]] PduFault explain_shortness(std::span<const std::byte> octets,
+                                         const pdu::PduHeader& header);
+
+/// Whether a length field that leads nowhere is right with its two octets exchanged, as a sender
+/// writes it that is little-endian. `error` and `octets` as in explain_fault().
+[[nodiscard]] bool has_exchanged_length(std::span<const std::byte> octets,
+                                        const pdu::PduHeader& header, pdu::DecodeError error);
+
 /// Finds the field of a decoded PDU that is NaN or infinite; `field` is the result of
 /// pdu::first_not_finite().
 [[nodiscard]] PduFault explain_not_finite(std::span<const std::byte> octets,

@@ -26,12 +26,6 @@ std::string_view short_name(std::string_view name) {
   return name.starts_with(kEntity) ? name.substr(kEntity.size()) : name;
 }
 
-bool is_like(pdu::EntityId id, const Filter::IdPattern& pattern) {
-  return pattern.site.value_or(id.site) == id.site &&
-         pattern.application.value_or(id.application) == id.application &&
-         pattern.entity.value_or(id.entity) == id.entity;
-}
-
 /// The last parts of a path, as many as `typed` has.
 std::string_view end_of_path(std::string_view path, std::string_view typed) {
   std::size_t at = path.size();
@@ -185,13 +179,14 @@ class FilterParser {
     filter_.comparisons_.push_back(std::move(comparison));
     return add(Kind::comparison, filter_.comparisons_.size() - 1);
   }
-  /// The row of the list with this name.
+  /// The row of the list with this name: `type` is that of the PDU, not short for entity.type.
   [[nodiscard]] static std::optional<std::size_t> row_named(std::string_view typed) {
-    for (std::size_t i = 0; i < filter_fields().size(); ++i) {
-      const std::string_view name = filter_fields()[i].name;
-      if (typed == name || typed == short_name(name)) return i;
-    }
-    return std::nullopt;
+    const auto rows = filter_fields();
+    auto row = std::ranges::find(rows, typed, &FilterField::name);
+    if (row == rows.end())
+      row = std::ranges::find(rows, typed, [](const auto& of) { return short_name(of.name); });
+    if (row == rows.end()) return std::nullopt;
+    return static_cast<std::size_t>(row - rows.begin());
   }
   Filter::Comparison with_row(std::size_t row) {
     Filter::Comparison comparison;
@@ -271,6 +266,8 @@ class FilterParser {
       comparison.text = text_value(field);
     else if (field.kind == ValueKind::id)
       comparison.id = id_pattern();
+    else if (field.kind == ValueKind::type)
+      comparison.type = type_pattern();
     else if (const auto number = plain_number())
       comparison.number = *number;
     else if (field.kind == ValueKind::name)
@@ -342,6 +339,12 @@ class FilterParser {
             id_part(text.substr(second + 1), second + 1)};
   }
 
+  [[nodiscard]] TypePattern type_pattern() const {
+    const TypePatternText parsed = parse_type_pattern(token_.text);
+    if (!parsed.error.empty()) fail(token_.at + parsed.at, parsed.error);
+    return parsed.pattern;
+  }
+
   std::string_view text_;
   Filter& filter_;
   std::size_t at_ = 0;
@@ -350,38 +353,5 @@ class FilterParser {
 };
 
 Filter::Filter(std::string_view text) { FilterParser(text, *this).parse(); }
-
-bool Filter::matches(const PduRow& row, const peer::SourceDatagram& datagram) const {
-  return evaluate(nodes_.size() - 1, {row, datagram, row.entity_state});
-}
-
-bool Filter::holds(const Comparison& comparison, const FilterSubject& subject) const {
-  if (comparison.of_table) return tables_[comparison.field].holds(subject.row);
-  const FilterField& field = filter_fields()[comparison.field];
-  const bool wanted = comparison.op == Operator::equal;
-  if (field.kind == ValueKind::id)
-    return subject.row.id.has_value() && is_like(*subject.row.id, comparison.id) == wanted;
-  if (field.kind == ValueKind::text) {
-    const auto text = field.text(subject);
-    return text.has_value() && is_like(lower(*text), comparison.text) == wanted;
-  }
-  const auto number = field.number(subject);
-  return number.has_value() && tools::holds(*number, comparison.op, comparison.number);
-}
-
-bool Filter::evaluate(std::size_t index, const FilterSubject& subject) const {
-  const Node& node = nodes_[index];
-  switch (node.kind) {
-    case Kind::comparison:
-      return holds(comparisons_[node.left], subject);
-    case Kind::negation:
-      return !evaluate(node.left, subject);
-    case Kind::conjunction:
-      return evaluate(node.left, subject) && evaluate(node.right, subject);
-    case Kind::disjunction:
-      return evaluate(node.left, subject) || evaluate(node.right, subject);
-  }
-  return false;
-}
 
 }  // namespace reckon::tools

@@ -18,6 +18,7 @@
 #include "reckon/tools/datagrams/field_comparison.hpp"
 #include "reckon/tools/datagrams/filter_words.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/datagrams/type_pattern.hpp"
 
 namespace reckon::tools {
 
@@ -31,10 +32,12 @@ struct FilterError : UsageError {
 struct FilterSubject {
   const PduRow& row;
   const peer::SourceDatagram& datagram;
-  const pdu::EntityState* entity_state;  ///< null if the PDU is not an Entity State
+  const PduRow& entity;                  ///< the PDU, or one of the states restored from it
+  const pdu::EntityState* entity_state;  ///< its state; null if it is no Entity State
 };
 
-/// A compiled filter. A comparison with a field that the PDU lacks is false for every operator. Any
+/// A compiled filter. A comparison with a field that the PDU lacks is false for every operator.
+/// Compressed States match if one of their states does, which has the fields of the PDU too. Any
 /// thread; a match allocates only for text and octets.
 class Filter {
  public:
@@ -60,6 +63,7 @@ class Filter {
     Operator op = Operator::equal;
     double number = 0;
     IdPattern id;
+    TypePattern type;
     std::string text;  ///< in lower case; * stands for any letters
   };
 

@@ -52,8 +52,8 @@ std::string_view status_name(unsigned value) {
 }
 
 /// The rules that a row may have.
-constexpr std::array kOtherRules{kForeignRule, kNoLengthRule, kTrailingRule,
-                                 std::string_view("E-FRAGMENT")};
+constexpr std::array kOtherRules{kForeignRule,     kNoLengthRule,  kTrailingRule,
+                                 kTrailingWarning, kByteOrderRule, std::string_view("E-FRAGMENT")};
 constexpr unsigned kRules = static_cast<unsigned>(pdu::DecodeError::not_finite) + 1;
 std::string_view row_rule(unsigned value) {
   if (value < kRules) return pdu::rule(static_cast<pdu::DecodeError>(value));
@@ -84,13 +84,13 @@ Text endpoint(const peer::IpEndpoint& endpoint) {
 /// A coordinate of the PDU's location, in W or on WGS84.
 template <auto Member>
 Number from_location(const FilterSubject& subject) {
-  const auto location = first_location(subject.row);
+  const auto location = first_location(subject.entity);
   if (!location.has_value()) return std::nullopt;
   return *location.*Member;
 }
 template <auto Member>
 Number from_place(const FilterSubject& subject) {
-  const auto location = first_location(subject.row);
+  const auto location = first_location(subject.entity);
   const auto place = location.has_value() ? pdu::geodetic_from(*location) : std::nullopt;
   if (!place.has_value()) return std::nullopt;
   return *place.*Member;
@@ -136,6 +136,8 @@ constexpr auto kFields = std::to_array<FilterField>({
        if (s.entity_state == nullptr) return std::nullopt;
        return type_in_words(s.entity_state->entity_type);
      }},
+    {"entity.type", "its type as numbers, which may be * or left out at the end: 1.1.225.*",
+     ValueKind::type},
     {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name,
      from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
      name_of<pdu::DeadReckoningAlgorithm>},

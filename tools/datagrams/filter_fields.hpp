@@ -14,7 +14,7 @@
 namespace reckon::tools {
 
 /// Syntax and comparison of a field's value.
-enum class ValueKind : std::uint8_t { number, name, id, text };
+enum class ValueKind : std::uint8_t { number, name, id, text, type };
 
 /// One field.
 struct FilterField {

@@ -11,7 +11,9 @@
 #include "reckon/pdu/fixed_fields.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/type_names.hpp"
-#include "reckon/tools/datagrams/zero_length.hpp"
+#include "reckon/pdu/zero_length.hpp"
+#include "reckon/tools/datagrams/restored_states.hpp"
+#include "reckon/tools/datagrams/trailing.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -101,15 +103,6 @@ bool is_trailing(const pdu::BundledPdu& bundled) {
   return bundled.index > 0 && (bundled.error == DecodeError::stray || is_cut_header);
 }
 
-/// The first 16 of them.
-std::string start_in_hex(std::span<const std::byte> octets) {
-  constexpr std::size_t kMost = 16;
-  std::string text;
-  for (const std::byte octet : octets.first(std::min(octets.size(), kMost)))
-    text += fmt::format("{:02x}", std::to_integer<unsigned>(octet));
-  return octets.size() > kMost ? text + "..." : text;
-}
-
 void set_fault(PduRow& row, std::string_view rule, const PduFault& fault) {
   row.rule = rule;
   row.status = status_of(rule);
@@ -148,11 +141,11 @@ void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
   bytes_ = datagram.bytes;
   without_length_.reset();
   if (!lenient_ || peer::is_headless(datagram.portion)) return;
-  without_length_ = find_zero_length(bytes_);
+  without_length_ = pdu::find_zero_length(bytes_);
   if (!without_length_.has_value()) return;
   mended_.assign(bytes_.begin(), bytes_.end());
-  set_length(mended_, *without_length_,
-             static_cast<std::uint16_t>(mended_.size() - *without_length_));
+  pdu::set_length(mended_, *without_length_,
+                  static_cast<std::uint16_t>(mended_.size() - *without_length_));
   bytes_ = mended_;
 }
 
@@ -169,20 +162,31 @@ void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::Bu
   row_.fault_offset = bundled.offset;
   row_.id.reset();
   row_.entity_state = nullptr;
+  row_.restored = nullptr;
 
   PduFault fault;
   DecodeError error = bundled.error;
   std::size_t behind = 0;
   if (error == DecodeError::none) error = decode_body(bundled, fault, behind);
   row_.decoded = error == DecodeError::none;
-  if (!row_.decoded) fault = explain_fault(bundled.bytes, bundled.header, error);
+  if (error == DecodeError::length && without_length_ == bundled.offset)
+    fault = explain_shortness(bundled.bytes, bundled.header);
+  else if (!row_.decoded)
+    fault = explain_fault(bundled.bytes, bundled.header, error);
   if (lenient_ && (fault.error == DecodeError::none || is_trailing(bundled)))
     return excuse(bundled, behind);
+  if (fault.error == DecodeError::none && behind > 0)
+    return set_fault(row_, kTrailingWarning,
+                     {DecodeError::stray, bundled.bytes.size() - behind,
+                      explain_trailing(bundled.bytes, bundled.header, behind)});
   if (fault.error == DecodeError::none) return;
   if (!row_.decoded && row_.has_header && fault.error != DecodeError::version)
     row_.id = id_behind_header(row_.bytes, row_.header.pdu_type, pdu::PduTypes{});
-  set_fault(row_, pdu::rule(fault.error), fault);
-  if (fault.error == DecodeError::truncated) row_.reason += portion_text(datagram.portion);
+  const bool exchanged =
+      !row_.decoded && has_exchanged_length(bundled.bytes, bundled.header, error);
+  set_fault(row_, exchanged ? kByteOrderRule : pdu::rule(fault.error), fault);
+  if (fault.error == DecodeError::truncated && !exchanged)
+    row_.reason += portion_text(datagram.portion);
 }
 
 void DatagramInspector::excuse(const pdu::BundledPdu& bundled, std::size_t behind) {
@@ -210,7 +214,7 @@ DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFa
                                            std::size_t& behind) {
   return pdu::visit(bundled.bytes, bundled.header, [&]<typename Pdu>(const Pdu& pdu) {
     row_.id = id_of(pdu);
-    if (lenient_) behind = bundled.bytes.size() - std::min(bundled.bytes.size(), wire_size(pdu));
+    behind = pdu::trailing_octets(bundled.bytes, pdu).size();
     const std::string_view field = pdu::first_not_finite(pdu);
     if (!field.empty()) fault = explain_not_finite(bundled.bytes, bundled.header, field);
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {
@@ -219,6 +223,11 @@ DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFa
     if constexpr (std::same_as<Pdu, pdu::EntityState>) {
       entity_state_ = pdu;
       row_.entity_state = &entity_state_;
+      if (restored_ != nullptr) restored_->note_plain(pdu);
+    }
+    if constexpr (std::same_as<Pdu, pdu::CompressedStates>) {
+      if (restored_ == nullptr) restored_ = std::make_shared<RestoredStates>();
+      row_.restored = &restored_->restore(pdu, row_);
     }
   });
 }
@@ -232,6 +241,7 @@ void DatagramInspector::fill_whole(const peer::SourceDatagram& datagram) {
   row_.decoded = false;
   row_.id.reset();
   row_.entity_state = nullptr;
+  row_.restored = nullptr;
 }
 
 void DatagramInspector::fill_foreign(const peer::SourceDatagram& datagram) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,9 @@ enum class PduStatus : std::uint8_t { ok, note, warning, error };
 /// Status from the rule's letter: E-, W-, I-; ok without a rule.
 [[nodiscard]] PduStatus status_of(std::string_view rule) noexcept;
 
+struct RestoredState;
+class RestoredStates;
+
 /// One PDU in a datagram.
 struct PduRow {
   std::uint64_t frame = 0;           ///< of the datagram in its source, from 1
@@ -49,6 +53,9 @@ struct PduRow {
   /// The body of an Entity State that was decoded, because most PDUs are one and every view reads
   /// it; null for the others. Valid as long as the row.
   const pdu::EntityState* entity_state = nullptr;
+  /// The states of Compressed States that were decoded; null for the others. Valid as long as the
+  /// row.
+  const std::vector<RestoredState>* restored = nullptr;
 
   /// IEEE name in snake case; "unknown_200" without a name; "foreign" for a datagram of another
   /// protocol; "trailing" for octets that a lenient reader keeps; "unreadable" without a header.
@@ -71,14 +78,17 @@ struct InspectTally {
 /// Rules that only a lenient reader notes.
 inline constexpr std::string_view kNoLengthRule = "I-NO-LENGTH";
 inline constexpr std::string_view kTrailingRule = "I-TRAILING";
+/// Octets behind the last field of a PDU, to a reader that is not lenient.
+inline constexpr std::string_view kTrailingWarning = "W-TRAILING";
+/// A length field of a sender that writes little-endian.
+inline constexpr std::string_view kByteOrderRule = "E-BYTE-ORDER";
 
 /// Iterates over the PDUs of one datagram and decodes each once. The row is reused, and valid until
-/// the next PDU. A good PDU needs no heap.
+/// the next PDU. A good PDU needs no heap, except for the keys of compressed states.
 class DatagramInspector {
  public:
   /// @param lenient takes a length field of 0 as the rest of the datagram, and octets behind the
-  /// last PDU or behind the last field of one as kept: a note each instead of an error or of
-  /// silence
+  /// last PDU or behind the last field of one as kept: a note each instead of an error or a warning
   explicit DatagramInspector(bool lenient = false) : lenient_(lenient) {}
 
   /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all shown PDUs.
@@ -127,7 +137,8 @@ class DatagramInspector {
   std::vector<std::byte> mended_;              // the datagram with a length in place of 0
   std::optional<std::size_t> without_length_;  // offset of the PDU with a length of 0
   PduRow row_;
-  pdu::EntityState entity_state_;  // referenced by row_
+  pdu::EntityState entity_state_;             // referenced by row_
+  std::shared_ptr<RestoredStates> restored_;  // from the first Compressed States on, likewise
   InspectTally tally_;
   std::optional<std::chrono::nanoseconds> start_;
 };

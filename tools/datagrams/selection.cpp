@@ -74,7 +74,7 @@ void declare_lenient(CommandLine& line, bool& lenient) {
 
 CaptureSelection::CaptureSelection(const SelectionOptions& options)
     : from_(options.from), to_(options.to), inspector_(options.lenient) {
-  if (to_.has_value() && *to_ <= from_)
+  if (to_.has_value() && *to_ <= from_.value_or(nanoseconds(0)))
     throw UsageError("the range is empty: it ends before it begins; give a later end than --from");
   for (const std::string& text : options.groups) groups_.push_back(parse_group(text));
   for (const std::string& text : options.types) types_.push_back(checked_type(text));
@@ -112,7 +112,7 @@ bool CaptureSelection::in_range(nanoseconds time) {
     inspector_.start_at(time);
   }
   const nanoseconds since = time - *origin_;
-  return since >= from_ && (!to_.has_value() || since < *to_);
+  return (!from_.has_value() || since >= *from_) && (!to_.has_value() || since < *to_);
 }
 
 bool CaptureSelection::in_groups(const peer::GroupAddress& group) const {

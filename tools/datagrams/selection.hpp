@@ -19,9 +19,10 @@
 
 namespace reckon::tools {
 
-/// The user's words. Times are relative to the first datagram of the capture.
+/// The user's words. Times are relative to the first datagram of the capture. Without `from` and
+/// `to` any time is in range, also one before that of the first datagram.
 struct SelectionOptions {
-  std::chrono::nanoseconds from{};
+  std::optional<std::chrono::nanoseconds> from;
   std::optional<std::chrono::nanoseconds> to;
   std::vector<std::string> groups;    ///< 239.192.1.0 or 239.192.1.0:3000
   std::vector<std::string> types;     ///< names of inspect --json
@@ -55,7 +56,7 @@ class CaptureSelection {
   [[nodiscard]] bool has_wanted_pdu(const peer::SourceDatagram& datagram);
   [[nodiscard]] bool is_wanted(const PduRow& row, const peer::SourceDatagram& datagram) const;
 
-  std::chrono::nanoseconds from_;
+  std::optional<std::chrono::nanoseconds> from_;
   std::optional<std::chrono::nanoseconds> to_;
   std::vector<peer::GroupAddress> groups_;  ///< port 0: any
   std::vector<std::string> types_;

@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "reckon/tools/emissions/emission_text.hpp"
 #include "reckon/tools/exercise/fitted_columns.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/leaders_report.hpp"
@@ -194,7 +195,9 @@ std::size_t hand_lines(const PeerView& view) {
 std::size_t wanted(const PeerView& view) {
   // One says that there are more, or that there are none.
   const bool remark = view.entities > view.count || view.entities == 0;
-  return hand_lines(view) + view.count + (remark ? 1 : 0);
+  const auto emitting = std::count_if(view.rows.begin(), view.rows.begin() + view.count,
+                                      [](const EntityView& row) { return row.emits.any(); });
+  return hand_lines(view) + view.count + static_cast<std::size_t>(emitting) + (remark ? 1 : 0);
 }
 
 // Lines of each peer beside its first: one after the other, until none is left.
@@ -276,9 +279,14 @@ class Table {
                                  kLeastBar + hands_.more(), whole_}),
                      is_bad ? LineStyle::bad : LineStyle::title});
     }
+    const bool remark = shown < view.entities;
+    std::size_t left = lines - std::min(lines, shown + (remark ? 1 : 0));
     for (const std::size_t i : nearest(view, shown)) {
       const EntityView& row = view.rows[i];
       out.push_back({entities_.row({row, view}), row.frozen ? LineStyle::faint : LineStyle::plain});
+      if (left == 0 || !row.emits.any()) continue;
+      out.push_back({"    emits " + emitted_text(row.emits), LineStyle::faint});
+      --left;
     }
     if (shown < lines && shown < view.entities)
       out.push_back({fmt::format("  and {} more, farther away", view.entities - shown)});

@@ -8,13 +8,16 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/emissions/emission_text.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/leaders_report.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -74,6 +77,40 @@ std::uint64_t counter(const peer::Peer& peer, std::string_view name) {
   return found == nullptr ? 0 : found->value();
 }
 
+std::string emissions_json(const peer::Peer& peer, const peer::PeerView& view) {
+  std::string text;
+  for (const peer::Emission& emission : peer.model().emissions().rows()) {
+    text += text.empty() ? '[' : ',';
+    append_emission_json(text, emission, view.started, view.time);
+  }
+  return text.empty() ? "[]" : text + ']';
+}
+
+void print_emissions(std::FILE* out, const peer::EmissionTable& table) {
+  if (table.rows().empty()) return;
+  fmt::print(out, "  emissions                  {} of remote entities, {} of them emit\n",
+             counted(table.rows().size(), "system"),
+             std::ranges::count_if(table.rows(), &peer::Emission::emits));
+}
+
+// "32 datagrams: 30 of length field 0, 2 of another exercise"; empty if none was refused.
+std::string refused_text(const peer::Peer& peer) {
+  constexpr std::pair<std::string_view, std::string_view> kReasons[]{
+      {"refused_no_length_in", "of length field 0"},
+      {"refused_exercise_in", "of another exercise"},
+      {"refused_version_in", "of another version"},
+      {"refused_length_in", "without a PDU header"}};
+  std::string text;
+  std::uint64_t sum = 0;
+  for (const auto& [name, reason] : kReasons) {
+    const std::uint64_t count = counter(peer, name);
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", sum == 0 ? "" : ", ", count, reason);
+    sum += count;
+  }
+  return sum == 0 ? text : fmt::format("{}: {}", counted(sum, "datagram"), text);
+}
+
 }  // namespace
 
 void print_run_json(std::FILE* out, const FinishedRun& run) {
@@ -107,7 +144,8 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
   peer.link().statistics().for_each([&](std::string_view name, std::string_view,
                                         std::uint64_t value) { object.value(name, value); });
   object.end();
-  fmt::print(out, "{},\"link\":{}}}\n", leaders_json(view.leaders), link);
+  fmt::print(out, "{},\"emissions\":{},\"link\":{}}}\n", leaders_json(view.leaders),
+             emissions_json(peer, view), link);
 }
 
 void print_run_text(std::FILE* out, const FinishedRun& run) {
@@ -115,14 +153,17 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
   const double seconds = run.seconds;
   const peer::PeerView& view = peer.views().read();
   const peer::DutyCycle& duty = run.threads.servo_duty();
+  const std::string refused = refused_text(peer);
   fmt::print(out, "What {:.1f} s as {}:{}:{} cost\n", seconds, view.own.site, view.own.application,
              view.own.entity);
   if (view.first_remote >= nanoseconds(0)) {
     fmt::print(out, "  first remote entity shown  {:.3f} s after start\n",
                pdu::to_seconds(view.first_remote));
   } else {
-    fmt::print(out, "  first remote entity shown  never; is another peer on this interface?\n");
+    fmt::print(out, "  first remote entity shown  never{}\n",
+               refused.empty() ? "; is another peer on this interface?" : "");
   }
+  if (!refused.empty()) fmt::print(out, "  refused                    {}\n", refused);
   fmt::print(out, "  sent                       {:.1f} packets/s, {:.0f} octets/s\n",
              static_cast<double>(counter(peer, "datagrams_out")) / seconds,
              static_cast<double>(counter(peer, "octets_out")) / seconds);
@@ -151,6 +192,7 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
   if (view.leaders.on) {
     fmt::print(out, "  leaders                    {}\n", leaders_text(std::array{&view}));
   }
+  print_emissions(out, peer.model().emissions());
   print_hands(out, hands_of(view));
   const peer::Counters* counters = &peer.counters();
   print_walls(out, std::span(&counters, 1));

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "reckon/tools/inspect/output/options.hpp"
 #include "reckon/tools/inspect/output/view.hpp"
 
 namespace reckon::tools {
@@ -15,5 +17,13 @@ namespace reckon::tools {
 
 /// The kind with that name, or the first row if there is none.
 [[nodiscard]] const InspectViewKind& inspect_view_kind(std::string_view name);
+
+/// Puts the words SOURCE and VIEW of a command line in their places: they come in either order. A
+/// view alone selects the live groups.
+/// @throws UsageError if neither is a view
+void sort_inspect_words(InspectOptions& options);
+
+/// "stats, check, bundles": the views that are a table.
+[[nodiscard]] std::string views_with_csv();
 
 }  // namespace reckon::tools

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
@@ -120,6 +121,8 @@ struct EntityTable::Counting : ListenerObserver {
     }
     row.recent[row.jumps.count() % row.recent.size()] = static_cast<float>(found.jump);
     row.jumps.add(found.jump);
+    row.turn = deadreckon::in_degrees(found.turn);
+    row.turns.add(row.turn);
     const UpdateCause cause =
         cause_of(found, update.between.seconds, update.heartbeat, row.least_early_jump);
     return is_event(last.octets, update.octets) ? UpdateCause::event : cause;

@@ -22,7 +22,7 @@
 
 namespace reckon::tools {
 
-/// What is counted of one entity beside the listener's picture of it, some 1 kB.
+/// What is counted of one entity beside the listener's picture of it, some 1.7 kB.
 struct EntityRow {
   bool last_is_bad = false;               ///< its last PDU could not be used
   UpdateCause cause = UpdateCause::none;  ///< of the last update
@@ -42,6 +42,8 @@ struct EntityRow {
   double jump = 0;                 ///< the last one [m]
   std::array<float, 64> recent{};  ///< the last ones, a ring: the next goes to jumps.count() % 64
   JumpHistogram jumps;             ///< of the position, at each update [m]
+  double turn = 0;                 ///< the last jump of the orientation [deg]
+  JumpHistogram turns;             ///< of the orientation, as many [deg]
   std::chrono::nanoseconds worst_time{};  ///< arrival of the update with the greatest jump
   std::uint64_t worst_frame = 0;          ///< of that update; 0: no jump yet
 

@@ -24,8 +24,6 @@ using Frame = ListenerRules::Frame;
 
 /// Entities of one datagram that are remembered as they were; a bundle below the MTU holds fewer.
 constexpr std::size_t kMostTouched = 128;
-/// Compressed entities whose keys are kept, 1 KiB each.
-constexpr std::size_t kMostCompressed = 4096;
 /// Keys that the index has room for at first; it grows with the entities.
 constexpr std::size_t kFirstKeys = 512;
 
@@ -57,7 +55,7 @@ void drop_row(std::vector<Row>& rows, std::size_t place) {
 }  // namespace
 
 Listener::Listener(const ListenerRules& rules)
-    : rules_(rules), index_(std::min(rules.most_entities, kFirstKeys)) {
+    : rules_(rules), index_(std::min(rules.most_entities, kFirstKeys)), keys_(rules.most_entities) {
   if (rules_.frame == Frame::equator) frame_ = deadreckon::LocalFrame(0, 0, 0);
   if (rules_.by_datagram) touched_.reserve(kMostTouched);
 }
@@ -188,12 +186,7 @@ bool Listener::read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate
 
 // Into read_ and restored_; false where it awaits a key or cannot be read.
 bool Listener::restore(const pdu::CompressedStates& states, const pdu::CompressedState& state) {
-  const bool is_other = states.form != pdu::CompressedForm::compact && states.form != form_;
-  if (!restorer_ || is_other) {
-    form_ = states.form == pdu::CompressedForm::compact ? form_ : states.form;
-    restorer_.emplace(form_, std::min(rules_.most_entities, kMostCompressed));
-  }
-  const auto verdict = restorer_->restore(states, state, owner_of(states.simulation), read_);
+  const auto verdict = keys_.restore(states, state, read_);
   return verdict == peer::RestoreVerdict::good && encode(read_, restored_) == restored_.size();
 }
 

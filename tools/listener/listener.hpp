@@ -21,8 +21,8 @@
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
 #include "reckon/peer/clocks/sender_clock.hpp"
-#include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/world/key_index.hpp"
+#include "reckon/tools/datagrams/state_keys.hpp"
 #include "reckon/tools/listener/received_entity.hpp"
 #include "reckon/tools/listener/update_pace.hpp"
 
@@ -249,10 +249,6 @@ class Listener {
                   const pdu::EntityState* decoded);
   template <typename Observer>
   void take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observer);
-  // A listener pins nobody: what is said of an entity is taken for its owner's.
-  [[nodiscard]] static peer::KeySpeaker owner_of(const pdu::SimulationAddress& entities) noexcept {
-    return {entities, 1};
-  }
   [[nodiscard]] bool restore(const pdu::CompressedStates& states,
                              const pdu::CompressedState& state);
   template <typename Observer>
@@ -270,10 +266,9 @@ class Listener {
   peer::KeyIndex index_;
   std::map<AccountKey, StatedEnergy> accounts_;
   std::vector<TouchedEntity> touched_;
-  pdu::EntityState read_;                                 // room for the one at hand
-  std::optional<peer::StateRestorer> restorer_;           // from the first Compressed States on
-  pdu::CompressedForm form_ = pdu::CompressedForm::none;  // that it reads
-  FixedOctets restored_;                                  // of the state at hand
+  pdu::EntityState read_;  // room for the one at hand
+  StateKeys keys_;
+  FixedOctets restored_;  // of the state at hand
   ListenerRefusals refusals_;
 };
 
@@ -296,9 +291,7 @@ void Listener::take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds a
   StateUpdate update;
   update.arrival = arrival;
   if (!read_state(pdu, header, decoded, update)) return;
-  const bool is_whole = header.pdu_type == pdu::PduType::entity_state;
-  if (restorer_ && is_whole)
-    restorer_->note_plain(*update.pdu, owner_of(update.pdu->entity_id.simulation()));
+  if (header.pdu_type == pdu::PduType::entity_state) keys_.note_plain(*update.pdu);
   if (!place_state(update)) return;
   observer.receive_state(update);
   settle(update);

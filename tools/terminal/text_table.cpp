@@ -116,6 +116,12 @@ std::string distance_text(double metres) {
   return fmt::format("{:.0f} km", 1e-3 * metres);
 }
 
+std::string angle_text(double degrees) {
+  constexpr double kSmallest = 1e-3;
+  if (!(degrees >= kSmallest)) return "0";
+  return degrees < 9.95 ? fmt::format("{:.2g} deg", degrees) : fmt::format("{:.0f} deg", degrees);
+}
+
 std::string printable_text(std::string_view text) {
   std::string shown(text);
   std::replace_if(

@@ -54,6 +54,9 @@ class TextTable {
 /// A distance as text: "0.21 mm", "1.4 m", "12 km"; "0" below 10 um.
 [[nodiscard]] std::string distance_text(double metres);
 
+/// An angle as text: "0.21 deg", "14 deg"; "0" below 0.001 deg.
+[[nodiscard]] std::string angle_text(double degrees);
+
 /// Received octets made safe for a terminal: those that are not printable ASCII become dots.
 [[nodiscard]] std::string printable_text(std::string_view text);
 

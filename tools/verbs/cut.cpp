@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "reckon/tools/captures/radio_audio.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
@@ -19,24 +20,32 @@ constexpr std::string_view kSummary =
     "Whole datagrams are taken, frame for frame and octet for octet; frames without UDP are left\n"
     "out. Words of one kind widen the choice, words of different kinds narrow it. A name that "
     "ends\n"
-    "in .zst is compressed.";
+    "in .zst is compressed. With --audio it writes a 16-bit WAV file with the sound of one radio\n"
+    "instead: its Signal PDUs in mu-law or linear PCM, placed by capture time.";
 constexpr std::string_view kExamples =
     "reckon cut day.pcapng part.pcapng --from 90s --to 2min\n"
     "reckon cut day.pcapng one.pcapng --entity 1:2:3\n"
     "reckon cut day.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type entity_state\n"
-    "reckon cut day.pcapng foes.pcapng.zst --where 'side == opposing and domain == land'";
+    "reckon cut day.pcapng foes.pcapng.zst --where 'side == opposing and domain == land'\n"
+    "reckon cut day.pcapng --audio net.wav --entity 1:2:3 --where 'radio_number == 1'";
 
 struct CutOptions {
   std::string in;
   peer::CaptureWriterOptions out;
+  std::string audio;  ///< WAV file, instead of `out`; empty: none
   SelectionOptions selection;
 };
 
-void refuse_same_file(const CutOptions& options) {
+void check_output(const CutOptions& options) {
+  if (options.audio.empty() && options.out.path.empty())
+    throw UsageError("OUT is missing: the pcapng file to write, or --audio FILE.wav");
+  if (!options.audio.empty() && !options.out.path.empty())
+    throw UsageError("--audio writes sound instead of a capture: leave OUT out");
+  const std::string& out = options.audio.empty() ? options.out.path : options.audio;
   std::error_code none;
-  if (std::filesystem::equivalent(options.in, options.out.path, none))
-    throw UsageError(fmt::format("{} would be overwritten while it is read; choose another name",
-                                 options.out.path));
+  if (std::filesystem::equivalent(options.in, out, none))
+    throw UsageError(
+        fmt::format("{} would be overwritten while it is read; choose another name", out));
 }
 
 ExitCode tell(const CutOptions& options, const Console& console, std::uint64_t seen,
@@ -56,6 +65,7 @@ ExitCode cut(const CutOptions& options, const Console& console) {
   const auto source = open_recording(options.in);
   peer::CaptureWriterOptions writer_options = options.out;
   writer_options.link_type = source->link_type();
+  writer_options.interface = source->interface_name();
   const auto writer = create_recording(writer_options);
   std::uint64_t seen = 0;
   peer::SourceDatagram datagram;
@@ -67,20 +77,47 @@ ExitCode cut(const CutOptions& options, const Console& console) {
   return tell(options, console, seen, *writer, source->report());
 }
 
+// A Signal PDU has to match by itself: others in its datagram may be of another radio.
+ExitCode cut_audio(const CutOptions& options, const Console& console) {
+  CaptureSelection selection(options.selection);
+  const auto source = open_recording(options.in);
+  DatagramInspector inspector(options.selection.lenient);
+  RadioAudio audio(options.audio, options.out.overwrite);
+  peer::SourceDatagram datagram;
+  while (!console.stopped() && source->next(datagram, {}) == peer::SourceEvent::datagram) {
+    if (!selection.takes(datagram)) continue;
+    inspector.inspect(datagram, [&](const PduRow& row) {
+      peer::SourceDatagram alone = datagram;
+      alone.bytes = row.bytes;
+      if (row.decoded && selection.takes(alone)) audio.take(row);
+      return true;
+    });
+  }
+  audio.finish();
+  fmt::print(console.err, "{}", audio.summary());
+  const std::string damage = damage_text(source->report());
+  if (!damage.empty()) fmt::print(console.err, "{}: {}\n", options.in, damage);
+  const bool whole = source->report().problem.empty();
+  return whole && !audio.empty() ? ExitCode::good : ExitCode::findings;
+}
+
 int run_cut(Arguments arguments, const Console& console) {
   CutOptions options;
   CommandLine line("cut", kSummary, kExamples);
   line.word("IN", options.in, true, "pcap or pcapng file, also compressed; - is stdin");
-  line.word("OUT", options.out.path, true, "the pcapng file to write");
+  line.word("OUT", options.out.path, false, "the pcapng file to write");
+  line.option("--audio", options.audio,
+              "instead of OUT: write the sound of one radio, the only one that is selected, to "
+              "this WAV file");
   line.option("--to", options.selection.to,
               "stop this long after the first datagram, for example 2min");
   options.selection.declare(line);
-  line.flag("--force", options.out.overwrite, "overwrite OUT");
+  line.flag("--force", options.out.overwrite, "overwrite OUT or the WAV file");
   if (const auto status = line.parse(arguments, console)) return *status;
   settle_compression(options.out);
-  refuse_same_file(options);
+  check_output(options);
   try {
-    return exit_status(cut(options, console));
+    return exit_status(options.audio.empty() ? cut(options, console) : cut_audio(options, console));
   } catch (const peer::CaptureWriteError& error) {
     throw EnvironmentError(error.what());
   }

@@ -13,11 +13,11 @@
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/datagrams/filter.hpp"
+#include "reckon/tools/datagrams/filter_fields.hpp"
 #include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
@@ -52,7 +52,8 @@ constexpr std::string_view kSummary =
     "  SCENE.toml          the live groups of a scene\n"
     "  iface:NAME          all UDP of an interface (needs CAP_NET_RAW)\n"
     "Without one: 239.192.1.0:3000 and the 256 groups behind it, live. Live groups are heard on\n"
-    "every interface; a datagram that comes over two of them is counted once.";
+    "every interface; a datagram that comes over two of them is counted once.\n"
+    "SOURCE and VIEW come in either order.";
 constexpr std::string_view kExamples =
     "reckon inspect capture.pcapng\n"
     "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
@@ -276,14 +277,6 @@ ExitCode Inspection::verdict() const {
   return damaged || view_->found_faults().value_or(false) ? ExitCode::findings : ExitCode::good;
 }
 
-/// "stats, check, bundles".
-std::string views_with_csv() {
-  std::string names;
-  for (const InspectViewKind& kind : inspect_views())
-    if (kind.takes_csv) names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
-  return names;
-}
-
 /// A table that is updated on a terminal; otherwise a format for pipes.
 std::string_view default_view(const InspectOptions& options, const Console& console) {
   const bool shown = isatty(fileno(console.out)) == 1 && !options.json && !options.csv;
@@ -292,10 +285,7 @@ std::string_view default_view(const InspectOptions& options, const Console& cons
 }
 
 void check_combination(InspectOptions& options, const Console& console) {
-  // A single word that is a view, as in `reckon inspect stats`, selects the live groups.
-  if (options.view.empty() &&
-      inspect_view_kind(options.source.source).name == options.source.source)
-    options.view = std::exchange(options.source.source, "");
+  sort_inspect_words(options);
   if (options.view.empty()) options.view = default_view(options, console);
   const InspectViewKind& kind = inspect_view_kind(options.view);
   const bool tail = kind.name == "tail";
@@ -342,13 +332,13 @@ int run_inspect(Arguments arguments, const Console& console) {
                   kSummary, filter_fields_text());
   CommandLine line("inspect", summary, kExamples);
   line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
-  std::vector<std::string> views;
-  std::string meanings;
+  std::string views, meanings;
   for (const InspectViewKind& kind : inspect_views()) {
-    views.emplace_back(kind.name);
+    views.append(kind.name).append(" ");
     meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", kind.name, kind.meaning);
   }
-  line.choice("VIEW", options.view, views, meanings);
+  line.word("VIEW", options.view, false, meanings);
+  line.offer("VIEW", views);
   line.flag("--tree", options.tree, "every field of every PDU, one a line");
   line.flag("--json", options.json, "one JSON object a line");
   line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
@@ -359,6 +349,9 @@ int run_inspect(Arguments arguments, const Console& console) {
             "wait for more at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
               "only PDUs that match, for example 'entity.id == 1:*:* and kind == platform'");
+  std::string fields;
+  for (const FilterField& field : filter_fields()) fields.append(field.name).append(" ");
+  line.offer("--where", fields);
   line.option("--fields", options.fields, "list the fields of this PDU type for --where, and exit");
   line.option("--from", options.from,
               "recordings: only from here on, as 90s since the first datagram, 14:03:20 (UTC) or "

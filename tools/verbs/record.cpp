@@ -88,6 +88,8 @@ class Recording {
   [[nodiscard]] peer::CaptureWriterOptions writer_options() const {
     peer::CaptureWriterOptions out = options_.writer;
     out.link_type = source_->link_type();
+    const auto& listened = source_->report().interfaces;
+    if (listened.size() == 1) out.interface = listened.front().name;
     return out;
   }
   [[nodiscard]] nanoseconds time_left(nanoseconds now) const {

@@ -19,6 +19,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/tools/captures/exercise_map.hpp"
 #include "reckon/tools/captures/replay_keys.hpp"
+#include "reckon/tools/captures/replay_reach.hpp"
 #include "reckon/tools/captures/replay_schedule.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
 #include "reckon/tools/captures/timestamp_rewrite.hpp"
@@ -79,6 +80,7 @@ struct ReplayCounts {
   std::uint64_t sent = 0;
   std::uint64_t octets = 0;
   std::uint64_t incomplete = 0;  ///< fragments are missing, or the capture truncated them
+  std::uint64_t not_chosen = 0;  ///< by the words of the user
   std::uint64_t refused = 0;     ///< by the kernel
   nanoseconds latest{};          ///< greatest lateness
 };
@@ -111,6 +113,7 @@ class Replay {
   [[nodiscard]] bool unseal(peer::SourceDatagram& datagram);
   void play(const peer::SourceDatagram& datagram);
   void send(const peer::SourceDatagram& datagram);
+  void begin(const peer::SourceDatagram& datagram);
   [[nodiscard]] bool wait_for_turn();
   void take_keys(nanoseconds patience);
   void show_status(nanoseconds now);
@@ -129,6 +132,7 @@ class Replay {
   std::unique_ptr<peer::DatagramSource> source_;
   peer::SteadyClock clock_;
   ReplaySenders senders_;
+  ReplayReach reach_;
   StatusLine status_;
   TerminalKeys terminal_;
   ReplayKeys keys_;
@@ -167,13 +171,17 @@ void Replay::run() {
 void Replay::play_lap() {
   peer::SourceDatagram datagram;
   while (!has_ended() && source_->next(datagram, {}) == peer::SourceEvent::datagram) {
-    if (!unseal(datagram) || !selection_.takes(datagram)) continue;
+    if (!unseal(datagram)) continue;
+    if (!selection_.takes(datagram)) {
+      ++counts_.not_chosen;
+      continue;
+    }
     if (datagram.portion == peer::Portion::whole)
       play(datagram);
     else
       ++counts_.incomplete;
     if (!std::exchange(read_again_, false)) continue;
-    counts_.incomplete = 0;  // they will be counted again
+    counts_.incomplete = counts_.not_chosen = 0;  // they will be counted again
     source_ = open_recording(options_.file);
   }
 }
@@ -190,11 +198,7 @@ bool Replay::unseal(peer::SourceDatagram& datagram) {
 }
 
 void Replay::play(const peer::SourceDatagram& datagram) {
-  if (!schedule_.has_value()) {
-    senders_.prepare(destination(datagram));
-    begin_ = looked_ = clock_.now();
-    schedule_.emplace(options_.rate, begin_);
-  }
+  if (!schedule_.has_value()) begin(datagram);
   schedule_->next(datagram.time);
   if (!wait_for_turn()) return;
   send(datagram);
@@ -202,6 +206,15 @@ void Replay::play(const peer::SourceDatagram& datagram) {
   if (options_.rate > 0) counts_.latest = std::max(counts_.latest, end_ - schedule_->due());
   schedule_->sent(end_);
   if (status_.due(end_)) show_status(end_);
+}
+
+void Replay::begin(const peer::SourceDatagram& datagram) {
+  if (options_.interface == kRecorded) senders_.use(recorded_interface(*source_));
+  senders_.prepare(destination(datagram));
+  reach_.note(destination(datagram));
+  fmt::print(console_.err, "sending to {}\n", reach_.text(senders_.interface()));
+  begin_ = looked_ = clock_.now();
+  schedule_.emplace(options_.rate, begin_);
 }
 
 // False if the datagram is not to be sent: skipped by a jump, or the end was requested.
@@ -253,6 +266,7 @@ void Replay::send(const peer::SourceDatagram& datagram) {
     map_.apply(buffer_);
     bytes = buffer_;
   }
+  reach_.note(destination(datagram));
   if (!senders_.send(destination(datagram), bytes)) {
     ++counts_.refused;
     return;
@@ -290,6 +304,7 @@ void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds no
       .value("too_big", std::min(counts_.refused, senders_.too_big()))
       .value("fragmented", senders_.fragmented())
       .value("incomplete", counts_.incomplete)
+      .value("not_chosen", counts_.not_chosen)
       .value("mapped", map_.counts().mapped)
       .value("asked", fmt::format("{:.6g}", begun ? schedule_->asked() : options_.rate))
       .value("got", counts_.sent > 1 && schedule_->kept() > 0
@@ -302,24 +317,28 @@ void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds no
 void Replay::report_refusal() const {
   const std::uint64_t too_big = std::min(counts_.refused, senders_.too_big());
   fmt::print(console_.err, "{} not sent: {} too big for {}, {} refused by the kernel{}\n",
-             counted(counts_.refused, "datagram"), too_big, options_.interface,
+             counted(counts_.refused, "datagram"), too_big, senders_.interface(),
              counts_.refused - too_big,
-             options_.interface == "lo" ? "; lo reaches this host only, --iface names another"
-                                        : "; is there a route to it?");
+             senders_.interface() == "lo" ? "; lo reaches this host only, --iface names another"
+                                          : "; is there a route to it?");
 }
 
 ExitCode Replay::summarise() const {
-  fmt::print(console_.err, "replayed {} ({}) in {}; {}", counted(counts_.sent, "datagram"),
-             size_text(counts_.octets), duration_text(end_ - begin_), speed_text());
+  fmt::print(console_.err, "replayed {} ({}) in {} to {}; {}", counted(counts_.sent, "datagram"),
+             size_text(counts_.octets), duration_text(end_ - begin_),
+             reach_.text(senders_.interface()), speed_text());
   if (options_.rate > 0 && counts_.sent > 0)
     fmt::print(console_.err, "; at most {} late", duration_text(counts_.latest));
   fmt::print(console_.err, "\n");
+  if (counts_.not_chosen > 0)
+    fmt::print(console_.err, "{} left out: not chosen by the flags\n",
+               counted(counts_.not_chosen, "datagram"));
   if (counts_.incomplete > 0)
     fmt::print(console_.err, "{} left out: IP fragments are missing, or the capture cut it\n",
                counted(counts_.incomplete, "datagram"));
   if (senders_.fragmented() > 0)
     fmt::print(console_.err, "{} sent in IP fragments: above the MTU of {}, {} octets\n",
-               counted(senders_.fragmented(), "datagram"), options_.interface, senders_.mtu());
+               counted(senders_.fragmented(), "datagram"), senders_.interface(), senders_.mtu());
   if (counts_.refused > 0) report_refusal();
   fmt::print(console_.err, "{}{}", map_.summary(), sealed_.summary());
   const std::string& problem = source_->report().problem;
@@ -382,9 +401,10 @@ int run_replay(Arguments arguments, const Console& console) {
   line.option("--to", options.to,
               "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
               "where it was sent); or stop this long after the first datagram, for example 2min");
-  line.option(
-      "--iface", options.interface,
-      "interface to send on (default: lo, this host only; for a broadcast address its own)");
+  line.option("--iface", options.interface,
+              "interface to send on (default: lo, which reaches only this host; for a broadcast "
+              "address, the "
+              "one it belongs to); 'recorded': the one that the capture names");
   line.offer("--iface", kInterfaces);
   line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
   line.option("--loop", options.loop, "repeat this many times; 0: until Ctrl-C");

@@ -46,6 +46,7 @@ TEST(MeshReport, TellsEachThingFoundWithPlaceAndWhatWasDone) {
   report.closed = false;
   report.polygons = {2, 3};
   report.merged_vertices = 1;
+  report.octets_behind = 2;
   report.dropped_degenerate = {1, 17};
   report.dropped_duplicates = {2, 18};
   report.turned = {3, 19};
@@ -62,6 +63,7 @@ TEST(MeshReport, TellsEachThingFoundWithPlaceAndWhatWasDone) {
   EXPECT_THAT(
       mesh_notes(report),
       ElementsAre(
+          HasSubstr("2 octets behind the 5184 faces that the file counts were not read"),
           HasSubstr("1 triangle without area was dropped (first: line 17)"),
           HasSubstr("2 triangles were dropped that had the corners of another (first: line "
                     "18)"),

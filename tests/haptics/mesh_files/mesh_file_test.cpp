@@ -92,20 +92,34 @@ TEST(MeshFile, KeepsEveryDigitOfEveryFormat) {
                                   "endloop\nendfacet\nendsolid\n");
 }
 
-TEST(MeshFile, ReadsABinaryStlThatBeginsLikeAText) {
-  std::string bytes = "solid but binary";
+std::string binary_stl(std::string bytes) {
   bytes.resize(80, ' ');
   append(bytes, std::uint32_t{2});
   for (int facet = 0; facet < 2; ++facet) {
     for (int i = 0; i < 12; ++i) append(bytes, static_cast<float>(facet * 12 + i));
     append(bytes, std::uint16_t{0});
   }
-  const TemporaryMesh written(".stl", bytes);
+  return bytes;
+}
+
+TEST(MeshFile, ReadsABinaryStlThatBeginsLikeAText) {
+  const TemporaryMesh written(".stl", binary_stl("solid but binary"));
   const MeshFile file = read_mesh_file(written.path());
   ASSERT_EQ(file.faces.size(), 2u);
   ASSERT_EQ(file.vertices.size(), 6u);
   EXPECT_EQ(file.vertices[4], Vector3d(18, 19, 20));  // behind the second normal, 12 to 14
   EXPECT_EQ(file.place_word, "face");
+}
+
+TEST(MeshFile, CountsOctetsBehindTheFacesOfAnStl) {
+  for (const char* begin : {"solid but binary", "binary"}) {
+    for (const std::size_t behind : {0U, 2U, 50U}) {
+      const TemporaryMesh written(".stl", binary_stl(begin) + std::string(behind, 'x'));
+      const MeshFile file = read_mesh_file(written.path());
+      EXPECT_EQ(file.faces.size(), 2u) << begin;
+      EXPECT_EQ(file.octets_behind, behind) << begin;
+    }
+  }
 }
 
 TEST(MeshFile, TakesObjIndicesOfEveryKind) {
@@ -168,6 +182,11 @@ TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
               HasSubstr(":5: a face names vertex 8, counted from 0, of 3"));
   EXPECT_THAT(message(".obj", "v 0 0 0\nf -1 -2 -3\n"), HasSubstr(":2: face 1 names vertex -1"));
   EXPECT_THAT(message(".obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr(":2: '0' names no vertex"));
+  const std::string little("v\0 \0001\0 \000", 8), big("\0v\0 \0001\0 ", 8);
+  EXPECT_EQ(message(".obj", little), ": is text in UTF-16 (little-endian); save it in UTF-8");
+  EXPECT_EQ(message(".obj", "\xFF\xFE" + little), message(".obj", little));
+  EXPECT_EQ(message(".obj", big), ": is text in UTF-16 (big-endian); save it in UTF-8");
+  EXPECT_EQ(message(".ply", "\xFE\xFF" + big), message(".obj", big));
   EXPECT_THAT(message(".off", "OFF BINARY\n"), HasSubstr(":1: is binary; write it as a text"));
   EXPECT_THAT(message(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n"),
               HasSubstr("ends before vertex 2 of 3"));
@@ -178,6 +197,7 @@ TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
               HasSubstr("no list vertex_indices"));
   EXPECT_THAT(message(".ply", binary_ply(false).substr(0, 400)), HasSubstr("cut off"));
   EXPECT_THAT(message(".stl", "solid s\nouter loop\nvertex 0 0 0\n"), HasSubstr("cut off"));
+  EXPECT_THAT(message(".stl", binary_stl("cut").substr(0, 180)), HasSubstr("184 octets, where"));
   EXPECT_THAT(message(".stl", std::string(100, 'x')), HasSubstr("octets, where it has 100"));
   EXPECT_THAT(message(".3ds", ""), HasSubstr("ends in .obj, .ply, .stl or .off"));
 }

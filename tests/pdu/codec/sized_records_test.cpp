@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "reckon/pdu/emission/electromagnetic_emission.hpp"
@@ -13,6 +14,7 @@
 #include "reckon/pdu/environment/environmental_process.hpp"
 #include "reckon/pdu/finite.hpp"
 #include "reckon/pdu/management/record_r.hpp"
+#include "reckon/pdu/print.hpp"
 #include "reckon/pdu/radio/signal.hpp"
 #include "reckon/pdu/radio/transmitter.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
@@ -108,7 +110,25 @@ TEST(IffLayers, GoOnToTheEndOfThePdu) {
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
   std::vector<unsigned> layers;
   for (const auto& layer : pdu.layers.records()) layers.push_back(layer.head.layer_number);
-  EXPECT_EQ(layers, (std::vector<unsigned>{2, 3, 4, 5}));
+  EXPECT_EQ(layers, (std::vector<unsigned>{2, 3, 4, 4, 5}));
+}
+
+TEST(IffLayers, OfModeSStayOctetsWhereTheyDoNotFit) {
+  const auto shown = [](std::size_t size, std::uint8_t records) {
+    Octets layer(size);
+    layer[0] = std::byte{4};
+    layer[3] = static_cast<std::byte>(size);
+    if (size >= 36) layer[35] = static_cast<std::byte>(records);
+    Iff pdu;
+    pdu.layers.bytes = layer;
+    std::string text;
+    TextSink sink(text);
+    print_json(pdu, sink);
+    return text;
+  };
+  EXPECT_NE(shown(36, 0).find("\"levels_present\":0"), std::string::npos);
+  EXPECT_EQ(shown(36, 1).find("levels_present"), std::string::npos) << "a record is missing";
+  EXPECT_EQ(shown(20, 0).find("levels_present"), std::string::npos) << "too short";
 }
 
 TEST(IffLayers, WithALengthOfZeroAreRefusedAndNotWalkedForEver) {

@@ -76,6 +76,31 @@ TEST(CaptureFile, ReadsTimesFramesAndCounts) {
   std::filesystem::remove(path);
 }
 
+TEST(CaptureFile, CountsTunnelsThatAreNotReadByName) {
+  const Bytes unread = mpls(Bytes(40, 0xff));
+  const std::string path =
+      write_pcap("tunnels.pcap", 1,
+                 {unread, ethernet(vxlan(ethernet(ipv4(udp(10))))), unread,
+                  ethernet(gre(Bytes(40, 0), 0x880b, 0x2001)), ethernet(Bytes(28, 0), 0x0806)});
+  const auto source = open_source(path);
+  const SourceReport report = read_all(*source);
+  EXPECT_EQ(report.datagrams, 1u);
+  EXPECT_EQ(report.skipped, 4u);
+  EXPECT_EQ(report.problem,
+            path + ": 1 frame of GRE of PPTP is not read; 2 frames of MPLS are not read");
+  std::filesystem::remove(path);
+}
+
+TEST(CaptureFile, ReadsTunnelsAsTsharkDoes) {
+  RECKON_NEED_DATA("field");
+  const auto path = test::reference_data() / "field/g06-tunnels-vxlan-erspan-ipip.pcap";
+  std::uint64_t octets = 0;
+  const SourceReport report = read_all(*open_source(path.string()), &octets);
+  EXPECT_EQ(report.datagrams, 3u);
+  EXPECT_EQ(octets, 3u * 144u);
+  EXPECT_EQ(report.problem, "");
+}
+
 // A little-endian pcapng file of one frame; `stamp` counts units of 10^-resolution seconds.
 std::string write_pcapng(std::uint32_t resolution, std::uint64_t stamp) {
   const Bytes frame = ethernet(ipv4(udp(142)));  // a multiple of 4 octets

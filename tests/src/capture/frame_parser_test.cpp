@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Parsed {
   FrameContent content;
   SourceDatagram datagram;
   std::optional<IpFragment> fragment;
+  std::string_view unread;
 };
 
 Parsed parse(LinkLayer layer, const Bytes& frame, std::size_t on_wire = 0) {
@@ -30,6 +32,7 @@ Parsed parse(LinkLayer layer, const Bytes& frame, std::size_t on_wire = 0) {
       parse_frame(layer, std::as_bytes(std::span(frame)), on_wire, out.datagram);
   out.content = parsed.content;
   out.fragment = parsed.fragment;
+  out.unread = parsed.unread;
   return out;
 }
 
@@ -122,9 +125,69 @@ TEST(ParseFrame, CallsLyingHeadersMalformed) {
   EXPECT_EQ(parse(LinkLayer::raw_ip, long_total).content, FrameContent::malformed);
 }
 
+TEST(ParseFrame, FindsUdpInsideTunnelsAndMirrors) {
+  // The inner addresses differ from those of the tunnel.
+  const Bytes packet = ipv6(udp(60));
+  const Bytes frame = ethernet(packet, 0x86dd);
+  const Bytes tagged = Bytes(12, 1) + u16(0x8100) + u16(7) + u16(0x86dd) + packet;
+  const std::vector<std::pair<std::string_view, Bytes>> tunnels = {
+      {"VXLAN", ethernet(vxlan(frame))},
+      {"ERSPAN I", ethernet(gre(tagged, 0x88be))},
+      {"ERSPAN II", ethernet(erspan(frame, 2))},
+      {"ERSPAN III", ethernet(erspan(tagged, 3))},
+      {"GRE of Ethernet", ethernet(gre(frame, 0x6558))},
+      {"GRE of IP with checksum and key", ethernet(gre(Bytes(8, 0) + packet, 0x86dd, 0xa000))},
+      {"IPv6 in IPv4", ethernet(ipv4(packet, 41))},
+      {"IPv6 in IPv6", ethernet(ipv6(packet, 41), 0x86dd)},
+      {"PPPoE", pppoe(packet, 0x0057)},
+      {"MPLS of IP", mpls(packet)},
+      {"MPLS of Ethernet", mpls(Bytes{0, 0, 0, 0} + frame)},
+      {"VXLAN in IP in MPLS in PPPoE", pppoe(Bytes{0, 1, 17, 64} + ipv4(vxlan(frame), 4), 0x0281)}};
+  for (const auto& [name, octets] : tunnels) {
+    const Parsed parsed = parse(LinkLayer::ethernet, octets);
+    ASSERT_EQ(parsed.content, FrameContent::udp) << name;
+    EXPECT_EQ(parsed.datagram.source.text(), "[fd00::7]:3001") << name;
+    EXPECT_EQ(parsed.datagram.bytes.size(), 60u) << name;
+    EXPECT_EQ(parsed.datagram.portion, Portion::whole) << name;
+  }
+}
+
+TEST(ParseFrame, ReadsFourNestedTunnelsAndNamesMore) {
+  Bytes nested = ipv4(udp(9));
+  for (int depth = 1; depth <= 6; ++depth) {
+    nested = ipv4(nested, 4);
+    const Parsed parsed = parse(LinkLayer::raw_ip, nested);
+    EXPECT_EQ(parsed.content == FrameContent::udp, depth <= 4) << depth;
+    EXPECT_EQ(parsed.unread, depth <= 4 ? "" : "more than 4 nested tunnels") << depth;
+  }
+}
+
+TEST(ParseFrame, NamesTunnelsThatItCannotRead) {
+  const Bytes ip = ipv4(udp(9));
+  EXPECT_EQ(parse(LinkLayer::ethernet, mpls(Bytes(30, 0xff))).unread, "MPLS");
+  EXPECT_EQ(parse(LinkLayer::raw_ip, gre(ip, 0x880b, 0x2001)).unread, "GRE of PPTP");
+  EXPECT_EQ(parse(LinkLayer::ethernet, pppoe(ip, 0x00fd)).unread, "compressed or encrypted PPPoE");
+  EXPECT_EQ(parse(LinkLayer::raw_ip, gre(Bytes(40, 0xff), 0x88be, 0x1000)).unread, "ERSPAN");
+  // The control of a link has no datagrams, and a datagram to the port of VXLAN may be another.
+  EXPECT_EQ(parse(LinkLayer::ethernet, pppoe(ip, 0xc021)).unread, "");
+  EXPECT_EQ(parse(LinkLayer::raw_ip, gre({}, 0)).content, FrameContent::not_udp);
+  const Bytes other = u16(1) + u16(4789) + u16(20) + u16(0) + Bytes(12, 7);
+  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv4(other)).datagram.bytes.size(), 12u);
+}
+
+TEST(ParseFrame, CallsLyingTunnelsMalformed) {
+  Bytes session = pppoe(ipv4(udp(9)));
+  session[18] = 9;  // longer than the frame
+  EXPECT_EQ(parse(LinkLayer::ethernet, session).content, FrameContent::malformed);
+  EXPECT_EQ(parse(LinkLayer::raw_ip, gre(Bytes(3, 0), 0x0800, 0x2000)).content,
+            FrameContent::malformed);
+  EXPECT_EQ(parse(LinkLayer::raw_ip, vxlan(Bytes(13, 0))).content, FrameContent::malformed);
+}
+
 TEST(ParseFrame, SurvivesEveryTruncationAndRandomOctets) {
   const std::vector<Bytes> seeds = {
-      ethernet(ipv4(udp(30))),
+      ethernet(vxlan(ethernet(erspan(pppoe(ipv4(udp(30), 4)), 3)))),
+      mpls(Bytes{0, 0, 0, 0} + ethernet(ipv4(ipv6(udp(30)), 41))), ethernet(ipv4(udp(30))),
       ethernet(ipv6(Bytes{60, 0, 0, 0, 0, 0, 0, 0} + Bytes{17, 1} + Bytes(14, 0) + udp(30), 0),
                0x86dd)};
   std::mt19937 random(3);

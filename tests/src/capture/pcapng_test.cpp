@@ -168,6 +168,18 @@ TEST(Pcapng, HasSimpleAndObsoletePacketsAndUnknownBlocks) {
   EXPECT_EQ(read.datagrams[1].datagram.time, 9us);
 }
 
+TEST(Pcapng, GivesASimplePacketTheTimeBefore) {
+  const ScratchFolder folder;
+  PcapngFile file;
+  file.interface(kEthernet, 65535);
+  const Bytes frame = ethernet(ipv4(udp(10)));
+  file.packet(0, 7, frame);
+  file.block(3, file.number(static_cast<std::uint32_t>(frame.size())) + frame);
+  const ReadBack read = read_all(file.write(folder.file("simple.pcapng")));
+  ASSERT_EQ(read.datagrams.size(), 2U) << read.report.problem;
+  EXPECT_EQ(read.datagrams[1].datagram.time, read.datagrams[0].datagram.time);
+}
+
 TEST(Pcapng, TellsHowManyFramesAreOfALinkTypeThatIsNotRead) {
   const ScratchFolder folder;
   PcapngFile file;

@@ -77,6 +77,7 @@ bool excludes_itself(const std::string& text) {
   if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
   if (says("own_group") && says("compression = \"residual\"")) return true;
   const bool budgeted = says("budget") && !says("budget = \"0 B\"");
+  if (says("lenient = true") && !says("interop = true")) return true;
   return (says("interop = true") && (compressed || led || budgeted)) ||
          (led && (compressed || says("farthest"))) || (says("hand_out = true") && !led);
 }

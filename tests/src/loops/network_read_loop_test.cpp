@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/network_read_loop.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <string>
 #include <vector>
 
+#include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tests/src/support/manual_link.hpp"
 
@@ -16,6 +20,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 const GroupPool kPool = GroupPool::ipv4_default();
 constexpr std::uint32_t kWaiting = 10'000;
@@ -133,6 +139,79 @@ TEST(NetworkReadLoop, QueuesNeitherJunkNorAFlood) {
   EXPECT_EQ(loop.muted().front()->who, network.link(1).local_endpoint());
 }
 
+// A reader of exercise 1, and what the links send to it.
+struct Gate {
+  explicit Gate(bool lenient = false, std::size_t links = 3)
+      : network({.links = links}, clock),
+        loop(network.link(0), commands, inbound, counters, std::uint8_t{1}, lenient) {
+    static_cast<void>(commands.push({kPool.base(), true}));
+    loop.step(clock.now());
+  }
+  void send(std::size_t link, std::uint8_t exercise, std::uint8_t length) {
+    std::array<std::byte, 12> pdu{std::byte{7}, std::byte{exercise}};
+    pdu[9] = std::byte{length};
+    network.link(link).send(kPool.base(), pdu);
+    pass(milliseconds(1));
+  }
+  void pass(nanoseconds time) {
+    clock.advance(time);
+    loop.step(clock.now());
+  }
+  std::vector<std::string> reports() {
+    std::vector<std::string> all;
+    while (const RefusedSender* sender = loop.refused().front()) {
+      all.emplace_back(notice_of(*sender, true).text.data());
+      loop.refused().pop();
+    }
+    return all;
+  }
+  ManualClock clock{seconds(1), nanoseconds(0)};
+  SimulatedNetwork network;
+  haptics::SpscRing<GroupCommand> commands{16};
+  DatagramRing inbound{std::size_t{1} << 20};
+  Counters counters;
+  NetworkReadLoop loop;
+};
+
+TEST(NetworkReadLoop, ReportsARefusedSenderOnceForEachReason) {
+  Gate gate;
+  for (int i = 0; i < 32; ++i) gate.send(1, 1, 0);
+  for (int i = 0; i < 3; ++i) gate.send(2, 9, 12);
+  EXPECT_THAT(gate.reports(), IsEmpty());
+  gate.pass(seconds(1));
+  const std::string one = gate.network.link(1).local_endpoint().text();
+  const std::string two = gate.network.link(2).local_endpoint().text();
+  EXPECT_THAT(gate.reports(),
+              ElementsAre(one + ": 32 datagrams refused: length field 0; to read them, set "
+                                "lenient in the scene",
+                          two + ": 3 datagrams refused: exercise 9, see exercise in the scene"));
+  gate.send(1, 1, 0);
+  gate.pass(seconds(100));
+  EXPECT_THAT(gate.reports(), IsEmpty());
+  EXPECT_EQ(gate.counters.find("refused_no_length_in")->value(), 33u);
+  EXPECT_EQ(gate.inbound.front(), nullptr);
+}
+
+TEST(NetworkReadLoop, SumsFurtherRefusedSenders) {
+  Gate gate(false, 2 + RefusedSenders::kMost);
+  for (std::size_t link = 1; link < 2 + RefusedSenders::kMost; ++link) gate.send(link, 9, 12);
+  gate.pass(seconds(1));
+  const auto reports = gate.reports();
+  ASSERT_EQ(reports.size(), 1 + RefusedSenders::kMost);
+  EXPECT_EQ(reports.back(), "1 datagram of further senders refused");
+}
+
+TEST(NetworkReadLoop, ReadsALengthOfZeroIfLenient) {
+  Gate gate(true);
+  gate.send(1, 1, 0);
+  const QueuedDatagram* read = gate.inbound.front();
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(read->octets.size(), 12u);
+  EXPECT_EQ(read->octets[9], std::byte{12}) << "up to the end of the datagram";
+  gate.pass(seconds(1));
+  EXPECT_THAT(gate.reports(), IsEmpty());
+}
+
 TEST(NetworkReadLoop, DropsAndCountsWhatHasWaitedForMoreThanASecond) {
   ManualClock clock;
   SimulatedNetwork network({}, clock);
@@ -225,7 +304,8 @@ TEST(NetworkReadLoop, KeepsWhatIsFeltInARingOfItsOwn) {
   DatagramRing others(std::size_t{64} << 10), felt(std::size_t{64} << 10);
   Counters counters;
   const GroupPool contacts(kPool.address(99), 100);
-  NetworkReadLoop loop(link, commands, others, counters, {}, nullptr, UrgentRing{contacts, felt});
+  NetworkReadLoop loop(link, commands, others, counters, {}, false, nullptr,
+                       UrgentRing{contacts, felt});
   for (std::uint32_t i = 0; i < 3; ++i) link.put(kPool.address(99), numbered(i));
   link.put(kPool.address(100), numbered(3));
   link.put(kPool.base(), numbered(4));

@@ -50,4 +50,30 @@ inline Bytes ethernet(const Bytes& payload, std::size_t type = 0x0800) {
   return Bytes(12, 1) + u16(type) + payload;
 }
 
+/// A frame in a VXLAN of the network 7 (RFC 7348).
+inline Bytes vxlan(const Bytes& frame) {
+  const Bytes head = Bytes{8, 0, 0, 0, 0, 0, 7, 0};
+  return ipv4(u16(49152) + u16(4789) + u16(16 + frame.size()) + u16(0) + head + frame);
+}
+/// Content of this EtherType in GRE (RFC 2784).
+inline Bytes gre(const Bytes& content, std::size_t type, std::size_t flags = 0) {
+  return ipv4(u16(flags) + u16(type) + content, 47);
+}
+/// A frame mirrored by ERSPAN of type 2, or 3 with its platform header.
+inline Bytes erspan(const Bytes& frame, int type) {
+  const Bytes sequence = Bytes{0, 0, 0, 9};
+  if (type == 2) return gre(sequence + Bytes{0x10, 1, 0, 0, 0, 0, 0, 0} + frame, 0x88be, 0x1000);
+  return gre(sequence + Bytes{0x20, 1} + Bytes(9, 0) + Bytes{1} + Bytes(8, 0) + frame, 0x22eb,
+             0x1000);
+}
+/// A packet in a PPPoE session (RFC 2516).
+inline Bytes pppoe(const Bytes& packet, std::size_t protocol = 0x0021) {
+  return ethernet(Bytes{0x11, 0} + u16(3) + u16(packet.size() + 2) + u16(protocol) + packet,
+                  0x8864);
+}
+/// Content behind two labels of MPLS (RFC 3032).
+inline Bytes mpls(const Bytes& content) {
+  return ethernet(Bytes{0, 1, 0, 64, 0, 1, 17, 64} + content, 0x8847);
+}
+
 }  // namespace reckon::peer::frames

@@ -530,7 +530,10 @@ H parameter_6
 @ layers/fundamental_parameters f:effective_radiated_power f:frequency f:pulse_group_repetition_frequency f:pulse_width I:burst_length B:applicable_modes 3x:system_specific_data
 @ layers B:layer_number=3 B:layer_specific_information H:length=36 S:reporting_simulation 16x:mode_5_basic_data H:padding H:number_of_data_records=1
 @ layers/data_records I:record_type=4600 H:record_length=8 2x:body
-@ layers B:layer_number=4 B:layer_specific_information H:length=20 16x:body
+@ layers B:layer_number=4 B:layer_specific_information H:length=44 S:reporting_simulation H:transponder_status B:levels_present B:aircraft_present_domain text8:aircraft_identification=HB-ABC I:aircraft_address B:aircraft_identification_type B:dap_source H:altitude B:capability_report B:padding_1 H:padding_2 H:padding_3 H:number_of_data_records=1
+@ layers/data_records I:record_type=4600 H:record_length=8 2x:body
+@ layers B:layer_number=4 B:layer_specific_information H:length=36 S:reporting_simulation B:interrogator_status B:padding_1=0 B:levels_present B:padding_2=0 hex:padding_3=0000000000000000000000000000000000000000 H:padding_4=0 H:number_of_data_records=0
+@ layers/data_records
 @ layers B:layer_number=5 B:layer_specific_information H:length=16 S:reporting_simulation H:padding_1 B:applicable_layers B:data_category H:padding_2 H:number_of_data_records=0
 @ layers/data_records
 = underwater_acoustic 29 6
@@ -598,8 +601,9 @@ H number_of_silent_entity_systems=2
 I number_of_variable_datum_records=1
 @ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
 = is_group_of 34 7
-E group_entity_id, B grouped_entity_category, B number_of_grouped_entities, I padding=0, d latitude, d longitude
-20x grouped_entity_descriptions
+E group_entity_id, B grouped_entity_category=6, B number_of_grouped_entities=2, I padding=0, d latitude, d longitude
+@ grouped_entity_descriptions H:entity_number h:x_offset h:y_offset h:z_offset I:entity_appearance b:psi b:theta b:phi B:fuel_status b:movement_horizontal_deviation b:movement_vertical_deviation h:movement_speed b:turret_azimuth b:gun_elevation b:turret_scan_rate b:gun_elevation_rate B:supplemental_fuel_status B:air_maintenance_status B:primary_ammunition B:secondary_ammunition
+@ grouped_entity_descriptions H:entity_number h:x_offset=-7 h:y_offset h:z_offset I:entity_appearance b:psi=-100 b:theta b:phi B:fuel_status b:movement_horizontal_deviation b:movement_vertical_deviation h:movement_speed b:turret_azimuth b:gun_elevation b:turret_scan_rate b:gun_elevation_rate B:supplemental_fuel_status B:air_maintenance_status B:primary_ammunition B:secondary_ammunition
 = transfer_ownership 35 7
 E originating_entity_id, E receiving_entity_id, I request_id, B required_reliability_service, B transfer_type
 E transfer_entity_id, I number_of_record_sets=2
@@ -625,10 +629,57 @@ B number_of_sensor_types=2, I data_filter, T requested_mine_type
 20x padding_to_32_bits
 = minefield_data 39 8
 E minefield_id, E requesting_entity_id, H minefield_sequence, B request_id, B pdu_sequence_number, B number_of_pdus
-B number_of_mines, B number_of_sensor_types=2, B padding=0, I data_filter, T mine_type
+B number_of_mines=3, B number_of_sensor_types=1, B padding=0, I data_filter=2047, T mine_type
 @ sensor_types H:sensor_type
-@ sensor_types H:sensor_type
-20x mines
+2x padding_to_32_bits
+@ mine_locations f:x f:y f:z
+@ mine_locations f:x f:y f:z
+@ mine_locations f:x f:y f:z
+@ ground_burial_depth_offsets f:value
+@ ground_burial_depth_offsets f:value
+@ ground_burial_depth_offsets f:value
+@ water_burial_depth_offsets f:value
+@ water_burial_depth_offsets f:value
+@ water_burial_depth_offsets f:value
+@ snow_burial_depth_offsets f:value
+@ snow_burial_depth_offsets f:value
+@ snow_burial_depth_offsets f:value
+@ mine_orientations f:psi f:theta f:phi
+@ mine_orientations f:psi f:theta f:phi
+@ mine_orientations f:psi f:theta f:phi
+@ thermal_contrasts f:value
+@ thermal_contrasts f:value
+@ thermal_contrasts f:value
+@ reflectances f:value
+@ reflectances f:value
+@ reflectances f:value
+@ mine_emplacement_times i:hour I:time_past_hour
+@ mine_emplacement_times i:hour I:time_past_hour
+@ mine_emplacement_times i:hour I:time_past_hour
+@ mine_entity_numbers H:value
+@ mine_entity_numbers H:value
+@ mine_entity_numbers H:value
+@ fusings H:value
+@ fusings H:value
+@ fusings H:value
+@ scalar_detection_coefficients B:value
+@ scalar_detection_coefficients B:value
+@ scalar_detection_coefficients B:value
+@ paint_schemes B:value
+@ paint_schemes B:value
+@ paint_schemes B:value
+2x padding_behind_mines
+@ numbers_of_wires B:value=1
+@ numbers_of_wires B:value=0
+@ numbers_of_wires B:value=2
+1x padding_behind_numbers_of_wires
+@ numbers_of_vertices B:value=2
+@ numbers_of_vertices B:value=0
+@ numbers_of_vertices B:value=1
+1x padding_behind_numbers_of_vertices
+@ wire_vertices f:x f:y f:z
+@ wire_vertices f:x f:y f:z
+@ wire_vertices f:x f:y f:z
 = minefield_response_nack 40 8
 E minefield_id, E requesting_entity_id, B request_id, B number_of_missing_pdus=12, 12x missing_pdu_sequence_numbers
 20x padding_to_32_bits

@@ -62,6 +62,18 @@ TEST(ReplaySchedule, SendsLateComersAtTheirOwnTime) {
   EXPECT_EQ(schedule.played(), 3s);
 }
 
+TEST(ReplaySchedule, SendsWhatIsStampedBeforeTheFirstAtOnce) {
+  ReplaySchedule schedule(1.0, 50s);
+  (void)play(schedule, 100s);
+  schedule.next(40s);
+  EXPECT_FALSE(schedule.is_skipped());
+  EXPECT_LT(schedule.due(), 50s);
+  (void)schedule.seek(-10s, 50s);
+  schedule.next(100s);
+  schedule.next(40s);
+  EXPECT_FALSE(schedule.is_skipped()) << "from the beginning again";
+}
+
 TEST(ReplaySchedule, JoinsLapsAtTheMeanSpacing) {
   ReplaySchedule schedule(1.0, 0s);
   std::vector<nanoseconds> due;

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -93,10 +94,10 @@ TEST(Filter, MatchesByTheWordsThatDisPeopleKnow) {
                           "kind == munition and side == 1 or side == 2",
                           "  ( ( side == 2 ) )  "})
     EXPECT_TRUE(sample.matches(yes)) << yes;
-  for (const char* no :
-       {"id == 2:*:*", "id != 1:*:*", "side == friendly", "kind == munition", "speed < 5",
-        "marking == truck", "sender == 10.0.0.2:*", "status != ok", "rule == *", "rule != E-*",
-        "not side == 2", "kind == munition and (side == 1 or side == 2)"})
+  for (const char* no : {"id == 2:*:*", "id != 1:*:*", "side == friendly", "kind == munition",
+                         "speed < 5", "marking == truck", "sender == 10.0.0.2:*", "status != ok",
+                         "rule == *", "rule != E-*", "rule == W-TRAILING", "rule == E-BYTE-ORDER",
+                         "not side == 2", "kind == munition and (side == 1 or side == 2)"})
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
@@ -111,6 +112,20 @@ TEST(Filter, KnowsCountriesByNameAndCodeAndTypesInWords) {
         "words == 'Platform Land United States Tank'"})
     EXPECT_TRUE(sample.matches(yes)) << yes;
   for (const char* no : {"country == deu", "country == 78", "words == '*truck*'"})
+    EXPECT_FALSE(sample.matches(no)) << no;
+}
+
+TEST(Filter, MatchesDottedTypesWithWildcards) {
+  pdu::EntityState tank = truck().state;
+  tank.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 1, 2, 3, 0};
+  const Sample sample(tank);
+  for (const char* yes : {"entity.type == 1", "entity.type == 1.1.225", "entity.type == 1.1.225.*",
+                          "entity.type == 1.1.225.1.2.3.0", "entity.type == 1.1.225.0.0",
+                          "entity.type == *.*.225.*.2", "entity.type == *", "entity.type != 1.2",
+                          "entity.type = 'platform land united states'", "type == entity_state"})
+    EXPECT_TRUE(sample.matches(yes)) << yes;
+  for (const char* no : {"entity.type == 1.2", "entity.type == 1.1.225.0.1", "entity.type != 1.1.*",
+                         "entity.type == *.*.*.*.*.*.7", "entity.type == 'Platform Air'"})
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
@@ -163,6 +178,13 @@ TEST(Filter, PointsAtTheColumnThatIsWrong) {
            {"id == 1:2", 7, "three parts"},
            {"id == 1:70000:*", 9, "'70000' is neither * nor a number from 0 to 65535"},
            {"id < 1:*:*", 4, "takes == and != only"},
+           {"entity.type == 1.1.70000", 20, "the country '70000' is neither * nor a number"},
+           {"entity.type == 1.300", 18, "the domain '300' is neither * nor a number from 0 to 255"},
+           {"entity.type == 1.1.", 20, "the country '' is neither"},
+           {"entity.type == 1.2.3.4.5.6.7.8", 30, "7 parts at most"},
+           {"entity.type == 'Platform Lnad'", 16, "did you mean \"Land\"?"},
+           {"entity.type < 1.1", 13, "takes == and != only"},
+           {"entity_type == 1.1", 1, "did you mean 'entity.type'?"},
            {"kind platform", 6, "expected ==, !=, <"},
            {"kind ==", 8, "expected a value"},
            {"speed > fast", 9, "'fast' is no number"},

@@ -5,12 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "reckon/pdu/live_entity/le_fire.hpp"
@@ -79,7 +81,39 @@ TEST(DatagramInspector, TakesALengthOf0AsTheRestIfLenient) {
             "the length field is 0, the 149 octets up to the end of the datagram are taken; 5 "
             "octets behind the last field are kept: ababababab");
   octets.resize(144 + 20);  // too few for its fields, whatever its length says
-  EXPECT_EQ(std::get<1>(rows_of(octets, true).at(1)), "E-LENGTH");
+  EXPECT_EQ(
+      rows_of(octets, true).at(1),
+      Row("entity_state", "E-LENGTH", "20 octets are there, entity_state needs at least 144"));
+  EXPECT_EQ(std::get<2>(rows_of(octets, false).at(1)),
+            "header says 0 octets, 20 are there, entity_state needs at least 144");
+}
+
+TEST(DatagramInspector, NamesALengthOfASenderThatIsLittleEndian) {
+  const auto exchange = [](Octets& octets, std::size_t pdu) {
+    std::swap(octets[pdu + 8], octets[pdu + 9]);
+  };
+  Octets octets;
+  append_pdu(octets, entity(1));
+  exchange(octets, 0);
+  EXPECT_EQ(rows_of(octets, false).at(0),
+            Row("entity_state", "E-BYTE-ORDER",
+                "header says 36864 octets, 144 remain; 36864 is 144 with its octets exchanged"));
+  append_pdu(octets, entity(2));  // the next one begins where it leads
+  EXPECT_EQ(std::get<1>(rows_of(octets, false).at(0)), "E-BYTE-ORDER");
+  octets.resize(octets.size() - 1);
+  octets[144] = std::byte{9};
+  EXPECT_EQ(std::get<1>(rows_of(octets, false).at(0)), "E-TRUNCATED") << "it leads nowhere";
+  Octets large;
+  std::array<std::byte, 16 * 23> parameters{};
+  pdu::EntityState state = entity(3);
+  state.variable_parameters = parameters;
+  append_pdu(large, state);  // 512 octets: 2 when exchanged
+  ASSERT_EQ(large.size(), 512U);
+  exchange(large, 0);
+  EXPECT_EQ(rows_of(large, false).at(0),
+            Row("entity_state", "E-BYTE-ORDER",
+                "header says 2 octets, entity_state needs at least 144; 2 is 512 with its octets "
+                "exchanged"));
 }
 
 TEST(DatagramInspector, KeepsAndNotesTrailingOctetsOfAnyTypeIfLenient) {
@@ -101,12 +135,14 @@ TEST(DatagramInspector, KeepsAndNotesTrailingOctetsOfAnyTypeIfLenient) {
   expect_trailing(Octets(12, std::byte{0}), "000000000000000000000000");
 }
 
-TEST(DatagramInspector, NotesOctetsBehindTheLastFieldIfLenient) {
+TEST(DatagramInspector, WarnsOfOctetsBehindTheLastFieldUnlessLenient) {
   Octets octets;
   append_pdu(octets, entity(1));
   octets.resize(152, std::byte{0x11});
   octets[9] = std::byte{152};
-  EXPECT_EQ(rows_of(octets, false), std::vector<Row>({Row("entity_state", "", "")}));
+  EXPECT_EQ(rows_of(octets, false),
+            std::vector<Row>({Row("entity_state", "W-TRAILING",
+                                  "8 octets behind the last field: 1111111111111111")}));
   EXPECT_EQ(rows_of(octets, true),
             std::vector<Row>({Row("entity_state", "I-TRAILING",
                                   "8 octets behind the last field are kept: 1111111111111111")}));

@@ -94,7 +94,7 @@ TEST(InspectRange, ShowsThatPartOfARecordingInEveryView) {
                 .lines()
                 .size(),
             1U);
-  for (const char* view : {"stats", "check", "bundles", "top", "haptics"})
+  for (const char* view : {"stats", "check", "bundles", "top", "haptics", "emissions"})
     EXPECT_LE(run_reckon({"inspect", file, view, "--from", "2", "--to", "5"}).status, 1) << view;
   EXPECT_THAT(run_reckon({"inspect", file, "stats", "--json", "--to", "3"}).lines().back(),
               HasSubstr(R"("pdus":3,"datagrams":3)"));

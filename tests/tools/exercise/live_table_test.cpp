@@ -105,6 +105,30 @@ TEST(LiveTable, GivesEachEntityOneLineAtEightyColumns) {
   EXPECT_EQ(lines_with(lines, "more"), 0U);
 }
 
+TEST(LiveTable, GivesEmittersALineWhereThereIsRoom) {
+  Peers all(1, 3);
+  peer::EmittedView& emits = all.view(0).rows[1].emits;
+  emits.emitters = 3;
+  emits.beams = 2;
+  emits.beam_hz = 9.4e9F;
+  emits.targets = 1;
+  emits.iff = emits.iff_on = 1;
+  emits.iff_type = 1;
+  emits.mode_3a = 0x2000 | 01274;
+  emits.radios = 2;
+  emits.transmitting = 1;
+  emits.radio_hz = 251.5375e6;
+  const auto lines = all.shown(24, 120);
+  const auto at = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.find("7:7:2 ") != line.npos;
+  });
+  ASSERT_NE(at, lines.end());
+  EXPECT_THAT(at[1], HasSubstr("emits 2 beams of 3 emitters, 9.4 GHz, 1 target; IFF on, mode_3a "
+                               "4721; transmits at 251.5375 MHz"));
+  const auto few = all.shown(9, 120);
+  EXPECT_EQ(lines_with(few, "7:7:"), 3U) << "entities first";
+}
+
 TEST(LiveTable, LeavesOutColumnsAndNotEntitiesInANarrowTerminal) {
   const auto wide = Peers(1, 3).shown(24, 200);
   EXPECT_THAT(wide, Contains(AllOf(HasSubstr("LEDGER"), HasSubstr("K1"), HasSubstr("AGE"))));

@@ -15,6 +15,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/datagrams/restored_states.hpp"
 #include "reckon/tools/inspect/output/json_lines.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
 
@@ -80,6 +81,13 @@ void add_samples(std::vector<Named>& all, pdu::TypeList<T...>) {
    ...);
 }
 
+/// Compressed States of as many states as fit, without octets.
+Octets empty_states() {
+  Octets octets = pdu_of<pdu::CompressedStates>(kLargest);
+  pdu::store_big_endian(octets.data() + 18, std::uint16_t{0xFFFF});
+  return octets;
+}
+
 /// Datagrams made to cost much, and every golden sample: whole, cut, and damaged.
 std::vector<Named> datagrams() {
   std::vector<Named> all;
@@ -102,6 +110,7 @@ std::vector<Named> datagrams() {
   all.push_back({"datum bomb", datums(2, 1)});
   all.push_back({"thousands of datums", datums(8000, 8000)});
   all.push_back({"thousands of record sets", too_many_sets()});
+  all.push_back({"thousands of compressed states", empty_states()});
   return all;
 }
 
@@ -112,8 +121,29 @@ peer::SourceDatagram datagram_of(const Octets& octets) {
   return datagram;
 }
 
-/// 4 times the datagram; of a small one, what a sentence about it needs.
-std::size_t heap_bound(std::size_t octets) { return std::max<std::size_t>(4 * octets, 1024); }
+/// Compressed states that are restored from a datagram.
+std::size_t compressed_states(const Octets& datagram) {
+  std::size_t count = 0;
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+    pdu::CompressedStates states;
+    if (decode(bundled.bytes, states) != pdu::DecodeError::none) continue;
+    pdu::CompressedStateReader reader(states);
+    for (pdu::CompressedState one; reader.next(one);) ++count;
+  }
+  return count;
+}
+
+/// 4 times the datagram; of a small one, what a sentence about it needs. 2 KiB for each state that
+/// is restored.
+std::size_t heap_bound(const Octets& octets) {
+  return std::max<std::size_t>(4 * octets.size(), 1024) + 2048 * compressed_states(octets);
+}
+
+/// 64 times the datagram with plain states, and 1 KiB.
+std::size_t text_bound(const Octets& octets) {
+  return 64 * (octets.size() + pdu::kFixedSize<pdu::EntityState> * compressed_states(octets)) +
+         1024;
+}
 
 TEST(DatagramBounds, RowsOfTheInspectorHoldAtMostFourTimesTheDatagramOrTheOneSentence) {
   for (const auto& [name, octets] : datagrams()) {
@@ -125,8 +155,19 @@ TEST(DatagramBounds, RowsOfTheInspectorHoldAtMostFourTimesTheDatagramOrTheOneSen
       inspector.inspect(datagram, [](const PduRow&) { return true; });
       peak = guard.peak_octets();
     }
-    EXPECT_LE(peak, heap_bound(octets.size())) << name << " of " << octets.size() << " octets";
+    EXPECT_LE(peak, heap_bound(octets)) << name << " of " << octets.size() << " octets";
   }
+}
+
+TEST(DatagramBounds, ThousandsOfCompressedStatesAreLeftOut) {
+  const Octets octets = empty_states();
+  std::size_t restored = 0;
+  DatagramInspector inspector;
+  inspector.inspect(datagram_of(octets), [&](const PduRow& row) {
+    restored += row.restored->size();
+    return true;
+  });
+  EXPECT_EQ(restored, RestoredStates::kMost);
 }
 
 TEST(DatagramBounds, TheCodecTakesNoHeapWhateverTheOctets) {
@@ -154,16 +195,16 @@ TEST(DatagramBounds, ADatagramHasAtMostOneRowForEachHeaderThatFits) {
 TEST(DatagramBounds, AnyDatagramBecomesAtMost64TimesItsSizeOfText) {
   for (const auto& [name, octets] : datagrams()) {
     const peer::SourceDatagram datagram = datagram_of(octets);
-    std::string json;
+    std::string line;
     std::string tree;
     DatagramInspector inspector;
     inspector.inspect(datagram, [&](const PduRow& row) {
-      append_json_line(json, row, true);
+      append_json_line(line, row, true);
       append_tree(tree, row, false);
       return true;
     });
-    EXPECT_LE(json.size(), 64 * octets.size() + 1024) << name;
-    EXPECT_LE(tree.size(), 64 * octets.size() + 1024) << name;
+    EXPECT_LE(line.size(), text_bound(octets)) << name;
+    EXPECT_LE(tree.size(), text_bound(octets)) << name;
   }
 }
 

@@ -149,6 +149,8 @@ TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
   const double chord_x = v / w * std::sin(w * t) - v * t;
   const double chord_y = v / w * (1 - std::cos(w * t));
   EXPECT_NEAR(ear.row().jump, std::hypot(chord_x, chord_y), 1e-3);
+  EXPECT_NEAR(ear.row().turn, 17.1887, 1e-3) << "0.3 rad, which FPB does not foretell";
+  EXPECT_EQ(ear.row().turns.count(), 1U);
 
   // The model that turns foretells it exactly.
   Ear turning;
@@ -159,6 +161,7 @@ TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
   turning.hear(0, first);
   turning.hear(t, second);
   EXPECT_LT(turning.row().jump, 1e-3);
+  EXPECT_LT(turning.row().turn, 1e-3);
   EXPECT_EQ(turning.row().cause, UpdateCause::repeat);
 }
 

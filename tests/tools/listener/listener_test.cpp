@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <random>
@@ -17,6 +15,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/tools/support/compressed_ship.hpp"
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
 
 namespace reckon::tools {
@@ -49,34 +48,6 @@ void take(Listener& listener, const pdu::EntityState& state, nanoseconds arrival
   listener.end_datagram();
 }
 
-// A datagram with one update of a ship that turns, plain where its form cannot carry it.
-Octets compressed(peer::StateCompressor& compressor, int update, pdu::EntityState& state) {
-  const nanoseconds now = kStart + update * milliseconds(500);
-  const double turn = 0.1 * update;
-  state.entity_id = {7, 1, 3};
-  state.header.timestamp = pdu::to_dis_timestamp(now, true);
-  state.location = {3e6 + 40 * std::cos(turn), 1e6 + 40 * std::sin(turn), 5e6};
-  state.linear_velocity = {static_cast<float>(-8 * std::sin(turn)),
-                           static_cast<float>(8 * std::cos(turn)), 0};
-  state.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rvw;
-  EXPECT_TRUE(pdu::quantise(state, {}));
-  std::array<std::byte, peer::StateCompressor::kRoom> octets;
-  const auto made = compressor.compress(state, {3}, update == 0, now, octets);
-  Octets datagram;
-  if (made.size == 0) {
-    test::append_pdu(datagram, state);
-    return datagram;
-  }
-  pdu::CompressedStates states;
-  states.header.timestamp = state.header.timestamp;
-  states.simulation = {7, 1};
-  states.form = compressor.form();
-  states.number_of_states = 1;
-  states.states.bytes = std::span(octets).first(made.size);
-  test::append_pdu(datagram, states);
-  return datagram;
-}
-
 TEST(Listener, RestoresCompressedStatesByAnyRules) {
   using pdu::CompressedForm;
   for (const CompressedForm form : {CompressedForm::compact, CompressedForm::residual}) {
@@ -85,9 +56,9 @@ TEST(Listener, RestoresCompressedStatesByAnyRules) {
     Listener monitor(kMonitorRules), capture(kCaptureRules);
     pdu::EntityState state;
     for (int update = 0; update < 40; ++update) {
-      const Octets datagram = compressed(compressor, update, state);
-      for (Listener* listener : {&monitor, &capture})
-        take(*listener, datagram, kStart + update * milliseconds(500));
+      const nanoseconds time = kStart + update * milliseconds(500);
+      const Octets datagram = test::compressed_ship(compressor, update, time, state);
+      for (Listener* listener : {&monitor, &capture}) take(*listener, datagram, time);
     }
     for (const Listener* listener : {&monitor, &capture}) {
       ASSERT_EQ(listener->entities().size(), 1U);

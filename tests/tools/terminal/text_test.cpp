@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,14 @@ TEST(TextTable, AlignsColumnsByWidthInCodePoints) {
             "\u00e4b         7\n"
             "longer  1234\n"
             "only\n");
+}
+
+TEST(AngleText, HasTwoDigitsOrWholeDegrees) {
+  EXPECT_EQ(angle_text(0.0009), "0");
+  EXPECT_EQ(angle_text(0.214), "0.21 deg");
+  EXPECT_EQ(angle_text(9.949), "9.9 deg");
+  EXPECT_EQ(angle_text(171.887), "172 deg");
+  EXPECT_EQ(angle_text(std::nan("")), "0");
 }
 
 TEST(Counted, MatchesTheNounToTheCount) {

@@ -128,6 +128,14 @@ TEST(Cut, TakesARangeOfTime) {
   EXPECT_EQ(left_after_cut(folder, in, {"--from", "9.95s"}), 0U);
 }
 
+TEST(Cut, TakesWhatIsStampedBeforeTheFirst) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 10, -100ms);
+  EXPECT_EQ(left_after_cut(folder, in, {}), 10U);
+  EXPECT_EQ(left_after_cut(folder, in, {"--to", "1s"}), 10U);
+  EXPECT_EQ(left_after_cut(folder, in, {"--from", "0s"}), 1U);
+}
+
 TEST(Cut, TakesGroupsTypesAndEntities) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 100, 100ms);

@@ -24,6 +24,8 @@ namespace {
 
 using namespace captures;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 /// A receiver on the loopback interface, as any other program would be.
 class Receiver {
@@ -62,10 +64,27 @@ TEST(Replay, ReachesTheSocketsOfThisHost) {
   const ProgramResult result = run_reckon({"replay", make_capture(folder, 20, 10ms)});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(result.out.empty());
+  EXPECT_THAT(result.err,
+              StartsWith("sending to " + group(0).text() + " on lo (this host alone; "));
   EXPECT_THAT(result.err, HasSubstr("replayed 20 datagrams"));
+  EXPECT_THAT(result.err,
+              HasSubstr(" to " + group(0).text() + " and 1 more on lo (this host alone; --iface "));
   EXPECT_THAT(result.err, HasSubstr("asked 1x, got "));
   EXPECT_EQ(receiver.take().size(), 20U);
   EXPECT_EQ(receiver.senders().size(), 1U) << "one sender, from one port";
+}
+
+TEST(Replay, SendsWhatIsStampedBeforeTheFirst) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 6, -10ms);
+  Receiver receiver({group(0), group(1)});
+  const ProgramResult whole = run_reckon({"replay", in});
+  EXPECT_THAT(whole.err, HasSubstr("replayed 6 datagrams"));
+  EXPECT_THAT(whole.err, Not(HasSubstr("left out")));
+  EXPECT_EQ(receiver.take().size(), 6U);
+  const ProgramResult part = run_reckon({"replay", in, "--from", "0s"});
+  EXPECT_THAT(part.err, HasSubstr("replayed 1 datagram "));
+  EXPECT_THAT(part.err, HasSubstr("5 datagrams left out: not chosen by the flags"));
 }
 
 TEST(Replay, KeepsTheTimesOfTheCapture) {
@@ -321,6 +340,29 @@ TEST(Replay, SaysWhereNothingCouldBeSent) {
   EXPECT_THAT(result.err, HasSubstr("replayed 0 datagrams"));
   EXPECT_THAT(result.err, HasSubstr("5 refused by the kernel; lo reaches this host only"));
   EXPECT_EQ(result.err.find("got"), std::string::npos);
+}
+
+TEST(Replay, TakesTheInterfaceThatTheCaptureNames) {
+  const ScratchFolder folder;
+  const auto capture = [&](const std::string& interface) {
+    const std::string path = folder.file(interface + ".pcapng");
+    peer::CaptureWriter writer({.path = path, .interface = interface});
+    peer::SourceDatagram datagram;
+    datagram.source = peer::IpEndpoint::v4(0x0a000001, 4000);
+    datagram.group = group(0);
+    const Octets bytes = entity_state(1);
+    datagram.bytes = bytes;
+    writer.write(datagram);
+    writer.finish(1, 0);
+    return path;
+  };
+  const ProgramResult here = run_reckon({"replay", capture("lo"), "--iface", "recorded"});
+  EXPECT_EQ(here.status, 0) << here.err;
+  EXPECT_THAT(here.err, HasSubstr(" on lo "));
+  EXPECT_THAT(run_reckon({"replay", capture("no_such_lan"), "--iface", "recorded"}).err,
+              HasSubstr("no_such_lan is not on this host"));
+  EXPECT_THAT(run_reckon({"replay", capture(""), "--iface", "recorded"}).err,
+              HasSubstr("the capture names no interface"));
 }
 
 TEST(Replay, NamesTheMistake) {

@@ -19,6 +19,9 @@
 namespace reckon::tools {
 namespace {
 
+constexpr std::size_t kTimestampAt = 4;  // in the header
+constexpr double kLeastDegrees = 1.0;    // of a turn that is told beside a jump
+
 /// For a code of the codec without a row, so that it is reported all the same.
 constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};
 
@@ -83,7 +86,8 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
     tell({rule_of(row.rule), row.frame, row.pdu, row.offset, row.fault_offset, row.time, row.id,
           row.reason},
          out);
-  if (row.decoded && row.status <= PduStatus::note) {
+  const bool is_finite = row.rule != pdu::rule(pdu::DecodeError::not_finite);
+  if (row.decoded && row.status <= PduStatus::warning && is_finite) {
     CheckedPdu checked{row, datagram, survey_, highest_rank_, row.entity_state, nullptr};
     EntityMemory* memory = nullptr;
     if (row.entity_state != nullptr) {
@@ -97,12 +101,20 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
       }
     }
     check_pdu(checked, out);
-    if (memory != nullptr) remember(*memory, checked);
+    if (memory != nullptr) {
+      check_stamp(*memory, row, out);
+      remember(*memory, checked);
+    }
     if (row.header.pdu_type == pdu::PduType::attribute) look_at_attribute(row);
     jumps_.take_pdu(row, datagram, [&](const Jump& jump) { tell_jump(jump, out); });
   }
   if (row.has_header)
     highest_rank_ = std::max(highest_rank_, pdu::bundle_rank(row.header.pdu_type));
+}
+
+void CheckView::datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds,
+                         std::string&) {
+  copies_.look_at(datagram);
 }
 
 bool CheckView::is_reported_type(const PduRow& row) {
@@ -125,9 +137,18 @@ void CheckView::check_pdu(const CheckedPdu& checked, std::string& out) {
     if (!fault.has_value()) continue;
     const PduRow& row = checked.row;
     tell({rule, row.frame, row.pdu, row.offset, row.offset + fault->offset, row.time, row.id,
-          fault->reason},
+          fault->reason, std::nullopt, fault->degrees},
          out);
   }
+}
+
+void CheckView::check_stamp(EntityMemory& memory, const PduRow& row, std::string& out) {
+  if (memory.gone) memory.stamps = {};
+  const auto found = memory.stamps.take(row.header.timestamp, row.time);
+  if (!found.has_value()) return;
+  tell({rule_of(found->rule), row.frame, row.pdu, row.offset, row.offset + kTimestampAt, row.time,
+        row.id, found->reason},
+       out);
 }
 
 void CheckView::look_at_attribute(const PduRow& row) {
@@ -152,11 +173,13 @@ void CheckView::tell_jump(const Jump& jump, std::string& out) {
                          distance_text(jump.metres), at,
                          jump.kind == Jump::Kind::spike ? ", back with the next update" : "",
                          distance_text(jump.explained), jump.interval);
+    if (jump.degrees >= kLeastDegrees) reason += fmt::format("; turned {:.3g} deg", jump.degrees);
   }
   const bool has_size = jump.kind != Jump::Kind::by_turns;
   const std::size_t field = jump.is_entity_state ? kLocationAt : 0;
   tell({rule_of(code), jump.frame, jump.pdu, jump.offset, jump.offset + field, jump.time, jump.id,
-        reason, has_size ? std::optional(jump.metres) : std::nullopt},
+        reason, has_size ? std::optional(jump.metres) : std::nullopt,
+        has_size ? std::optional(jump.degrees) : std::nullopt},
        out);
 }
 
@@ -189,6 +212,7 @@ void CheckView::json(const Finding& finding, std::string& out) const {
   append_time(line.member("time"), finding.time);
   if (finding.id.has_value()) line.text("id", id_text(*finding.id));
   if (finding.metres.has_value()) line.decimals("metres", *finding.metres, 3);
+  if (finding.degrees.has_value()) line.decimals("degrees", *finding.degrees, 3);
   line.text("reason", finding.reason)
       .text("sentence", finding.rule.sentence)
       .text("remedy", finding.rule.remedy)
@@ -208,23 +232,40 @@ void CheckView::csv(const Finding& finding, std::string& out) const {
 
 void CheckView::finish(const InspectTally& tally, std::string& out) {
   jumps_.finish([&](const Jump& jump) { tell_jump(jump, out); });
-  report_silent(out);
+  report_entities(out);
+  report_copies(out);
   if (format_ != Format::csv) summary(tally, out);
 }
 
-void CheckView::report_silent(std::string& out) {
+void CheckView::tell_last(const EntityMemory& memory, std::string_view code, std::size_t field,
+                          std::string_view reason, std::string& out) {
+  tell({rule_of(code), memory.frame, memory.pdu, memory.offset, memory.offset + field, memory.time,
+        memory.id, reason},
+       out);
+}
+
+void CheckView::report_entities(std::string& out) {
   std::vector<const EntityMemory*> all;
   for (const auto& [key, memory] : entities_) all.push_back(&memory);
   std::sort(all.begin(), all.end(), [](const EntityMemory* a, const EntityMemory* b) {
     return std::pair(a->frame, a->pdu) < std::pair(b->frame, b->pdu);
   });
   for (const EntityMemory* memory : all) {
-    const auto clause = silence(*memory, last_time_);
-    if (!clause.has_value()) continue;
-    tell({rule_of(kHeartbeatRule), memory->frame, memory->pdu, memory->offset, memory->offset,
-          memory->time, memory->id, *clause + ", until the end"},
-         out);
+    if (const auto found = memory->stamps.finish())
+      tell_last(*memory, found->rule, kTimestampAt, found->reason, out);
+    if (const auto clause = silence(*memory, last_time_))
+      tell_last(*memory, kHeartbeatRule, 0, *clause + ", until the end", out);
   }
+}
+
+void CheckView::report_copies(std::string& out) {
+  if (copies_.copies() == 0) return;
+  const CopySearch::Copy& first = copies_.first();
+  tell({rule_of(kCopiesRule), first.frame, 1, 0, 0, first.time, std::nullopt,
+        fmt::format("{} of {} datagrams are copies; the first repeats frame {} after {:.3f} ms",
+                    copies_.copies(), copies_.datagrams(), first.original,
+                    1e3 * pdu::to_seconds(first.later))},
+       out);
 }
 
 std::uint64_t CheckView::count(PduStatus status) const {

@@ -14,6 +14,7 @@
 #include <unordered_map>
 
 #include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/check/copy_search.hpp"
 #include "reckon/tools/inspect/check/jump_search.hpp"
 #include "reckon/tools/inspect/check/rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
@@ -25,7 +26,7 @@ namespace reckon::tools {
 void append_check_rules(Format format, std::string& out);
 
 /// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some
-/// 1.1 kB each. PDUs of further entities are checked individually, which is reported.
+/// 1.4 kB each. PDUs of further entities are checked individually, which is reported.
 class CheckView final : public View {
  public:
   static constexpr std::size_t kMostEntities = std::size_t{1} << 16;
@@ -39,7 +40,9 @@ class CheckView final : public View {
   void expect(const peer::SourceDatagram& datagram) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
            std::string& out) override;
-  /// At the end of the source: entities that have been silent for too long, and the counts.
+  void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                std::string& out) override;
+  /// At the end of the source: what only the end decides, and the counts.
   void finish(const InspectTally& tally, std::string& out) override;
 
   /// Findings of this status.
@@ -58,7 +61,8 @@ class CheckView final : public View {
     std::chrono::nanoseconds time;
     std::optional<pdu::EntityId> id;
     std::string_view reason;
-    std::optional<double> metres = {};  // size of a jump
+    std::optional<double> metres = {};   // size of a jump
+    std::optional<double> degrees = {};  // of a turn
   };
 
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
@@ -66,13 +70,18 @@ class CheckView final : public View {
   /// datagram, so that each is reported once.
   [[nodiscard]] bool is_reported_type(const PduRow& row);
   void check_pdu(const CheckedPdu& checked, std::string& out);
+  void check_stamp(EntityMemory& memory, const PduRow& row, std::string& out);
   void look_at_attribute(const PduRow& row);
   void tell_jump(const Jump& jump, std::string& out);
   void tell(const Finding& finding, std::string& out);
   void text(const Finding& finding, std::string& out) const;
   void json(const Finding& finding, std::string& out) const;
   void csv(const Finding& finding, std::string& out) const;
-  void report_silent(std::string& out);
+  /// About the last Entity State of an entity.
+  void tell_last(const EntityMemory& memory, std::string_view code, std::size_t field,
+                 std::string_view reason, std::string& out);
+  void report_entities(std::string& out);
+  void report_copies(std::string& out);
   void summary(const InspectTally& tally, std::string& out) const;
 
   Format format_;
@@ -84,6 +93,7 @@ class CheckView final : public View {
   std::chrono::nanoseconds last_time_{};
   std::unordered_map<std::uint64_t, EntityMemory> entities_;
   JumpSearch jumps_;
+  CopySearch copies_;
   bool reported_limit_ = false;
   bool reported_foreign_ = false;
   std::array<bool, 256> reported_types_{};

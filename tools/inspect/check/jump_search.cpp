@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
@@ -127,7 +128,7 @@ JumpSearch::Fit JumpSearch::fit(const KinematicState& before, const KinematicSta
         std::min(extrapolated, (now.position - before.position - interval * mean).norm());
     const Fit one{off,
                   explained(before, now, interval) + kUnstatedMargin * unstated_speed * interval,
-                  extrapolated};
+                  extrapolated, interval};
     if (first || one.off - one.allowed < best.off - best.allowed) best = one;
     first = false;
   }
@@ -144,15 +145,17 @@ void JumpSearch::compare(Row& row, const StateUpdate& update, const Jump& here, 
     ++row.spike->updates;
   }
   const Fit found = fit(last.state, update.state, passed, row.unstated_speed);
-  if (!found.is_explained()) return suspect(row, last.state, passed, found, here);
+  if (!found.is_explained()) return suspect(row, last.state, passed, found, update.state, here);
   if (row.unstated_speed > 0 && fit(last.state, update.state, passed).is_explained())
     row.unstated_speed = 0;
 }
 
 void JumpSearch::suspect(Row& row, const KinematicState& before, const Intervals& passed,
-                         const Fit& fit, const Jump& here) {
+                         const Fit& fit, const KinematicState& now, const Jump& here) {
   row.suspect = std::make_unique<Suspect>(Suspect{before, passed, here});
   row.suspect->jump.metres = fit.metres;
+  row.suspect->jump.degrees = deadreckon::in_degrees(deadreckon::angle_between(
+      now.orientation, deadreckon::extrapolate(before, fit.interval).orientation));
   row.suspect->jump.explained = fit.allowed;
   row.suspect->jump.interval = passed[0];
 }
@@ -187,7 +190,7 @@ void JumpSearch::decide(Row& row, const StateUpdate& update, const Intervals& pa
     return;
   }
   drop_suspect(row, tell);
-  suspect(row, from, passed, stayed, here);
+  suspect(row, from, passed, stayed, update.state, here);
 }
 
 void JumpSearch::tell_spike(Row& row, const KinematicState& state, const Intervals& passed,

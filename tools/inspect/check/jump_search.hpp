@@ -34,6 +34,7 @@ struct Jump {
   bool is_entity_state = false;
   std::chrono::nanoseconds time{};  ///< arrival
   double metres = 0;                ///< from the extrapolation of the update before
+  double degrees = 0;               ///< the same of the orientation
   double explained = 0;             ///< [m] that the motion can explain
   double interval = 0;              ///< since the update before [s]
 };
@@ -85,9 +86,10 @@ class JumpSearch {
   };
   /// How well an update follows another.
   struct Fit {
-    double off = 0;      ///< [m] by the better interval, from the nearer of both predictions
-    double allowed = 0;  ///< [m]
-    double metres = 0;   ///< from the extrapolation
+    double off = 0;       ///< [m] by the better interval, from the nearer of both predictions
+    double allowed = 0;   ///< [m]
+    double metres = 0;    ///< from the extrapolation
+    double interval = 0;  ///< that it is by [s]
     [[nodiscard]] bool is_explained() const { return off <= allowed; }
   };
   struct Observer;
@@ -98,7 +100,7 @@ class JumpSearch {
   static void tell_spike(Row& row, const deadreckon::KinematicState& state, const Intervals& passed,
                          const Tell& tell);
   static void suspect(Row& row, const deadreckon::KinematicState& before, const Intervals& passed,
-                      const Fit& fit, const Jump& here);
+                      const Fit& fit, const deadreckon::KinematicState& now, const Jump& here);
   static void drop_suspect(Row& row, const Tell& tell);
   [[nodiscard]] static Fit fit(const deadreckon::KinematicState& before,
                                const deadreckon::KinematicState& now, const Intervals& passed,

@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "reckon/deadreckon/motion/drm.hpp"
-#include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/pdu_types.hpp"
@@ -17,6 +14,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tools/datagrams/foreign.hpp"
 #include "reckon/tools/inspect/check/enumeration_rules.hpp"
+#include "reckon/tools/inspect/check/motion_rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
 namespace reckon::tools {
@@ -28,58 +26,9 @@ using Fault = std::optional<RuleFault>;
 // Offsets of fields in an Entity State.
 constexpr std::size_t kStatusAt = 10;
 constexpr std::size_t kIdAt = 12;
-constexpr std::size_t kVelocityAt = 36;
-constexpr std::size_t kAccelerationAt = 104;
-constexpr std::size_t kAngularVelocityAt = 116;
 
-constexpr std::size_t kLargestPdu = 8192;    // octets, MAX_PDU_SIZE of the standard
-constexpr double kDeepest = 6.34e6;          // polar radius less the deepest sea [m]
-constexpr double kShortestInterval = 0.05;   // [s], positions round too much below it
-constexpr double kLongestInterval = 5.0;     // [s], the motion may have changed unseen beyond it
-constexpr double kLeastContradiction = 2.0;  // [m]
-constexpr double kGrossly = 0.5;             // of the displacement
-constexpr std::uint8_t kContradictions = 3;  // in a row: a sharp turn causes one, a spike two
-
-bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
-
-double length(const pdu::Vector3Float& v) { return Eigen::Vector3d(v.x, v.y, v.z).norm(); }
-
-Eigen::Vector3d position_of(const pdu::EntityState& pdu) {
-  return {pdu.location.x, pdu.location.y, pdu.location.z};
-}
-
-/// The velocity in geocentric axes, for any axes of the dead-reckoning model.
-Eigen::Vector3d velocity_of(const pdu::EntityState& pdu) {
-  const Eigen::Vector3d velocity(pdu.linear_velocity.x, pdu.linear_velocity.y,
-                                 pdu.linear_velocity.z);
-  if (!deadreckon::drm_terms(pdu.dead_reckoning.algorithm).body_axes) return velocity;
-  const deadreckon::Euler euler{pdu.orientation.psi, pdu.orientation.theta, pdu.orientation.phi};
-  return deadreckon::quaternion_from_euler(euler) * velocity;
-}
-
-bool has_history(const CheckedPdu& checked) {
-  return checked.entity_state != nullptr && checked.memory != nullptr &&
-         checked.memory->updates > 0;
-}
-
-Fault static_moves(const CheckedPdu& checked) {
-  const pdu::EntityState* pdu = checked.entity_state;
-  if (pdu == nullptr || pdu->dead_reckoning.algorithm != pdu::DeadReckoningAlgorithm::static_)
-    return std::nullopt;
-  const auto says = [](std::string_view field, const pdu::Vector3Float& v, std::string_view unit) {
-    return fmt::format("DRM static (1), but {} is {:.3g} {}", field, length(v), unit);
-  };
-  if (!is_zero(pdu->linear_velocity))
-    return RuleFault{kVelocityAt, says("entity_linear_velocity", pdu->linear_velocity, "m/s")};
-  const auto& reckoning = pdu->dead_reckoning;
-  if (!is_zero(reckoning.linear_acceleration))
-    return RuleFault{kAccelerationAt,
-                     says("entity_linear_acceleration", reckoning.linear_acceleration, "m/s^2")};
-  if (!is_zero(reckoning.angular_velocity))
-    return RuleFault{kAngularVelocityAt,
-                     says("entity_angular_velocity", reckoning.angular_velocity, "rad/s")};
-  return std::nullopt;
-}
+constexpr std::size_t kLargestPdu = 8192;  // octets, MAX_PDU_SIZE of the standard
+constexpr double kDeepest = 6.34e6;        // polar radius less the deepest sea [m]
 
 Fault reserved_id(const CheckedPdu& checked) {
   if (checked.entity_state == nullptr) return std::nullopt;
@@ -93,7 +42,8 @@ Fault reserved_id(const CheckedPdu& checked) {
 
 Fault no_place(const CheckedPdu& checked) {
   if (checked.entity_state == nullptr) return std::nullopt;
-  const double radius = position_of(*checked.entity_state).norm();
+  const pdu::WorldCoordinates& at = checked.entity_state->location;
+  const double radius = Eigen::Vector3d(at.x, at.y, at.z).norm();
   if (radius >= kDeepest && radius <= deadreckon::kLargestLocation) return std::nullopt;
   return RuleFault{kLocationAt, fmt::format("entity_location is {:.6g} km from the earth's centre",
                                             radius / 1e3)};
@@ -122,7 +72,7 @@ Fault wrong_family(const CheckedPdu& checked) {
 }
 
 Fault back_in_time(const CheckedPdu& checked) {
-  if (!has_history(checked)) return std::nullopt;
+  if (!checked.has_history()) return std::nullopt;
   const std::uint32_t now = checked.row.header.timestamp;
   if (pdu::is_absolute(now) != pdu::is_absolute(checked.memory->timestamp)) return std::nullopt;
   const nanoseconds step = pdu::difference(now, checked.memory->timestamp);
@@ -131,38 +81,8 @@ Fault back_in_time(const CheckedPdu& checked) {
                                   -pdu::to_seconds(step), checked.memory->frame)};
 }
 
-/// Error of the timestamp [s], by the time of arrival: from UTC if it is absolute, else from the
-/// entity's own first one. No value if the source has no time.
-std::optional<double> timestamp_error(const CheckedPdu& checked) {
-  const nanoseconds arrival = checked.datagram.time;
-  const std::uint32_t timestamp = checked.row.header.timestamp;
-  if (arrival == nanoseconds::zero()) return std::nullopt;
-  if (pdu::is_absolute(timestamp)) {
-    return pdu::to_seconds(pdu::nearest_instant(timestamp, arrival) - arrival);
-  }
-  if (!has_history(checked) || pdu::is_absolute(checked.memory->first_timestamp))
-    return std::nullopt;
-  const double stated = pdu::to_seconds(pdu::past_the_hour(timestamp)) -
-                        pdu::to_seconds(pdu::past_the_hour(checked.memory->first_timestamp));
-  return std::remainder(stated - pdu::to_seconds(arrival - checked.memory->first_time), 3600.0);
-}
-
-bool is_out_of_tolerance(const CheckedPdu& checked) {
-  return std::abs(timestamp_error(checked).value_or(0)) > kTimestampTolerance;
-}
-
-Fault out_of_tolerance(const CheckedPdu& checked) {
-  if (checked.entity_state == nullptr || !is_out_of_tolerance(checked)) return std::nullopt;
-  if (checked.memory != nullptr && checked.memory->out_of_tolerance) return std::nullopt;
-  const double error = *timestamp_error(checked);
-  const bool absolute = pdu::is_absolute(checked.row.header.timestamp);
-  return RuleFault{4, fmt::format("{} timestamp is {:.3f} s {} the arrival, {:g} s are allowed",
-                                  absolute ? "absolute" : "relative", std::abs(error),
-                                  error > 0 ? "ahead of" : "behind", kTimestampTolerance)};
-}
-
 Fault missed_heartbeat(const CheckedPdu& checked) {
-  if (!has_history(checked)) return std::nullopt;
+  if (!checked.has_history()) return std::nullopt;
   auto clause = silence(*checked.memory, checked.datagram.time);
   if (!clause.has_value()) return std::nullopt;
   return RuleFault{0, std::move(*clause)};
@@ -177,42 +97,12 @@ bool is_duplicate(const EntityMemory& memory, const peer::IpEndpoint& sender) {
 }
 
 Fault duplicate_id(const CheckedPdu& checked) {
-  if (!has_history(checked) || checked.memory->gone ||
+  if (!checked.has_history() || checked.memory->gone ||
       !is_duplicate(*checked.memory, checked.datagram.source))
     return std::nullopt;
   return RuleFault{
       kIdAt, fmt::format("{} comes from {} and from {}", id_text(checked.entity_state->entity_id),
                          checked.memory->sender.text(), checked.datagram.source.text())};
-}
-
-/// Distance between the entity's displacement since the last update and the one from its velocities
-/// [m], if it is gross; else 0.
-double contradiction(const CheckedPdu& checked) {
-  if (!has_history(checked)) return 0;
-  const EntityMemory& memory = *checked.memory;
-  const double interval =
-      pdu::to_seconds(pdu::difference(checked.row.header.timestamp, memory.timestamp));
-  if (interval < kShortestInterval || interval > kLongestInterval) return 0;
-  const Eigen::Vector3d way = position_of(*checked.entity_state) - memory.position;
-  const Eigen::Vector3d stated =
-      0.5 * interval * (memory.velocity + velocity_of(*checked.entity_state));
-  const double error = (way - stated).norm();
-  const double scale = std::max(way.norm(), stated.norm());
-  return error > kLeastContradiction && error > kGrossly * scale ? error : 0;
-}
-
-Fault velocity_contradicts(const CheckedPdu& checked) {
-  const double error = contradiction(checked);
-  if (error == 0 || checked.memory->contradictions + 1 != kContradictions) return std::nullopt;
-  const double interval =
-      pdu::to_seconds(pdu::difference(checked.row.header.timestamp, checked.memory->timestamp));
-  const double went =
-      (position_of(*checked.entity_state) - checked.memory->position).norm() / interval;
-  return RuleFault{
-      kVelocityAt,
-      fmt::format("entity_linear_velocity is {:.3g} m/s, the positions went {:.3g} m/s: "
-                  "{:.3g} m apart in {:.3g} s, the third time in a row",
-                  velocity_of(*checked.entity_state).norm(), went, error, interval)};
 }
 
 std::uint64_t key_of(const CheckedPdu& checked) {
@@ -250,7 +140,11 @@ constexpr auto kRules = std::to_array<CheckRule>({
     {"E-TRUNCATED", "The datagram ends before the PDU does.",
      "capture whole frames (tcpdump -s 0); else the sender's length field is wrong"},
     {"E-LENGTH", "The length field is too small for a PDU of this type.",
-     "the sender must write the octets of the whole PDU, header included"},
+     "the sender must write the octets of the whole PDU, header included; --lenient reads those of "
+     "length 0"},
+    {kByteOrderRule, "The length field is right if its two octets are exchanged.",
+     "the sender writes little-endian: every field of DIS is big-endian (htons, htonl, as for "
+     "network order)"},
     {"E-COUNT", "More records are announced than octets are left in the PDU.",
      "compare the sender's count of records with what it writes"},
     {"E-RECORD", "A record's length is too small or runs past the end of the PDU.",
@@ -265,6 +159,8 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "keep datagrams below the MTU, 1400 octets are safe"},
     {"W-NOT-FINITE", "A field holds NaN or infinity; receivers drop such a PDU.",
      "look in the sender for a division by zero or an unset value"},
+    {kTrailingWarning, "Octets within the PDU's length stand behind its last field.",
+     "correct the count or length that is named; --lenient keeps octets of a product's own"},
     {"W-STATIC-MOVES",
      "The entity is dead-reckoned as static but has a velocity, acceleration or "
      "rotation.",
@@ -285,12 +181,19 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "set the family of the standard's table", wrong_family},
     {"W-TIMESTAMP-ORDER", "An entity's timestamp runs backwards.",
      "reordered on the way, or two clocks stamp one entity", back_in_time},
-    {"W-TIMESTAMP-TOLERANCE",
-     "A timestamp is more than 5 s from the arrival. Reported once until it is "
+    {kStampStillRule,
+     "An entity's timestamp does not advance while updates arrive. Reported once until it does.",
+     "set the timestamp of each PDU before it is sent; receivers cannot extrapolate with a "
+     "constant one"},
+    {kStampPaceRule,
+     "An entity's timestamps do not count the time past the hour. Reported once until they are "
      "right again.",
+     "count units of 3600 s / 2^31 (1.676 us), shifted left by one bit; set bit 0 only in absolute "
+     "ones; captures that were replayed at another rate break this rule too"},
+    {kToleranceRule,
+     "A timestamp is more than 5 s from the arrival. Reported once until it is right again.",
      "synchronise clocks (NTP), or send relative timestamps; captures that were replayed show it "
-     "too",
-     out_of_tolerance},
+     "too"},
     {kHeartbeatRule, "An entity was silent for more than 2.4 heartbeats of its kind and domain.",
      "send Entity States at the heartbeat, and a deactivated one at the end", missed_heartbeat},
     {kDuplicateRule, "One entity ID comes from two senders. Reported once.",
@@ -298,6 +201,16 @@ constexpr auto kRules = std::to_array<CheckRule>({
     {"W-VELOCITY", "Velocity and positions of an entity contradict each other grossly.",
      "check units (m/s), sign, and axes: geocentric for DRM 1 to 5, body for 6 to 9",
      velocity_contradicts},
+    {"W-ORIENTATION",
+     "An angle is out of its range (reported once an entity), or the orientation contradicts the "
+     "turn rate grossly.",
+     "psi and phi lie within -pi to pi, theta within -pi/2 to pi/2, in radians; the turn rate is "
+     "in "
+     "rad/s about body axes",
+     wrong_orientation},
+    {"W-FLOAT64", "The value of an articulated part looks like a float64.",
+     "write parameter_value as a float32 of 4 octets, and 4 octets of zeros behind it",
+     float64_parameter},
     {kTeleportRule,
      "An entity's place is farther from where its last update led than its motion can explain.",
      "placed by hand, or lost updates; else look for what the sender did at that time"},
@@ -319,6 +232,10 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "nothing to do, if they are a product's own; else a length field or a count is wrong"},
     {kForeignRule, "A datagram of another protocol: no DIS of any version. Reported once.",
      "nothing to do; a group or port of the exercise's own keeps others apart"},
+    {kCopiesRule,
+     "The same octets came again from the same sender within 5 ms. Reported once, at the end.",
+     "capture on one interface (not any) or in one direction (tcpdump -Q in); editcap -w 0.005 IN "
+     "OUT takes copies out of a file"},
     {"I-UNNAMED",
      "A number stands for something that SISO-REF-010 has no name for. Reported at an entity's "
      "first "
@@ -352,17 +269,9 @@ std::optional<std::string> silence(const EntityMemory& memory, nanoseconds now) 
 
 void remember(EntityMemory& memory, const CheckedPdu& checked) {
   const pdu::EntityState& pdu = *checked.entity_state;
-  const CheckedPdu seen{checked.row,          checked.datagram,     checked.survey,
-                        checked.highest_rank, checked.entity_state, &memory};
-  memory.contradictions = contradiction(seen) > 0
-                              ? static_cast<std::uint8_t>(std::min(memory.contradictions + 1, 255))
-                              : std::uint8_t{0};
-  memory.out_of_tolerance = is_out_of_tolerance(seen);
-  if (memory.updates == 0 || memory.gone) {
-    memory.first_time = checked.datagram.time;
-    memory.first_timestamp = pdu.header.timestamp;
+  remember_motion(memory, checked);
+  if (memory.updates == 0 || memory.gone)
     memory.sender = memory.earlier_sender = checked.datagram.source;
-  }
   memory.reported_duplicate =
       memory.reported_duplicate || is_duplicate(memory, checked.datagram.source);
   if (memory.sender != checked.datagram.source) {
@@ -374,12 +283,12 @@ void remember(EntityMemory& memory, const CheckedPdu& checked) {
   memory.gone = (pdu.appearance & pdu::kAppearanceDeactivated) != 0;
   memory.time = checked.datagram.time;
   memory.timestamp = pdu.header.timestamp;
-  memory.heartbeat = deadreckon::nominal_heartbeat(pdu.entity_type, is_zero(pdu.linear_velocity));
+  const pdu::Vector3Float& v = pdu.linear_velocity;
+  memory.heartbeat =
+      deadreckon::nominal_heartbeat(pdu.entity_type, v.x == 0 && v.y == 0 && v.z == 0);
   memory.frame = checked.row.frame;
   memory.pdu = checked.row.pdu;
   memory.offset = checked.row.offset;
-  memory.position = position_of(pdu);
-  memory.velocity = velocity_of(pdu);
 }
 
 }  // namespace reckon::tools

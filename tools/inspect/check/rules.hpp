@@ -4,7 +4,7 @@
 // is one function and one row in rules.cpp (and one injected fault for the tests).
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +17,7 @@
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/survey.hpp"
+#include "reckon/tools/inspect/check/stamp_course.hpp"
 
 namespace reckon::tools {
 
@@ -29,18 +30,23 @@ struct EntityMemory {
   bool reported_duplicate = false;
   bool haptic = false;  ///< has had a force model: its heartbeat is 5 s
   bool gone = false;    ///< deactivated: silence is no fault
-  bool out_of_tolerance = false;
-  std::uint8_t contradictions = 0;  ///< contradictory updates in a row
-  std::chrono::nanoseconds first_time{};
-  std::uint32_t first_timestamp = 0;
-  std::chrono::nanoseconds time{};  ///< arrival
+  bool frozen = false;
+  bool out_of_range = false;             ///< has had an angle that is none
+  bool turns = false;                    ///< its model states a turn rate
+  std::uint8_t contradictions = 0;       ///< by positions, updates in a row
+  std::uint8_t turn_contradictions = 0;  ///< by orientations
+  std::chrono::nanoseconds time{};       ///< arrival
   std::uint32_t timestamp = 0;
   double heartbeat = 0;  ///< [s]
   std::uint64_t frame = 0;
   std::size_t pdu = 0;
   std::size_t offset = 0;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< geocentric [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< geocentric axes [m/s]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< geocentric [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< geocentric axes [m/s]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to geocentric
+  Eigen::Quaterniond earlier_orientation = Eigen::Quaterniond::Identity();  ///< the one before
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();                      ///< body axes [rad/s]
+  StampCourse stamps;
 };
 
 /// Input of a rule. Only PDUs that decode and have finite numbers are checked.
@@ -51,12 +57,18 @@ struct CheckedPdu {
   std::uint8_t highest_rank;             ///< bundle_rank of the PDUs before it
   const pdu::EntityState* entity_state;  ///< null for other types
   const EntityMemory* memory;            ///< of that entity; null if there was no room for one
+
+  /// Whether it is an update of an entity that is remembered.
+  [[nodiscard]] bool has_history() const {
+    return entity_state != nullptr && memory != nullptr && memory->updates > 0;
+  }
 };
 
 /// Finding of a rule.
 struct RuleFault {
-  std::size_t offset = 0;  ///< of the faulty field, from the PDU's first octet
-  std::string reason;      ///< a clause without full stop
+  std::size_t offset = 0;              ///< of the faulty field, from the PDU's first octet
+  std::string reason;                  ///< a clause without full stop
+  std::optional<double> degrees = {};  ///< size of a turn
 };
 
 using RuleFunction = std::optional<RuleFault> (*)(const CheckedPdu& checked);
@@ -78,11 +90,9 @@ inline constexpr std::string_view kMemoryRule = "I-ENTITY-LIMIT";
 inline constexpr std::string_view kDuplicateRule = "W-DUPLICATE-ID";
 inline constexpr std::string_view kTeleportRule = "W-TELEPORT";
 inline constexpr std::string_view kSpikeRule = "W-SPIKE";
+inline constexpr std::string_view kCopiesRule = "I-COPIES";
 
 inline constexpr std::size_t kLocationAt = 48;  ///< of the location in an Entity State [octet]
-
-/// Greatest accepted error of timestamps.
-inline constexpr double kTimestampTolerance = 5.0;  // [s]
 
 /// Silence longer than 2.4 heartbeats, as a clause; no value if it is shorter.
 [[nodiscard]] std::optional<std::string> silence(const EntityMemory& memory,

@@ -13,6 +13,7 @@
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
 #include "reckon/tools/datagrams/first_location.hpp"
+#include "reckon/tools/datagrams/restored_states.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 
@@ -102,12 +103,16 @@ void append_records(std::string& out, std::string_view key, const pdu::Attribute
   if (!first) out += ']';
 }
 
+/// The states of Compressed States, or why one cannot be restored.
+void append_states(std::string& out, const std::vector<RestoredState>& states, bool full);
+
 void append_body(std::string& out, const PduRow& row, bool full) {
   if (row.entity_state != nullptr) append_entity_state(out, *row.entity_state);
   append_place(out, row, full);
   if (row.entity_state != nullptr)
-    append_member(out, ",\"drm\":",
-                  static_cast<unsigned>(row.entity_state->dead_reckoning.algorithm));
+    append_member(out,
+                  ",\"drm\":", static_cast<unsigned>(row.entity_state->dead_reckoning.algorithm));
+  if (row.restored != nullptr) append_states(out, *row.restored, full);
   if (!full && row.header.pdu_type != pdu::PduType::attribute) return;
   (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {
@@ -119,6 +124,26 @@ void append_body(std::string& out, const PduRow& row, bool full) {
     pdu::TextSink sink(out);
     pdu::print_named_json(pdu, sink);
   });
+}
+
+void append_states(std::string& out, const std::vector<RestoredState>& states, bool full) {
+  out += ",\"states\":[";
+  std::string_view before;
+  for (const RestoredState& state : states) {
+    out += before;
+    out += "{\"id\":\"";
+    append_id(out, *state.row.id);
+    append_member(out, "\",\"offset\":", state.row.offset);
+    append_member(out, ",\"octets\":", state.octets);
+    append_json_member(out, "form", pdu::name(state.form));
+    if (state.row.decoded)
+      append_body(out, state.row, full);
+    else
+      append_json_member(out, "reason", state.row.reason);
+    out += '}';
+    before = ",";
+  }
+  out += ']';
 }
 
 /// A PDU whose body cannot be read: the header, and the rest in hexadecimal.

@@ -15,6 +15,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/datagrams/restored_states.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 
@@ -245,13 +246,41 @@ void append_left(std::string& out, std::string_view text, std::size_t width) {
   out.append(width - std::min(text.size(), width), ' ');
 }
 
-void append_indented(std::string& out, std::string_view lines) {
+void append_indented(std::string& out, std::string_view lines, std::size_t depth) {
   while (!lines.empty()) {
     const std::size_t end = std::min(lines.find('\n'), lines.size());
-    out += "  ";
+    out.append(2 * depth, ' ');
     out += lines.substr(0, end);
     out += '\n';
     lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+}
+
+/// A line for each state of Compressed States, below the PDU.
+void append_states(std::string& out, const std::vector<RestoredState>& states) {
+  for (const RestoredState& state : states) {
+    fmt::format_to(end_of(out), FMT_COMPILE("{:>17} {:>12}    {:<22} {:>6}  {:<16} "),
+                   state.row.offset, "", fmt::format("{} state", pdu::name(state.form)),
+                   state.octets, id_text(*state.row.id));
+    if (state.row.entity_state != nullptr)
+      append_entity_state(out, *state.row.entity_state);
+    else
+      out += state.row.reason;
+    if (state.row.has_header) append_timestamp(out, state.row.header);
+    out += '\n';
+  }
+}
+
+/// The same as trees of fields.
+void append_state_trees(std::string& out, const std::vector<RestoredState>& states) {
+  for (const RestoredState& state : states) {
+    fmt::format_to(end_of(out), FMT_COMPILE("  state {} +{}  {}  {} octets{}{}\n"),
+                   id_text(*state.row.id), state.row.offset, pdu::name(state.form), state.octets,
+                   state.row.reason.empty() ? "" : "  ", state.row.reason);
+    std::string lines;
+    pdu::TextSink sink(lines);
+    if (state.row.decoded) (void)pdu::print_pdu_tree(state.row.bytes, sink);
+    append_indented(out, lines, 2);
   }
 }
 
@@ -287,6 +316,7 @@ void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseco
   if (row.decoded) append_brief(out, row);
   if (row.has_header) append_timestamp(out, row.header);
   out += '\n';
+  if (row.restored != nullptr) append_states(out, *row.restored);
 }
 
 void append_tree(std::string& out, const PduRow& row, bool colour) {
@@ -305,7 +335,8 @@ void append_tree(std::string& out, const PduRow& row, bool colour) {
     sink.text("octets ");
     pdu::put_hex(sink, row.bytes);
   }
-  append_indented(out, lines);
+  append_indented(out, lines, 1);
+  if (row.restored != nullptr) append_state_trees(out, *row.restored);
 }
 
 }  // namespace reckon::tools

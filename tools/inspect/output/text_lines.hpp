@@ -18,12 +18,12 @@ namespace reckon::tools {
 void append_tail_titles(std::string& out);
 
 /// Appends one line: frame, PDU, octet offset, seconds since `start`, type, length, ID, and the
-/// PDU's content or its error.
+/// PDU's content or its error. Below Compressed States a line for each state, with its own octets.
 void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseconds start,
                       bool colour);
 
 /// Appends a heading and one line for each field; for a PDU that cannot be read its header and
-/// octets.
+/// octets. Below Compressed States the same for each state, or why it cannot be restored.
 void append_tree(std::string& out, const PduRow& row, bool colour);
 
 }  // namespace reckon::tools

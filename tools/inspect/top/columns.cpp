@@ -58,6 +58,11 @@ std::string percentile(const Cell& cell, double share) {
   return distance_text(cell.row.jumps.percentile(share));
 }
 
+/// The same of the orientation.
+std::string turn(const Cell& cell, double degrees) {
+  return cell.row.turns.count() == 0 ? "-" : angle_text(degrees);
+}
+
 /// Seconds from the first datagram to the greatest jump.
 double worst_at(const Cell& cell) {
   return pdu::to_seconds(cell.row.worst_time - cell.table.start());
@@ -185,6 +190,8 @@ constexpr auto kColumns = std::to_array<TopColumn>({
        return c.row.worst_frame == 0 ? std::string("-") : fmt::format("{:.1f}s", worst_at(c));
      },
      nullptr},
+    {"TURN", kRight, [](const Cell& c) { return turn(c, c.row.turns.max()); },
+     [](const Cell& c) { return c.row.turns.max(); }},
     {"AGE", kRight, age, [](const Cell& c) { return c.entity.age(c.now); }},
     {"OCTETS", kRight, [](const Cell& c) { return fmt::format("{}", c.row.octets); },
      [](const Cell& c) { return static_cast<double>(c.row.octets); }},
@@ -230,6 +237,11 @@ constexpr auto kMembers = std::to_array<TopMember>({
      [](const Cell& c) {
        return c.row.worst_frame == 0 ? std::string() : fmt::format("{}", c.row.worst_frame);
      }},
+    {"jump_deg", false, [](const Cell& c) { return jump(c, c.row.turn); }},
+    {"jump_p50_deg", false,
+     [](const Cell& c) { return jump(c, c.row.turns.percentile(kMedian)); }},
+    {"jump_p99_deg", false, [](const Cell& c) { return jump(c, c.row.turns.percentile(kTail)); }},
+    {"jump_max_deg", false, [](const Cell& c) { return jump(c, c.row.turns.max()); }},
     {"age_s", false, [](const Cell& c) { return number(c.entity.age(c.now)); }},
     {"heartbeat_s", false,
      [](const Cell& c) { return c.entity.has_state ? number(c.entity.heartbeat) : std::string(); }},

@@ -47,6 +47,13 @@ std::string jumps_text(const EntityRow& row) {
                      row.worst_frame, row.jumps.count());
 }
 
+std::string turns_text(const EntityRow& row) {
+  if (row.turns.count() == 0) return "none yet";
+  return fmt::format("last {}  p50 {}  p99 {}  max {}", angle_text(row.turn),
+                     angle_text(row.turns.percentile(0.5)), angle_text(row.turns.percentile(0.99)),
+                     angle_text(row.turns.max()));
+}
+
 void add_plot(const EntityRow& row, std::size_t columns, std::vector<ScreenLine>& out) {
   std::vector<double> jumps = row.recent_jumps();
   if (jumps.size() > columns) jumps.erase(jumps.begin(), jumps.end() - static_cast<long>(columns));
@@ -108,6 +115,7 @@ std::vector<ScreenLine> entity_pane(const TopCell& cell, std::size_t columns) {
   if (entity.has_state) add_motion(pdu, out);
   out.push_back({fmt::format("updates       {}: {}", entity.updates, causes_text(row))});
   out.push_back({"jumps         " + jumps_text(row)});
+  out.push_back({"turned by     " + turns_text(row)});
   add_plot(row, columns, out);
   return out;
 }

@@ -40,7 +40,7 @@ std::string rate(double count, double seconds, Format format) {
 }  // namespace
 
 StatsView::StatsView(Format format, std::string by, std::size_t most_rows)
-    : format_(format), by_(std::move(by)), most_rows_(most_rows) {}
+    : format_(format), by_(std::move(by)), most_rows_(most_rows), motion_(most_rows) {}
 
 template <typename Key>
 TrafficShare& StatsView::row_of(Table<Key>& table, const Key& key) const {
@@ -49,12 +49,13 @@ TrafficShare& StatsView::row_of(Table<Key>& table, const Key& key) const {
   return table.rows.size() < most_rows_ ? table.rows[key] : table.others;
 }
 
-void StatsView::pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds,
-                    std::string&) {
+void StatsView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
+                    std::chrono::nanoseconds, std::string&) {
   const bool broken = row.status == PduStatus::error;
   const TrafficShare share{1, row.bytes.size(), 0, broken ? 1U : 0U, 0};
   add(types_[row.has_header ? static_cast<std::size_t>(row.header.pdu_type) : kUnreadable], share);
   if (row.id.has_value()) add(row_of(entities_, *row.id), share);
+  if (shows("entity")) motion_.take_pdu(row, datagram);
   add(datagram_, share);
   totals_.count(row);
   loss_.pdu(row);
@@ -73,8 +74,8 @@ void StatsView::datagram(const peer::SourceDatagram& datagram, std::chrono::nano
 StatsView::Rows StatsView::rows(std::string_view by) const {
   Rows rows;
   const auto take = [&](const auto& table, auto name) {
-    for (const auto& [key, share] : table.rows) rows.push_back({name(key), share});
-    if (table.others.pdus > 0) rows.push_back({"others", table.others});
+    for (const auto& [key, share] : table.rows) rows.push_back({name(key), share, {}});
+    if (table.others.pdus > 0) rows.push_back({"others", table.others, {}});
   };
   const auto endpoint_name = [](const peer::IpEndpoint& endpoint) {
     return endpoint.is_unspecified() ? "-" : endpoint.text();
@@ -86,20 +87,38 @@ StatsView::Rows StatsView::rows(std::string_view by) const {
     if (types_[type].pdus == 0) continue;
     const std::string_view name =
         type == kUnreadable ? "unreadable" : pdu::snake_name(static_cast<pdu::PduType>(type));
-    rows.push_back({std::string(name), types_[type]});
+    rows.push_back({std::string(name), types_[type], {}});
   }
+  if (by == "entity") add_jumps(rows);
   std::sort(rows.begin(), rows.end(), [](const NamedShare& a, const NamedShare& b) {
     return a.share.pdus != b.share.pdus ? a.share.pdus > b.share.pdus : a.key < b.key;
   });
   return rows;
 }
 
+// The same ID in several exercises has one row.
+void StatsView::add_jumps(Rows& rows) const {
+  std::unordered_map<std::string, Jumps> greatest;
+  for (std::size_t i = 0; i < motion_.rows().size(); ++i) {
+    const EntityRow& row = motion_.rows()[i];
+    if (row.jumps.count() == 0) continue;
+    Jumps& jumps = greatest[id_text(motion_.entities()[i].id)];
+    jumps.metres = std::max(jumps.metres, row.jumps.max());
+    jumps.degrees = std::max(jumps.degrees, row.turns.max());
+  }
+  for (NamedShare& row : rows)
+    if (const auto found = greatest.find(row.key); found != greatest.end())
+      row.jumps = found->second;
+}
+
 void StatsView::finish(const InspectTally&, std::string& out) {
   if (format_ == Format::csv)
-    out += "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost\n";
+    out +=
+        "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost,jump_max_m,"
+        "jump_max_deg\n";
   if (format_ == Format::text) return text(out);
   for (const std::string_view table : kTables) {
-    if (!by_.empty() && by_ != table) continue;
+    if (!shows(table)) continue;
     if (format_ == Format::json) json_table(table, out);
     if (format_ == Format::csv) csv_table(table, out);
   }
@@ -124,7 +143,7 @@ void StatsView::text(std::string& out) const {
                    sequences.received - sequences.duplicated + sequences.lost, sequences.reordered,
                    sequences.duplicated);
   for (const std::string_view table : kTables) {
-    if (by_.empty() || by_ == table) text_table(table, by_.empty() ? kRowsInText : SIZE_MAX, out);
+    if (shows(table)) text_table(table, by_.empty() ? kRowsInText : SIZE_MAX, out);
   }
 }
 
@@ -142,6 +161,10 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
     columns.push_back({"DATAGRAMS", kRight});
     columns.push_back({"LOST", kRight});
   }
+  if (by == "entity") {
+    columns.push_back({"JUMP max", kRight});
+    columns.push_back({"TURN max", kRight});
+  }
   TextTable table(columns);
   const Rows all = rows(by);
   const double seconds = totals_.seconds();
@@ -158,6 +181,11 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
       cells.push_back(fmt::format("{}", share.datagrams));
       cells.push_back(known ? fmt::format("{}", share.lost) : "-");
     }
+    if (by == "entity") {
+      const auto& jumps = all[i].jumps;
+      cells.push_back(jumps.has_value() ? distance_text(jumps->metres) : "-");
+      cells.push_back(jumps.has_value() ? angle_text(jumps->degrees) : "-");
+    }
     table.add(std::move(cells));
   }
   if (table.empty()) return;
@@ -169,7 +197,7 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
 
 void StatsView::json_table(std::string_view by, std::string& out) const {
   const double seconds = totals_.seconds();
-  for (const auto& [key, share] : rows(by)) {
+  for (const auto& [key, share, jumps] : rows(by)) {
     JsonObject line(out);
     line.text("by", by)
         .text("key", key)
@@ -179,6 +207,9 @@ void StatsView::json_table(std::string_view by, std::string& out) const {
         .value("octets_per_s", rate(static_cast<double>(share.octets), seconds, format_))
         .value("errors", share.errors);
     if (has_datagrams(by)) line.value("datagrams", share.datagrams).value("lost", share.lost);
+    if (jumps.has_value())
+      line.value("jump_max_m", json_number(jumps->metres))
+          .value("jump_max_deg", json_number(jumps->degrees));
     line.end("\n");
   }
 }
@@ -208,16 +239,19 @@ void StatsView::json_totals(std::string& out) const {
 
 void StatsView::csv_table(std::string_view by, std::string& out) const {
   const double seconds = totals_.seconds();
-  for (const auto& [key, share] : rows(by)) {
+  for (const auto& [key, share, jumps] : rows(by)) {
     fmt::format_to(end_of(out), "{},", by);
     append_csv_cell(out, key);
     fmt::format_to(end_of(out), ",{},{},{},{},", share.pdus, share.octets,
                    rate(static_cast<double>(share.pdus), seconds, format_),
                    rate(static_cast<double>(share.octets), seconds, format_));
     if (has_datagrams(by))
-      fmt::format_to(end_of(out), "{},{},{}\n", share.datagrams, share.errors, share.lost);
+      fmt::format_to(end_of(out), "{},{},{}", share.datagrams, share.errors, share.lost);
     else
-      fmt::format_to(end_of(out), ",{},\n", share.errors);
+      fmt::format_to(end_of(out), ",{},", share.errors);
+    out += jumps.has_value()
+               ? fmt::format(",{},{}\n", json_number(jumps->metres), json_number(jumps->degrees))
+               : ",,\n";
   }
 }
 

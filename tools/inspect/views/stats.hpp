@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The view `stats`: traffic by type and sender, fill of datagrams, and loss, which is counted from
-// the sequence numbers in trailers.
+// The view `stats`: traffic by type and sender, fill of datagrams, loss, which is counted from the
+// sequence numbers in trailers, and the greatest jumps of entities.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -18,6 +19,7 @@
 #include "reckon/tools/datagrams/trailer_loss.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/inspect/output/view.hpp"
+#include "reckon/tools/listener/entity_table.hpp"
 
 namespace reckon::tools {
 
@@ -56,9 +58,15 @@ class StatsView final : public View {
     std::unordered_map<Key, TrafficShare> rows;
     TrafficShare others;
   };
+  /// Greatest jumps of an entity from where its update before led.
+  struct Jumps {
+    double metres = 0;
+    double degrees = 0;
+  };
   struct NamedShare {
     std::string key;
     TrafficShare share;
+    std::optional<Jumps> jumps;  ///< of an entity that sent two states or more
   };
   using Rows = std::vector<NamedShare>;
   using EndpointTable = Table<peer::IpEndpoint>;
@@ -66,6 +74,8 @@ class StatsView final : public View {
   template <typename Key>
   [[nodiscard]] TrafficShare& row_of(Table<Key>& table, const Key& key) const;
   [[nodiscard]] Rows rows(std::string_view by) const;
+  [[nodiscard]] bool shows(std::string_view table) const { return by_.empty() || by_ == table; }
+  void add_jumps(Rows& rows) const;
   void text(std::string& out) const;
   void text_table(std::string_view by, std::size_t most, std::string& out) const;
   void json_table(std::string_view by, std::string& out) const;
@@ -75,6 +85,7 @@ class StatsView final : public View {
   Format format_;
   std::string by_;
   std::size_t most_rows_;
+  EntityTable motion_;
   TrafficTotals totals_;
   std::array<TrafficShare, 257> types_{};  // by PDU type; the last for PDUs without a header
   EndpointTable senders_;

@@ -4,10 +4,13 @@
 // nothing else, and says what to do.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "reckon/pdu/entity/variable_parameter.hpp"
 #include "reckon/tests/tools/support/checked_traffic.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 
@@ -66,6 +69,37 @@ void plant_other_host(CaptureBuilder& capture) {
   capture.add(datagram_of(truck(seconds(6))), kStart + seconds(6), Sender{2, 3000, 0});
 }
 
+/// A truck whose timestamp stands still from its fourth second on.
+void plant_still_stamps(CaptureBuilder& capture) {
+  for (int i = 4; i < 10; ++i) {
+    pdu::EntityState pdu = truck(seconds(i));
+    pdu.header.timestamp = truck(seconds(3)).header.timestamp;
+    capture.add(datagram_of(pdu), kStart + seconds(i));
+  }
+}
+
+/// Another truck whose timestamps count milliseconds.
+void plant_milliseconds(CaptureBuilder& capture) {
+  for (int i = 4; i < 10; ++i) {
+    pdu::EntityState pdu = truck(seconds(i));
+    pdu.entity_id.entity = 5;
+    pdu.header.timestamp = static_cast<std::uint32_t>(1000 * i);
+    capture.add(datagram_of(pdu), kStart + seconds(i));
+  }
+}
+
+/// An articulated part whose value is a float64.
+void plant_float64(CaptureBuilder& capture) {
+  std::array<std::byte, pdu::kVariableParameterSize> part{};
+  pdu::ArticulatedPart fields;
+  fields.parameter_type = 4107;
+  EXPECT_EQ(store_record(fields, part), part.size());
+  pdu::store_big_endian(part.data() + 8, 0.785398);
+  pdu::EntityState pdu = truck(seconds(4));
+  pdu.variable_parameters = part;
+  capture.add(datagram_of(pdu), kStart + seconds(4));
+}
+
 void plant_large_pdu(CaptureBuilder& capture) {
   Octets datagram = datagram_of(truck(seconds(4)));
   datagram.resize(9000);
@@ -78,6 +112,7 @@ const std::vector<Planted>& planted() {
   static const std::vector<Planted> kPlanted{
       {"E-TRUNCATED", in_octets([](Octets& o) { o.resize(140); })},
       {"E-LENGTH", in_octets([](Octets& o) { o[9] = std::byte{8}; })},
+      {"E-BYTE-ORDER", in_octets([](Octets& o) { std::swap(o[8], o[9]); })},
       {"E-COUNT", in_octets([](Octets& o) { o[19] = std::byte{200}; })},
       {"E-RECORD",
        [](CaptureBuilder& capture) {
@@ -93,6 +128,10 @@ const std::vector<Planted>& planted() {
        }},
       {"W-NOT-FINITE",
        in_fields([](auto& pdu) { pdu.location.y = std::numeric_limits<double>::quiet_NaN(); })},
+      {"W-TRAILING", in_octets([](Octets& o) {
+         o.resize(150, std::byte{0x55});
+         o[9] = std::byte{150};
+       })},
       {"W-STATIC-MOVES", in_fields([](auto& pdu) {
          pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::static_;
        })},
@@ -119,9 +158,13 @@ const std::vector<Planted>& planted() {
       {"W-TIMESTAMP-TOLERANCE", in_fields([](auto& pdu) {
          pdu.header.timestamp = pdu::to_dis_timestamp(kStart + seconds(12), true);
        })},
+      {"W-TIMESTAMP-STILL", plant_still_stamps},
+      {"W-TIMESTAMP-PACE", plant_milliseconds},
       {"W-HEARTBEAT", [](CaptureBuilder& capture) { drive(capture, seconds(300)); }},
       {"W-DUPLICATE-ID", plant_other_host},
       {"W-VELOCITY", plant_kilometres_per_hour},
+      {"W-ORIENTATION", in_fields([](auto& pdu) { pdu.orientation.psi = 90; })},
+      {"W-FLOAT64", plant_float64},
       {"W-TELEPORT", plant_teleport},
       {"W-SPIKE", plant_spike},
       {"W-ATTRIBUTE-ORDER",
@@ -136,7 +179,13 @@ const std::vector<Planted>& planted() {
       {"I-FOREIGN",
        [](CaptureBuilder& capture) {
          for (int i = 0; i < 3; ++i)  // told once
-           capture.add(Octets(40, std::byte{0}), kStart + seconds(4));
+           capture.add(Octets(40, std::byte{0}), kStart + seconds(4 + i));
+       }},
+      {"I-COPIES",
+       [](CaptureBuilder& capture) {
+         for (int i = 0; i < 6; ++i)
+           capture.add(datagram_of(truck(seconds(4 + i / 2))),
+                       kStart + seconds(4 + i / 2) + milliseconds(i % 2));
        }},
       {"I-BUNDLE-ORDER",
        [](CaptureBuilder& capture) {
@@ -160,7 +209,8 @@ TEST(InspectCheck, FindsNothingInGoodTraffic) {
 }
 
 /// Faults that break a second rule by their nature.
-const std::map<std::string, std::set<std::string>> kAlso{{"W-ATTRIBUTE-ORDER", {"I-BUNDLE-ORDER"}}};
+const std::map<std::string, std::set<std::string>> kAlso{{"W-ATTRIBUTE-ORDER", {"I-BUNDLE-ORDER"}},
+                                                         {"W-SIZE", {"W-TRAILING"}}};
 
 TEST(InspectCheck, FiresEachRuleOnItsFaultAloneAndOnce) {
   for (const Planted& fault : planted()) {
@@ -182,11 +232,13 @@ TEST(InspectCheck, FiresEachRuleOnItsFaultAloneAndOnce) {
 TEST(InspectCheck, NamesTheOctetOfTheField) {
   // As IEEE 1278.1 lays out an Entity State PDU.
   const std::map<std::string, int> octets{
-      {"W-FAMILY", 3}, {"W-TIMESTAMP-ORDER", 4}, {"W-TIMESTAMP-TOLERANCE", 4},
-      {"W-SIZE", 8},   {"W-COUPLED", 10},        {"W-ID", 12},
-      {"W-SIDE", 18},  {"W-KIND", 20},           {"W-DOMAIN", 21},
-      {"W-DRM", 88},   {"I-UNNAMED", 22},        {"W-STATIC-MOVES", 36},
-      {"E-COUNT", 19}, {"W-LOCATION", 48},       {"W-NOT-FINITE", 56}};
+      {"W-FAMILY", 3},     {"W-TIMESTAMP-ORDER", 4}, {"W-TIMESTAMP-TOLERANCE", 4},
+      {"W-SIZE", 8},       {"W-COUPLED", 10},        {"W-ID", 12},
+      {"E-BYTE-ORDER", 8}, {"W-TRAILING", 144},      {"W-ORIENTATION", 72},
+      {"W-FLOAT64", 152},  {"W-TIMESTAMP-STILL", 4}, {"W-TIMESTAMP-PACE", 4},
+      {"W-SIDE", 18},      {"W-KIND", 20},           {"W-DOMAIN", 21},
+      {"W-DRM", 88},       {"I-UNNAMED", 22},        {"W-STATIC-MOVES", 36},
+      {"E-COUNT", 19},     {"W-LOCATION", 48},       {"W-NOT-FINITE", 56}};
   std::size_t compared = 0;
   for (const Planted& fault : planted()) {
     const auto expected = octets.find(fault.code);

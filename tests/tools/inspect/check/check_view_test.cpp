@@ -6,7 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "reckon/peer/capture/capture_file.hpp"
 #include "reckon/tests/support/reference_data.hpp"
@@ -91,6 +93,52 @@ TEST(InspectCheck, HoldsRelativeTimestampsAgainstTheArrival) {
     }
     EXPECT_EQ(check(capture.path()).codes()["W-TIMESTAMP-TOLERANCE"], drifts ? 1 : 0);
   }
+}
+
+TEST(InspectCheck, TellsUnixSecondsInTimestampsOnce) {
+  CaptureBuilder capture;
+  for (int i = 0; i < 12; ++i) {
+    pdu::EntityState pdu = truck(seconds(i));
+    pdu.header.timestamp = static_cast<std::uint32_t>(1'700'000'000 + i);
+    capture.add(datagram_of(pdu), kStart + seconds(i));
+  }
+  const Checked checked = check(capture.path());
+  EXPECT_EQ(checked.codes(), (std::map<std::string, int>{{"W-TIMESTAMP-PACE", 1}}));
+  EXPECT_THAT(checked.findings[0]["reason"].get<std::string>(), HasSubstr("seconds since 1970"));
+  EXPECT_THAT(checked.findings[0]["remedy"].get<std::string>(), testing::Not(HasSubstr("NTP")));
+}
+
+TEST(InspectCheck, CountsCopiesOfOneSenderAtTheEnd) {
+  const auto notes_of = [](milliseconds later, Sender second) {
+    CaptureBuilder capture;
+    for (int i = 0; i < 10; ++i) {
+      capture.add(datagram_of(truck(seconds(i))), kStart + seconds(i));
+      capture.add(datagram_of(truck(seconds(i))), kStart + seconds(i) + later, second);
+    }
+    std::vector<json> notes = check(capture.path()).findings;
+    std::erase_if(notes, [](const json& finding) { return finding["rule"] != "I-COPIES"; });
+    return notes;
+  };
+  const auto notes = notes_of(milliseconds(1), Sender{});
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0]["frame"], 2);
+  EXPECT_EQ(notes[0]["reason"],
+            "10 of 20 datagrams are copies; the first repeats frame 1 after 1.000 ms");
+  EXPECT_THAT(notes[0]["remedy"].get<std::string>(), HasSubstr("editcap"));
+  EXPECT_TRUE(notes_of(milliseconds(6), Sender{}).empty()) << "it may be sent again";
+  EXPECT_TRUE(notes_of(milliseconds(1), Sender{2, 3000, 0}).empty()) << "a bridge";
+}
+
+TEST(InspectCheck, ChecksPdusThatHaveOctetsBehindTheirLastField) {
+  CaptureBuilder capture;
+  pdu::EntityState pdu = truck(seconds(0));
+  pdu.force_id = pdu::ForceId{77};
+  Octets datagram = datagram_of(pdu);
+  datagram.resize(160, std::byte{0x11});
+  datagram[9] = std::byte{160};
+  capture.add(datagram, kStart);
+  EXPECT_EQ(check(capture.path()).codes(),
+            (std::map<std::string, int>{{"W-SIDE", 1}, {"W-TRAILING", 1}}));
 }
 
 TEST(InspectCheck, TellsOfSilenceUntilTheEndButNotOfWhoSaidGoodbye) {

@@ -20,6 +20,7 @@ namespace {
 using namespace checks;
 using nlohmann::json;
 using test::Sender;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 /// One update on its way into a capture.
@@ -76,6 +77,11 @@ TEST(JumpSearch, FindsATeleportWithFrameTimeEntityAndSize) {
   EXPECT_EQ(found[0]["time"], 1'700'000'012.0);
   EXPECT_NEAR(found[0]["metres"], 500, 0.1);
   EXPECT_THAT(found[0]["reason"].get<std::string>(), HasSubstr("500 m at 12.000 s; "));
+  EXPECT_NEAR(found[0]["degrees"], 0, 1e-3);
+  for (std::size_t i = 12; i < updates.size(); ++i) updates[i].pdu.orientation.psi = -3.0F;
+  const json turned = jumps_of(updates).at(0);
+  EXPECT_NEAR(turned["degrees"], 171.887, 1e-3);
+  EXPECT_THAT(turned["reason"].get<std::string>(), EndsWith("; turned 172 deg"));
 }
 
 TEST(JumpSearch, TellsASpikeOfOneUpdateFromATeleport) {

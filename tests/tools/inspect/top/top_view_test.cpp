@@ -54,7 +54,7 @@ TEST_F(TopOfCapture, PrintsOneLineAnEntity) {
   EXPECT_THAT(lines[0], HasSubstr("ex 1   0:20   1 PDU/s   1 dgram/s"));
   EXPECT_THAT(lines[1], HasSubstr("ID     MARK    SIDE  KIND  DRM     HZ  WHY"));
   EXPECT_THAT(lines[2], HasSubstr("1:2:1  MOVER      1  air   2 fpw  1.0  threshold"));
-  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m  0.50 m  1.0s   0.0s"));
+  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m  0.50 m  1.0s     0   0.0s"));
   EXPECT_THAT(lines[2], HasSubstr("239.1.2.3:3000  10.0.0.7:3000"));
   EXPECT_THAT(lines[3], HasSubstr("1:2:2  SILENT"));
   EXPECT_THAT(lines[3], HasSubstr("15.0s"));
@@ -76,6 +76,24 @@ TEST(Top, NamesTimeAndFrameOfTheGreatestJump) {
   EXPECT_NEAR(row["jump_max_m"], 500, 0.1);
   EXPECT_EQ(row["jump_max_at_s"], 12);
   EXPECT_EQ(row["jump_max_frame"], 13);
+}
+
+TEST(Top, MeasuresJumpsOfTheOrientationInDegrees) {
+  CaptureBuilder capture;
+  for (int i = 0; i <= 20; ++i) {
+    pdu::EntityState pdu = entity_at(i, 0.0, 1, "TURNER");
+    pdu.orientation.psi = i < 12 ? 3.1F : -3.1F;  // over pi: 4.8 degrees
+    Octets datagram;
+    append_pdu(datagram, pdu);
+    capture.add(datagram, after(i));
+  }
+  const json row = json::parse(run_reckon({"inspect", capture.path(), "top", "--json"}).lines()[0]);
+  EXPECT_NEAR(row["jump_max_deg"], 4.766, 1e-3);
+  EXPECT_NEAR(row["jump_p50_deg"], 0, 1e-3);
+  EXPECT_NEAR(row["jump_deg"], 0, 1e-3);
+  const auto text = run_reckon({"inspect", capture.path(), "top"}).lines();
+  EXPECT_THAT(text.at(1), HasSubstr("     TURN"));
+  EXPECT_THAT(text.at(2), HasSubstr("4.8 deg"));
 }
 
 TEST_F(TopOfCapture, GivesJsonWithTheDocumentedKeys) {

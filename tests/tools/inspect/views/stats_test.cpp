@@ -14,6 +14,7 @@
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/unicast_frame.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -171,8 +172,29 @@ TEST(InspectStats, WritesOneTableAsCsv) {
   const auto lines =
       run_reckon({"inspect", capture.path(), "stats", "--by", "entity", "--csv"}).lines();
   ASSERT_EQ(lines.size(), 2U);
-  EXPECT_EQ(lines[0], "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost");
-  EXPECT_EQ(lines[1], "entity,1:2:3,1,144,,,,0,");
+  EXPECT_EQ(lines[0],
+            "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost,jump_max_m,"
+            "jump_max_deg");
+  EXPECT_EQ(lines[1], "entity,1:2:3,1,144,,,,0,,,");
+}
+
+TEST(InspectStats, ShowsTheGreatestJumpsOfEntitiesInMetresAndDegrees) {
+  CaptureBuilder capture;
+  for (int i = 0; i < 4; ++i) {
+    pdu::EntityState state;
+    state.header.timestamp = pdu::to_dis_timestamp(kStart + seconds(i), true);
+    state.entity_id = {1, 2, 3};
+    state.location = {6378137.0, i == 2 ? 3.0 : 0.0, 0.0};
+    state.orientation.psi = i == 3 ? 0.5F : 0.0F;
+    Octets datagram;
+    append_pdu(datagram, state);
+    capture.add(datagram, kStart + seconds(i));
+  }
+  const json row = rows_of({"inspect", capture.path(), "stats", "--by", "entity", "--json"})[0];
+  EXPECT_NEAR(row["jump_max_m"], 3, 1e-6);
+  EXPECT_NEAR(row["jump_max_deg"], 28.6479, 1e-4);
+  const auto lines = run_reckon({"inspect", capture.path(), "stats", "--by", "entity"}).lines();
+  EXPECT_THAT(lines.back(), HasSubstr("3.00 m    29 deg"));
 }
 
 TEST(InspectStats, KeepsMemoryBoundedAndLosesNoPdu) {

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/datagrams/zero_length.hpp"
+#include "reckon/pdu/zero_length.hpp"
 
 #include "reckon/pdu/bundle.hpp"
 
-namespace reckon::tools {
+namespace reckon::pdu {
 
 std::optional<std::size_t> find_zero_length(std::span<const std::byte> datagram) noexcept {
-  for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
-    if (pdu.error == pdu::DecodeError::length && pdu.header.length == 0 &&
-        pdu.bytes.size() <= pdu::kMaxPduSize)
+  for (const BundledPdu& pdu : BundleReader(datagram)) {
+    if (pdu.error == DecodeError::length && pdu.header.length == 0 &&
+        pdu.bytes.size() <= kMaxPduSize)
       return pdu.offset;
   }
   return std::nullopt;
@@ -17,7 +17,7 @@ std::optional<std::size_t> find_zero_length(std::span<const std::byte> datagram)
 
 void set_length(std::span<std::byte> datagram, std::size_t offset, std::uint16_t length) noexcept {
   constexpr std::size_t kLengthAt = 8;  // in the header
-  pdu::store_big_endian(datagram.data() + offset + kLengthAt, length);
+  store_big_endian(datagram.data() + offset + kLengthAt, length);
 }
 
-}  // namespace reckon::tools
+}  // namespace reckon::pdu

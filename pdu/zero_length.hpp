@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace reckon::tools {
+namespace reckon::pdu {
 
 /// The offset of the PDU with a length field of 0, if the datagram has one; it is the last then. A
 /// PDU has a header of a supported version, and at most 65,535 octets.
@@ -18,4 +18,4 @@ namespace reckon::tools {
 /// Writes the length field of the PDU at `offset`, which has a header.
 void set_length(std::span<std::byte> datagram, std::size_t offset, std::uint16_t length) noexcept;
 
-}  // namespace reckon::tools
+}  // namespace reckon::pdu

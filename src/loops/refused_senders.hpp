@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Senders that the gate refuses, with the reason, so that the user can see a wrong exercise number
+// or a length field of 0.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/loops/datagram_gate.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// Datagrams of one sender that were refused for one reason.
+struct RefusedSender {
+  IpEndpoint who;  ///< port 0: of all further senders together
+  Refusal why = Refusal::none;
+  std::uint8_t octet = 0;  ///< of the first one: its exercise, or the octet that is no version
+  std::uint64_t count = 0;
+};
+
+/// Reports each sender and reason once: the number of datagrams in the second after the first one.
+/// Senders without a row are reported together: after 1 s, then at most once a minute, with the
+/// total so far. One thread, fixed memory, no allocation;
+/// some ns a refused datagram.
+class RefusedSenders {
+ public:
+  static constexpr std::size_t kMost = 16;
+  static constexpr std::chrono::nanoseconds kGather = std::chrono::seconds(1);
+  static constexpr std::chrono::nanoseconds kAgain = std::chrono::minutes(1);
+
+  /// @param out receives the reports; outlives this
+  explicit RefusedSenders(haptics::SpscRing<RefusedSender>& out) noexcept : out_(out) {}
+
+  /// @param datagram refused, for a reason other than `none`  @param now steady
+  void note(const Datagram& datagram, Refusal why, std::chrono::nanoseconds now) noexcept;
+  /// Call it some times a second.
+  void look(std::chrono::nanoseconds now) noexcept;
+
+ private:
+  struct Row {
+    RefusedSender report;
+    std::chrono::nanoseconds due{-1};  // < 0: reported, or free
+  };
+  std::array<Row, kMost> rows_{};
+  Row others_;
+  haptics::SpscRing<RefusedSender>& out_;
+};
+
+}  // namespace reckon::peer

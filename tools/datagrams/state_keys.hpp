@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The key states that Compressed States of a stream depend on, for tools that take part in no
+// exercise.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
+#include "reckon/peer/compression/state_restorer.hpp"
+
+namespace reckon::tools {
+
+/// Restores Entity States from compressed ones. The residual form needs a key state of the entity
+/// that arrives after the first compressed state. One thread. Allocates for a new entity, 1 KiB;
+/// above the maximum the oldest entities lose their keys and need new ones.
+class StateKeys {
+ public:
+  static constexpr std::size_t kMost = 4096;
+
+  explicit StateKeys(std::size_t most_entities = kMost) : most_(std::min(most_entities, kMost)) {}
+
+  /// Takes a plain Entity State.
+  void note_plain(const pdu::EntityState& state) {
+    if (restorer_) restorer_->note_plain(state, owner_of(state.entity_id.simulation()));
+  }
+  /// Restores one state of `states` into `out`, which is changed only if the verdict is good.
+  [[nodiscard]] peer::RestoreVerdict restore(const pdu::CompressedStates& states,
+                                             const pdu::CompressedState& state,
+                                             pdu::EntityState& out);
+
+ private:
+  // A tool binds no entity to a sender: every state counts as sent by the owner.
+  [[nodiscard]] static peer::KeySpeaker owner_of(const pdu::SimulationAddress& entities) noexcept {
+    return {entities, 1};
+  }
+
+  std::size_t most_;
+  std::optional<peer::StateRestorer> restorer_;           // from the first compressed state on
+  pdu::CompressedForm form_ = pdu::CompressedForm::none;  // that it reads
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Octets behind the last field of a PDU: the codec skips them. What they are, and which count or
+// length of the sender leaves them out.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "reckon/pdu/codec/pdu_header.hpp"
+
+namespace reckon::tools {
+
+/// The first 16 octets in hexadecimal, and "..." if there are more.
+[[nodiscard]] std::string start_in_hex(std::span<const std::byte> octets);
+
+/// "32 octets behind the last field: 0001...; number_of_variable_parameter_records is 0, and 2 more
+/// records are there". The cause is given only if one fits. `octets` are those of one PDU that
+/// decodes, of which the last `behind` belong to no field.
+[[nodiscard]] std::string explain_trailing(std::span<const std::byte> octets,
+                                           const pdu::PduHeader& header, std::size_t behind);
+
+}  // namespace reckon::tools

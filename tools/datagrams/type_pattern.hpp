@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A class of entity types as a filter has it: "1.1.225.*", "Platform Land".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::tools {
+
+/// Kind, domain, country, category, subcategory, specific and extra; none matches any number.
+struct TypePattern {
+  std::array<std::optional<std::uint16_t>, 7> parts;
+
+  [[nodiscard]] bool matches(const pdu::EntityType& type) const noexcept;
+};
+
+/// A pattern, or the reason why the text is none.
+struct TypePatternText {
+  TypePattern pattern;
+  std::string error{};  ///< empty if valid
+  std::size_t at = 0;   ///< offset of the wrong part in the text
+};
+
+/// Reads numbers with dots between them, each of which may be *. Parts that are left out at the end
+/// match any number, and so do zeros there, as in peer::EntityClass. Reads the words of
+/// peer::parse_entity_type() too.
+[[nodiscard]] TypePatternText parse_type_pattern(std::string_view text);
+
+}  // namespace reckon::tools

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Search for datagrams that a capture holds twice, as one of all interfaces or of a mirrored port
+// does. A copy that another host repeats has another sender, and is none here.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/peer/capture/datagram_source.hpp"
+
+namespace reckon::tools {
+
+/// Counts datagrams whose octets, sender and group are those of an earlier one within 5 ms, among
+/// the last 64. One thread, no allocation, some 0.1 us a datagram.
+class CopySearch {
+ public:
+  struct Copy {
+    std::uint64_t frame = 0;
+    std::uint64_t original = 0;  ///< frame of the first one
+    std::chrono::nanoseconds time{};
+    std::chrono::nanoseconds later{};
+  };
+
+  void look_at(const peer::SourceDatagram& datagram);
+
+  [[nodiscard]] std::uint64_t copies() const noexcept { return copies_; }
+  [[nodiscard]] std::uint64_t datagrams() const noexcept { return datagrams_; }
+  /// The first copy, if there is any.
+  [[nodiscard]] const Copy& first() const noexcept { return first_; }
+
+ private:
+  static constexpr std::size_t kRemembered = 64;
+  struct Seen {
+    std::uint64_t hash = 0;
+    std::uint64_t frame = 0;
+    std::chrono::nanoseconds time{};
+  };
+
+  std::array<Seen, kRemembered> seen_{};  // a ring: the next goes to datagrams_ % 64
+  std::uint64_t datagrams_ = 0;
+  std::uint64_t copies_ = 0;
+  Copy first_;
+};
+
+}  // namespace reckon::tools
