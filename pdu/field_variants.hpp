@@ -62,7 +62,7 @@ void each_variant(F&& f) {
   }
   if constexpr (std::same_as<Pdu, IsGroupOf>) {
     pdu->number_of_grouped_entities = 1;
-    for (const std::size_t size : {20, 24, 20, 24, 24, 28, 20, 24, 16}) {
+    for (const std::size_t size : {20U, 24U, 20U, 24U, 24U, 28U, 20U, 24U, 16U}) {
       ++pdu->grouped_entity_category;
       pdu->grouped_entity_descriptions.bytes = std::span(kZeros).first(size);
       f(std::as_const(*pdu));

@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/peer/emissions/emission_table.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 #include "reckon/tests/fuzz/json_check.hpp"
 #include "reckon/tests/fuzz/wire_mutator.hpp"
 #include "reckon/tools/captures/pdu_map.hpp"
+#include "reckon/tools/emissions/emission_text.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 #include "reckon/tools/inspect/output/json_lines.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
@@ -177,6 +179,23 @@ void check_map(Octets octets) {
   }
 }
 
+/// The table of emitters, which stands still in size and gives lines of JSON.
+void check_emissions(Octets octets) {
+  constexpr std::size_t kRows = 24;
+  peer::EmissionTable table(kRows);
+  std::string& lines = emptied_texts().views;
+  for (const auto time : {-2'147'483'648s, 0s, 1s, 6'000'000'000s}) {
+    for (const pdu::BundledPdu& pdu : pdu::BundleReader(octets))
+      table.take(pdu.bytes, {.now = time});
+    require(table.rows().size() <= kRows, "the table of emitters passes its bound");
+    for (const peer::Emission& emission : table.rows()) {
+      tools::append_emission_json(lines, emission, 0s, time);
+      lines += '\n';
+    }
+  }
+  check_lines(lines, true);
+}
+
 void check(Octets octets) {
   check_reader(octets);
   check_map(octets);
@@ -192,6 +211,7 @@ void check(Octets octets) {
   check_rows(datagram, true);
   check_text(datagram);
   check_views(datagram);
+  check_emissions(octets);
 }
 
 }  // namespace

@@ -261,7 +261,7 @@ class Page {
     const { moment } = this;
     moment.followed = moment.followed === slot ? NONE : slot;
     this.source.tell('follow', moment.followed);
-    this.stage.restless = true;
+    this.fresh = true;
     const orbit = this.stage.view('world').orbit;
     if (moment.followed === NONE) this.stage.fit('world');
     else if (this.stage.view('world').extent) {
@@ -365,7 +365,7 @@ class Page {
     const { seen, moment } = this;
     window.reckon = {
       ...seen, state: this.state, play: this.timeLine.state, time: this.newer?.picture.time ?? null, age: this.age ?? null, bad: this.source.bad,
-      entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, kind: moment.hello.kind,
+      entities: moment.count, hands: moment.hands, contacts: moment.contacts.length, large: this.stage.large, target: this.stage.view('world').orbit.goal.target.toArray(), kind: moment.hello.kind,
       numbers: moment.numbers, yours: this.hand.index, minute: () => this.minute(), placeOf: (index) => this.placeOf(index),
       depthTo: (index) => this.hand.depthTo(moment.hands.find((one) => one.index === index).position),
     };

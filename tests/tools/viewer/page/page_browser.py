@@ -218,6 +218,11 @@ def saved(reckon, scenes):
         expect(file.stat().st_size <= 4_000_000, f"at most 4 MB, not {file.stat().st_size}")
         with browser() as page:
             plays_from_disk(page, file, 2)
+            page.driver.execute_script("document.getElementById('play').click()")
+            page.wait("window.reckon.play === 'paused'", "it pauses")
+            before = json.dumps(page.ask("window.reckon.target"))
+            page.driver.execute_script("document.querySelector('#table tbody tr').click()")
+            page.wait(f"Math.hypot(...window.reckon.target.map((x, i) => x - {before}[i])) > 0.001", "a paused picture turns to the followed entity")
 
 
 def plays_from_disk(page, file, entities):
