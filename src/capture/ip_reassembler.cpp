@@ -53,7 +53,7 @@ bool is_sound(const IpFragment& fragment) {
 }
 
 /// The part of a datagram that a frame carries.
-struct Carried {
+struct CarriedPart {
   bool is_whole{true};
   std::size_t offset{0};
   bool has_more{false};
@@ -62,7 +62,7 @@ struct Carried {
 /// Sets the lengths and the fragment field of the headers in `frame`. False if the packet is longer
 /// than one can be.
 bool set_headers(std::vector<std::byte>& frame, const IpFragment& head, bool is_v6,
-                 const Carried& carried) {
+                 const CarriedPart& carried) {
   std::byte* const ip = frame.data() + head.ip_at;
   const std::size_t packet = frame.size() - head.ip_at;
   if (is_v6) {
