@@ -28,6 +28,7 @@ class GuestShare {
   [[nodiscard]] double share_of(const RemoteContact& remote) const noexcept {
     return remote.is_guest() ? share_ : 1.0;
   }
+  [[nodiscard]] double share() const noexcept { return share_; }  ///< of guests
   [[nodiscard]] bool pressed_lately() const noexcept { return left_ > 0; }
 
  private:

@@ -42,6 +42,7 @@ struct ServoTally {
   double bodies = 0.0;   ///< [s] in contact with bodies that other peers move
   double grabbed = 0.0;  ///< [s] in which it held a body
   Shortfall held_back;   ///< springs of hands, for lack of energy
+  Shortfall guests;      ///< springs of guests beside hands, which come first (GuestShare)
   Shortfall crowd;       ///< springs of hands that are together stiffer than the device can show
   /// The shown force against the force of springs at their received stiffness: energy has been
   /// short for longer, and both ends show the contact softer.

@@ -359,10 +359,12 @@ void ServoStepOf<axes>::load_hands(Load& load) noexcept {
   LoadSum<axes> sum(load);
   PortLoad& one = sum.of_probe();
   Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d of_guests = Eigen::Vector3d::Zero();
   std::size_t touched = 0;
   for (const RemoteContact* remote : hands_.all()) {
     if (!remote->touching()) continue;
     const ContactSpring& spring = remote->spring();
+    if (remote->is_guest()) of_guests += spring.force();
     const double share = guests_.share_of(*remote);
     one.springs += share * spring.force();
     one.stored += share * spring.stored();
@@ -371,6 +373,7 @@ void ServoStepOf<axes>::load_hands(Load& load) noexcept {
     slopes += share * spring.slope();
     ++touched;
   }
+  tally_.guests.note_force(guests_.share(), of_guests, step_.dt);
   if (touched > 0) tally_.hands += step_.dt;
   if (touched > 1) one.springs_slope = greatest_eigenvalue(slopes);
   sum.add(tool_, 0);

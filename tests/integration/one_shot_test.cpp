@@ -215,6 +215,7 @@ TEST(Guests, WithoutEnergyPartNoHands) {
       }
     }
     EXPECT_GT(felt, 0.05) << "they were there";
+    EXPECT_GT(world.view(0).servo().tally.guests.seconds, 0.1) << "the summary reports it";
     EXPECT_LT(std::max(longest[0], longest[1]), 500) << speed;
   }
 }

@@ -63,6 +63,7 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {
     {"held back", &ServoTally::held_back, &ServoTally::hands, "energy was short"},
+    {"guests held back", &ServoTally::guests, &ServoTally::hands, "energy was short beside hands"},
     {"softened", &ServoTally::softened, &ServoTally::hands, "energy was short for longer"},
     {"crowded", &ServoTally::crowd, &ServoTally::hands, "stiffer together than a device can show"},
     {"walls held back", &ServoTally::walls, nullptr, "energy was short"},
@@ -219,6 +220,7 @@ void append_hand(std::string& out, const HandView* hand) {
       .value("touching_scene_s", number(tally.scene))
       .value("holding_body_s", number(tally.grabbed));
   append_shortfall(object.member("held_back"), tally.held_back);
+  append_shortfall(object.member("guests_held_back"), tally.guests);
   append_shortfall(object.member("softened"), tally.softened);
   append_shortfall(object.member("crowded"), tally.crowd);
   append_shortfall(object.member("walls_held_back"), tally.walls);

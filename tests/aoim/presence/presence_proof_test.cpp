@@ -152,6 +152,23 @@ TEST_F(Moving, ChangeDuringAnOutageIsAcceptedAfterIt) {
   EXPECT_LT(known_after(source(101), seconds(3)), seconds(2));
 }
 
+// Two cables that take turns, slower and faster than a change is accepted.
+TEST_F(Moving, BetweenTwoAddressesNeitherDropsNorRenames) {
+  for (const std::int64_t every_ms : {2500, 700, 150}) {
+    for (int i = 0; i < 20; ++i) {
+      const SourceAddress to = source(i % 2 == 0 ? 101 : 102);
+      segment_.move(kVictim, to);
+      segment_[kVictim].note_own_source(to, segment_.now());
+      segment_.run(milliseconds(every_ms));
+    }
+    EXPECT_LT(known_after(source(102), seconds(5)), seconds(3)) << every_ms << " ms";
+  }
+  EXPECT_LE(segment_.count(1, Kind::moved), 60u);
+  EXPECT_EQ(segment_.count(1, Kind::timed_out) + segment_.count(1, Kind::departed), 0u);
+  EXPECT_EQ(segment_.count(kVictim, Kind::identity_changed), 0u);
+  EXPECT_EQ(impostors_, 0u);
+}
+
 class Relayed : public Stolen {
  protected:
   Relayed() : Stolen(0.2, 9) {}

@@ -47,6 +47,10 @@ TEST_F(HandReport, SaysForHowLongAndByHowMuchContactsWereHeldBack) {
   EXPECT_THAT(text(), HasSubstr("held back                  3 % of the time in contact with hands, "
                                 "at worst 40 % of 2.3 N shown: energy was short (1:2:1, 1:3:1)"));
   EXPECT_THAT(text(), Not(HasSubstr("crowded")));
+  views_[3].servo.tally.guests = {1.0, 0.0, 3.0};
+  EXPECT_THAT(text(),
+              HasSubstr("guests held back           1.2 % of the time in contact with hands, "
+                        "at worst 0 % of 3 N shown: energy was short beside hands (1:4:1)"));
   views_[5].servo.tally.crowd = {1.0, 0.5, 4.0};
   views_[6].servo.tally.effects = {1.5, 0.0, 0.2};
   EXPECT_THAT(text(), AllOf(HasSubstr("crowded"), HasSubstr("50 % of 4 N shown"),
