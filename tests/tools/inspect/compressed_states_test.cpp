@@ -3,6 +3,8 @@
 // `reckon inspect` of Compressed States: the fields of the states that they restore.
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -150,6 +152,21 @@ TEST(InspectCompressedStates, AreCountedAsOnePdu) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("3 PDUs in 3 datagrams: 3 good"));
   EXPECT_THAT(result.out, Not(HasSubstr("\"fields\"")));
+}
+
+TEST(InspectCompressedStates, GiveTheNumberOfAnUnknownForm) {
+  pdu::CompressedStates states;
+  states.simulation = {7, 1};
+  states.form = static_cast<pdu::CompressedForm>(9);
+  states.number_of_states = 1;
+  const std::array<std::byte, 8> octets{std::byte{0}, std::byte{3}};
+  states.states.bytes = octets;
+  test::Octets datagram;
+  test::append_pdu(datagram, states);
+  test::CaptureBuilder capture;
+  capture.add(datagram, seconds(1'700'000'000));
+  EXPECT_THAT(run_reckon({"inspect", capture.path(), "--tree"}).out, HasSubstr("  form 9  "));
+  EXPECT_THAT(run_reckon({"inspect", capture.path()}).out, HasSubstr("form 9 state"));
 }
 
 TEST(InspectViews, TakeSourceAndViewInEitherOrder) {

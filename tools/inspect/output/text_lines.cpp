@@ -256,11 +256,17 @@ void append_indented(std::string& out, std::string_view lines, std::size_t depth
   }
 }
 
+/// Its name, or the number that a sender has put there.
+std::string form_text(pdu::CompressedForm form) {
+  const std::string_view name = pdu::name(form);
+  return name.empty() ? fmt::format("form {}", static_cast<unsigned>(form)) : std::string(name);
+}
+
 /// A line for each state of Compressed States, below the PDU.
 void append_states(std::string& out, const std::vector<RestoredState>& states) {
   for (const RestoredState& state : states) {
     fmt::format_to(end_of(out), FMT_COMPILE("{:>17} {:>12}    {:<22} {:>6}  {:<16} "),
-                   state.row.offset, "", fmt::format("{} state", pdu::name(state.form)),
+                   state.row.offset, "", fmt::format("{} state", form_text(state.form)),
                    state.octets, id_text(*state.row.id));
     if (state.row.entity_state != nullptr)
       append_entity_state(out, *state.row.entity_state);
@@ -275,7 +281,7 @@ void append_states(std::string& out, const std::vector<RestoredState>& states) {
 void append_state_trees(std::string& out, const std::vector<RestoredState>& states) {
   for (const RestoredState& state : states) {
     fmt::format_to(end_of(out), FMT_COMPILE("  state {} +{}  {}  {} octets{}{}\n"),
-                   id_text(*state.row.id), state.row.offset, pdu::name(state.form), state.octets,
+                   id_text(*state.row.id), state.row.offset, form_text(state.form), state.octets,
                    state.row.reason.empty() ? "" : "  ", state.row.reason);
     std::string lines;
     pdu::TextSink sink(lines);
