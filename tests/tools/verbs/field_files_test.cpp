@@ -27,7 +27,8 @@ struct Question {
 
 const std::vector<Question> kQuestions{
     {"f01-signal-13bits-bundle.pcap", {}, {"data_length 13", "     1   2     36", "AFTER"}, {}},
-    {"f03-signal-database-index.pcap", {"--tree"}, {"96"}, {}},
+    {"f03-signal-database-index.pcap", {"--tree"}, {"class 3", "data_length 96"}, {}},
+    {"f03b-signal-raw-binary.pcap", {"--tree"}, {"class 1", "Link 16", "data_length 200"}, {}},
     {"f05-ua-two-systems.pcap", {"--tree"}, {"6001", "6002", "-3"}, {}},
     {"f06-ee-zero-beams.pcap", {"emissions"}, {"no beam", "2 beams", "1 beam"}, {}},
     {"f07-fire-dis6-padding.pcap", {}, {"3 good, 0 errors"}, {}},
@@ -49,6 +50,10 @@ const std::vector<Question> kQuestions{
     {"f31-bridge-loop.pcap", {"check"}, {"1 x W-DUPLICATE-ID"}, {}},
     {"f33-frozen.pcap", {"check"}, {"0 errors, 0 warnings"}, {}},
     {"g01-sll2.pcap", {}, {"3 good"}, {}},
+    {"g02-null-le.pcap", {}, {"3 good"}, {}},
+    {"g04-modified.pcap", {}, {"3 good"}, {}},
+    {"g05-qinq-priority.pcap", {}, {"3 good"}, {}},
+    {"g07-fcs-and-padding.pcap", {}, {"3 good"}, {}},
     {"g06-tunnels-vxlan-erspan-ipip.pcap", {}, {"3 good"}, {}},
     {"g09-wifi-radiotap.pcap", {}, {"IEEE802_11_RADIO"}, {}},
     {"g11-pcapng-resolutions.pcapng", {"!info"}, {"2023-"}, {"1970"}},
