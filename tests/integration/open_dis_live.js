@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A DIS 7 program of the npm package open-dis: ADDRESS GROUP PORT SECONDS. Prints each marking that it hears,
-// once. 0.5 m beside the first such entity it sends an Entity State of FOREIGN ten times a second, with length
+// A DIS 7 program of the npm package open-dis: ADDRESS GROUP PORT SECONDS. Prints each marking that it
+// receives, once. 0.5 m beside the first such entity it sends an Entity State of FOREIGN ten times a second, with length
 // field 0, which the package writes unless it is set. Exit status 77 where the package is not installed.
 "use strict";
 const dgram = require("dgram");

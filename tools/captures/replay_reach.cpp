@@ -36,7 +36,9 @@ std::string recorded_interface(const peer::DatagramSource& source) {
 std::string ReplayReach::text(const std::string& interface) const {
   if (destinations_.empty()) return "nowhere";
   std::string text = destinations_.begin()->text();
-  if (destinations_.size() > 1) text += fmt::format(" and {} more", destinations_.size() - 1);
+  if (destinations_.size() > 1)
+    text += fmt::format(" and {}{} more", destinations_.size() < kMost ? "" : "at least ",
+                        destinations_.size() - 1);
   text += " on " + interface;
   if (interface != "lo") return text;
   return text + fmt::format(" (this host alone; --iface {} for the LAN)", name_of_a_lan());

@@ -22,7 +22,7 @@ inline constexpr std::string_view kRecorded = "recorded";
 /// Destinations of a replay.
 class ReplayReach {
  public:
-  /// Destinations that are told apart; further ones are not counted.
+  /// Destinations that are counted; with more, the text says "at least".
   static constexpr std::size_t kMost = 1000;
 
   void note(const peer::IpEndpoint& to) {

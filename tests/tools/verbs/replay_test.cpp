@@ -17,6 +17,7 @@
 #include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
+#include "reckon/tools/captures/replay_reach.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
 
 namespace reckon::tools {
@@ -381,6 +382,18 @@ TEST(Replay, NamesTheMistake) {
   const ProgramResult result = run_reckon({"replay", in, "--iface", "none0"});
   EXPECT_EQ(result.status, 3);
   EXPECT_THAT(result.err, HasSubstr("none0"));
+}
+
+TEST(ReplayReach, SaysAtLeastBeyondWhatItCounts) {
+  ReplayReach reach;
+  const auto note = [&](std::size_t port) {
+    reach.note(peer::IpEndpoint::v4(0xEFC00100, static_cast<std::uint16_t>(port)));
+  };
+  for (std::size_t port = 1; port < ReplayReach::kMost; ++port) note(port);
+  EXPECT_THAT(reach.text("e0"), HasSubstr(" and 998 more on e0"));
+  note(ReplayReach::kMost);
+  note(ReplayReach::kMost + 1);
+  EXPECT_THAT(reach.text("e0"), HasSubstr(" and at least 999 more on e0"));
 }
 
 }  // namespace

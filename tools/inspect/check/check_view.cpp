@@ -20,7 +20,7 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::size_t kTimestampAt = 4;  // in the header
-constexpr double kLeastDegrees = 1.0;    // of a turn that is told beside a jump
+constexpr double kLeastDegrees = 1.0;    // smallest turn reported with a jump
 
 /// For a code of the codec without a row, so that it is reported all the same.
 constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Timestamps that stand still, count in another unit or are off: each kind is told as what it is,
-// once, and what is right is left alone.
+// Timestamps that stand still, count in another unit or have a constant error: each fault gets its
+// own rule, once, and correct timestamps get none.
 #include "reckon/tools/inspect/check/stamp_course.hpp"
 
 #include <gmock/gmock.h>
