@@ -5,14 +5,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "reckon/haptics/analysis/positive_real.hpp"
+#include "reckon/bench/linear_systems/positive_real.hpp"
 
 namespace reckon::bench {
 namespace {
 
 // 1 + sign z^-samples
-haptics::TransferFunction with_echo(int samples, double sign, double sample_period) {
-  haptics::TransferFunction echo{{1}, {1}, sample_period};
+TransferFunction with_echo(int samples, double sign, double sample_period) {
+  TransferFunction echo{{1}, {1}, sample_period};
   echo.numerator.resize(static_cast<std::size_t>(samples) + 1);
   echo.numerator.back() += sign;
   echo.denominator.resize(static_cast<std::size_t>(samples) + 1);
@@ -26,42 +26,40 @@ void require_sampled(double sample_period) {
 }
 
 // -Re{VE/z}, of VE/z: what the hold makes of the environment is one sample late.
-DeviceDamping needed(const haptics::StateSpace& environment_one_late) {
-  const haptics::PositiveRealReport report = haptics::judge_positive_real(environment_one_late);
+DeviceDamping needed(const StateSpace& environment_one_late) {
+  const PositiveRealReport report = judge_positive_real(environment_one_late);
   return {-report.least, report.angular_frequency};
 }
 
 }  // namespace
 
-DeviceDamping required_device_damping(const haptics::TransferFunction& environment) {
+DeviceDamping required_device_damping(const TransferFunction& environment) {
   return required_device_damping(environment, 0);
 }
 
-DeviceDamping required_device_damping(const haptics::TransferFunction& environment,
-                                      int delay_samples) {
+DeviceDamping required_device_damping(const TransferFunction& environment, int delay_samples) {
   require_sampled(environment.sample_period);
-  return needed(haptics::to_state_space(haptics::delayed(environment, delay_samples + 1)));
+  return needed(to_state_space(delayed(environment, delay_samples + 1)));
 }
 
-DeviceDamping required_device_damping(const haptics::StateSpace& environment) {
+DeviceDamping required_device_damping(const StateSpace& environment) {
   require_sampled(environment.sample_period);
   if (environment.inputs() != 1 || environment.outputs() != 1) {
     throw std::invalid_argument("device damping: an environment has one input and one output");
   }
-  return needed(
-      haptics::series(environment, haptics::sample_delay(1, 1, environment.sample_period)));
+  return needed(series(environment, sample_delay(1, 1, environment.sample_period)));
 }
 
-DeviceDamping required_device_damping_of_pair(const haptics::TransferFunction& environment,
+DeviceDamping required_device_damping_of_pair(const TransferFunction& environment,
                                               int delay_samples) {
   if (delay_samples < 0) {
     throw std::invalid_argument("device damping: a delay must be 0 or more samples");
   }
   const double T = environment.sample_period;
   const DeviceDamping common =
-      required_device_damping(haptics::product(environment, with_echo(delay_samples, -1.0, T)));
+      required_device_damping(product(environment, with_echo(delay_samples, -1.0, T)));
   const DeviceDamping opposed =
-      required_device_damping(haptics::product(environment, with_echo(delay_samples, 1.0, T)));
+      required_device_damping(product(environment, with_echo(delay_samples, 1.0, T)));
   return common.required > opposed.required ? common : opposed;
 }
 

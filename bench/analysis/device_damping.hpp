@@ -4,7 +4,7 @@
 // it, alone, delayed, and between two users. Off-line code.
 #pragma once
 
-#include "reckon/haptics/analysis/transfer_function.hpp"
+#include "reckon/bench/linear_systems/transfer_function.hpp"
 
 namespace reckon::bench {
 
@@ -27,22 +27,22 @@ struct DeviceDamping {
 ///
 /// @param environment VE, speed [m/s] to force [N], sampled
 /// @throws std::invalid_argument where it is not sampled, not proper or not finite
-[[nodiscard]] DeviceDamping required_device_damping(const haptics::TransferFunction& environment);
+[[nodiscard]] DeviceDamping required_device_damping(const TransferFunction& environment);
 
 /// Of an environment as a state space with one input and one output. Take this form for high
 /// orders: polynomial coefficients blur poles that lie close together, one on the circle among
 /// them.
-[[nodiscard]] DeviceDamping required_device_damping(const haptics::StateSpace& environment);
+[[nodiscard]] DeviceDamping required_device_damping(const StateSpace& environment);
 
 /// The same where the environment is felt `delay_samples` >= 0 samples late.
-[[nodiscard]] DeviceDamping required_device_damping(const haptics::TransferFunction& environment,
+[[nodiscard]] DeviceDamping required_device_damping(const TransferFunction& environment,
                                                     int delay_samples);
 
 /// Two equal users, each environment fed with the own speed minus the other's of `delay_samples`
 /// ago (thesis Fig 4.1): common motion feels VE (1 - z^-d), opposed motion VE (1 + z^-d); the
 /// greater of both. A spring alone needs K (T + d T).
-[[nodiscard]] DeviceDamping required_device_damping_of_pair(
-    const haptics::TransferFunction& environment, int delay_samples);
+[[nodiscard]] DeviceDamping required_device_damping_of_pair(const TransferFunction& environment,
+                                                            int delay_samples);
 
 /// Expression whose greatest value over w is required_device_damping() of the virtual wall:
 /// (3.7) as it follows from (3.5), K T/2 - b_e cos(wT); with d samples of delay

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "reckon/haptics/analysis/stability.hpp"
+#include "reckon/bench/linear_systems/stability.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -17,18 +17,18 @@ using Eigen::MatrixXd;
 
 constexpr double kRounding = 1e-14;  // of a polynomial's coefficients
 
-haptics::TransferFunction wall_of(const PairParameters& p) {
+TransferFunction wall_of(const PairParameters& p) {
   return virtual_wall(p.stiffness, p.wall_damping, p.sample_period, p.reading);
 }
 
-haptics::StateSpace device_of(const PairParameters& p) {
+StateSpace device_of(const PairParameters& p) {
   if (!(p.mass > 0)) throw std::invalid_argument("networked pair: the mass must be above 0 kg");
-  return haptics::discretise_zero_order_hold(
-      haptics::to_state_space(mass_damper(p.mass, p.damping)), p.sample_period);
+  return discretise_zero_order_hold(to_state_space(mass_damper(p.mass, p.damping)),
+                                    p.sample_period);
 }
 
 // One copy of the system for each of two users.
-haptics::StateSpace for_both(const haptics::StateSpace& s) {
+StateSpace for_both(const StateSpace& s) {
   const auto twice = [](const MatrixXd& m) {
     MatrixXd both = MatrixXd::Zero(2 * m.rows(), 2 * m.cols());
     both.topLeftCorner(m.rows(), m.cols()) = m;
@@ -39,21 +39,20 @@ haptics::StateSpace for_both(const haptics::StateSpace& s) {
 }
 
 // u - attenuation z^-d times the other's u.
-haptics::StateSpace difference_of(const PairParameters& p) {
+StateSpace difference_of(const PairParameters& p) {
   MatrixXd crossed(2, 2);
   crossed << 0, -p.attenuation, -p.attenuation, 0;
   const double T = p.sample_period;
-  return haptics::parallel(haptics::static_gain(MatrixXd::Identity(2, 2), T),
-                           haptics::series(haptics::sample_delay(p.delay_samples, 2, T),
-                                           haptics::static_gain(crossed, T)));
+  return parallel(static_gain(MatrixXd::Identity(2, 2), T),
+                  series(sample_delay(p.delay_samples, 2, T), static_gain(crossed, T)));
 }
 
 // 1 + factor z^-d, as polynomials.
-haptics::TransferFunction echo_of(const PairParameters& p, double factor) {
+TransferFunction echo_of(const PairParameters& p, double factor) {
   if (p.delay_samples < 0) {
     throw std::invalid_argument("networked pair: a delay must be 0 or more samples");
   }
-  haptics::TransferFunction echo{{1}, {1}, p.sample_period};
+  TransferFunction echo{{1}, {1}, p.sample_period};
   echo.numerator.resize(static_cast<std::size_t>(p.delay_samples) + 1);
   echo.denominator.resize(echo.numerator.size());
   echo.numerator.back() += factor;
@@ -78,14 +77,14 @@ std::vector<double> without_root_at_one(std::vector<double> polynomial) {
 
 // Both users in a mode of motion see the environment with an echo. Where the echo cancels the
 // integrator, the integrator's state is one that no motion of this mode reaches: it is taken out.
-double mode_radius(const PairParameters& p, haptics::TransferFunction environment, double factor) {
-  haptics::TransferFunction echo = echo_of(p, factor);
+double mode_radius(const PairParameters& p, TransferFunction environment, double factor) {
+  TransferFunction echo = echo_of(p, factor);
   if (has_root_at_one(echo.numerator) && has_root_at_one(environment.denominator)) {
     echo.numerator = without_root_at_one(std::move(echo.numerator));
     environment.denominator = without_root_at_one(std::move(environment.denominator));
   }
-  const haptics::TransferFunction both = haptics::product(environment, echo);
-  return haptics::spectral_radius(haptics::feedback(device_of(p), haptics::to_state_space(both)));
+  const TransferFunction both = product(environment, echo);
+  return spectral_radius(feedback(device_of(p), to_state_space(both)));
 }
 
 double mass_and_damping(const PairParameters& p) { return p.mass + p.damping * p.sample_period; }
@@ -94,10 +93,9 @@ double mass_and_damping(const PairParameters& p) { return p.mass + p.damping * p
 
 Eigen::Matrix2cd printed_pair(const PairParameters& p, double theta) {
   const Complex z = std::polar(1.0, theta);
-  const Complex device = haptics::evaluate(
-      backward_difference_device(p.mass, p.damping, p.device_gain, p.sample_period), z);
-  const Complex across =
-      -device * haptics::evaluate(wall_of(p), z) * printed_hold(theta) * device / z;
+  const Complex device =
+      evaluate(backward_difference_device(p.mass, p.damping, p.device_gain, p.sample_period), z);
+  const Complex across = -device * evaluate(wall_of(p), z) * printed_hold(theta) * device / z;
   Eigen::Matrix2cd G;
   G << device, across, across, device;
   return G;
@@ -111,12 +109,11 @@ Eigen::Matrix2cd closed_pair(Complex device, Complex environment, Complex delay)
   return closed / (1.0 - Q * Q);
 }
 
-haptics::StateSpace pair_loop(const PairParameters& p) {
-  const haptics::StateSpace devices = for_both(device_of(p));
-  const haptics::StateSpace environments =
-      haptics::series(difference_of(p), for_both(haptics::to_state_space(wall_of(p))));
+StateSpace pair_loop(const PairParameters& p) {
+  const StateSpace devices = for_both(device_of(p));
+  const StateSpace environments = series(difference_of(p), for_both(to_state_space(wall_of(p))));
   // The forces are read from the states of the loop: devices first, then environments.
-  haptics::StateSpace loop = haptics::feedback(devices, environments);
+  StateSpace loop = feedback(devices, environments);
   const Eigen::Index n = devices.order(), all = loop.order();
   MatrixXd forces = MatrixXd::Zero(2, all);
   forces.leftCols(n) = environments.D * devices.C;
@@ -129,7 +126,7 @@ haptics::StateSpace pair_loop(const PairParameters& p) {
 
 PairRadii pair_radii(const PairParameters& p) { return pair_radii(p, wall_of(p)); }
 
-PairRadii pair_radii(const PairParameters& p, const haptics::TransferFunction& environment) {
+PairRadii pair_radii(const PairParameters& p, const TransferFunction& environment) {
   return {mode_radius(p, environment, -p.attenuation), mode_radius(p, environment, p.attenuation)};
 }
 

@@ -8,8 +8,8 @@
 #include <complex>
 
 #include "reckon/bench/analysis/virtual_environment.hpp"
-#include "reckon/haptics/analysis/state_space.hpp"
-#include "reckon/haptics/analysis/transfer_function.hpp"
+#include "reckon/bench/linear_systems/state_space.hpp"
+#include "reckon/bench/linear_systems/transfer_function.hpp"
 
 namespace reckon::bench {
 
@@ -40,7 +40,7 @@ struct PairParameters {
 /// The sampled loop with the true hold (exact zero-order-hold device): inputs F1, F2 held over each
 /// sample, outputs V1, V2 and the environments' forces. @throws std::invalid_argument for bad
 /// numbers
-[[nodiscard]] haptics::StateSpace pair_loop(const PairParameters& pair);
+[[nodiscard]] StateSpace pair_loop(const PairParameters& pair);
 
 /// Spectral radii of common (v1 = v2) and opposed (v1 = -v2) motion of pair_loop().
 struct PairRadii {
@@ -49,8 +49,7 @@ struct PairRadii {
 [[nodiscard]] PairRadii pair_radii(const PairParameters& pair);
 /// The same with any environment in the place of the wall. @throws std::invalid_argument where its
 /// sample period is another
-[[nodiscard]] PairRadii pair_radii(const PairParameters& pair,
-                                   const haptics::TransferFunction& environment);
+[[nodiscard]] PairRadii pair_radii(const PairParameters& pair, const TransferFunction& environment);
 
 /// X of (4.8), (4.9): T^2 K^2/(4 (1 - cos w) {M^2 - 2 m M cos w + m^2}^2), M = m + b T.
 [[nodiscard]] double printed_scale(const PairParameters& pair, double theta);

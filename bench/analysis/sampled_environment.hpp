@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "reckon/haptics/analysis/transfer_function.hpp"
+#include "reckon/bench/linear_systems/transfer_function.hpp"
 
 namespace reckon::bench {
 
@@ -15,9 +15,8 @@ namespace reckon::bench {
 class SampledEnvironment {
  public:
   /// @param environment speed [m/s] to force [N], sampled and proper
-  explicit SampledEnvironment(const haptics::TransferFunction& environment)
-      : system_(haptics::to_state_space(environment)),
-        state_(Eigen::VectorXd::Zero(system_.order())) {}
+  explicit SampledEnvironment(const TransferFunction& environment)
+      : system_(to_state_space(environment)), state_(Eigen::VectorXd::Zero(system_.order())) {}
 
   double step(double velocity) {
     const double force = (system_.C * state_).sum() + system_.D(0, 0) * velocity;
@@ -28,15 +27,14 @@ class SampledEnvironment {
   [[nodiscard]] double sample_period() const noexcept { return system_.sample_period; }
 
  private:
-  haptics::StateSpace system_;
+  StateSpace system_;
   Eigen::VectorXd state_;
 };
 
 /// Thesis Fig 3.3: acts on the depth behind a surface, never pulls, and nothing without depth.
 class UnilateralEnvironment {
  public:
-  explicit UnilateralEnvironment(const haptics::TransferFunction& environment)
-      : inner_(environment) {}
+  explicit UnilateralEnvironment(const TransferFunction& environment) : inner_(environment) {}
 
   /// @param depth [m], at or below 0: no contact  @returns force against it [N] >= 0
   double step(double depth) {

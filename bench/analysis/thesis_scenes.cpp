@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "reckon/bench/analysis/sampled_environment.hpp"
-#include "reckon/haptics/analysis/stability.hpp"
+#include "reckon/bench/linear_systems/stability.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -23,30 +23,28 @@ long sample_count(double duration, double sample_period) {
 
 }  // namespace
 
-haptics::TransferFunction environment_of(const OneUserScene& s) {
+TransferFunction environment_of(const OneUserScene& s) {
   if (s.order < 1 || s.order > 4) {
     throw std::invalid_argument("thesis scene: the environment's order is 1, 2, 3 or 4");
   }
   const double T = s.sample_period, c = std::cos(s.resonance * T);
-  haptics::TransferFunction environment = virtual_wall(s.stiffness, s.wall_damping, T, s.reading);
+  TransferFunction environment = virtual_wall(s.stiffness, s.wall_damping, T, s.reading);
   if (s.order == 2 || s.order == 4) {
-    environment = haptics::product(environment, {{1 - s.lag_pole, 0}, {1, -s.lag_pole}, T});
+    environment = product(environment, {{1 - s.lag_pole, 0}, {1, -s.lag_pole}, T});
   }
-  if (s.order >= 3)
-    environment = haptics::product(environment, {{2 - 2 * c, 0, 0}, {1, -2 * c, 1}, T});
+  if (s.order >= 3) environment = product(environment, {{2 - 2 * c, 0, 0}, {1, -2 * c, 1}, T});
   return environment;
 }
 
 double loop_radius(const OneUserScene& s) {
-  const haptics::StateSpace device = haptics::discretise_zero_order_hold(
-      haptics::to_state_space(mass_damper(s.mass, s.damping)), s.sample_period);
-  return haptics::spectral_radius(
-      haptics::feedback(device, haptics::to_state_space(environment_of(s))));
+  const StateSpace device =
+      discretise_zero_order_hold(to_state_space(mass_damper(s.mass, s.damping)), s.sample_period);
+  return spectral_radius(feedback(device, to_state_space(environment_of(s))));
 }
 
 std::vector<SceneSample> run(const OneUserScene& s) { return run(s, environment_of(s)); }
 
-std::vector<SceneSample> run(const OneUserScene& s, const haptics::TransferFunction& environment) {
+std::vector<SceneSample> run(const OneUserScene& s, const TransferFunction& environment) {
   const long count = sample_count(s.duration, s.sample_period);
   const MassDamper body{s.mass, s.damping};
   SampledEnvironment anywhere(environment);
@@ -70,7 +68,7 @@ std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene) {
 }
 
 std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene,
-                                            const haptics::TransferFunction& environment) {
+                                            const TransferFunction& environment) {
   const PairParameters& p = scene.pair;
   const long count = sample_count(scene.duration, p.sample_period);
   if (p.delay_samples < 0 || !(p.mass > 0)) {

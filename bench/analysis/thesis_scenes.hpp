@@ -46,14 +46,14 @@ struct SceneSample {
 
 /// The scene's environment, speed to force. @throws std::invalid_argument where the order is not 1
 /// to 4
-[[nodiscard]] haptics::TransferFunction environment_of(const OneUserScene& scene);
+[[nodiscard]] TransferFunction environment_of(const OneUserScene& scene);
 /// Spectral radius of its loop: above 1 the envelope grows by it, each sample.
 [[nodiscard]] double loop_radius(const OneUserScene& scene);
 /// Samples 0, T, .., duration. @throws std::invalid_argument for numbers that give no scene
 [[nodiscard]] std::vector<SceneSample> run(const OneUserScene& scene);
 /// The same with another environment in the place of the scene's (5.4, 5.5), of the scene's period.
 [[nodiscard]] std::vector<SceneSample> run(const OneUserScene& scene,
-                                           const haptics::TransferFunction& environment);
+                                           const TransferFunction& environment);
 
 /// Thesis Fig 4.1: both users push from the start.
 struct TwoUserScene {
@@ -63,7 +63,7 @@ struct TwoUserScene {
 };
 [[nodiscard]] std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene);
 /// The same with another environment in the place of the wall (4.21, 5.4, 5.5).
-[[nodiscard]] std::vector<std::array<SceneSample, 2>> run(
-    const TwoUserScene& scene, const haptics::TransferFunction& environment);
+[[nodiscard]] std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene,
+                                                          const TransferFunction& environment);
 
 }  // namespace reckon::bench

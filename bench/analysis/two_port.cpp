@@ -32,8 +32,8 @@ const FormRow& row_of(PortForm form) { return kForms[static_cast<std::size_t>(fo
 }  // namespace
 
 Complex OnePort::impedance_at(double angular_frequency) const {
-  const Complex value = haptics::evaluate(
-      system, haptics::border_point(system.sample_period, angular_frequency))(0, 0);
+  const Complex value =
+      evaluate(system, border_point(system.sample_period, angular_frequency))(0, 0);
   return causality == Causality::impedance ? value : 1.0 / value;
 }
 
@@ -82,8 +82,7 @@ Complex driving_impedance(const TwoPortMatrix& two_port, Complex load) {
 }
 
 TwoPortMatrix TwoPort::at(double angular_frequency) const {
-  return {form, haptics::evaluate(system,
-                                  haptics::border_point(system.sample_period, angular_frequency))};
+  return {form, evaluate(system, border_point(system.sample_period, angular_frequency))};
 }
 
 double passivity_margin(const Matrix2cd& P) {

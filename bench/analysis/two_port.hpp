@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "reckon/haptics/analysis/state_space.hpp"
+#include "reckon/bench/linear_systems/state_space.hpp"
 
 namespace reckon::bench {
 
@@ -20,7 +20,7 @@ enum class Causality {
 /// A linear one-port: one input, one output.
 struct OnePort {
   Causality causality = Causality::impedance;
-  haptics::StateSpace system;
+  StateSpace system;
 
   /// F/V [N s/m] at an angular frequency [rad/s], whatever the causality. Infinite where V is 0.
   [[nodiscard]] std::complex<double> impedance_at(double angular_frequency) const;
@@ -57,7 +57,7 @@ struct TwoPortMatrix {
 /// judge_positive_real() takes its system as it is.
 struct TwoPort {
   PortForm form = PortForm::impedance;
-  haptics::StateSpace system;
+  StateSpace system;
 
   [[nodiscard]] TwoPortMatrix at(double angular_frequency) const;
 };

@@ -6,7 +6,7 @@
 
 #include <complex>
 
-#include "reckon/haptics/analysis/transfer_function.hpp"
+#include "reckon/bench/linear_systems/transfer_function.hpp"
 
 namespace reckon::bench {
 
@@ -19,41 +19,39 @@ enum class SpringReading {
 /// (3.6): b_e + K s^-1 at s = (z - 1)/(T z), that is ((b_e + k) z - b_e)/(z - 1), k = K T or K.
 /// @param stiffness K [N/m] or [N s/m], by the reading  @param damping b_e [N s/m], any sign
 /// @param sample_period T [s] > 0
-[[nodiscard]] haptics::TransferFunction virtual_wall(double stiffness, double damping,
-                                                     double sample_period, SpringReading reading);
+[[nodiscard]] TransferFunction virtual_wall(double stiffness, double damping, double sample_period,
+                                            SpringReading reading);
 
 /// Force per position of a speed-to-force environment: VE (z - 1)/(T z), which is what (3.5) calls
 /// H. The thesis writes VE(jw) = H(jw)/(jw) beside it and so mixes s and z.
-[[nodiscard]] haptics::TransferFunction position_form(const haptics::TransferFunction& environment);
+[[nodiscard]] TransferFunction position_form(const TransferFunction& environment);
 /// The way back: H T z/(z - 1).
-[[nodiscard]] haptics::TransferFunction velocity_form(
-    const haptics::TransferFunction& position_to_force);
+[[nodiscard]] TransferFunction velocity_form(const TransferFunction& position_to_force);
 
 /// (5.4): b + K_c z/(z (z - 1)). The z cancels: a first-order model that is one sample late.
 /// Thesis: b = 0.4, K_c = 0.1.
-[[nodiscard]] haptics::TransferFunction complex_environment(double damping, double gain,
-                                                            double sample_period);
+[[nodiscard]] TransferFunction complex_environment(double damping, double gain,
+                                                   double sample_period);
 /// (5.5): b + K_s z/(z - 1). Thesis: K_s = 0.9, nine times what (4.21) gives for (5.4), which is
 /// K_s = K_c.
-[[nodiscard]] haptics::TransferFunction simple_environment(double damping, double gain,
-                                                           double sample_period);
+[[nodiscard]] TransferFunction simple_environment(double damping, double gain,
+                                                  double sample_period);
 
 /// (4.21) before: K z/((z - a)(z - alpha)). The thesis prints no numbers.
-[[nodiscard]] haptics::TransferFunction two_pole_environment(double gain, double a, double alpha,
-                                                             double sample_period);
+[[nodiscard]] TransferFunction two_pole_environment(double gain, double a, double alpha,
+                                                    double sample_period);
 /// (4.21) after: (K z/(1 - alpha))/(z - a): the pole alpha replaced by its static gain.
 /// @throws std::invalid_argument where alpha is 1
-[[nodiscard]] haptics::TransferFunction one_pole_environment(double gain, double a, double alpha,
-                                                             double sample_period);
+[[nodiscard]] TransferFunction one_pole_environment(double gain, double a, double alpha,
+                                                    double sample_period);
 
 /// Device (m s + b)^-1, force to speed, in s. @param mass [kg] > 0  @param damping [N s/m]
-[[nodiscard]] haptics::TransferFunction mass_damper(double mass, double damping);
+[[nodiscard]] TransferFunction mass_damper(double mass, double damping);
 /// (4.4), (4.5): the same by backward difference, gain T z/((m + b T) z - m), times `gain`, which
 /// the thesis never gives. It hides the K T/2 that sampling costs: use
 /// discretise_zero_order_hold().
-[[nodiscard]] haptics::TransferFunction backward_difference_device(double mass, double damping,
-                                                                   double gain,
-                                                                   double sample_period);
+[[nodiscard]] TransferFunction backward_difference_device(double mass, double damping, double gain,
+                                                          double sample_period);
 
 /// (4.7) as printed: (z + 1)/(2 z) at z = e^{j theta}. @param theta w T [rad]
 [[nodiscard]] std::complex<double> printed_hold(double theta);

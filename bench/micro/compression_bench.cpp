@@ -363,11 +363,12 @@ std::vector<Data> all_data() {
 
 const bool kRegistered = [] {
   static const std::vector<Data> kData = all_data();
-  constexpr std::array<std::pair<const char*, MakeEnds>, 5> kForms = {{{"none", none},
-                                                                       {"compact", compact},
-                                                                       {"octets that differ", delta},
-                                                                       {"residual", residual},
-                                                                       {"dictionary", dictionary}}};
+  constexpr std::array<std::pair<const char*, MakeEnds>, 5> kForms = {
+      {{"none", none},
+       {"compact", compact},
+       {"octets that differ", delta},
+       {"residual", residual},
+       {"dictionary", dictionary}}};
   for (const auto& [form, make] : kForms) {
     for (const Data& data : kData) {
       const std::string name = std::string(form) + "/" + data.name;

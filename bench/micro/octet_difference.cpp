@@ -63,7 +63,8 @@ std::size_t encode_delta(std::span<const std::byte> key, std::uint16_t check,
 }
 
 std::uint16_t key_of_delta(std::span<const std::byte> body) noexcept {
-  return body.size() < kCheckSize ? std::uint16_t{0} : pdu::load_big_endian<std::uint16_t>(body.data());
+  return body.size() < kCheckSize ? std::uint16_t{0}
+                                  : pdu::load_big_endian<std::uint16_t>(body.data());
 }
 
 bool decode_delta(std::span<const std::byte> key, std::span<const std::byte> body,

@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/reduction/balanced_reduction.hpp"
+#include "reckon/bench/reduction/congruence_reduction.hpp"
+#include "reckon/bench/reduction/eigen_truncation.hpp"
+#include "reckon/bench/reduction/order_choice.hpp"
 #include "reckon/bench/statistics/quantile.hpp"
-#include "reckon/haptics/reduction/balanced_reduction.hpp"
-#include "reckon/haptics/reduction/congruence_reduction.hpp"
-#include "reckon/haptics/reduction/eigen_truncation.hpp"
-#include "reckon/haptics/reduction/order_choice.hpp"
-#include "reckon/tests/support/linear_systems.hpp"
-#include "reckon/tests/support/membranes.hpp"
+#include "reckon/tests/bench/support/linear_systems.hpp"
+#include "reckon/tests/bench/support/membranes.hpp"
 
 namespace {
 
-using namespace reckon::haptics;
+using namespace reckon::bench;
 namespace test = reckon::test;
 
 constexpr double kStiffness = 900.0;  // of the contact [N/m]

@@ -20,7 +20,6 @@
 namespace reckon::bench {
 namespace {
 
-using haptics::TransferFunction;
 using P = PrintedModels;
 
 constexpr double kDuration = 1.0;  // [s]

@@ -15,7 +15,6 @@
 namespace reckon::bench {
 namespace {
 
-using haptics::TransferFunction;
 using Series = std::vector<std::array<SceneSample, 2>>;
 
 enum class Model { complex, simple };

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "reckon/bench/linear_systems/state_space.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
-#include "reckon/haptics/analysis/state_space.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -50,7 +50,7 @@ std::vector<Vector3d> truth(double phase) {
   A(1, 4) = kHand * kMiddle / kMass;
   A(2, 3) = kRate;
   A(3, 2) = -kRate;
-  const haptics::StateSpace sampled = haptics::discretise_zero_order_hold(
+  const StateSpace sampled = discretise_zero_order_hold(
       {A, MatrixXd::Zero(5, 1), MatrixXd::Identity(5, 5), MatrixXd::Zero(5, 1)}, 1e-3);
   Eigen::VectorXd state(5);
   state << 0, 0, std::sin(phase), std::cos(phase), 1;
@@ -83,8 +83,8 @@ class ExactHold {
     MatrixXd A(2, 2), B(2, 3);
     A << 0, 1, -(kHand + (wall_held ? 0 : kWall)) / kMass, -(kDamping + kHandDamping) / kMass;
     B << 0, 0, 0, kHand / kMass, kHandDamping / kMass, 1 / kMass;
-    const haptics::StateSpace sampled = haptics::discretise_zero_order_hold(
-        {A, B, MatrixXd::Identity(2, 2), MatrixXd::Zero(2, 3)}, h);
+    const StateSpace sampled =
+        discretise_zero_order_hold({A, B, MatrixXd::Identity(2, 2), MatrixXd::Zero(2, 3)}, h);
     A_ = sampled.A;
     B_ = sampled.B;
   }

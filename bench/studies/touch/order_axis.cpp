@@ -7,16 +7,15 @@
 #include <memory>
 #include <numbers>
 
+#include "reckon/bench/linear_systems/state_space.hpp"
+#include "reckon/bench/reduction/congruence_reduction.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
-#include "reckon/haptics/analysis/state_space.hpp"
-#include "reckon/haptics/reduction/congruence_reduction.hpp"
 
 namespace reckon::bench {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using haptics::StateSpace;
 
 constexpr int kSide = 10;                // nodes of an edge
 constexpr double kMass = 2e-3;           // of a node [kg]
@@ -27,7 +26,7 @@ constexpr double kMassDamping = 2;       // [1/s]
 constexpr double kSpringDamping = 2e-4;  // [s]
 constexpr std::size_t kSteps = 4000;     // [ms]
 
-haptics::SecondOrderSystem sheet() {
+SecondOrderSystem sheet() {
   std::vector<Eigen::Triplet<double>> springs;
   const auto tie = [&](int a, int b) {
     springs.emplace_back(a, a, kSpring);
@@ -44,7 +43,7 @@ haptics::SecondOrderSystem sheet() {
     }
   }
   constexpr int kNodes = kSide * kSide;
-  haptics::SecondOrderSystem body;
+  SecondOrderSystem body;
   body.M.resize(kNodes, kNodes);
   body.M.setIdentity();
   body.M *= kMass;
@@ -57,7 +56,7 @@ haptics::SecondOrderSystem sheet() {
 }
 
 /// Probe [m] to force [N] through the contact spring, all coordinates kept.
-StateSpace whole(const haptics::SecondOrderSystem& body) {
+StateSpace whole(const SecondOrderSystem& body) {
   const Eigen::Index n = body.size();
   const MatrixXd inverse = MatrixXd(body.M).inverse();
   StateSpace system;
@@ -124,8 +123,8 @@ TouchSetting setting_of(std::string name, const StateSpace& sampled,
 }  // namespace
 
 TouchCase order_case(std::uint64_t seed) {
-  const haptics::SecondOrderSystem body = haptics::checked(sheet());
-  const haptics::BodyReduction reduction(body);
+  const SecondOrderSystem body = checked(sheet());
+  const BodyReduction reduction(body);
   const auto probe = std::make_shared<const std::vector<double>>(motion(seed));
   TouchCase made;
   made.truth = fmt::format(
@@ -133,14 +132,13 @@ TouchCase order_case(std::uint64_t seed) {
       kSide, kContact, 2 * body.size());
   made.remark = "The probe is held over each millisecond for all, so that the order alone differs.";
   for (const int modes : {0, 1, 2, 4, 8, 12, 16}) {
-    const StateSpace model = haptics::force_of_displacement(reduction.model(modes), kContact);
+    const StateSpace model = force_of_displacement(reduction.model(modes), kContact);
     made.settings.push_back(
         setting_of(modes == 0 ? "static" : fmt::format("{} mode{}", modes, modes > 1 ? "s" : ""),
-                   modes == 0 ? model : haptics::discretise_zero_order_hold(model, 1e-3), probe));
+                   modes == 0 ? model : discretise_zero_order_hold(model, 1e-3), probe));
   }
   made.settings.push_back(setting_of(fmt::format("all {} states", 2 * body.size()),
-                                     haptics::discretise_zero_order_hold(whole(body), 1e-3),
-                                     probe));
+                                     discretise_zero_order_hold(whole(body), 1e-3), probe));
   made.force = made.settings.back().forces;
   return made;
 }

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "reckon/bench/analysis/device_damping.hpp"
-#include "reckon/haptics/analysis/golden_section.hpp"
+#include "reckon/bench/linear_systems/golden_section.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/units.hpp"
@@ -36,8 +36,8 @@ double passive_stiffness(const ZWidthDevice& device, double wall_damping) {
   const int places = kPerSample * (device.delay_samples + 1);
   const double step = std::numbers::pi / places;
   const auto greatest = [&](int from, int to) {
-    return haptics::greatest_between(from * step, to * step, kPrecision * step,
-                                     [&](double theta) { return -of(theta); })
+    return greatest_between(from * step, to * step, kPrecision * step,
+                            [&](double theta) { return -of(theta); })
         .value;
   };
   double least = std::min(of(0), of(std::numbers::pi));

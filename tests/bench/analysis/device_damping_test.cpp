@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "reckon/bench/analysis/virtual_environment.hpp"
-#include "reckon/haptics/analysis/stability.hpp"
-#include "reckon/tests/haptics/analysis/random_systems.hpp"
+#include "reckon/bench/linear_systems/stability.hpp"
+#include "reckon/tests/bench/linear_systems/random_systems.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::bench {
@@ -35,10 +35,9 @@ double closed_loop_radius(double m, double b, double k, double K, double B, int 
   A << 0, 1, -k / m, -b / m;
   in << 0, 1 / m;
   out << 1, 0;
-  const haptics::StateSpace plant =
-      haptics::discretise_zero_order_hold({A, in, out, MatrixXd::Zero(1, 1)}, T);
-  const haptics::TransferFunction wall = haptics::delayed({{K + B / T, -B / T}, {1, 0}, T}, d);
-  return haptics::spectral_radius(haptics::feedback(plant, haptics::to_state_space(wall)));
+  const StateSpace plant = discretise_zero_order_hold({A, in, out, MatrixXd::Zero(1, 1)}, T);
+  const TransferFunction wall = delayed({{K + B / T, -B / T}, {1, 0}, T}, d);
+  return spectral_radius(feedback(plant, to_state_space(wall)));
 }
 
 TEST(DeviceDamping, ThesisWallNeedsATenthAndAThousandth) {
@@ -67,14 +66,14 @@ TEST(DeviceDamping, CorrectedWallFormulaIsThreeFiveAndThePrintedOneLacksTheStiff
 TEST(DeviceDamping, IsTheSupremumOfThreeFiveForTenThousandRandomEnvironments) {
   test::Random random(9);
   const double T = 1e-3;
-  const haptics::StateSpace integrator = haptics::to_state_space({{T, 0}, {1, -1}, T});
+  const StateSpace integrator = to_state_space({{T, 0}, {1, -1}, T});
   double worst = 0.0;
   for (int i = 0; i < 10'000; ++i) {
     // A random stable H, position to force.
     const test::ModeSum H = test::random_modes(random, true);
     const double stiffness = H.at(1.0).real();
     const DeviceDamping need =
-        required_device_damping(haptics::series(H.as_state_space(random, T), integrator));
+        required_device_damping(series(H.as_state_space(random, T), integrator));
     if (stiffness < 0) {
       EXPECT_TRUE(std::isinf(need.required)) << "a negative spring";
       continue;
@@ -133,10 +132,10 @@ TEST(DeviceDamping, SimpleEnvironmentsOfTheThesisNeedMoreThanTheComplexOne) {
 
 TEST(DeviceDamping, TwoWallsSideBySideNeedWhatOneOfTheirSumNeeds) {
   // Two integrators at z = 1: a double pole with two eigenvectors.
-  const haptics::StateSpace a = haptics::to_state_space(virtual_wall(500, 0.1, 1e-3, kWithPeriod));
-  const haptics::StateSpace b = haptics::to_state_space(virtual_wall(300, 0.2, 1e-3, kWithPeriod));
-  EXPECT_NEAR(required_device_damping(haptics::parallel(a, b)).required,
-              wall_damping(800, 0.3, 1e-3), 1e-12);
+  const StateSpace a = to_state_space(virtual_wall(500, 0.1, 1e-3, kWithPeriod));
+  const StateSpace b = to_state_space(virtual_wall(300, 0.2, 1e-3, kWithPeriod));
+  EXPECT_NEAR(required_device_damping(parallel(a, b)).required, wall_damping(800, 0.3, 1e-3),
+              1e-12);
 }
 
 TEST(DeviceDamping, WhatNoDampingCuresIsInfinite) {

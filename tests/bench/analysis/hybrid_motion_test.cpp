@@ -8,7 +8,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "reckon/tests/haptics/analysis/random_systems.hpp"
+#include "reckon/tests/bench/linear_systems/random_systems.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include "reckon/bench/analysis/thesis_scenes.hpp"
 #include "reckon/bench/analysis/two_port.hpp"
 #include "reckon/bench/analysis/violating_bands.hpp"
-#include "reckon/haptics/analysis/stability.hpp"
+#include "reckon/bench/linear_systems/stability.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -73,17 +73,16 @@ TEST(NetworkedPair, ViolatingBandsAreFoundToTheirEdges) {
 TEST(NetworkedPair, ClosedMatrixIsTheResponseOfTheLoop) {
   PairParameters p;
   p.delay_samples = 3, p.attenuation = 0.8;
-  const haptics::StateSpace loop = pair_loop(p);
-  const haptics::StateSpace device = haptics::discretise_zero_order_hold(
-      haptics::to_state_space(mass_damper(p.mass, p.damping)), p.sample_period);
+  const StateSpace loop = pair_loop(p);
+  const StateSpace device =
+      discretise_zero_order_hold(to_state_space(mass_damper(p.mass, p.damping)), p.sample_period);
   for (const double theta : {0.01, 0.1, 1.0, 3.0}) {
     const Complex z = std::polar(1.0, theta);
     const Complex wall =
-        haptics::evaluate(virtual_wall(p.stiffness, p.wall_damping, p.sample_period, p.reading), z);
+        evaluate(virtual_wall(p.stiffness, p.wall_damping, p.sample_period, p.reading), z);
     const Eigen::Matrix2cd closed =
-        closed_pair(haptics::evaluate(device, z)(0, 0), wall, p.attenuation * std::pow(z, -3));
-    EXPECT_LT((haptics::evaluate(loop, z).topRows(2) - closed).norm(), 1e-10 * closed.norm())
-        << theta;
+        closed_pair(evaluate(device, z)(0, 0), wall, p.attenuation * std::pow(z, -3));
+    EXPECT_LT((evaluate(loop, z).topRows(2) - closed).norm(), 1e-10 * closed.norm()) << theta;
   }
 }
 
@@ -113,8 +112,7 @@ TEST(NetworkedPair, ClosedMatrixIsTheSimulatedFrequencyResponse) {
     const double push[2] = {std::cos(2 * M_PI * k / period), 0};
     for (int i = 0; i < 2; ++i) v[i] = a * v[i] + (1 - a) / p.damping * (push[i] - force[i]);
   }
-  const Eigen::MatrixXcd expected =
-      haptics::evaluate(pair_loop(p), std::polar(1.0, 2 * M_PI / period));
+  const Eigen::MatrixXcd expected = evaluate(pair_loop(p), std::polar(1.0, 2 * M_PI / period));
   EXPECT_LT(std::abs(response[0] - expected(0, 0)), 1e-3 * std::abs(expected(0, 0)));
   EXPECT_LT(std::abs(response[1] - expected(1, 0)), 1e-3 * std::abs(expected(1, 0)));
   // The printed graph has not even its diagonal right: the local loop is missing.
@@ -140,7 +138,7 @@ TEST(NetworkedPair, OpposedMotionIsUnstableFromThreeSamplesOrFromThreeHundredAnd
 
 TEST(NetworkedPair, ReducedModelInTheDelayedLoopIsUnstableToo) {
   PairParameters p;
-  const haptics::TransferFunction reduced = simple_environment(0.1, 0.5, p.sample_period);
+  const TransferFunction reduced = simple_environment(0.1, 0.5, p.sample_period);
   EXPECT_NEAR(pair_radii(p, reduced).opposed, 1.0, 6e-6);
   p.delay_samples = 2;
   EXPECT_NEAR(pair_radii(p, reduced).opposed, 1.00248, 6e-6);
@@ -155,7 +153,7 @@ TEST(NetworkedPair, CommonMotionOfTwoPolesDecaysAsTheSimulationDoes) {
       TwoUserScene scene;
       scene.pair.delay_samples = delay;
       scene.duration = 40;
-      const haptics::TransferFunction environment =
+      const TransferFunction environment =
           two_pole_environment(0.5 * (1 - alpha), 1.0, alpha, scene.pair.sample_period);
       const auto series = run(scene, environment);
       const auto left = [&](std::size_t k) {

@@ -152,7 +152,7 @@ TEST(ThesisScenes, TwoUsersWhoBothPushReachTwoAndFourTenths) {
 
 TEST(ThesisScenes, ReducedEnvironmentOfTheThesisReachesOneAndAQuarter) {
   // 1/(b + K/(1 - alpha)): K = 0.2, alpha = 0.6.
-  const haptics::TransferFunction simple = one_pole_environment(0.2, 1.0, 0.6, 0.01);
+  const TransferFunction simple = one_pole_environment(0.2, 1.0, 0.6, 0.01);
   const auto series = run(together(kWithout), simple);
   EXPECT_NEAR(series.back()[0].velocity, 1.250, 5e-4);
 }

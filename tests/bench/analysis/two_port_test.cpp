@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "reckon/bench/analysis/wave_line.hpp"
-#include "reckon/haptics/analysis/positive_real.hpp"
-#include "reckon/tests/haptics/analysis/random_systems.hpp"
+#include "reckon/bench/linear_systems/positive_real.hpp"
+#include "reckon/tests/bench/linear_systems/random_systems.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -135,14 +135,13 @@ TEST(TwoPort, AsASystemIsJudgedAndEvaluatedInItsForm) {
   const Matrix2cd Z = converted(pair.at(w), PortForm::impedance).matrix;
   const Matrix2cd expected = damping.cast<Complex>() + Complex(0, w * m) * Matrix2cd::Identity();
   EXPECT_LT((Z - expected).norm(), 1e-13 * expected.norm());
-  EXPECT_TRUE(haptics::judge_positive_real(pair.system).is_positive_real());
+  EXPECT_TRUE(judge_positive_real(pair.system).is_positive_real());
   EXPECT_GE(llewellyn_margin(pair.at(w).matrix), 0);
 }
 
 TEST(TwoPort, OnePortsHaveBothCausalities) {
   const auto scalar = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
-  const haptics::StateSpace device{scalar(-0.5 / 2), scalar(0.5), scalar(1),
-                                   scalar(0)};  // 1/(2 s + 0.5)
+  const StateSpace device{scalar(-0.5 / 2), scalar(0.5), scalar(1), scalar(0)};  // 1/(2 s + 0.5)
   const OnePort port{Causality::admittance, device};
   EXPECT_LT(std::abs(port.impedance_at(3.0) - Complex(0.5, 6)), 1e-14);
   EXPECT_LT(std::abs(port.admittance_at(3.0) * Complex(0.5, 6) - 1.0), 1e-14);

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "reckon/bench/analysis/power_ledger.hpp"
-#include "reckon/tests/haptics/analysis/random_systems.hpp"
+#include "reckon/tests/bench/linear_systems/random_systems.hpp"
 
 namespace reckon::bench {
 namespace {

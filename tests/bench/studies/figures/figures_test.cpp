@@ -152,7 +152,7 @@ TEST(ThesisFigures, ComplexEnvironmentGrowsWhereOneUserPushes) {
 TEST(ThesisFigures, SimpleEnvironmentIsMarginalAtOneSampleAndUnstableAtTwo) {
   PairParameters pair;
   const auto environment = sum(one_pole_environment(0.2, 1.0, 0.6, pair.sample_period),
-                               haptics::TransferFunction{{0.1}, {1.0}, pair.sample_period});
+                               TransferFunction{{0.1}, {1.0}, pair.sample_period});
   EXPECT_NEAR(pair_radii(pair, environment).opposed, 1.00000, 1e-5);
   pair.delay_samples = 2;
   EXPECT_NEAR(pair_radii(pair, environment).opposed, 1.00248, 1e-5);
