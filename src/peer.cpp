@@ -86,7 +86,6 @@ std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(
     const SceneFile& scene, const haptics::Scene& felt, const PeerOptions& options,
     std::span<const PeerDevice> devices, const std::shared_ptr<haptics::BodyWorld>& bodies,
     haptics::ForceStop& stop) {
-  refuse_baseline(scene);
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
   if (devices.empty()) return servos;
   const auto plan = std::make_shared<const haptics::EffectPlan>(felt);

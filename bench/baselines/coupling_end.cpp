@@ -52,8 +52,8 @@ End gain_cut_end(const CouplingEndConfig& config) {
 
 End model_end(const CouplingEndConfig& config) {
   if (is_server(config)) return std::make_unique<TangentServer>(config);
-  if (config.mode == peer::CouplingMode::reckon) return std::make_unique<ReckonEnd>(config);
-  if (config.mode == peer::CouplingMode::passivity_controller)
+  if (config.mode == CouplingMode::reckon) return std::make_unique<ReckonEnd>(config);
+  if (config.mode == CouplingMode::passivity_controller)
     return std::make_unique<PassivityControllerEnd>(config);
   return std::make_unique<LocalModelEnd>(config, 1.0, true);
 }
@@ -73,17 +73,17 @@ End velocity_end(const CouplingEndConfig& config) {
 std::unique_ptr<CouplingEnd> make_coupling_end(const CouplingEndConfig& config) {
   check(config);
   switch (config.mode) {
-    case peer::CouplingMode::velocity_exchange:
+    case CouplingMode::velocity_exchange:
       return velocity_end(config);
-    case peer::CouplingMode::effort_flow:
+    case CouplingMode::effort_flow:
       return junction_end(config);
-    case peer::CouplingMode::transmission_line:
+    case CouplingMode::transmission_line:
       return wave_end(config);
-    case peer::CouplingMode::gain_cut:
+    case CouplingMode::gain_cut:
       return gain_cut_end(config);
-    case peer::CouplingMode::passivity_controller:
-    case peer::CouplingMode::printed_dead_reckoning:
-    case peer::CouplingMode::reckon:
+    case CouplingMode::passivity_controller:
+    case CouplingMode::printed_dead_reckoning:
+    case CouplingMode::reckon:
       return model_end(config);
   }
   throw std::invalid_argument("coupling: no such mode");

@@ -8,8 +8,8 @@
 #include <memory>
 #include <span>
 
+#include "reckon/bench/baselines/coupling_mode.hpp"
 #include "reckon/bench/baselines/coupling_world.hpp"
-#include "reckon/peer/scene/coupling_mode.hpp"
 
 namespace reckon::bench {
 
@@ -64,7 +64,7 @@ enum class CouplingSide : std::uint8_t { first, second };
 
 /// What an end is made of.
 struct CouplingEndConfig {
-  peer::CouplingMode mode = peer::CouplingMode::reckon;
+  CouplingMode mode = CouplingMode::reckon;
   CouplingSide side = CouplingSide::first;
   Counterpart counterpart = Counterpart::server;
   double period = 1e-3;    ///< T [s]

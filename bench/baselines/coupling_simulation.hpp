@@ -5,7 +5,7 @@
 // meets the same world, so that its numbers can stand beside those of the others.
 //
 //     CouplingRun run;
-//     run.mode = peer::CouplingMode::printed_dead_reckoning;
+//     run.mode = CouplingMode::printed_dead_reckoning;
 //     run.environment = {EnvironmentKind::hardening, 500.0};
 //     run.network = peer::delayed_by(0.05);
 //     const CouplingOutcome outcome = simulate(run);
@@ -37,7 +37,7 @@ struct CouplingDevice {
 
 /// One run, whole: the same run gives the same outcome to the last bit.
 struct CouplingRun {
-  peer::CouplingMode mode = peer::CouplingMode::reckon;
+  CouplingMode mode = CouplingMode::reckon;
   Counterpart counterpart = Counterpart::server;
   CouplingDevice device;
   /// Two hands have a linear one between them.

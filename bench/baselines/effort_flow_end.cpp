@@ -20,7 +20,7 @@ CouplingSample FlowEnd::sample() noexcept {
 
 EffortEnd::EffortEnd(const CouplingEndConfig& config) noexcept
     : environment_(config.environment),
-      gain_(config.mode == peer::CouplingMode::gain_cut ? config.gain : 1.0),
+      gain_(config.mode == CouplingMode::gain_cut ? config.gain : 1.0),
       period_(config.period) {}
 
 double EffortEnd::step(const OwnMotion& own, std::span<const CouplingSample> arrived) noexcept {

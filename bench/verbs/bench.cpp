@@ -117,13 +117,12 @@ void declare_stability_flags(tools::CommandLine& line, StabilityWords& words) {
               fmt::format("stability: NAME=A..B/N or NAME=A,B,C, once an axis; all else stays as "
                           "FILE has it; names: {}",
                           fmt::join(names, ", ")));
-  line.option("--coupling", words.modes,
-              fmt::format("stability: modes between commas, or all (the default, where FILE asks "
-                          "for no baseline): {}",
-                          fmt::join(peer::kCouplingModes | std::views::transform([](auto mode) {
-                                      return name_of(mode);
-                                    }),
-                                    ", ")));
+  line.option(
+      "--coupling", words.modes,
+      fmt::format(
+          "stability: modes between commas, or all (the default): {}",
+          fmt::join(kCouplingModes | std::views::transform([](auto mode) { return name_of(mode); }),
+                    ", ")));
   line.flag("--no-gate", words.no_gate,
             "stability: the mode reckon without its energy port, told wherever it shows");
   line.option("--hand", words.hand, "stability: recorded trace that the hand follows");

@@ -25,7 +25,6 @@
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/unicast_peers.hpp"
-#include "reckon/peer/scene/coupling_mode.hpp"
 #include "reckon/peer/scene/dead_reckoning_config.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
 #include "reckon/peer/scene/tier_config.hpp"
@@ -347,10 +346,5 @@ struct NetworkConfig {
 /// The policy of the entities of this type. Some ns for each class.
 [[nodiscard]] const BundlePolicy& bundle_policy_of(const NetworkConfig& network,
                                                    const pdu::EntityType& type) noexcept;
-
-/// Coupling of hands in a study of this scene. Peers always use the default.
-struct CouplingConfig {
-  CouplingMode mode = CouplingMode::reckon;
-};
 
 }  // namespace reckon::peer

@@ -160,17 +160,6 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
   if (!passive) table.problem("passive", "'passive' is false: remove the line, or write true");
 }
 
-void refuse_baseline(const SceneFile& scene) {
-  if (scene.coupling.mode == CouplingMode::reckon) return;
-  throw SceneFileError(
-      scene.path.empty() ? scene.name : scene.path.string(),
-      {{0, 0,
-        fmt::format("[coupling] mode = \"{}\" is a baseline for studies of simulated devices; what "
-                    "renders to hands runs \"reckon\" alone: take the key out, or run the scene "
-                    "with `reckon bench stability`",
-                    name_of(scene.coupling.mode))}});
-}
-
 SceneFileError::SceneFileError(const std::string& file, std::vector<SceneProblem> problems)
     : std::runtime_error(join_problems(file, problems)), problems_(std::move(problems)) {}
 

@@ -34,7 +34,6 @@ struct SceneFile {
   AoimConfig aoim;
   NetworkConfig network;
   ImpairmentConfig impairment;
-  CouplingConfig coupling;
   /// Hash of what peers must share: origin, objects with the content of their meshes, nodes,
   /// effects, cells and pool, the reading of accelerations. Comments, order of keys, units and
   /// settings of a single peer do not change it.
@@ -69,10 +68,6 @@ class SceneFileError : public std::runtime_error {
 [[nodiscard]] SceneFile parse_scene_file(std::string_view text, const std::string& file,
                                          const std::filesystem::path& folder = ".",
                                          const haptics::CustomEffects& effects = {});
-
-/// For programs that render to hands: baselines are only for studies of simulated devices.
-/// @throws SceneFileError with the remedy if the scene selects a baseline
-void refuse_baseline(const SceneFile& scene);
 
 /// The hash of a scene that was changed or made in code; load_scene_file calls it.
 [[nodiscard]] std::uint64_t scene_hash(const SceneFile& file);

@@ -181,14 +181,6 @@ Section<ConvergenceConfig> convergence_section() {
   }};
 }
 
-Section<CouplingConfig> coupling_section() {
-  return {{
-      {"mode", &CouplingConfig::mode,
-       "of `reckon bench stability`; what renders to hands, as demo and peer, refuses all but "
-       "reckon"},
-  }};
-}
-
 }  // namespace
 
 Section<OperatorConfig> operator_section() {
@@ -250,8 +242,6 @@ const Section<SceneFile>& file_section() {
           {"network", &SceneFile::network, network_section(), "how this peer sends and receives"},
           {"impairment", &SceneFile::impairment, impairment_section(),
            "simulated impairment of received datagrams, for tests"},
-          {"coupling", &SceneFile::coupling, coupling_section(),
-           "coupling of hands in studies: docs/baselines.md"},
       },
       check_file};
   return section;

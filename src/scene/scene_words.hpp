@@ -133,15 +133,6 @@ inline constexpr auto kWords<pdu::CompressedForm> =
                                               {"compact", pdu::CompressedForm::compact},
                                               {"residual", pdu::CompressedForm::residual}});
 
-template <>
-inline constexpr auto kWords<CouplingMode> = [] {
-  std::array<Word<CouplingMode>, kCouplingModes.size()> words{};
-  std::ranges::transform(kCouplingModes, words.begin(), [](CouplingMode mode) {
-    return Word<CouplingMode>{name_of(mode), mode};
-  });
-  return words;
-}();
-
 /// The names of a list that is defined elsewhere; `meaning` gives the value for one of its rows.
 template <class T, class List, class Meaning>
 constexpr auto names_as_words(const List& list, Meaning meaning) {

@@ -22,7 +22,7 @@ using bench::CouplingSide;
 
 constexpr std::uint32_t kSamples = 3000;
 
-bench::CouplingRun run_of(peer::CouplingMode mode, std::string_view counterpart) {
+bench::CouplingRun run_of(bench::CouplingMode mode, std::string_view counterpart) {
   bench::CouplingRun run;
   run.mode = mode;
   run.counterpart = counterpart == "hand" ? bench::Counterpart::hand : bench::Counterpart::server;
@@ -68,7 +68,7 @@ int usage() {
 
 int main(int count, char** words) {
   if (count != 4 && count != 6) return usage();
-  const auto mode = peer::coupling_mode(words[2]);
+  const auto mode = bench::coupling_mode(words[2]);
   if (!mode) return usage();
   const bench::CouplingRun run = run_of(*mode, words[3]);
   try {

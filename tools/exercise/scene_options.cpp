@@ -57,7 +57,6 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
   peer::SceneFile scene;
   try {
     scene = peer::load_scene_file(scene_path(options.scene, shipped), options.effects);
-    peer::refuse_baseline(scene);
     if (!options.mesh.empty()) put_mesh(scene, options.mesh);
     if (!options.hand.empty()) put_trace(scene, options.hand);
     check_files(scene, hands);

@@ -127,10 +127,6 @@ SettingRows scene_settings(const peer::SceneFile& file) {
   if (const std::string delivery = over_delivery_text(file.aoim); !delivery.empty())
     rows.emplace_back("heard", delivery);
   add_group_rows(file, rows);
-  if (file.coupling.mode != peer::CouplingMode::reckon)
-    rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
-                                              "peer refuse the scene",
-                                              peer::name_of(file.coupling.mode)));
   for (const peer::BundleClass& one : file.network.bundle_classes) {
     rows.emplace_back(
         "", fmt::format("of type {} {}", peer::entity_type_numbers(one.type), wait_of(one.policy)));

@@ -20,16 +20,14 @@
 namespace reckon::bench {
 namespace {
 
-using peer::CouplingMode;
-
 constexpr double kRecordedExtent = 0.02;  // [m]
 constexpr double kRecordedMiddle = 0.004;
 constexpr double kRecordedWay = 0.5;  // [s], from kCouplingStart to its begin
 
-peer::CouplingMode read_mode(std::string_view name) {
-  if (const auto mode = peer::coupling_mode(name)) return *mode;
+CouplingMode read_mode(std::string_view name) {
+  if (const auto mode = coupling_mode(name)) return *mode;
   std::vector<std::string_view> names;
-  for (const peer::CouplingMode mode : peer::kCouplingModes) names.push_back(name_of(mode));
+  for (const CouplingMode mode : kCouplingModes) names.push_back(name_of(mode));
   const std::string_view nearest = peer::nearest_word(name, names);
   throw tools::UsageError(
       fmt::format("--coupling: there is no '{}'{}; known: {}, all", name,
@@ -38,18 +36,18 @@ peer::CouplingMode read_mode(std::string_view name) {
 }
 
 /// In the order of the list, each once.
-std::vector<peer::CouplingMode> read_modes(const std::vector<std::string>& words) {
-  std::vector<peer::CouplingMode> asked;
+std::vector<CouplingMode> read_modes(const std::vector<std::string>& words) {
+  std::vector<CouplingMode> asked;
   for (const std::string& word : words)
     for (const std::string_view name : parts_between_commas(word)) {
       if (name == "all")
-        asked.insert(asked.end(), peer::kCouplingModes.begin(), peer::kCouplingModes.end());
+        asked.insert(asked.end(), kCouplingModes.begin(), kCouplingModes.end());
       else
         asked.push_back(read_mode(name));
     }
-  if (words.empty()) return {peer::kCouplingModes.begin(), peer::kCouplingModes.end()};
-  std::vector<peer::CouplingMode> modes;
-  for (const peer::CouplingMode mode : peer::kCouplingModes)
+  if (words.empty()) return {kCouplingModes.begin(), kCouplingModes.end()};
+  std::vector<CouplingMode> modes;
+  for (const CouplingMode mode : kCouplingModes)
     if (std::ranges::count(asked, mode) > 0) modes.push_back(mode);
   return modes;
 }
@@ -103,8 +101,6 @@ void apply_scene(const std::string& path, StabilityOptions& options) {
   base.run.network.reorder = law.reorder;
   base.run.network.reorder_delay = law.reorder_delay;
   options.plan.seed = scene.impairment.seed;
-  // A baseline that the scene asks for is run alone.
-  if (scene.coupling.mode != peer::CouplingMode::reckon) options.plan.modes = {scene.coupling.mode};
   options.notes = left_out(scene, device);
 }
 
@@ -200,7 +196,7 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
   if (words.length) plan.base.run.duration = read_length(*words.length);
   plan.peak = read_peak(words.peak);
   plan.gate = !words.no_gate;
-  if (!plan.gate && std::ranges::count(plan.modes, peer::CouplingMode::reckon) == 0)
+  if (!plan.gate && std::ranges::count(plan.modes, CouplingMode::reckon) == 0)
     throw tools::UsageError(
         "--no-gate is of the mode reckon; add it to --coupling, or leave --no-gate out");
   if (!words.hand.empty()) {

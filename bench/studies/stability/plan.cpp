@@ -17,8 +17,6 @@
 namespace reckon::bench {
 namespace {
 
-using peer::CouplingMode;
-
 /// Seeds that have nothing to do with each other, of neighbouring numbers.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
   return pdu::mixed_bits(seed * pdu::kGoldenStep + number + 1);
@@ -119,14 +117,14 @@ CouplingRun StabilityPlan::run(std::size_t number) const {
   return run;
 }
 
-std::string StabilityPlan::mode_name(peer::CouplingMode mode) const {
+std::string StabilityPlan::mode_name(CouplingMode mode) const {
   std::string name(name_of(mode));
-  return mode == peer::CouplingMode::reckon && !gate ? name + "_no_gate" : name;
+  return mode == CouplingMode::reckon && !gate ? name + "_no_gate" : name;
 }
 
 std::string StabilityPlan::text() const {
   std::string out = "modes=";
-  for (const peer::CouplingMode mode : modes)
+  for (const CouplingMode mode : modes)
     out += fmt::format("{}{}", mode == modes.front() ? "" : ",", mode_name(mode));
   for (const StabilityAxis& axis : axes) {
     out += fmt::format("; {}=", axis.parameter->name);

@@ -18,8 +18,8 @@ inline constexpr std::size_t kMostRuns = 200'000;
 /// Every cell is run in every mode, with the same fate of its samples.
 struct StabilityPlan {
   StabilitySetting base;
-  std::vector<peer::CouplingMode> modes;  ///< at least one
-  std::vector<StabilityAxis> axes;        ///< perhaps none: one cell
+  std::vector<CouplingMode> modes;  ///< at least one
+  std::vector<StabilityAxis> axes;  ///< perhaps none: one cell
   std::uint64_t seed = 1;
   bool gate = true;        ///< of mode reckon
   double peak = 10;        ///< [N] above which the summary counts; no part of a run
@@ -34,9 +34,9 @@ struct StabilityPlan {
   /// Of run `run`: mode by mode, cell by cell.
   [[nodiscard]] CouplingRun run(std::size_t run) const;
   [[nodiscard]] std::size_t cell_of(std::size_t run) const { return run % cells(); }
-  [[nodiscard]] peer::CouplingMode mode_of(std::size_t run) const { return modes[run / cells()]; }
+  [[nodiscard]] CouplingMode mode_of(std::size_t run) const { return modes[run / cells()]; }
   /// "reckon", "reckon_no_gate".
-  [[nodiscard]] std::string mode_name(peer::CouplingMode mode) const;
+  [[nodiscard]] std::string mode_name(CouplingMode mode) const;
   /// All that an outcome depends on, one "name=value" after the other with "; " between.
   [[nodiscard]] std::string text() const;
 };

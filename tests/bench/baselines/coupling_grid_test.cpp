@@ -34,7 +34,7 @@ struct Cells {
 
 // What a share of 1 is, and how the runs differ.
 struct Study {
-  peer::CouplingMode mode = peer::CouplingMode::reckon;
+  CouplingMode mode = CouplingMode::reckon;
   Counterpart counterpart = Counterpart::server;
   EnvironmentKind environment = EnvironmentKind::linear;
   unsigned seeds = 1;
@@ -87,7 +87,7 @@ Cells run(const Study& study) {
 
 TEST(CouplingGrid, NaiveJunctionFailsInEveryEnvironment) {
   for (const auto environment : kEnvironments) {
-    const Cells cells = run({peer::CouplingMode::effort_flow, Counterpart::server, environment});
+    const Cells cells = run({CouplingMode::effort_flow, Counterpart::server, environment});
     EXPECT_GE(cells.failed(), 0.1) << name_of(environment);
   }
 }
@@ -95,7 +95,7 @@ TEST(CouplingGrid, NaiveJunctionFailsInEveryEnvironment) {
 TEST(CouplingGrid, PrintedDeadReckoningFailsWhereItsModelChanges) {
   for (const auto environment : kEnvironments) {
     const Cells cells =
-        run({peer::CouplingMode::printed_dead_reckoning, Counterpart::server, environment});
+        run({CouplingMode::printed_dead_reckoning, Counterpart::server, environment});
     // Above the device's own limit no spring is passive: that is no matter of updates.
     if (environment == EnvironmentKind::linear && !soak()) {
       EXPECT_EQ(cells.made, 0);
@@ -107,15 +107,14 @@ TEST(CouplingGrid, PrintedDeadReckoningFailsWhereItsModelChanges) {
 
 TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
   for (const auto environment : kEnvironments) {
-    Study study{peer::CouplingMode::reckon, Counterpart::server, environment};
+    Study study{CouplingMode::reckon, Counterpart::server, environment};
     if (soak()) study.seeds = 5;
     const Cells cells = run(study);
     EXPECT_EQ(cells.made, 0) << name_of(environment);
     EXPECT_LE(cells.peak, 15.0) << name_of(environment);
   }
   // What is lost in one draw and not in another decides whether a hand has to borrow.
-  const Cells hands =
-      run({peer::CouplingMode::reckon, Counterpart::hand, EnvironmentKind::linear, 5});
+  const Cells hands = run({CouplingMode::reckon, Counterpart::hand, EnvironmentKind::linear, 5});
   EXPECT_EQ(hands.made, 0);
   EXPECT_LE(hands.loan, 2 * haptics::kGreatestHandLoan);
   EXPECT_LE(hands.peak, 25.0);
@@ -124,11 +123,11 @@ TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
 // Its rule knows the delay, not what is lost: without loss it keeps what it promises.
 TEST(CouplingGrid, GainCutIsStableAtAFractionOfOurStiffness) {
   for (const auto counterpart : {Counterpart::server, Counterpart::hand}) {
-    Study study{peer::CouplingMode::gain_cut, counterpart};
+    Study study{CouplingMode::gain_cut, counterpart};
     study.losses = {0.0};
     study.duration = soak() ? 30 : 12;  // so soft a spring settles slowly
     const Cells cut = run(study);
-    study.mode = peer::CouplingMode::reckon;
+    study.mode = CouplingMode::reckon;
     const Cells ours = run(study);
     EXPECT_EQ(cut.made, 0);
     EXPECT_LT(cut.fastest, 0.02) << "m/s, under a push";
@@ -137,11 +136,11 @@ TEST(CouplingGrid, GainCutIsStableAtAFractionOfOurStiffness) {
 }
 
 TEST(CouplingGrid, TheOtherBaselinesForComparison) {
-  const Cells line = run({peer::CouplingMode::transmission_line});
+  const Cells line = run({CouplingMode::transmission_line});
   EXPECT_EQ(line.made, 0) << "a device of 1 N s/m pays for what jitter makes";
-  EXPECT_GT(run({peer::CouplingMode::velocity_exchange, Counterpart::hand}).failed(), 0.1);
-  const Cells controlled = run(
-      {peer::CouplingMode::passivity_controller, Counterpart::server, EnvironmentKind::hardening});
+  EXPECT_GT(run({CouplingMode::velocity_exchange, Counterpart::hand}).failed(), 0.1);
+  const Cells controlled =
+      run({CouplingMode::passivity_controller, Counterpart::server, EnvironmentKind::hardening});
   EXPECT_GT(controlled.failed(), 0.05) << "it repays after the fact";
   EXPECT_GT(controlled.peak, 15.0) << "N";
 }
@@ -168,11 +167,11 @@ TEST(CouplingGrid, OursMakesNoEnergyInARapidlyChangingWorld) {
       CouplingOutcome ours;
       double printed_least = 0;  // [J]
       for (cell.seed = 5; cell.seed > 0; --cell.seed) {
-        cell.mode = peer::CouplingMode::printed_dead_reckoning;
+        cell.mode = CouplingMode::printed_dead_reckoning;
         const CouplingOutcome printed = simulate(cell);
         if (printed.made_energy()) ++defeated;
         printed_least = std::min(printed_least, printed.least_energy);
-        cell.mode = peer::CouplingMode::reckon;
+        cell.mode = CouplingMode::reckon;
         ours = simulate(cell);
         EXPECT_FALSE(ours.made_energy()) << switch_hz << " Hz, " << delay << " s, " << cell.seed;
         EXPECT_GT(ours.truth_p95, 1.0) << "N: it is tapped";
@@ -192,9 +191,8 @@ TEST(CouplingGrid, StiffnessKeptAgainstDelay) {
   for (const double delay : {0.0, 0.005, 0.02, 0.05, 0.1, 0.2}) {
     std::printf("%3.0f ms:", 1e3 * delay);
     double best_baseline = 0, ours = 0;
-    for (const auto mode :
-         {peer::CouplingMode::gain_cut, peer::CouplingMode::transmission_line,
-          peer::CouplingMode::printed_dead_reckoning, peer::CouplingMode::reckon}) {
+    for (const auto mode : {CouplingMode::gain_cut, CouplingMode::transmission_line,
+                            CouplingMode::printed_dead_reckoning, CouplingMode::reckon}) {
       CouplingRun cell;
       cell.mode = mode;
       cell.counterpart = Counterpart::hand;
@@ -205,7 +203,7 @@ TEST(CouplingGrid, StiffnessKeptAgainstDelay) {
       const bool stable = !outcome.made_energy();
       std::printf("  %s %3.0f %%%s", std::string(name_of(mode)).c_str(),
                   100 * outcome.stiffness_kept, stable ? "" : " (makes energy)");
-      if (mode == peer::CouplingMode::reckon) {
+      if (mode == CouplingMode::reckon) {
         ours = outcome.stiffness_kept;
         EXPECT_TRUE(stable);
       } else if (stable) {

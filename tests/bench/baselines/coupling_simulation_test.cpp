@@ -20,7 +20,7 @@ namespace {
 constexpr double kPassive = -1e-9;  // [J]
 constexpr std::array kOperators{OperatorKind::push, OperatorKind::soft, OperatorKind::tracking};
 
-CouplingRun run_of(peer::CouplingMode mode, Counterpart counterpart, double stiffness) {
+CouplingRun run_of(CouplingMode mode, Counterpart counterpart, double stiffness) {
   CouplingRun run;
   run.mode = mode;
   run.counterpart = counterpart;
@@ -29,10 +29,9 @@ CouplingRun run_of(peer::CouplingMode mode, Counterpart counterpart, double stif
 }
 
 TEST(CouplingMode, HasANameThatFindsIt) {
-  for (const peer::CouplingMode mode : peer::kCouplingModes)
-    EXPECT_EQ(peer::coupling_mode(name_of(mode)), mode);
-  EXPECT_FALSE(peer::coupling_mode("wave"));
-  EXPECT_EQ(name_of(peer::CouplingMode::transmission_line), "transmission_line");
+  for (const CouplingMode mode : kCouplingModes) EXPECT_EQ(coupling_mode(name_of(mode)), mode);
+  EXPECT_FALSE(coupling_mode("wave"));
+  EXPECT_EQ(name_of(CouplingMode::transmission_line), "transmission_line");
 }
 
 TEST(Environment, ForceIsTheSlopeOfTheEnergyAndMeetsItsTangent) {
@@ -58,7 +57,7 @@ TEST(Environment, HardeningSpringDoublesTheForceAtOneNewton) {
 }
 
 TEST(CouplingSimulation, GivesTheSameToTheLastBitForTheSameSeed) {
-  for (const peer::CouplingMode mode : peer::kCouplingModes) {
+  for (const CouplingMode mode : kCouplingModes) {
     CouplingRun run = run_of(mode, Counterpart::hand, 400);
     run.network = peer::delayed_by(0.02, 0.3, 0.2);
     run.network.reorder = 0.1;
@@ -76,9 +75,9 @@ TEST(CouplingSimulation, GivesTheSameToTheLastBitForTheSameSeed) {
 }
 
 TEST(CouplingSimulation, ShowsALinearWallAsItIsWhereTheModelIsLocal) {
-  for (const peer::CouplingMode mode :
-       {peer::CouplingMode::velocity_exchange, peer::CouplingMode::printed_dead_reckoning,
-        peer::CouplingMode::passivity_controller, peer::CouplingMode::reckon}) {
+  for (const CouplingMode mode :
+       {CouplingMode::velocity_exchange, CouplingMode::printed_dead_reckoning,
+        CouplingMode::passivity_controller, CouplingMode::reckon}) {
     CouplingRun run = run_of(mode, Counterpart::server, 500);
     run.network = peer::delayed_by(0.1, 0.3);
     const CouplingOutcome outcome = simulate(run);
@@ -91,7 +90,7 @@ TEST(CouplingSimulation, ShowsALinearWallAsItIsWhereTheModelIsLocal) {
 
 // 2 N against a spring: what is right is known without any simulation.
 TEST(CouplingSimulation, TruthIsTheForceOfTheOperatorAtRest) {
-  CouplingRun run = run_of(peer::CouplingMode::reckon, Counterpart::hand, 400);
+  CouplingRun run = run_of(CouplingMode::reckon, Counterpart::hand, 400);
   run.duration = 6;
   run.update_hz = 1000;
   const CouplingOutcome outcome = simulate(run);
@@ -101,7 +100,7 @@ TEST(CouplingSimulation, TruthIsTheForceOfTheOperatorAtRest) {
 }
 
 TEST(CouplingSimulation, MakesEnergyWithTheGateOff) {
-  CouplingRun run = run_of(peer::CouplingMode::reckon, Counterpart::server, 500);
+  CouplingRun run = run_of(CouplingMode::reckon, Counterpart::server, 500);
   run.environment = Environment(EnvironmentKind::switching, 1500);
   run.hand = operator_model(OperatorKind::soft);
   run.network = peer::delayed_by(0.05, 0.3, 0.3);
@@ -132,7 +131,7 @@ TEST(CouplingSimulation, RefusesWhatIsOutOfRangeAndSaysWhat) {
 }
 
 TEST(CouplingEnd, AllocatesNothingInAStep) {
-  for (const peer::CouplingMode mode : peer::kCouplingModes) {
+  for (const CouplingMode mode : kCouplingModes) {
     for (const auto side : {CouplingSide::first, CouplingSide::second}) {
       CouplingEndConfig config;
       config.mode = mode;
@@ -154,7 +153,7 @@ TEST(CouplingEnd, AllocatesNothingInAStep) {
 // it reflects a sample later: the waves are those of the line of the analysis.
 TEST(TransmissionLine, IsTheWaveLineOfTheAnalysis) {
   CouplingEndConfig config;
-  config.mode = peer::CouplingMode::transmission_line;
+  config.mode = CouplingMode::transmission_line;
   config.impedance = 2.0;
   const auto hand = make_coupling_end(config);
   config.side = CouplingSide::second;
@@ -189,8 +188,7 @@ TEST(TransmissionLine, MakesNoEnergyAtConstantDelay) {
       for (const double delay : {0.0, 0.02, 0.1, 0.5})
         for (const double hz : {1000.0, 50.0})
           for (const double damping : {1.0, 0.05}) {
-            CouplingRun run =
-                run_of(peer::CouplingMode::transmission_line, counterpart, 900 * damping);
+            CouplingRun run = run_of(CouplingMode::transmission_line, counterpart, 900 * damping);
             run.hand = operator_model(hand);
             run.device.damping = damping;
             run.network = peer::delayed_by(delay);
@@ -209,7 +207,7 @@ TEST(TransmissionLine, MakesEnergyWhereTheDelayVaries) {
   double least = 0;
   for (const OperatorKind hand : kOperators)
     for (const double delay : {0.02, 0.05, 0.2}) {
-      CouplingRun run = run_of(peer::CouplingMode::transmission_line, Counterpart::server, 25);
+      CouplingRun run = run_of(CouplingMode::transmission_line, Counterpart::server, 25);
       run.hand = operator_model(hand);
       run.device.damping = 0.05;
       run.impedance = 2.0;
@@ -228,7 +226,7 @@ TEST(TransmissionLine, MakesEnergyWhereTheDelayVaries) {
 TEST(TransmissionLine, CarriesTheWorkOfAWorldThatMoves) {
   for (const auto kind : {EnvironmentKind::moving, EnvironmentKind::switching})
     for (const OperatorKind hand : kOperators) {
-      CouplingRun run = run_of(peer::CouplingMode::transmission_line, Counterpart::server, 900);
+      CouplingRun run = run_of(CouplingMode::transmission_line, Counterpart::server, 900);
       run.environment = Environment(kind, 900);
       run.hand = operator_model(hand);
       run.network = peer::delayed_by(0.02);

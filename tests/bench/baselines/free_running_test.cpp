@@ -44,7 +44,7 @@ double rms_difference(const std::vector<CouplingTrace>& a, const std::vector<Cou
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-CouplingRun run_of(peer::CouplingMode mode, double delay) {
+CouplingRun run_of(CouplingMode mode, double delay) {
   CouplingRun run;
   run.mode = mode;
   run.counterpart = Counterpart::hand;
@@ -57,7 +57,7 @@ CouplingRun run_of(peer::CouplingMode mode, double delay) {
 }
 
 TEST(FreeRunning, IsLockStepToTheBitWhereTheDelayIsLongerThanTheyAreApart) {
-  for (const peer::CouplingMode mode : peer::kCouplingModes) {
+  for (const CouplingMode mode : kCouplingModes) {
     const CouplingRun run = run_of(mode, 0.02);
     const CouplingOutcome together = simulate(run);
     auto apart = run_apart(run, 1);
@@ -70,12 +70,12 @@ TEST(FreeRunning, IsLockStepToTheBitWhereTheDelayIsLongerThanTheyAreApart) {
 // at such delays stay near the run in lock-step.
 TEST(FreeRunning, StaysNearLockStepOnAPerfectLine) {
   struct Stated {
-    peer::CouplingMode mode;
+    CouplingMode mode;
     double most;  // [N], rms
   };
-  for (const auto& [mode, most] : {Stated{peer::CouplingMode::gain_cut, 0.02},
-                                   Stated{peer::CouplingMode::transmission_line, 0.05},
-                                   Stated{peer::CouplingMode::reckon, 0.5}}) {
+  for (const auto& [mode, most] :
+       {Stated{CouplingMode::gain_cut, 0.02}, Stated{CouplingMode::transmission_line, 0.05},
+        Stated{CouplingMode::reckon, 0.5}}) {
     const CouplingRun run = run_of(mode, 0.0);
     const CouplingOutcome together = simulate(run);
     double worst = 0;

@@ -53,7 +53,7 @@ struct Books {
 };
 
 // The hand moves as it is told; updates come every sample, at once.
-Books suffer(const Attack& a, peer::CouplingMode mode) {
+Books suffer(const Attack& a, CouplingMode mode) {
   CouplingEndConfig config;
   config.mode = mode;
   config.period = a.T;
@@ -83,7 +83,7 @@ TEST(UpdateAttacks, DefeatPrintedDeadReckoningByTheEnergyStated) {
   const nlohmann::json oracle = read_oracle();
   int defeated = 0;
   for (const auto& v : oracle["vectors"]) {
-    const Books books = suffer(read(v), peer::CouplingMode::printed_dead_reckoning);
+    const Books books = suffer(read(v), CouplingMode::printed_dead_reckoning);
     const std::string id = v["id"];
     const auto& raw = v["raw"];
     EXPECT_NEAR(books.work, raw["port_energy_end"].get<double>(), 1e-9) << id;
@@ -101,7 +101,7 @@ TEST(UpdateAttacks, MakeNoEnergyInTheServo) {
   int vectors = 0;
   double least = 0, strongest = 0;
   for (const auto& v : oracle["vectors"]) {
-    const Books books = suffer(read(v), peer::CouplingMode::reckon);
+    const Books books = suffer(read(v), CouplingMode::reckon);
     const std::string id = v["id"];
     const double raw_peak = v["raw"]["force_peak"];
     EXPECT_GE(books.least, kPassive) << id;

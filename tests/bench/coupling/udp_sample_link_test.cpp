@@ -17,8 +17,6 @@
 namespace reckon::bench {
 namespace {
 
-using peer::CouplingMode;
-
 const peer::IpEndpoint kLoopback = peer::IpEndpoint::v4(0x7F000001, 0);
 
 SampleQueue queue_of(const CouplingRun& run, CouplingSide side) {
@@ -51,7 +49,7 @@ std::array<std::vector<CouplingTrace>, 2> over_sockets(const CouplingRun& run,
 
 TEST(UdpSampleLink, GivesEveryModeTheTraceOfOneProcess) {
   for (const auto counterpart : {Counterpart::hand, Counterpart::server})
-    for (const peer::CouplingMode mode : peer::kCouplingModes) {
+    for (const CouplingMode mode : kCouplingModes) {
       CouplingRun run;
       run.mode = mode;
       run.counterpart = counterpart;

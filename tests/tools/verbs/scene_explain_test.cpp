@@ -254,19 +254,6 @@ TEST(SceneExplain, TellsWhatAHandFeelsObjectsWith) {
               HasSubstr("feels objects with a point"));
 }
 
-TEST(SceneExplain, TellsThatABaselineIsForStudiesAndDemoRefusesIt) {
-  const TemporaryScene baseline("[coupling]\nmode = \"effort_flow\"\n"), ours("");
-  EXPECT_EQ(run_reckon({"scene", "check", baseline.path()}).status, 0);
-  EXPECT_THAT(run_reckon({"scene", "explain", baseline.path()}).out,
-              HasSubstr("effort_flow, a baseline: `bench stability` runs it"));
-  EXPECT_THAT(run_reckon({"scene", "explain", ours.path()}).out, Not(HasSubstr("baseline")));
-  for (const char* verb : {"demo", "peer"}) {
-    const auto refused = run_reckon({verb, baseline.path(), "--iface", "lo"});
-    EXPECT_EQ(refused.status, 2) << verb;
-    EXPECT_THAT(refused.err, HasSubstr("\"effort_flow\" is a baseline for studies")) << verb;
-  }
-}
-
 // A surface may lean on 3/4 of the damping: 1425 N/m of 1900 N/m.
 TEST(SceneExplain, TellsWhetherSurfacesAreSoftened) {
   const auto with = [](const std::string& stiffness) {

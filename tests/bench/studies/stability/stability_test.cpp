@@ -17,7 +17,6 @@ namespace reckon::bench {
 namespace {
 
 using nlohmann::json;
-using peer::CouplingMode;
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -58,9 +57,8 @@ TEST(StabilityPlan, CellsAreTheProductOfTheAxesTheLastFastest) {
   EXPECT_EQ(plan.setting(2).run.network.delay, 50ms);
   EXPECT_EQ(plan.setting(11).stiffness, 600.0);
   EXPECT_EQ(plan.setting(11).run.network.delay, 100ms);
-  EXPECT_EQ(plan.mode_of(0), peer::CouplingMode::printed_dead_reckoning)
-      << "in the order of the list";
-  EXPECT_EQ(plan.run(13).mode, peer::CouplingMode::reckon);
+  EXPECT_EQ(plan.mode_of(0), CouplingMode::printed_dead_reckoning) << "in the order of the list";
+  EXPECT_EQ(plan.run(13).mode, CouplingMode::reckon);
   EXPECT_EQ(plan.run(13).environment.kind(), EnvironmentKind::moving);
   EXPECT_EQ(plan.run(13).environment.stiffness(), 300.0);
 }
@@ -110,7 +108,7 @@ TEST(StabilityPlan, TextHoldsAllThatAnOutcomeDependsOn) {
 
 TEST(StabilityPlan, DefaultCoversStiffnessDelayLossJitterAndEnvironment) {
   const StabilityPlan plan = read_stability_options({}).plan;
-  EXPECT_EQ(plan.modes.size(), peer::kCouplingModes.size());
+  EXPECT_EQ(plan.modes.size(), kCouplingModes.size());
   EXPECT_EQ(plan.axes.size(), 5U);
   EXPECT_EQ(plan.cells(), 320U);
 }

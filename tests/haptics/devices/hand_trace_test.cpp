@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/haptics/devices/replay_device.hpp"
+#include "reckon/haptics/devices/hand_trace.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/tests/haptics/support/hand_trace_kink.hpp"
 
 namespace reckon::haptics {
@@ -39,7 +40,7 @@ TEST(HandTrace, FitsTheMotionIntoABoxWithoutDistortingIt) {
   EXPECT_LE((trace.at(99).position - trace.at(2).position).norm(), 1e-15);
 }
 
-TEST(ReplayDevice, FollowsTheRecordedHandInFreeSpace) {
+TEST(HandTrace, MovesASimulatedDeviceInFreeSpace) {
   std::vector<double> t;
   std::vector<Vector3d> p;
   for (int i = 0; i < 300; ++i) {
@@ -50,7 +51,8 @@ TEST(ReplayDevice, FollowsTheRecordedHandInFreeSpace) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 500;
   config.hand_damping = 8;
-  ReplayDevice device(trace, config);
+  config.start = trace.at(0.0).position;
+  SimulatedDevice device(config, [&trace](double time) { return trace.at(time); });
   EXPECT_EQ((device.position() - p[0]).norm(), 0.0);
   double worst = 0;
   for (auto now = 0ns; now < 2900ms; now += 1ms) {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-namespace reckon::peer {
+namespace reckon::bench {
 
 enum class CouplingMode : std::uint8_t {
   velocity_exchange,       ///< thesis (4.1): own speed less the other's feeds a local environment
@@ -30,7 +30,7 @@ inline constexpr std::array kCouplingModes{CouplingMode::velocity_exchange,
                                            CouplingMode::printed_dead_reckoning,
                                            CouplingMode::reckon};
 
-/// Name in scene files and tables: "velocity_exchange", .., "reckon".
+/// Name in flags and tables: "velocity_exchange", .., "reckon".
 [[nodiscard]] constexpr std::string_view name_of(CouplingMode mode) noexcept {
   constexpr std::array<std::string_view, kCouplingModes.size()> kNames{"velocity_exchange",
                                                                        "effort_flow",
@@ -50,4 +50,4 @@ inline constexpr std::array kCouplingModes{CouplingMode::velocity_exchange,
   return std::nullopt;
 }
 
-}  // namespace reckon::peer
+}  // namespace reckon::bench
