@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+# For ctest: adds the suites of the GoogleTest program `file`, in its folder; see cmake/tests.cmake.
+if(NOT EXISTS "${file}")
+  add_test(${program}.is_built "${file}")
+  set_tests_properties(${program}.is_built PROPERTIES LABELS fast)
+  return()
+endif()
+execute_process(COMMAND "${file}" --gtest_list_tests WORKING_DIRECTORY "${folder}" OUTPUT_VARIABLE listed RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${file} --gtest_list_tests ends with ${status}")
+endif()
+string(REGEX MATCHALL "\n[A-Za-z0-9_/]+\\." suites "\n${listed}")
+foreach(suite ${suites})
+  string(REGEX REPLACE "[\n.]" "" suite "${suite}")
+  # Of Prefix/Suite/0, which GoogleTest makes of a suite with types or values.
+  string(REGEX REPLACE "^.*/([A-Za-z_][A-Za-z0-9_]*)(/[0-9]+)?$|^([A-Za-z_][A-Za-z0-9_]*)/[0-9]+$" "\\1\\3" base "${suite}")
+  set(label fast)
+  set(environment RECKON_NO_SOCKETS=1)
+  if(base MATCHES "${live}")
+    set(label live)
+    set(environment)
+  endif()
+  add_test(${program}.${suite} "${file}" "--gtest_filter=${suite}.*")
+  set_tests_properties(${program}.${suite} PROPERTIES LABELS ${label} ENVIRONMENT "${environment}" WORKING_DIRECTORY "${folder}" TIMEOUT 600)
+endforeach()
