@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "reckon/tools/command_line/verb_program.hpp"
+#include "reckon/tools/command_line/reading_program.hpp"
 
 namespace reckon::bench {
 namespace verb {
@@ -23,7 +23,7 @@ std::span<const tools::Verb> verbs() {
 }
 
 int run_program(tools::Arguments arguments, const tools::Console& console) noexcept {
-  return tools::run_verb_program(
+  return tools::run_reading_program(
       {"reckon-bench", "The studies of Reckon: `reckon bench` and its like start them.", verbs()},
       arguments, console);
 }

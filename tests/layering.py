@@ -181,7 +181,7 @@ PLANTED = [
     ("direction", "pdu/bundle.cpp", "#include <Eigen/Core>"),
     ("direction", "aoim/interest/interest.cpp", '#include "reckon/peer/peer.hpp"'),
     ("direction", "src/peer.cpp", '#include "reckon/tools/program.hpp"'),
-    ("direction", "tools/verbs/studies.cpp", '#include "reckon/bench/program.hpp"'),
+    ("direction", "tools/verbs/program_start.cpp", '#include "reckon/bench/program.hpp"'),
     ("direction", "haptics/servo/safety.cpp", '#include "reckon/tests/support/touch_meshes.hpp"'),
     ("direction", "tools/verbs/info.cpp", '#include "reckon/python/records/shape.hpp"'),
     ("direction", "pdu/bundle.cpp", "#include <pybind11/pybind11.h>"),

@@ -1,23 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program `reckon`: THE list of its verbs, in program.cpp, and the function that runs one. A
-// new verb is one file in verbs/ and one row of the list. Help, manual page, completion and the
-// suggestion for a mistyped verb use the list.
+// The program `reckon`: starts the program of each verb. It has no verb of its own but help and
+// completion. THE list of verbs is in command_line/verb_rows.hpp; a new verb is one file in verbs/,
+// a row of that list and one of its program.
 #pragma once
 
+#include <functional>
 #include <span>
 
-#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
+#include "reckon/tools/verbs/program_start.hpp"
 
 namespace reckon::tools {
 
 /// All verbs, in the order in which help lists them.
 [[nodiscard]] std::span<const Verb> verbs();
 
+/// start_program(), or what a test puts in its place.
+using StartVerb =
+    std::function<int(const VerbRow& row, Arguments arguments, const Console& console)>;
+
 /// Runs `reckon ARGUMENTS` (without the program's name) and returns the exit status. Never throws.
 ///
 ///   const std::array<std::string_view, 2> arguments{"info", "exercise.pcapng"};
 ///   return run_program(arguments, Console{});
-[[nodiscard]] int run_program(Arguments arguments, const Console& console) noexcept;
+[[nodiscard]] int run_program(Arguments arguments, const Console& console,
+                              const StartVerb& start = start_program) noexcept;
 
 }  // namespace reckon::tools

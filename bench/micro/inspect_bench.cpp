@@ -19,7 +19,7 @@
 #include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/view_list.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/inspect_program.hpp"
 
 namespace {
 
@@ -111,7 +111,7 @@ void Inspect(benchmark::State& state, const std::vector<std::string>& words) {
   arguments.insert(arguments.end(), words.begin(), words.end());
   for (auto _ : state) {
     std::rewind(err.get());
-    if (tools::run_program(arguments, console) != exit_status(tools::ExitCode::good))
+    if (tools::run_inspect_program(arguments, console) != exit_status(tools::ExitCode::good))
       state.SkipWithError("inspect found faults in a good capture");
   }
   unsigned long long pdus = 0;

@@ -22,7 +22,7 @@
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/command_text.hpp"
-#include "reckon/tools/verbs/studies.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -321,7 +321,7 @@ int run_bench(tools::Arguments arguments, const tools::Console& console) {
 
 namespace verb {
 
-tools::Verb bench() { return {tools::kBenchVerb.name, tools::kBenchVerb.summary, run_bench}; }
+tools::Verb bench() { return tools::verb_of(tools::verb_row("bench"), run_bench); }
 
 }  // namespace verb
 

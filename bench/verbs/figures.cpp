@@ -12,9 +12,9 @@
 #include "reckon/bench/studies/figures/figure_text.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
-#include "reckon/tools/verbs/studies.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -169,9 +169,7 @@ int run_figures(tools::Arguments arguments, const tools::Console& console) {
 
 namespace verb {
 
-tools::Verb figures() {
-  return {tools::kFiguresVerb.name, tools::kFiguresVerb.summary, run_figures};
-}
+tools::Verb figures() { return tools::verb_of(tools::verb_row("figures"), run_figures); }
 
 }  // namespace verb
 

@@ -19,9 +19,9 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
-#include "reckon/tools/exercise/scene_folder.hpp"
+#include "reckon/tools/command_line/scene_folder.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
-#include "reckon/tools/verbs/studies.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -234,7 +234,7 @@ int run_tune(tools::Arguments arguments, const tools::Console& console) {
 
 namespace verb {
 
-tools::Verb tune() { return {tools::kTuneVerb.name, tools::kTuneVerb.summary, run_tune}; }
+tools::Verb tune() { return tools::verb_of(tools::verb_row("tune"), run_tune); }
 
 }  // namespace verb
 

@@ -19,7 +19,7 @@
 #include "reckon/tools/command_line/command_text.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
-#include "reckon/tools/verbs/studies.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -184,9 +184,7 @@ int run_zwidth_verb(tools::Arguments arguments, const tools::Console& console) {
 
 namespace verb {
 
-tools::Verb zwidth() {
-  return {tools::kZWidthVerb.name, tools::kZWidthVerb.summary, run_zwidth_verb};
-}
+tools::Verb zwidth() { return tools::verb_of(tools::verb_row("zwidth"), run_zwidth_verb); }
 
 }  // namespace verb
 

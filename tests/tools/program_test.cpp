@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -59,7 +60,19 @@ TEST(Program, HasARowForEachVerbThatAFileDefines) {
   std::set<std::string> listed;
   for (const Verb& verb : verbs()) listed.emplace(verb.name);
   for (const std::string& name : defined)
-    EXPECT_TRUE(listed.contains(name)) << name << " has no row in tools/program.cpp";
+    EXPECT_TRUE(listed.contains(name)) << name << " has no row in verb_rows.hpp";
+}
+
+TEST(Program, StartsEachVerbInTheProgramThatHasIt) {
+  for (const auto& [program, own] : {std::pair{kPeerProgram, peer_verbs()},
+                                     std::pair{kInspectProgram, inspect_verbs()}}) {
+    for (const Verb& verb : own) {
+      const auto row = std::ranges::find(kVerbRows, verb.name, &VerbRow::name);
+      ASSERT_NE(row, kVerbRows.end()) << verb.name;
+      EXPECT_EQ(row->program, program) << verb.name;
+    }
+    EXPECT_EQ(std::ranges::count(kVerbRows, program, &VerbRow::program), std::ssize(own));
+  }
 }
 
 TEST(Program, HasARowForEachViewThatAFileDefines) {
@@ -73,7 +86,7 @@ TEST(Program, HasARowForEachViewThatAFileDefines) {
 
 TEST(Program, GivesAnExampleInTheHelpOfEveryVerb) {
   for (const Verb& verb : verbs()) {
-    if (verb.elsewhere) continue;
+    if (verb.program == kBenchProgram) continue;
     const auto result = run_reckon({std::string(verb.name), "--help"});
     EXPECT_EQ(result.status, 0) << verb.name;
     EXPECT_THAT(result.out, HasSubstr("reckon " + std::string(verb.name))) << verb.name;
@@ -111,7 +124,7 @@ TEST(Program, TellsWhereItsOutputCouldNotBeWritten) {
   console.out = full;
   console.err = err.file();
   const std::array<std::string_view, 2> words{"help", "--man"};
-  EXPECT_EQ(run_program(words, console), 3);
+  EXPECT_EQ(test::run_program(words, console), 3);
   EXPECT_THAT(err.text(), HasSubstr("reckon help: writing the output: No space left"));
   std::fclose(full);
 }
@@ -128,7 +141,7 @@ TEST(Program, EndsWellWhereItIsAskedToWhileItsOutputHasToWait) {
     console.err = err.file();
     console.stop = &stop;
     const std::array<std::string_view, 2> words{"help", "--man"};
-    EXPECT_EQ(run_program(words, console), asked ? 0 : 3) << err.text();
+    EXPECT_EQ(test::run_program(words, console), asked ? 0 : 3) << err.text();
     std::fclose(slow);
   }
 }
@@ -149,7 +162,7 @@ TEST(Program, NamesTheFormsOfASourceWhereTheWordIsNone) {
 
 TEST(Program, RefusesAnUnknownFlagOfEveryVerb) {
   for (const Verb& verb : verbs()) {
-    if (verb.elsewhere) continue;
+    if (verb.program == kBenchProgram) continue;
     const auto result = run_reckon({std::string(verb.name), "--no-such-flag"});
     EXPECT_EQ(result.status, 2) << verb.name;
     EXPECT_TRUE(result.out.empty()) << verb.name;
@@ -201,7 +214,7 @@ rlim_t address_space() {
   setrlimit(RLIMIT_AS, &limit);
   const std::string scene = reckon::test::source_dir() + "/scenes/two_hands.toml";
   const std::array<std::string_view, 5> words{"demo", scene, "--simulated-time", "--for", "50ms"};
-  std::_Exit(run_program(words, {}));
+  std::_Exit(test::run_program(words, {}));
 }
 
 TEST(ProgramDeathTest, TellsTheRemedyWhereThereIsTooLittleAddressSpace) {

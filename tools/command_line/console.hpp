@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -52,8 +53,8 @@ struct Verb {
   /// Runs the verb and returns the exit status (an ExitCode). May throw UsageError,
   /// EnvironmentError, std::system_error (reported as an environment fault); anything else is
   /// reported as internal.
-  int (*run)(Arguments arguments, const Console& console);
-  bool elsewhere = false;  ///< The verb is part of another program, which `run` starts.
+  std::function<int(Arguments arguments, const Console& console)> run;
+  std::string_view program = {};  ///< That the verb is part of and `run` starts; empty: this one.
 };
 
 /// Wrong usage or an unreadable file: reported on stderr, exit 2. The text names the value and the

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -17,9 +16,7 @@
 #include <system_error>
 #include <vector>
 
-#include "reckon/haptics/input_files/load_progress.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
-#include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/version.hpp"
 #include "reckon/tools/terminal/foreign_text.hpp"
 
@@ -41,8 +38,10 @@ int dispatch(const VerbProgram& program, Arguments arguments, const Console& con
     return exit_status(ExitCode::good);
   }
   const Verb* verb = find_verb(program, first);
+  if (verb != nullptr && program.around != nullptr)
+    return program.around(*verb, arguments.subspan(1), console);
   if (verb != nullptr) return verb->run(arguments.subspan(1), console);
-  if (program.run_other != nullptr) {
+  if (program.run_other) {
     if (const auto status = program.run_other(arguments, console)) return *status;
   }
   return refuse_verb(program, first, console);
@@ -116,7 +115,7 @@ const Verb* find_verb(const VerbProgram& program, std::string_view name) {
 
 void print_overview(const VerbProgram& program, std::FILE* out) {
   fmt::print(out, "{}\n\nusage: {} VERB [ARGUMENTS]\n", program.title, program.name);
-  if (program.run_other != nullptr)
+  if (program.run_other)
     fmt::print(out, "       {} FILE    a capture is inspected, a scene or a mesh touched\n",
                program.name);
   fmt::print(out, "\n");
@@ -135,8 +134,8 @@ int refuse_verb(const VerbProgram& program, std::string_view name, const Console
   const bool is_flag = name.starts_with('-');
   if (is_flag) names = {"--help", "--version"};
   const std::string_view nearest = peer::nearest_word(name, names);
-  const bool is_path = !is_flag && program.run_other != nullptr &&
-                       name.find_first_of("./") != std::string_view::npos;
+  const bool is_path =
+      !is_flag && program.run_other && name.find_first_of("./") != std::string_view::npos;
   fmt::print(console.err, "reckon: there is no {} '{}'",
              is_flag   ? "flag"
              : is_path ? "file"
@@ -150,21 +149,12 @@ int refuse_verb(const VerbProgram& program, std::string_view name, const Console
 int run_verb_program(const VerbProgram& program, Arguments arguments,
                      const Console& console) noexcept {
   try {
-    const haptics::LoadProgress progress(
-        [] { return std::chrono::steady_clock::now().time_since_epoch(); },
-        [&](const std::filesystem::path& file, std::chrono::seconds since) {
-          std::string name;
-          append_clean_text(name, file.string());
-          fmt::print(console.err, "{}: reading {}, {} s\n", program.name, name, since.count());
-        });
     const int status = dispatch(program, arguments, console);
     errno = 0;
     if (std::fflush(console.out) != 0 && errno != EPIPE)
       throw std::system_error(errno, std::generic_category(), "writing the output");
     return status;
   } catch (const UsageError& error) {
-    return report_error(console, arguments, error, ExitCode::usage);
-  } catch (const peer::CsvError& error) {
     return report_error(console, arguments, error, ExitCode::usage);
   } catch (const EnvironmentError& error) {
     return report_error(console, arguments, error, ExitCode::environment);

@@ -4,6 +4,7 @@
 // line on stderr and an exit status. `reckon` is one, `reckon-bench` another.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -17,7 +18,9 @@ struct VerbProgram {
   std::string_view title;  ///< first line of the overview
   std::span<const Verb> verbs;
   /// Runs words of which the first is no verb, or returns nothing if it cannot; null: never.
-  std::optional<int> (*run_other)(Arguments arguments, const Console& console) = nullptr;
+  std::function<std::optional<int>(Arguments arguments, const Console& console)> run_other = {};
+  /// Runs a verb; null: calls its `run`.
+  int (*around)(const Verb& verb, Arguments arguments, const Console& console) = nullptr;
 };
 
 /// The verb with this name; null if there is none.
@@ -34,7 +37,7 @@ int refuse_verb(const VerbProgram& program, std::string_view name, const Console
                                    const Console& console) noexcept;
 
 /// main() of such a program: sets up signals, colour and streams of this process.
-/// @param run  as run_program() of tools/program.hpp
+/// @param run  as run_verb_program() of one program
 [[nodiscard]] int run_process(int argc, char** argv,
                               int (*run)(Arguments arguments, const Console& console) noexcept);
 

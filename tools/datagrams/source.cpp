@@ -14,7 +14,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/tools/datagrams/file_kind.hpp"
+#include "reckon/tools/command_line/file_kind.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/impairment_text.hpp"
-#include "reckon/tools/exercise/scene_folder.hpp"
+#include "reckon/tools/command_line/scene_folder.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {

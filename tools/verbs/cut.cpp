@@ -9,20 +9,21 @@
 #include "reckon/tools/captures/radio_audio.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
 
-constexpr std::string_view kSummary =
+constexpr std::string_view kCutSummary =
     "Writes a part of a capture as a new one.\n\n"
     "Whole datagrams are taken, frame for frame and octet for octet; frames without UDP are left\n"
     "out. Words of one kind widen the choice, words of different kinds narrow it. A name that "
     "ends\n"
     "in .zst is compressed. With --audio it writes a 16-bit WAV file with the sound of one radio\n"
     "instead: its Signal PDUs in mu-law or linear PCM, placed by capture time.";
-constexpr std::string_view kExamples =
+constexpr std::string_view kCutExamples =
     "reckon cut day.pcapng part.pcapng --from 90s --to 2min\n"
     "reckon cut day.pcapng one.pcapng --entity 1:2:3\n"
     "reckon cut day.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type entity_state\n"
@@ -103,7 +104,7 @@ ExitCode cut_audio(const CutOptions& options, const Console& console) {
 
 int run_cut(Arguments arguments, const Console& console) {
   CutOptions options;
-  CommandLine line("cut", kSummary, kExamples);
+  CommandLine line("cut", kCutSummary, kCutExamples);
   line.word("IN", options.in, true, "pcap or pcapng file, also compressed; - is stdin");
   line.word("OUT", options.out.path, false, "the pcapng file to write");
   line.option("--audio", options.audio,
@@ -127,7 +128,7 @@ int run_cut(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb cut() { return {"cut", "write a part of a capture to a new file", run_cut}; }
+Verb cut() { return verb_of(verb_row("cut"), run_cut); }
 
 }  // namespace verb
 

@@ -19,6 +19,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/body_report.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
@@ -414,9 +415,7 @@ int run_demo(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb demo() {
-  return {"demo", "two peers on loopback whose hands touch; prints what it cost", run_demo};
-}
+Verb demo() { return verb_of(verb_row("demo"), run_demo); }
 
 }  // namespace verb
 

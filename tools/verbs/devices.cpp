@@ -23,6 +23,7 @@
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
 #include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
@@ -330,9 +331,7 @@ int run_devices(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb devices() {
-  return {"devices", "list real devices, and what keeps one from being used", run_devices};
-}
+Verb devices() { return verb_of(verb_row("devices"), run_devices); }
 
 }  // namespace verb
 

@@ -16,6 +16,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"
 #include "reckon/tools/exercise/attached_events.hpp"
 #include "reckon/tools/exercise/serial_lines.hpp"
@@ -219,7 +220,7 @@ int run_doctor(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb doctor() { return {"doctor", "report problems of this host with remedies", run_doctor}; }
+Verb doctor() { return verb_of(verb_row("doctor"), run_doctor); }
 
 }  // namespace verb
 

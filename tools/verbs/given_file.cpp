@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "reckon/tools/datagrams/file_kind.hpp"
+#include "reckon/tools/command_line/file_kind.hpp"
 
 namespace reckon::tools {
 namespace {

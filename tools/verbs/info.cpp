@@ -6,17 +6,18 @@
 
 #include "reckon/tools/captures/summary.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 
 namespace reckon::tools {
 namespace {
 
-constexpr std::string_view kSummary =
+constexpr std::string_view kInfoSummary =
     "Tells what a capture holds: times, datagrams, PDUs by type, senders, groups, entities, "
     "damage.\n\n"
     "FILE is pcap or pcapng, also compressed; - is stdin. Exit status 1 where something in "
     "it is damaged.";
-constexpr std::string_view kExamples =
+constexpr std::string_view kInfoExamples =
     "reckon info exercise.pcapng\n"
     "reckon info exercise.pcapng --json | jq '.types[]'";
 
@@ -31,7 +32,7 @@ ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report
 int run_info(Arguments arguments, const Console& console) {
   std::string file;
   bool json = false, lenient = false;
-  CommandLine line("info", kSummary, kExamples);
+  CommandLine line("info", kInfoSummary, kInfoExamples);
   line.word("FILE", file, true, "the capture");
   line.flag("--json", json, "one JSON object on one line");
   declare_lenient(line, lenient);
@@ -57,7 +58,7 @@ int run_info(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb info() { return {"info", "show what a capture contains", run_info}; }
+Verb info() { return verb_of(verb_row("info"), run_info); }
 
 }  // namespace verb
 

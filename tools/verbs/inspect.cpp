@@ -16,6 +16,7 @@
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/filter.hpp"
 #include "reckon/tools/datagrams/filter_fields.hpp"
 #include "reckon/tools/datagrams/listening.hpp"
@@ -36,11 +37,11 @@ namespace {
 using std::chrono::nanoseconds;
 
 /// Longest wait for a live source, so that Ctrl-C and --for take effect.
-constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
+constexpr nanoseconds kInspectPatience = std::chrono::milliseconds(100);
 /// Text is written in pieces of about this size [octets], and as soon as a live source is quiet.
 constexpr std::size_t kWriteSize = std::size_t{1} << 16;
 
-constexpr std::string_view kSummary =
+constexpr std::string_view kInspectSummary =
     "Shows every PDU of every datagram, from a capture or live.\n\n"
     "SOURCE is one of\n"
     "  FILE                pcap or pcapng, plain or by zstd, gzip, bzip2, xz, lz4\n"
@@ -54,7 +55,7 @@ constexpr std::string_view kSummary =
     "Without one: 239.192.1.0:3000 and the 256 groups behind it, live. Live groups are heard on\n"
     "every interface; a datagram that comes over two of them is counted once.\n"
     "SOURCE and VIEW come in either order.";
-constexpr std::string_view kExamples =
+constexpr std::string_view kInspectExamples =
     "reckon inspect capture.pcapng\n"
     "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
     "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
@@ -165,8 +166,8 @@ void Inspection::read() {
     const nanoseconds left = time_left(begin);
     if (left <= nanoseconds::zero()) break;
     const bool nothing_to_write = out.empty();
-    const peer::SourceEvent event =
-        source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
+    const peer::SourceEvent event = source_->next(
+        datagram, nothing_to_write ? std::min(left, kInspectPatience) : nanoseconds::zero());
     if (event == peer::SourceEvent::end) break;
     if (event == peer::SourceEvent::datagram && sealed_.open(datagram) &&
         is_in_range(datagram.time))
@@ -329,8 +330,8 @@ int run_inspect(Arguments arguments, const Console& console) {
   InspectOptions options;
   const std::string summary =
       fmt::format("{}\n\nFields of --where (==, !=, <, <=, >, >=; and, or, not, parentheses):\n{}",
-                  kSummary, filter_fields_text());
-  CommandLine line("inspect", summary, kExamples);
+                  kInspectSummary, filter_fields_text());
+  CommandLine line("inspect", summary, kInspectExamples);
   line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
   std::string views, meanings;
   for (const InspectViewKind& kind : inspect_views()) {
@@ -386,9 +387,7 @@ int run_inspect(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb inspect() {
-  return {"inspect", "show every PDU of every datagram, from a capture or live", run_inspect};
-}
+Verb inspect() { return verb_of(verb_row("inspect"), run_inspect); }
 
 }  // namespace verb
 

@@ -10,6 +10,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -120,7 +121,7 @@ int run_key(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb key() { return {"key", "create and show the key of a sealed exercise", run_key}; }
+Verb key() { return verb_of(verb_row("key"), run_key); }
 
 }  // namespace verb
 

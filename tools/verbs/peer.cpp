@@ -18,6 +18,7 @@
 #include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/balance_report.hpp"
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
@@ -440,7 +441,7 @@ int run_peer(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb peer() { return {"peer", "one peer on a LAN", run_peer}; }
+Verb peer() { return verb_of(verb_row("peer"), run_peer); }
 
 }  // namespace verb
 

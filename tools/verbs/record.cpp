@@ -16,6 +16,7 @@
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
@@ -31,9 +32,9 @@ namespace {
 using std::chrono::nanoseconds;
 
 /// Longest wait for a quiet source, and for the disk once datagrams are in order (StampOrder).
-constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
+constexpr nanoseconds kRecordPatience = std::chrono::milliseconds(100);
 
-constexpr std::string_view kSummary =
+constexpr std::string_view kRecordSummary =
     "Writes live datagrams to a pcapng file, with times in nanoseconds.\n\n"
     "SOURCE is udp://GROUP[:PORT], a broadcast address (udp://10.9.9.255, udp://255.255.255.255),\n"
     "an address of this host, udp://0.0.0.0 for all of both, SCENE.toml (the groups of a scene) "
@@ -44,7 +45,7 @@ constexpr std::string_view kSummary =
     "Ctrl-C ends it. Killed or on a full disk it leaves a file that can be read.\n"
     "A FILE that ends in .zst is compressed. What is sealed is kept sealed; a filter sees into it\n"
     "with --key alone.";
-constexpr std::string_view kExamples =
+constexpr std::string_view kRecordExamples =
     "reckon record exercise.pcapng\n"
     "reckon record exercise.pcapng --for 10min --iface eth0\n"
     "reckon record day.pcapng udp://239.1.2.3:3000 --rotate-time 1h --rotate-size 1GB\n"
@@ -93,7 +94,7 @@ class Recording {
     return out;
   }
   [[nodiscard]] nanoseconds time_left(nanoseconds now) const {
-    return options_.duration.has_value() ? *options_.duration - (now - begin_) : kPatience;
+    return options_.duration.has_value() ? *options_.duration - (now - begin_) : kRecordPatience;
   }
   void record();
   void take(const peer::SourceDatagram& datagram);
@@ -148,7 +149,7 @@ void Recording::record() {
     const nanoseconds now = clock_.now();
     const nanoseconds left = time_left(now);
     if (left <= nanoseconds::zero()) break;
-    const peer::SourceEvent event = source_->next(datagram, std::min(left, kPatience));
+    const peer::SourceEvent event = source_->next(datagram, std::min(left, kRecordPatience));
     if (event == peer::SourceEvent::end) break;
     if (event == peer::SourceEvent::datagram) take(datagram);
     flush_when_due(now, event == peer::SourceEvent::nothing_yet);
@@ -179,7 +180,7 @@ void Recording::take(const peer::SourceDatagram& datagram) {
 
 void Recording::flush_when_due(nanoseconds now, bool quiet) {
   if (quiet) order_.flush();
-  if (quiet || now - flushed_ >= kPatience) {
+  if (quiet || now - flushed_ >= kRecordPatience) {
     writer_->flush();
     flushed_ = now;
   }
@@ -307,7 +308,7 @@ void check(RecordOptions& options) {
 
 int run_record(Arguments arguments, const Console& console) {
   RecordOptions options;
-  CommandLine line("record", kSummary, kExamples);
+  CommandLine line("record", kRecordSummary, kRecordExamples);
   line.word("FILE", options.writer.path, true, "the pcapng file to write");
   line.word("SOURCE", options.source.source, false, "what to record, see above");
   line.option("--for", options.duration, "stop after this time, for example 10s");
@@ -345,7 +346,7 @@ int run_record(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb record() { return {"record", "write live datagrams to a capture", run_record}; }
+Verb record() { return verb_of(verb_row("record"), run_record); }
 
 }  // namespace verb
 

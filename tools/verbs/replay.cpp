@@ -27,6 +27,7 @@
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -39,12 +40,12 @@ namespace {
 using std::chrono::nanoseconds;
 
 /// A long wait is split into pieces of this length, so that Ctrl-C takes effect.
-constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
+constexpr nanoseconds kReplayPatience = std::chrono::milliseconds(100);
 
 /// Interval between reads of the keys while datagrams follow each other closely.
 constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
 
-constexpr std::string_view kSummary =
+constexpr std::string_view kReplaySummary =
     "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
     "They reach every program of this host that has joined their groups; with --iface also the\n"
     "network there, in IP fragments where they are above its MTU. FILE is pcap or pcapng, also\n"
@@ -52,7 +53,7 @@ constexpr std::string_view kSummary =
     "with --key it goes out plain, to the port below. At the end it tells the speed that it kept.\n"
     "On a terminal, keys: space pauses and goes on, left and right leap by 10 s, + and - double\n"
     "and halve the speed, q ends.";
-constexpr std::string_view kExamples =
+constexpr std::string_view kReplayExamples =
     "reckon replay exercise.pcapng\n"
     "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
     "reckon replay exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
@@ -222,11 +223,11 @@ bool Replay::wait_for_turn() {
   while (!has_ended() && !schedule_->is_skipped()) {
     const nanoseconds now = clock_.now();
     const bool paused = schedule_->is_paused();
-    const nanoseconds left = paused ? kPatience : schedule_->due() - now;
+    const nanoseconds left = paused ? kReplayPatience : schedule_->due() - now;
     const bool look = terminal_.is_active() && now - looked_ >= kKeyPeriod;
     if (left <= nanoseconds::zero() && !look) return true;
     if (status_.due(now)) show_status(now);
-    take_keys(std::clamp(left, nanoseconds::zero(), kPatience));
+    take_keys(std::clamp(left, nanoseconds::zero(), kReplayPatience));
     if (read_again_) return false;
   }
   return false;
@@ -396,7 +397,7 @@ void check(const ReplayOptions& options) {
 
 int run_replay(Arguments arguments, const Console& console) {
   ReplayOptions options;
-  CommandLine line("replay", kSummary, kExamples);
+  CommandLine line("replay", kReplaySummary, kReplayExamples);
   line.word("FILE", options.file, true, "the capture; - is stdin");
   line.option("--to", options.to,
               "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
@@ -427,9 +428,7 @@ int run_replay(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb replay() {
-  return {"replay", "send a capture again, at its own speed or another", run_replay};
-}
+Verb replay() { return verb_of(verb_row("replay"), run_replay); }
 
 }  // namespace verb
 

@@ -8,6 +8,7 @@
 
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/native_code.hpp"
 #include "reckon/tools/terminal/foreign_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -186,7 +187,7 @@ int run_scene(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb scene() { return {"scene", "check or explain a scene file, or print a new one", run_scene}; }
+Verb scene() { return verb_of(verb_row("scene"), run_scene); }
 
 }  // namespace verb
 

@@ -16,6 +16,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/listening.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
@@ -236,9 +237,7 @@ int run_view(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb view() {
-  return {"view", "show the world in a browser page, live or from a capture", run_view};
-}
+Verb view() { return verb_of(verb_row("view"), run_view); }
 
 }  // namespace verb
 

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/inspect_program.hpp"
+#include "reckon/tools/peer_program.hpp"
 #include "reckon/tools/program.hpp"
 
 namespace reckon::test {
@@ -71,15 +73,30 @@ inline ProgramResult run_captured(Program program, const std::vector<std::string
   return {status, out.text(), err.text()};
 }
 
+/// Runs the verb in this process, unless it is of reckon-bench.
+inline int start_in_process(const tools::VerbRow& row, tools::Arguments arguments,
+                            const tools::Console& console) {
+  if (row.program == tools::kBenchProgram) return tools::start_program(row, arguments, console);
+  std::vector<std::string_view> words{row.name};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return row.program == tools::kPeerProgram ? tools::run_peer_program(words, console)
+                                            : tools::run_inspect_program(words, console);
+}
+
+/// `reckon ARGUMENTS`, in this process.
+inline int run_program(tools::Arguments arguments, const tools::Console& console) noexcept {
+  return tools::run_program(arguments, console, start_in_process);
+}
+
 /// Runs `reckon ARGUMENTS`.
 inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
                                 const std::atomic<bool>* stop = nullptr) {
-  return run_captured(tools::run_program, arguments, stop);
+  return run_captured(run_program, arguments, stop);
 }
 
 /// Flags of a verb, as completion has them.
 inline std::vector<std::string> flags_of(std::vector<std::string> verb,
-                                         Program program = tools::run_program) {
+                                         Program program = run_program) {
   verb.emplace_back(tools::kListFlags);
   std::vector<std::string> flags;
   for (const std::string& line : run_captured(program, verb).lines())

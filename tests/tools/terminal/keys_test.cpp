@@ -122,7 +122,7 @@ class ReplayOnTerminal : public ::testing::Test {
       Console console;
       console.stop = &replay_stop;
       const std::array<std::string_view, 2> words{"replay", in};
-      _exit(run_program(words, console));
+      _exit(test::run_program(words, console));
     }
     EXPECT_TRUE(terminal.shows("keys: space pause"));
     EXPECT_TRUE(soon([&] { return !terminal.is_as_before(); }));

@@ -11,7 +11,7 @@
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
-#include "reckon/tools/datagrams/file_kind.hpp"
+#include "reckon/tools/command_line/file_kind.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/datagrams/file_kind.hpp"
+#include "reckon/tools/command_line/file_kind.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/studies.hpp"
+#include "reckon/tools/verbs/program_start.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,23 +22,24 @@
 namespace reckon::tools {
 namespace {
 
-constexpr std::string_view kProgram = "reckon-bench";
-
 bool can_run(const std::filesystem::path& path) { return access(path.c_str(), X_OK) == 0; }
 
-/// Path of the program beside this one, else in a folder of PATH; empty if it is in neither.
-std::filesystem::path find_program() {
+/// Path of a program: beside this one, else in ../libexec/reckon, else in a folder of PATH. Empty
+/// if it is in none.
+std::filesystem::path find_program(std::string_view name) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) {
-    const auto beside = self.parent_path() / kProgram;
-    if (can_run(beside)) return beside;
+    for (const char* folder : {".", "../libexec/reckon"}) {
+      const auto there = (self.parent_path() / folder / name).lexically_normal();
+      if (can_run(there)) return there;
+    }
   }
   const char* path = std::getenv("PATH");
   std::string_view folders = path != nullptr ? path : "";
   while (!folders.empty()) {
     const std::size_t end = std::min(folders.find(':'), folders.size());
-    const auto there = std::filesystem::path(folders.substr(0, end)) / kProgram;
+    const auto there = std::filesystem::path(folders.substr(0, end)) / name;
     if (end > 0 && can_run(there)) return there;
     folders.remove_prefix(std::min(end + 1, folders.size()));
   }
@@ -70,7 +71,7 @@ class Words {
 int run_copied(const std::filesystem::path& program, const Words& words, const Console& console) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "a pipe to reckon-bench");
+    throw std::system_error(errno, std::generic_category(), "a pipe to a program of reckon");
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
@@ -93,26 +94,27 @@ int run_copied(const std::filesystem::path& program, const Words& words, const C
 }
 
 /// Answers without the program what manual page and completion ask of each verb.
-int answer_without_program(const StudyVerb& verb, Arguments arguments, const Console& console) {
+int answer_without_program(const VerbRow& row, Arguments arguments, const Console& console) {
   const std::string_view first = arguments.empty() ? std::string_view{} : arguments.front();
   if (first == kManualSection || first == kListFlags) {
-    CommandLine line(verb.name,
-                     fmt::format("{}. A part of reckon-bench, which was not there when this page "
-                                 "was made.",
-                                 verb.summary),
-                     fmt::format("reckon {} --help", verb.name));
+    CommandLine line(row.name,
+                     fmt::format("{}. A part of {}, which was not there when this page was made.",
+                                 row.summary, row.program),
+                     fmt::format("reckon {} --help", row.name));
     return line.parse(arguments, console).value_or(exit_status(ExitCode::good));
   }
   throw EnvironmentError(
-      fmt::format("it is a part of {}, which is neither beside reckon nor in PATH; from the "
-                  "sources, ./run build {} builds it, and an installation has both",
-                  kProgram, kProgram));
+      fmt::format("it is a part of {0}, which is neither beside reckon nor in PATH; from the "
+                  "sources, ./run build {0} builds it, and an installation has both",
+                  row.program));
 }
 
-int run_study(const StudyVerb& verb, Arguments arguments, const Console& console) {
-  const std::filesystem::path program = find_program();
-  if (program.empty()) return answer_without_program(verb, arguments, console);
-  const Words words(program, verb.name, arguments);
+}  // namespace
+
+int start_program(const VerbRow& row, Arguments arguments, const Console& console) {
+  const std::filesystem::path program = find_program(row.program);
+  if (program.empty()) return answer_without_program(row, arguments, console);
+  const Words words(program, row.name, arguments);
   std::fflush(console.out);
   // A manual page and completion ask one verb after the other.
   const bool asked = !arguments.empty() &&
@@ -122,25 +124,5 @@ int run_study(const StudyVerb& verb, Arguments arguments, const Console& console
   execv(program.c_str(), words.argv());
   fail_to_start(program, errno);
 }
-
-template <const StudyVerb& kVerb>
-[[nodiscard]] Verb row_of() {
-  return {kVerb.name, kVerb.summary,
-          [](Arguments arguments, const Console& console) {
-            return run_study(kVerb, arguments, console);
-          },
-          true};
-}
-
-}  // namespace
-
-namespace verb {
-
-Verb tune() { return row_of<kTuneVerb>(); }
-Verb bench() { return row_of<kBenchVerb>(); }
-Verb figures() { return row_of<kFiguresVerb>(); }
-Verb zwidth() { return row_of<kZWidthVerb>(); }
-
-}  // namespace verb
 
 }  // namespace reckon::tools

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/exercise/scene_folder.hpp"
+#include "reckon/tools/command_line/scene_folder.hpp"
 
 #include <gtest/gtest.h>
 

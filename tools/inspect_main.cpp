@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The program `reckon-inspect`: passes its arguments and streams to the verbs.
+#include "reckon/tools/command_line/verb_program.hpp"
+#include "reckon/tools/inspect_program.hpp"
+
+int main(int argc, char** argv) {
+  return reckon::tools::run_process(argc, argv, reckon::tools::run_inspect_program);
+}
