@@ -79,8 +79,6 @@ class Trial {
   }
 
  private:
-  [[nodiscard]] nanoseconds true_time() const noexcept { return kBegin + now_; }
-
   nanoseconds next(nanoseconds look) const {
     nanoseconds next = std::min({look, plan_.end, kill_at()});
     next = std::min(next, deliveries_.next());

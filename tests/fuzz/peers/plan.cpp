@@ -143,6 +143,12 @@ Plan calmed(Plan plan) {
   return plan;
 }
 
+bool cuts(const Fault& fault, std::size_t from, std::size_t to) noexcept {
+  const auto inside = [&fault](std::size_t host) { return (fault.side >> (host % 64) & 1) != 0; };
+  if (fault.kind == FaultKind::split) return inside(from) != inside(to);
+  return fault.kind == FaultKind::one_way && fault.peer == from && inside(to);
+}
+
 bool has_forgery(const Plan& plan) noexcept {
   return std::any_of(plan.faults.begin(), plan.faults.end(), [](const Fault& fault) {
     return is_forgery(fault.kind) && fault.kind != FaultKind::flood;

@@ -83,6 +83,9 @@ struct Plan {
   std::size_t probed = 0;
 };
 
+/// Whether host `to` does not receive host `from` while the fault lasts.
+[[nodiscard]] bool cuts(const Fault& fault, std::size_t from, std::size_t to) noexcept;
+
 /// Whether a stranger speaks in the name of a peer.
 [[nodiscard]] bool has_forgery(const Plan& plan) noexcept;
 

@@ -281,12 +281,8 @@ void Trial::forge(std::size_t which) {
 // -------------------------------------------------------------------------------------- network
 
 bool Trial::is_cut(std::size_t from, std::size_t to) const noexcept {
-  return std::any_of(active_.begin(), active_.end(), [&](std::size_t which) {
-    const Fault& fault = plan_.faults[which];
-    const auto inside = [&fault](std::size_t host) { return (fault.side >> (host % 64) & 1) != 0; };
-    if (fault.kind == FaultKind::split) return inside(from) != inside(to);
-    return fault.kind == FaultKind::one_way && fault.peer == from && inside(to);
-  });
+  return std::any_of(active_.begin(), active_.end(),
+                     [&](std::size_t which) { return cuts(plan_.faults[which], from, to); });
 }
 
 void Trial::send(PeerDatagram datagram) {
