@@ -4,37 +4,39 @@
 // by any other while it runs.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+
+#include "reckon/peer/counters/histogram.hpp"
 
 namespace reckon::peer {
 
-/// Durations in buckets of at most 1/32 relative width, 1 ns to 2^40 ns (18 minutes); no
-/// allocation, 9 KB. add() by one thread, the rest by any; reading while adding may miss the
-/// newest.
-class DurationHistogram {
- public:
-  static constexpr std::size_t kSubBuckets = 32;
-  static constexpr std::size_t kBuckets = kSubBuckets * 37;
+/// Durations in buckets of at most 1/32 relative width, 1 ns to 2^40 ns (18 minutes): below 32 ns a
+/// bucket is one nanosecond, above that each power of two has 32 buckets. 9 KB. Negative durations
+/// count as 0, longer ones as the longest.
+struct DurationScale {
+  using Value = std::chrono::nanoseconds;
+  using Kept = std::int64_t;
+  using Count = std::uint64_t;
+  using Buckets = LogLinear<5>;
+  static constexpr std::size_t kBuckets = Buckets::kSub * 37;
+  static constexpr bool kShared = true;
 
-  /// Negative durations count as 0, longer ones as the longest. About 3 ns.
-  void add(std::chrono::nanoseconds duration) noexcept;
-
-  [[nodiscard]] std::uint64_t count() const noexcept;
-  /// The largest one added, exact; 0 if none.
-  [[nodiscard]] std::chrono::nanoseconds max() const noexcept;
-  /// The smallest duration with at least `share` (0 to 1) of all at or below it, as in a sorted
-  /// list at index ceil(share n) - 1, rounded up by at most 1/32. 0 if none were added.
-  [[nodiscard]] std::chrono::nanoseconds percentile(double share) const noexcept;
-
- private:
-  std::array<std::atomic<std::uint64_t>, kBuckets> buckets_{};
-  std::atomic<std::uint64_t> count_{0};
-  std::atomic<std::int64_t> max_{0};
+  static Kept keep(Value value) noexcept { return std::max<Kept>(value.count(), 0); }
+  static Value value_of(Kept kept) noexcept { return Value(kept); }
+  static std::size_t bucket_of(Kept kept) noexcept {
+    return std::min(Buckets::bucket_of(static_cast<std::uint64_t>(kept)), kBuckets - 1);
+  }
+  static Kept last_of(std::size_t bucket) noexcept {
+    return bucket + 1 < kBuckets ? static_cast<Kept>(Buckets::end_of(bucket) - 1)
+                                 : std::numeric_limits<Kept>::max();
+  }
 };
+using DurationHistogram = Histogram<DurationScale>;
 
 /// p50, p99, p99.9 and maximum of a histogram.
 struct Percentiles {

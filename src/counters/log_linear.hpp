@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE rule of buckets of all histograms: equal steps within each power of two, and the search for a
-// percentile. Each histogram stores its counts in its own way (atomic, or small and halved).
+// percentile.
 #pragma once
 
 #include <algorithm>

@@ -196,7 +196,9 @@ void check_emissions(Octets octets) {
   check_lines(lines, true);
 }
 
-void check(Octets octets) {
+}  // namespace
+
+void check(std::span<const std::byte> octets) {
   check_reader(octets);
   check_map(octets);
   peer::SourceDatagram datagram;
@@ -214,13 +216,7 @@ void check(Octets octets) {
   check_emissions(octets);
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {

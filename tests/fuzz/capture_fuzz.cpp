@@ -79,7 +79,9 @@ void read_all(peer::DatagramSource& source, std::size_t octets) {
           "a frame is in no count");
 }
 
-void check(Octets octets) {
+}  // namespace
+
+void check(std::span<const std::byte> octets) {
   check_frame(octets);
   write_file(octets);
   const std::string path = "/proc/self/fd/" + std::to_string(file_descriptor());
@@ -90,10 +92,4 @@ void check(Octets octets) {
   }
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

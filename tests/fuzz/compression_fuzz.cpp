@@ -38,13 +38,11 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
 }
 
 }  // namespace
-}  // namespace reckon::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto octets = reckon::fuzz::octets_of(data, size);
-  for (const auto form :
-       {reckon::pdu::CompressedForm::compact, reckon::pdu::CompressedForm::residual}) {
-    reckon::fuzz::restore(octets, form);
+void check(std::span<const std::byte> input) {
+  for (const auto form : {pdu::CompressedForm::compact, pdu::CompressedForm::residual}) {
+    restore(input, form);
   }
-  return 0;
 }
+
+}  // namespace reckon::fuzz

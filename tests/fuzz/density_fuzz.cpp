@@ -8,18 +8,20 @@
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using reckon::fuzz::require;
-  static const reckon::fuzz::InputOnDisk file(".csv");
-  const std::string& name = file.write({reinterpret_cast<const char*>(data), size});
+namespace reckon::fuzz {
+
+void check(std::span<const std::byte> input) {
+  static const InputOnDisk file(".csv");
+  const std::string& name = file.write(text_of(input));
   try {
-    const auto places = reckon::peer::read_density(name, 200.0);
-    require(!places.empty() && places.size() <= reckon::peer::kMostPlaces, "no number of places");
+    const auto places = peer::read_density(name, 200.0);
+    require(!places.empty() && places.size() <= peer::kMostPlaces, "no number of places");
     require(
         std::ranges::all_of(places, [&](const auto& one) { return one.instant < places.size(); }),
         "an instant that is none");
-  } catch (const reckon::peer::CsvError& error) {
+  } catch (const peer::CsvError& error) {
     require(std::string_view(error.what()).starts_with(name), "a sentence without the file");
   }
-  return 0;
 }
+
+}  // namespace reckon::fuzz

@@ -8,20 +8,21 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using reckon::fuzz::require;
+namespace reckon::fuzz {
+
+void check(std::span<const std::byte> input) {
   try {
-    const auto device = reckon::peer::parse_device_descriptor(
-        {reinterpret_cast<const char*>(data), size}, "fuzz.toml");
+    const auto device = peer::parse_device_descriptor(text_of(input), "fuzz.toml");
     require(!device.name.empty(), "a device without a name");
     require(device.max_force >= 0.01 && device.max_force <= 1e3, "a force out of range");
     require(device.damping >= 0 && std::isfinite(device.damping), "a damping that is none");
     require(device.axes == 3 || device.axes == 6, "axes that no servo has");
     require((device.work_space.to - device.work_space.from).minCoeff() > 0, "no work space");
-  } catch (const reckon::peer::SceneFileError& error) {
+  } catch (const peer::SceneFileError& error) {
     require(!error.problems().empty(), "refused without a problem");
     for (const auto& problem : error.problems())
       require(!problem.sentence.empty(), "a problem without a sentence");
   }
-  return 0;
 }
+
+}  // namespace reckon::fuzz

@@ -94,6 +94,8 @@ peer::EnvelopeOpener& opener() {
   return kOpener;
 }
 
+}  // namespace
+
 void check(std::span<const std::byte> input) {
   const Octets datagram = edited(input);
   if (datagram.size() > kLongest) return;
@@ -111,10 +113,4 @@ void check(std::span<const std::byte> input) {
   static_cast<void>(hello.wants(1));
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

@@ -54,7 +54,10 @@ std::optional<FalconReport> ending_at(Input input, std::size_t end) {
   return last;
 }
 
-void check(Input input) {
+}  // namespace
+
+void check(std::span<const std::byte> data) {
+  const Input input = numbers_of(data);
   const HeapMeter heap;
   FalconReportParser parser;
   for (std::size_t i = 0; i < input.size(); ++i) {
@@ -74,10 +77,4 @@ void check(Input input) {
   require(heap.allocations() == 0, "reading took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({data, size});
-  return 0;
-}

@@ -84,7 +84,10 @@ std::optional<Filter> compile(std::string_view text) {
   return filter;
 }
 
-void check(std::string_view text) {
+}  // namespace
+
+void check(std::span<const std::byte> input) {
+  const std::string_view text = text_of(input);
   const auto filter = compile(text);
   if (!filter) return;
   require(text.size() <= Filter::kLongest, "a filter longer than the limit was taken");
@@ -98,10 +101,4 @@ void check(std::string_view text) {
   require(answers == matches(*negation), "a filter and its negation agree");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
-  return 0;
-}

@@ -75,6 +75,8 @@ void check_records(const pdu::Attribute& attribute, const KinematicState& state)
   }
 }
 
+}  // namespace
+
 void check(std::span<const std::byte> datagram) {
   const HeapMeter heap;
   KinematicState state;
@@ -87,13 +89,7 @@ void check(std::span<const std::byte> datagram) {
   require(heap.allocations() == 0, "the way from the wire to the force took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {

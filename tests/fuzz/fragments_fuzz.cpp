@@ -112,13 +112,11 @@ class Run {
 };
 
 }  // namespace
-}  // namespace reckon::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::Run run;
-  auto octets = reckon::fuzz::octets_of(data, size);
-  for (; octets.size() >= reckon::fuzz::kStep; octets = octets.subspan(reckon::fuzz::kStep))
-    run.add(octets.first(reckon::fuzz::kStep));
+void check(std::span<const std::byte> input) {
+  Run run;
+  for (; input.size() >= kStep; input = input.subspan(kStep)) run.add(input.first(kStep));
   run.finish();
-  return 0;
 }
+
+}  // namespace reckon::fuzz

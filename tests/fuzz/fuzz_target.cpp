@@ -61,3 +61,8 @@ std::size_t HeapMeter::allocations() const noexcept { return count.allocations; 
 std::size_t HeapMeter::peak() const noexcept { return static_cast<std::size_t>(count.peak); }
 
 }  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check(std::as_bytes(std::span(data, size)));
+  return 0;
+}

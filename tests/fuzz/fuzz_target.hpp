@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What all fuzz targets share: a check that ends the run with a sentence, the octets of the engine
-// as ours, and a meter of the heap. docs/robustness.md says what is checked and how to run them.
+// What all fuzz targets share: the entry point of the engine, a check that ends the run with a
+// sentence, and a meter of the heap. docs/robustness.md says what is checked and how to run them.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,17 @@ namespace reckon::fuzz {
 /// Ends the program with `sentence` where `holds` is false: the engine keeps the input.
 void require(bool holds, std::string_view sentence) noexcept;
 
-/// The octets that the engine hands in.
-[[nodiscard]] inline std::span<const std::byte> octets_of(const std::uint8_t* data,
-                                                          std::size_t size) noexcept {
-  return std::as_bytes(std::span(data, size));
+/// Checks one input of the engine. Each target defines it.
+void check(std::span<const std::byte> input);
+
+/// An input as text.
+[[nodiscard]] inline std::string_view text_of(std::span<const std::byte> input) noexcept {
+  return {reinterpret_cast<const char*>(input.data()), input.size()};
+}
+/// An input as numbers.
+[[nodiscard]] inline std::span<const std::uint8_t> numbers_of(
+    std::span<const std::byte> input) noexcept {
+  return {reinterpret_cast<const std::uint8_t*>(input.data()), input.size()};
 }
 
 /// A file in memory that has the octets of one input after the other.

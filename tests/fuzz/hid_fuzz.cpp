@@ -100,7 +100,10 @@ void check_reports(const PidReports& reports, Input input) {
   }
 }
 
-void check(Input input) {
+}  // namespace
+
+void check(std::span<const std::byte> data) {
+  Input input = numbers_of(data);
   const auto reports = haptics::hid_reports(descriptor_of(input));
   if (!reports) return;
   check_fields(*reports);
@@ -110,10 +113,4 @@ void check(Input input) {
   require(heap.allocations() == 0, "a report took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({data, size});
-  return 0;
-}

@@ -15,7 +15,10 @@ namespace {
 // Pixels as numbers and as octets, and libpng's own.
 constexpr std::size_t kMostHeap = haptics::kMostPixels * haptics::kMostPixels * 12 + (32 << 20);
 
-void check(std::string_view bytes) {
+}  // namespace
+
+void check(std::span<const std::byte> input) {
+  const std::string_view bytes = text_of(input);
   const HeapMeter meter;
   try {
     const haptics::GreyImage image = haptics::decode_image(bytes);
@@ -33,10 +36,4 @@ void check(std::string_view bytes) {
   require(meter.peak() <= kMostHeap, "more heap than the largest picture takes");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
-  return 0;
-}

@@ -8,9 +8,10 @@
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {
-namespace {
+namespace {}  // namespace
 
-void check(std::string_view text) {
+void check(std::span<const std::byte> input) {
+  const std::string_view text = text_of(input);
   std::string written;
   try {
     const peer::GroupKey key = peer::parse_group_key(text, "f");
@@ -27,10 +28,4 @@ void check(std::string_view text) {
           "what was written is read as something else");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
-  return 0;
-}

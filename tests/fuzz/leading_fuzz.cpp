@@ -110,6 +110,8 @@ class Session {
   std::array<std::array<std::uint32_t, kPool + 1>, 2> sequences_{};
 };
 
+}  // namespace
+
 void check(std::span<const std::byte> input) {
   if (input.empty()) return;
   Session session((std::to_integer<unsigned>(input[0]) & 1) != 0);
@@ -126,10 +128,4 @@ void check(std::span<const std::byte> input) {
   require(heap.peak() <= kMostHeld, "the manager holds too much");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

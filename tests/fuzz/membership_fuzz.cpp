@@ -89,6 +89,8 @@ class Session {
   aoim::AreaOfInterestManager aoim_;
 };
 
+}  // namespace
+
 void check(std::span<const std::byte> input) {
   Session session(input.empty() ? 0 : std::to_integer<unsigned>(input[0]) / 4);
   const HeapMeter heap;
@@ -103,10 +105,4 @@ void check(std::span<const std::byte> input) {
   require(heap.allocations() == 0, "the manager took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

@@ -15,7 +15,7 @@ namespace {
 // A triangle takes 8 octets of an OBJ, and some 600 of memory.
 constexpr std::size_t kMostHeapOfOctet = 200, kMostHeap = 1 << 16;
 
-void check(const InputOnDisk& file, std::string_view octets) {
+void check_mesh(const InputOnDisk& file, std::string_view octets) {
   const std::string& name = file.write(octets);
   const HeapMeter meter;
   try {
@@ -34,14 +34,12 @@ void check(const InputOnDisk& file, std::string_view octets) {
 }
 
 }  // namespace
-}  // namespace reckon::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::array<reckon::fuzz::InputOnDisk, 4> files{
-      reckon::fuzz::InputOnDisk(".obj"), reckon::fuzz::InputOnDisk(".off"),
-      reckon::fuzz::InputOnDisk(".ply"), reckon::fuzz::InputOnDisk(".stl")};
-  if (size == 0) return 0;
-  const std::string_view octets(reinterpret_cast<const char*>(data), size);
-  reckon::fuzz::check(files[data[0] % files.size()], octets.substr(1));
-  return 0;
+void check(std::span<const std::byte> input) {
+  static const std::array<InputOnDisk, 4> files{InputOnDisk(".obj"), InputOnDisk(".off"),
+                                                InputOnDisk(".ply"), InputOnDisk(".stl")};
+  if (input.empty()) return;
+  check_mesh(files[numbers_of(input)[0] % files.size()], text_of(input.subspan(1)));
 }
+
+}  // namespace reckon::fuzz

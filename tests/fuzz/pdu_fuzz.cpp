@@ -56,7 +56,9 @@ void check_round_trip(const Pdu& first, Octets from) {
   check_text(first, from.size());
 }
 
-void check(Octets octets) {
+}  // namespace
+
+void check(std::span<const std::byte> octets) {
   pdu::PduHeader header;
   if (decode_header(octets, header) != pdu::DecodeError::none) return;
   const HeapMeter heap;
@@ -66,13 +68,7 @@ void check(Octets octets) {
   require(heap.allocations() == 0, "the codec took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {

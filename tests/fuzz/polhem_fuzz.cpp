@@ -71,7 +71,10 @@ void check_command(Input octets) {
     require(word_at(told, i) == (i < 3 ? command.currents[i] : 0), "another command");
 }
 
-void check(Input input) {
+}  // namespace
+
+void check(std::span<const std::byte> data) {
+  const Input input = numbers_of(data);
   const HeapMeter heap;
   for (std::size_t from = 0; from < input.size(); from += 7) {
     const Input rest = input.subspan(from);
@@ -85,10 +88,4 @@ void check(Input input) {
   require(heap.allocations() == 0, "reading took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({data, size});
-  return 0;
-}

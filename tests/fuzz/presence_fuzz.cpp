@@ -70,6 +70,8 @@ void operate(aoim::Presence& presence, std::span<const std::byte> octets, nanose
   check_table(presence);
 }
 
+}  // namespace
+
 void check(std::span<const std::byte> input) {
   aoim::PresenceConfig config;
   config.capacity = kCapacity;
@@ -83,10 +85,4 @@ void check(std::span<const std::byte> input) {
   require(heap.allocations() == 0, "presence took heap");
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

@@ -61,7 +61,10 @@ void check_scene(const peer::SceneFile& file) {
   require(scene_hash(file) == file.hash, "a scene hashes differently the second time");
 }
 
-void check(std::string_view text) {
+}  // namespace
+
+void check(std::span<const std::byte> input) {
+  const std::string_view text = text_of(input);
   try {
     check_scene(peer::parse_scene_file(text, "fuzz.toml", RECKON_SCENES));
   } catch (const peer::SceneFileError& error) {
@@ -69,10 +72,4 @@ void check(std::string_view text) {
   }
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
-  return 0;
-}

@@ -120,7 +120,10 @@ void check_session(Input input) {
   }
 }
 
-void check(Input input) {
+}  // namespace
+
+void check(std::span<const std::byte> data) {
+  const Input input = numbers_of(data);
   {
     const HeapMeter heap;
     check_frames(input);
@@ -132,10 +135,4 @@ void check(Input input) {
   check_session(input);
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check({data, size});
-  return 0;
-}

@@ -30,17 +30,17 @@ void check_curve(const std::string& name) {
 }
 
 }  // namespace
-}  // namespace reckon::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const reckon::fuzz::InputOnDisk file(".csv");
-  const std::string& name = file.write({reinterpret_cast<const char*>(data), size});
-  reckon::fuzz::read_or_refuse(name, [&] { reckon::fuzz::check_curve(name); });
-  reckon::fuzz::read_or_refuse(name, [&] {
+void check(std::span<const std::byte> input) {
+  static const InputOnDisk file(".csv");
+  const std::string& name = file.write(text_of(input));
+  read_or_refuse(name, [&] { check_curve(name); });
+  read_or_refuse(name, [&] {
     try {
-      (void)reckon::peer::read_hand_trace(name);
+      (void)peer::read_hand_trace(name);
     } catch (const std::invalid_argument&) {  // what a hand cannot do
     }
   });
-  return 0;
 }
+
+}  // namespace reckon::fuzz

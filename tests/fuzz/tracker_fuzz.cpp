@@ -41,6 +41,8 @@ Operation operation_of(std::span<const std::byte> octets) noexcept {
   return {static_cast<std::uint8_t>(at(0)), static_cast<std::uint8_t>(at(1) % kPairs), step};
 }
 
+}  // namespace
+
 void check(std::span<const std::byte> input) {
   if (input.empty()) return;
   const std::size_t capacity = 1 + std::to_integer<std::size_t>(input[0]);
@@ -74,10 +76,4 @@ void check(std::span<const std::byte> input) {
   }
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

@@ -104,20 +104,16 @@ void read_list(std::string_view text) {
     require(peer::parse_peer(peer.text()) == peer, "is read otherwise than it is written");
 }
 
-void check(Octets input) {
+}  // namespace
+
+void check(std::span<const std::byte> input) {
   static Listener listener;
   {
     const HeapMeter heap;
     hear(listener, input);
     require(heap.allocations() == 0, "hearing took heap");
   }
-  read_list({reinterpret_cast<const char*>(input.data()), input.size()});
+  read_list(text_of(input));
 }
 
-}  // namespace
 }  // namespace reckon::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
-  return 0;
-}

@@ -105,16 +105,14 @@ void check_frames(std::span<const std::byte> octets) {
 }
 
 }  // namespace
-}  // namespace reckon::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace reckon::fuzz;
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+void check(std::span<const std::byte> input) {
   (void)access();
   const HeapMeter heap;
-  const std::size_t head = check_request(text);
-  check_frames(octets_of(data, size).subspan(head));
-  (void)reckon::tools::read_page_request(octets_of(data, size));
+  const std::size_t head = check_request(text_of(input));
+  check_frames(input.subspan(head));
+  (void)tools::read_page_request(input);
   require(heap.allocations() == 0, "the heap is used");
-  return 0;
 }
+
+}  // namespace reckon::fuzz

@@ -51,9 +51,9 @@ class ViewServer::Connections {
         acceptor_(open_acceptor(io_, options.address, options.port, ViewServerOptions::kDefaultPort,
                                 stage == nullptr ? kMetrics : kPage)),
         endpoint_(acceptor_.local_endpoint()),
-        certified_(tls_ ? certified_names(*tls_) : std::vector<std::string>()),
-        own_(own_addresses(endpoint_.address())),
-        access_(all_names(), endpoint_.port(), options.word, tls_.has_value()) {
+        names_(server_names(endpoint_.address(),
+                            tls_ ? certified_names(*tls_) : std::vector<std::string>())),
+        access_(names_.all, endpoint_.port(), options.word, tls_.has_value()) {
     accept();
   }
   ~Connections();
@@ -66,23 +66,13 @@ class ViewServer::Connections {
   }
   void tick(nanoseconds now);
   [[nodiscard]] const tcp::endpoint& endpoint() const { return endpoint_; }
-  /// By which it is reached, as browsers write them: first the names of its certificate.
-  [[nodiscard]] std::vector<std::string> all_names() const {
-    std::vector<std::string> all = certified_;
-    all.insert(all.end(), own_.begin(), own_.end());
-    return all;
-  }
+  /// As browsers write them.
+  [[nodiscard]] const ServerNames& names() const { return names_; }
   [[nodiscard]] std::string origin(const std::string& host) const {
     return fmt::format("{}{}:{}", access_.scheme(), host, endpoint_.port());
   }
   [[nodiscard]] std::string url(const std::string& host) const {
     return fmt::format("{}/#word={}", origin(host), access_.word());
-  }
-  /// By which this host reaches it.
-  [[nodiscard]] std::string own_host() const {
-    if (!certified_.empty()) return certified_.front();
-    const asio::ip::address bound = endpoint_.address();
-    return bound.is_unspecified() ? "127.0.0.1" : address_text(bound);
   }
   [[nodiscard]] std::size_t tabs() const;
   [[nodiscard]] const ViewServerCounts& counts() const { return counts_; }
@@ -112,7 +102,7 @@ class ViewServer::Connections {
   asio::io_context io_;
   tcp::acceptor acceptor_;
   tcp::endpoint endpoint_;
-  std::vector<std::string> certified_, own_;
+  ServerNames names_;
   Access access_;
   std::vector<Pointer> all_;  // the oldest first
   bool is_accepting_ = false;
@@ -389,13 +379,13 @@ void ViewServer::tick(nanoseconds now) { connections_->tick(now); }
 
 std::uint16_t ViewServer::port() const noexcept { return connections_->endpoint().port(); }
 
-std::string ViewServer::origin() const { return connections_->origin(connections_->own_host()); }
+std::string ViewServer::origin() const { return connections_->origin(connections_->names().own); }
 
-std::string ViewServer::address() const { return connections_->url(connections_->own_host()); }
+std::string ViewServer::address() const { return connections_->url(connections_->names().own); }
 
 std::vector<std::string> ViewServer::addresses_for_others() const {
   std::vector<std::string> out;
-  for (const std::string& host : connections_->all_names())
+  for (const std::string& host : connections_->names().all)
     if (host != "localhost" && host != "[::1]" && !host.starts_with("127."))
       out.push_back(connections_->url(host));
   return out;

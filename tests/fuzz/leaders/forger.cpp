@@ -2,21 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/fuzz/leaders/forger.hpp"
 
-#include <array>
-
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 
 namespace reckon::fuzz::leaders {
 namespace {
 
 constexpr std::uint32_t kUnknownLife = 0xF0F0F0F1;
-
-aoim::SourceAddress stranger() {
-  aoim::SourceAddress from;
-  from.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 66, 6, 6};
-  from.port = 6666;
-  return from;
-}
 
 template <typename Record>
 std::vector<std::byte> octets_of(const std::vector<Record>& records) {
@@ -26,13 +17,6 @@ std::vector<std::byte> octets_of(const std::vector<Record>& records) {
         pdu::store_record(records[i], std::span(octets).subspan(i * pdu::kFixedSize<Record>)));
   }
   return octets;
-}
-
-template <typename Pdu>
-void append(std::vector<std::byte>& octets, const Pdu& pdu) {
-  std::array<std::byte, 1400> encoded;
-  const std::size_t size = pdu::encode(pdu, encoded);
-  octets.insert(octets.end(), encoded.begin(), encoded.begin() + static_cast<std::ptrdiff_t>(size));
 }
 
 template <typename Pdu>

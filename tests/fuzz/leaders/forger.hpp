@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "reckon/tests/fuzz/leaders/network.hpp"
 #include "reckon/tests/fuzz/leaders/simulated_host.hpp"
 
 namespace reckon::fuzz::leaders {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Some hundreds of seeds of the simulation of leaders; `./run fuzz leaders` runs thousands.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
 #include "reckon/tests/fuzz/leaders/trial.hpp"
+#include "reckon/tests/fuzz/search/seeded_test.hpp"
 
 namespace reckon::fuzz::leaders {
 namespace {
@@ -16,12 +16,7 @@ namespace {
 constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 300;
 
 TEST(Leaders, AreOneForEachCellAndTellNewcomersWhateverBefallsThem) {
-  for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {
-    const Outcome outcome = try_out(plan_of(seed));
-    ASSERT_FALSE(outcome.finding) << fmt::format("L{}: {}; again: ./run fuzz leaders --replay {}",
-                                                 outcome.finding->invariant,
-                                                 outcome.finding->sentence, seed);
-  }
+  expect_holds(kSimulation, kFirst, kSeeds);
 }
 
 // Absences shorter than a look, maps that waited while their reader slept, parts of snapshots that
@@ -29,18 +24,12 @@ TEST(Leaders, AreOneForEachCellAndTellNewcomersWhateverBefallsThem) {
 TEST(Leaders, HoldWhereTheyOnceDidNot) {
   for (const std::uint64_t seed :
        {14281U, 20520U, 10649U, 12761U, 14727U, 17585U, 9540U, 6447U, 22065U, 15348U}) {
-    const Outcome outcome = try_out(plan_of(seed));
-    EXPECT_FALSE(outcome.finding) << fmt::format(
-        "seed {}: L{}: {}", seed, outcome.finding->invariant, outcome.finding->sentence);
+    expect_holds(kSimulation, seed, 1);
   }
 }
 
 TEST(Leaders, RunTheSameFromTheSameSeed) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Outcome one = try_out(plan_of(seed)), again = try_out(plan_of(seed));
-    EXPECT_EQ(one.hash, again.hash) << "seed " << seed;
-    EXPECT_EQ(one.received, again.received) << "seed " << seed;
-  }
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) expect_same_again(kSimulation, seed);
   EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
 }
 

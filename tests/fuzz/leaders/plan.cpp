@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/tests/fuzz/peers/plan.hpp"
+#include "reckon/tests/fuzz/search/dice.hpp"
 
 namespace reckon::fuzz::leaders {
 namespace {
@@ -27,8 +27,8 @@ constexpr std::array<std::string_view, kFaultKinds> kNames = {
 // Places in 2 x 3 cells of 100 m, so that peers share cells.
 aoim::Position draw_place(Dice& dice) { return {200.0 * dice.unit(), 300.0 * dice.unit(), 0.0}; }
 
-Line draw_line(Dice& dice) {
-  Line line;
+LossyLine draw_line(Dice& dice) {
+  LossyLine line;
   if (dice.chance(0.6)) line.loss = 0.3 * dice.unit() * dice.unit();
   if (dice.chance(0.3)) line.duplicates = 0.1 * dice.unit();
   line.delay = dice.between(nanoseconds(milliseconds(1)) / 10, milliseconds(20));
@@ -103,6 +103,11 @@ Plan plan_of(std::uint64_t seed) {
   if (dice.chance(0.15)) divide(plan, dice);
   std::sort(plan.faults.begin(), plan.faults.end(),
             [](const Fault& a, const Fault& b) { return a.at < b.at; });
+  return plan;
+}
+
+Plan calmed(Plan plan) {
+  plan.line = {.delay = plan.line.delay};
   return plan;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"
+#include "reckon/tests/fuzz/search/datagram.hpp"
 
 namespace reckon::fuzz::leaders {
 
@@ -61,13 +62,6 @@ struct Host {
   std::size_t entities = 1;
 };
 
-struct Line {
-  double loss = 0.0, duplicates = 0.0, jitter = 0.0;
-  nanoseconds delay{};
-
-  friend bool operator==(const Line&, const Line&) = default;
-};
-
 struct Plan {
   std::uint64_t seed = 0;
   std::vector<Host> hosts;   ///< the last one is the newcomer of the calm
@@ -76,7 +70,7 @@ struct Plan {
   bool beacons = false;      ///< each host carries one and follows that of the next
   bool loses_parts = false;  ///< who comes in the calm does not get half of the parts at first
   bool loses_maps = false;   ///< last ones of leaders, when the calm begins
-  Line line;
+  LossyLine line;
   std::vector<Fault> faults;  ///< by time
   nanoseconds calm{};         ///< from here on no loss, and no fault but forgeries
   nanoseconds kill{};         ///< a leader is killed in the calm
@@ -85,6 +79,8 @@ struct Plan {
 };
 
 [[nodiscard]] Plan plan_of(std::uint64_t seed);
+/// The same with a line that does no harm.
+[[nodiscard]] Plan calmed(Plan plan);
 [[nodiscard]] std::string text_of(const Fault& fault);
 [[nodiscard]] std::string text_of(const Plan& plan);
 

@@ -4,26 +4,6 @@
 #include "reckon/tests/fuzz/leaders/trial.hpp"
 #include "reckon/tests/fuzz/search/seeded_search.hpp"
 
-namespace reckon::fuzz::leaders {
-namespace {
-
-Plan calmed(Plan plan) {
-  plan.line = {0.0, 0.0, 0.0, plan.line.delay};
-  return plan;
-}
-
-int run(int argc, char** argv) {
-  const SeededSimulation<Plan, Outcome> leaders{
-      "leaders", "Runs seeded simulations of leaders that are elected, cut off and killed.",
-      "L",       9,
-      plan_of,   try_out,
-      calmed};
-  return SeededSearch(leaders).run(argc, argv);
-}
-
-}  // namespace
-}  // namespace reckon::fuzz::leaders
-
 int main(int argc, char** argv) {
-  return reckon::fuzz::guarded(reckon::fuzz::leaders::run, argc, argv);
+  return reckon::fuzz::search_seeds(reckon::fuzz::leaders::kSimulation, argc, argv);
 }

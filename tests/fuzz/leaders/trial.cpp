@@ -12,9 +12,9 @@
 #include "reckon/pdu/reckon/cell_snapshot.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/leaders/forger.hpp"
-#include "reckon/tests/fuzz/leaders/network.hpp"
 #include "reckon/tests/fuzz/leaders/watch.hpp"
-#include "reckon/tests/fuzz/peers/plan.hpp"
+#include "reckon/tests/fuzz/search/agenda.hpp"
+#include "reckon/tests/fuzz/search/dice.hpp"
 
 namespace reckon::fuzz::leaders {
 namespace {
@@ -25,15 +25,6 @@ using std::chrono::seconds;
 constexpr nanoseconds kLook = milliseconds(50), kBegin = seconds(100), kChangeGap = seconds(1);
 // When the calm begins, who leads the scene hears no last map of another leader for so long.
 constexpr nanoseconds kMapsUnheard = milliseconds(900);
-constexpr std::size_t kSocket = 256;  // datagrams that a frozen process's socket holds
-
-aoim::SourceAddress source_of(std::size_t host, std::uint32_t life) {
-  aoim::SourceAddress from;
-  from.octets = {0, 0, 0,    0,    0,  0, 0, 0,
-                 0, 0, 0xFF, 0xFF, 10, 9, 0, static_cast<std::uint8_t>(host)};
-  from.port = static_cast<std::uint16_t>(4000 + life);
-  return from;
-}
 
 // The same with PDUs of no type in the place of maps: what else is in it is heard.
 std::shared_ptr<const Datagram> without_maps(const std::shared_ptr<const Datagram>& datagram) {
@@ -46,6 +37,12 @@ std::shared_ptr<const Datagram> without_maps(const std::shared_ptr<const Datagra
   }
   return changed;
 }
+
+struct Delivery {
+  std::size_t to = 0;
+  std::shared_ptr<const Datagram> datagram;
+  std::optional<nanoseconds> came{};  ///< since when it has waited in a socket
+};
 
 class Trial {
  public:
@@ -82,11 +79,9 @@ class Trial {
   }
 
  private:
-  [[nodiscard]] nanoseconds true_time() const noexcept { return kBegin + now_; }
-
   nanoseconds next(nanoseconds look) const {
     nanoseconds next = std::min({look, plan_.end, kill_at()});
-    if (!deliveries_.empty()) next = std::min(next, deliveries_.top().at);
+    next = std::min(next, deliveries_.next());
     if (fault_ < plan_.faults.size()) next = std::min(next, plan_.faults[fault_].at);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const Place& place = places_[i];
@@ -207,7 +202,7 @@ class Trial {
     for (const Datagram& datagram : forged(fault, victim)) {
       const auto shared = std::make_shared<const Datagram>(datagram);
       for (std::size_t to = 0; to < places_.size(); ++to) {
-        deliveries_.push({now_ + milliseconds(1), order_++, to, shared});
+        deliveries_.add(now_ + milliseconds(1), {to, shared});
       }
     }
   }
@@ -255,8 +250,10 @@ class Trial {
   }
 
   void send(std::size_t from, aoim::GroupIndex group, std::span<const std::byte> octets) {
-    const auto datagram = std::make_shared<const Datagram>(
-        Datagram{group, source_of(from, places_[from].lives), {octets.begin(), octets.end()}});
+    const auto source = address_of(9, 0, static_cast<std::uint8_t>(from),
+                                   static_cast<std::uint16_t>(4000 + places_[from].lives));
+    const auto datagram =
+        std::make_shared<const Datagram>(Datagram{{octets.begin(), octets.end()}, group, source});
     const bool calm = now_ >= plan_.calm;
     for (std::size_t to = 0; to < places_.size(); ++to) {
       if (are_apart(from, to)) continue;
@@ -267,7 +264,7 @@ class Trial {
         const double late = 1.0 + (calm ? 0.0 : plan_.line.jitter * dice_.unit());
         const auto delay = pdu::from_seconds(late * pdu::to_seconds(plan_.line.delay));
         const bool unheard = loses_maps(from, to);
-        deliveries_.push({now_ + delay, order_++, to, unheard ? without_maps(datagram) : datagram});
+        deliveries_.add(now_ + delay, {to, unheard ? without_maps(datagram) : datagram});
       }
     }
   }
@@ -303,23 +300,24 @@ class Trial {
   }
 
   void deliver() {
-    while (!deliveries_.empty() && deliveries_.top().at <= now_) {
-      Delivery delivery = deliveries_.top();
-      deliveries_.pop();
+    while (deliveries_.next() <= now_) {
+      auto entry = deliveries_.take();
+      Delivery& delivery = entry.event;
+      const Datagram& datagram = *delivery.datagram;
       Place& place = places_[delivery.to];
-      if (!place.host || !place.host->hears(delivery.datagram->group)) continue;
+      if (!place.host || !place.host->hears(datagram.group)) continue;
       if (now_ < place.awake) {
         if (place.waiting++ >= kSocket) continue;
-        delivery.came = delivery.came.value_or(delivery.at);
-        delivery.at = place.awake;
-        deliveries_.push(delivery);
+        delivery.came = delivery.came.value_or(entry.at);
+        entry.at = place.awake;
+        deliveries_.put_back(std::move(entry));
         continue;
       }
       place.waiting = 0;
       ++outcome_.received;
-      outcome_.hash = mixed(outcome_.hash, delivery.datagram->octets.size(), delivery.to);
-      place.host->receive(delivery.datagram->group, delivery.datagram->octets, now_,
-                          delivery.datagram->from, delivery.came.value_or(now_));
+      outcome_.hash = mixed(outcome_.hash, datagram.octets.size(), delivery.to);
+      place.host->receive(datagram.group, datagram.octets, now_, datagram.from,
+                          delivery.came.value_or(now_));
       watch_.note(place, now_);
       steps_[delivery.to] = std::min(steps_[delivery.to], place.host->next(now_));
     }
@@ -347,13 +345,12 @@ class Trial {
   std::vector<Place> places_;
   std::array<nanoseconds, kMostHosts + 1> steps_{};
   std::array<std::pair<std::uint32_t, std::uint32_t>, kMostHosts + 1> told_{};
-  Deliveries deliveries_;
+  Agenda<Delivery> deliveries_;
   std::vector<Fault> splits_;
   std::vector<std::pair<nanoseconds, std::size_t>> returns_;
   std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t, std::uint16_t>>
       said_;  ///< parts of snapshots, on the way to the newcomer of the calm
   std::size_t fault_ = 0;
-  std::uint64_t order_ = 0;
   nanoseconds now_{};
   Sink sink_{};
   Outcome outcome_;

@@ -4,30 +4,23 @@
 // that looks every 50 ms whether the invariants hold.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "reckon/tests/fuzz/leaders/plan.hpp"
+#include "reckon/tests/fuzz/search/seeded_simulation.hpp"
 
 namespace reckon::fuzz::leaders {
 
-/// An invariant that did not hold.
-struct Finding {
-  int invariant = 0;
-  nanoseconds at{};
-  std::string sentence;
-};
-
-struct Outcome {
-  std::optional<Finding> finding;
-  std::uint64_t hash = 0;      ///< of all that was received
-  std::uint64_t received = 0;  ///< datagrams
-  std::uint64_t leads = 0;     ///< times that a life began to lead a cell
-  std::vector<std::string> log;
-};
+/// The hash covers all that was received.
+using Outcome = SeededOutcome<>;
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);
+
+inline constexpr SeededSimulation<Plan, Outcome> kSimulation{
+    .target = "leaders",
+    .about = "Runs seeded simulations of leaders that are elected, cut off and killed.",
+    .letter = "L",
+    .same_again = 9,
+    .plan_of = plan_of,
+    .try_out = try_out,
+    .calmed = calmed};
 
 }  // namespace reckon::fuzz::leaders

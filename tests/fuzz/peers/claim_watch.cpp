@@ -36,7 +36,7 @@ std::optional<aoim::PeerId> announced_in(std::span<const std::byte> datagram) {
 ClaimWatch::ClaimWatch(const Plan& plan, const std::vector<Life>& lives)
     : lives_(lives), watches_(!has_strangers(plan)) {}
 
-void ClaimWatch::see_received(std::size_t life, const Datagram& datagram, nanoseconds now) {
+void ClaimWatch::see_received(std::size_t life, const PeerDatagram& datagram, nanoseconds now) {
   if (!watches_ || !datagram.announces || datagram.sender == life) return;
   claims_[{life, datagram.sender}] = {*datagram.announces, now};
 }

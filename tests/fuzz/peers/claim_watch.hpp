@@ -30,7 +30,7 @@ class ClaimWatch {
   /// Strangers leave no room in tables, or are claimants themselves: nothing is watched then.
   ClaimWatch(const Plan& plan, const std::vector<Life>& lives);
 
-  void see_received(std::size_t life, const Datagram& datagram, nanoseconds now);
+  void see_received(std::size_t life, const PeerDatagram& datagram, nanoseconds now);
   void see_event(std::size_t life, const aoim::PresenceEvent& event);
   /// When all events of a step have been seen.
   void look(std::size_t life, nanoseconds now, const Report& report);

@@ -49,12 +49,8 @@ bool CutWatch::is_alone(std::size_t fault, std::size_t from, std::size_t to,
                         nanoseconds now) const noexcept {
   for (std::size_t i = 0; i < plan_.faults.size(); ++i) {
     const Fault& other = plan_.faults[i];
-    const auto inside = [&other](std::size_t host) { return (other.side >> (host % 64) & 1) != 0; };
-    const bool cuts = (other.kind == FaultKind::split && inside(from) != inside(to)) ||
-                      (other.kind == FaultKind::one_way &&
-                       ((other.peer == from && inside(to)) || (other.peer == to && inside(from))));
     const bool meanwhile = other.at <= now && other.until + kAcquainted >= plan_.faults[fault].at;
-    if (i != fault && cuts && meanwhile) return false;
+    if (i != fault && meanwhile && (cuts(other, from, to) || cuts(other, to, from))) return false;
   }
   return true;
 }
@@ -65,7 +61,7 @@ void CutWatch::see_begin(std::size_t fault, nanoseconds now) {
   for (std::size_t from = 0; from < lives_.size(); ++from) {
     if (lives_[from].host != cut.peer || !lives_[from].alive) continue;
     for (std::size_t to = 0; to < lives_.size(); ++to) {
-      const bool deaf = to != from && (cut.side >> (lives_[to].host % 64) & 1) != 0;
+      const bool deaf = to != from && cuts(cut, cut.peer, lives_[to].host);
       if (!deaf || !knows(from, to, now) || !knows(to, from, now)) continue;
       pairs_.push_back(
           {fault, from, to, slept(from, to), lives_[from].ids.size() + lives_[to].ids.size(), now});

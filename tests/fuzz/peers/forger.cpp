@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tests/fuzz/peers/forger.hpp"
 
-#include <array>
-
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 
 namespace reckon::fuzz {
@@ -11,21 +9,7 @@ namespace {
 
 constexpr std::uint32_t kLeap = 1U << 30;
 
-aoim::SourceAddress stranger() {
-  aoim::SourceAddress from;
-  from.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 66, 6, 6};
-  from.port = 6666;
-  return from;
-}
-
-template <typename Pdu>
-void append(std::vector<std::byte>& octets, const Pdu& pdu) {
-  std::array<std::byte, 256> encoded;
-  const std::size_t size = pdu::encode(pdu, encoded);
-  octets.insert(octets.end(), encoded.begin(), encoded.begin() + static_cast<std::ptrdiff_t>(size));
-}
-
-// What the stranger says of itself, or of its victim; false where it says nothing.
+// Presence that the forger sends, of itself or of its victim; false: none.
 bool disguise(const Fault& fault, std::uint32_t count, std::uint32_t utc_second,
               pdu::Presence& told) {
   const auto invented = static_cast<std::uint32_t>(mixed(fault.side, count));
@@ -55,8 +39,8 @@ bool disguise(const Fault& fault, std::uint32_t count, std::uint32_t utc_second,
 
 }  // namespace
 
-Datagram forged(const Fault& fault, const Life& victim, std::uint32_t count, nanoseconds utc) {
-  Datagram datagram;
+PeerDatagram forged(const Fault& fault, const Life& victim, std::uint32_t count, nanoseconds utc) {
+  PeerDatagram datagram;
   datagram.from = stranger();
   pdu::Presence told = victim.peer->aoim().presence().own();
   const auto second = static_cast<std::uint32_t>(utc / std::chrono::seconds(1));

@@ -9,11 +9,11 @@
 
 namespace reckon::fuzz {
 
-/// Datagram number `count` of this fault on `victim`.
-[[nodiscard]] Datagram forged(const Fault& fault, const Life& victim, std::uint32_t count,
-                              nanoseconds utc);
+/// PeerDatagram number `count` of this fault on `victim`.
+[[nodiscard]] PeerDatagram forged(const Fault& fault, const Life& victim, std::uint32_t count,
+                                  nanoseconds utc);
 
-/// Whether a datagram of the stranger is one of its own invented lives.
+/// How many datagrams the forger sends at once.
 [[nodiscard]] constexpr std::size_t forged_at_once(FaultKind kind) noexcept {
   return kind == FaultKind::flood ? 20 : 1;
 }

@@ -10,19 +10,16 @@
 #include <vector>
 
 #include "reckon/tests/fuzz/peers/simulated_peer.hpp"
+#include "reckon/tests/fuzz/search/datagram.hpp"
 
 namespace reckon::fuzz {
 
-/// A datagram on its way to one or more processes.
-struct Datagram {
-  std::vector<std::byte> octets;
-  aoim::GroupIndex group;
-  aoim::SourceAddress from;
-  std::size_t sender = kNobody;  ///< life; nobody: forged
-  std::uint32_t epoch = 0;       ///< of the life it names
-  std::size_t on_the_way = 0;
+struct PeerDatagram : Datagram {
+  std::size_t sender = kNobody;                ///< life; nobody: forged
+  std::uint32_t epoch = 0;                     ///< of the life it names
   std::optional<aoim::PeerId> announces = {};  ///< the number under which it announces its sender
 };
+using SharedDatagram = std::shared_ptr<const PeerDatagram>;
 
 struct Life {
   std::size_t host = 0;
@@ -36,7 +33,7 @@ struct Life {
   nanoseconds frozen_at{};
   nanoseconds slept{}, slept_long{};  ///< all in all; in naps that it must notice
   nanoseconds wake{};                 ///< when its next step is due
-  std::vector<std::size_t> held;      ///< datagrams in the socket of a frozen process
+  std::vector<SharedDatagram> held;   ///< in the socket of a frozen process
   nanoseconds id_since{};
   std::vector<aoim::PeerId> ids;  ///< that it has had, the present one last
   /// When a usable datagram of a life was received last and how long we had napped then; when any

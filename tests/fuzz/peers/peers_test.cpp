@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Some hundreds of seeds of the simulation of peers; `./run fuzz peers` runs thousands.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "reckon/tests/fuzz/peers/trial.hpp"
+#include "reckon/tests/fuzz/search/seeded_test.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -16,21 +15,10 @@ namespace {
 // Others than the first ones of the verb.
 constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 300;
 
-TEST(Peers, FindAndKeepEachOtherWhateverBefallsThem) {
-  for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {
-    const Outcome outcome = try_out(plan_of(seed));
-    ASSERT_FALSE(outcome.finding) << fmt::format("I{}: {}; again: ./run fuzz peers --replay {}",
-                                                 outcome.finding->invariant,
-                                                 outcome.finding->sentence, seed);
-  }
-}
+TEST(Peers, FindAndKeepEachOtherWhateverBefallsThem) { expect_holds(kSimulation, kFirst, kSeeds); }
 
 TEST(Peers, RunTheSameFromTheSameSeed) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Outcome one = try_out(plan_of(seed)), again = try_out(plan_of(seed));
-    EXPECT_EQ(one.hash, again.hash) << "seed " << seed;
-    EXPECT_EQ(one.received, again.received) << "seed " << seed;
-  }
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) expect_same_again(kSimulation, seed);
   EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
 }
 

@@ -36,8 +36,8 @@ std::size_t draw_peers(Dice& dice) {
   return 17 + dice.below(kMostPeers - 19);
 }
 
-Line draw_line(Dice& dice) {
-  Line line;
+LossyLine draw_line(Dice& dice) {
+  LossyLine line;
   if (dice.chance(0.6)) line.loss = 0.4 * dice.unit() * dice.unit();
   if (dice.chance(0.4)) line.duplicates = 0.2 * dice.unit();
   line.delay = pdu::from_seconds(1e-4 * std::pow(5000.0, dice.unit() * dice.unit()));
@@ -86,8 +86,8 @@ void draw_chatter(Plan& plan, Dice& dice) {
   plan.line.jitter = 8 + 8 * dice.unit();
 }
 
-// One that comes late wants the number of a holder that it does not hear; the holder answers it,
-// as others hear, and stands still for a while.
+// A late peer requests an ID in use. It cannot receive the owner; the owner replies, others receive
+// it, then it pauses.
 void draw_contest(Plan& plan, Dice& dice) {
   if (!dice.chance(0.08) || plan.at_first < 3) return;
   const std::size_t holder = dice.below(plan.at_first);
@@ -117,18 +117,6 @@ void draw_probe(Plan& plan, Dice& dice) {
 
 }  // namespace
 
-std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) noexcept {
-  Dice dice(a * pdu::kGoldenStep + b * 0xd1b54a32d192ed03ULL + c);
-  return dice.next();
-}
-
-std::uint64_t Dice::next() noexcept { return pdu::mixed_bits(state_ += pdu::kGoldenStep); }
-
-nanoseconds Dice::between(nanoseconds low, nanoseconds high) noexcept {
-  return low +
-         nanoseconds(static_cast<std::int64_t>(unit() * static_cast<double>((high - low).count())));
-}
-
 Plan plan_of(std::uint64_t seed) {
   Dice dice(mixed(seed, 1));
   Plan plan;
@@ -148,6 +136,17 @@ Plan plan_of(std::uint64_t seed) {
   if (plan.wide) plan.jumper = more.below(plan.at_first);
   plan.jump_at = plan.faults_end + kJump;
   return plan;
+}
+
+Plan calmed(Plan plan) {
+  plan.line = {};
+  return plan;
+}
+
+bool cuts(const Fault& fault, std::size_t from, std::size_t to) noexcept {
+  const auto inside = [&fault](std::size_t host) { return (fault.side >> (host % 64) & 1) != 0; };
+  if (fault.kind == FaultKind::split) return inside(from) != inside(to);
+  return fault.kind == FaultKind::one_way && fault.peer == from && inside(to);
 }
 
 bool has_forgery(const Plan& plan) noexcept {

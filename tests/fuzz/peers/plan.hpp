@@ -7,12 +7,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "reckon/aoim/groups/peer_id.hpp"
-#include "reckon/pdu/random/split_mix.hpp"
+#include "reckon/tests/fuzz/search/datagram.hpp"
+#include "reckon/tests/fuzz/search/dice.hpp"
 
 namespace reckon::fuzz {
 
@@ -61,15 +61,6 @@ struct Host {
   bool keeps_port = false;  ///< a new process has the port of the one before
 };
 
-/// What the line does to each datagram until the calm.
-struct Line {
-  double loss = 0.0, duplicates = 0.0;  ///< probabilities
-  nanoseconds delay{};
-  double jitter = 0.0;  ///< up to so many delays more: disorder
-
-  friend bool operator==(const Line&, const Line&) = default;
-};
-
 /// What happens at the end of the calm, when all is settled.
 enum class Probe : std::uint8_t {
   newcomers,  ///< `probed` hosts more, at the same instant
@@ -81,7 +72,7 @@ struct Plan {
   std::vector<Host> hosts;
   std::size_t at_first = 0;  ///< of the hosts; the others are newcomers of the probe
   bool wide = false;         ///< many cells and a radius of interest; else one group for all
-  Line line;
+  LossyLine line;
   std::vector<Fault> faults;
   nanoseconds faults_end{};
   std::size_t chatterer = kNobody;  ///< host that says something every 2 ms for a second
@@ -92,28 +83,15 @@ struct Plan {
   std::size_t probed = 0;
 };
 
+/// Whether host `to` does not receive host `from` while the fault lasts.
+[[nodiscard]] bool cuts(const Fault& fault, std::size_t from, std::size_t to) noexcept;
+
 /// Whether a stranger speaks in the name of a peer.
 [[nodiscard]] bool has_forgery(const Plan& plan) noexcept;
 
-/// A number that follows from others, evenly spread.
-[[nodiscard]] std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) noexcept;
-
-/// Draws at random, the same for the same seed.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
-  [[nodiscard]] std::uint64_t next() noexcept;
-  /// 0 .. below - 1
-  [[nodiscard]] std::size_t below(std::size_t below) noexcept { return next() % below; }
-  [[nodiscard]] double unit() noexcept { return pdu::unit_of(next()); }
-  [[nodiscard]] bool chance(double probability) noexcept { return unit() < probability; }
-  [[nodiscard]] nanoseconds between(nanoseconds low, nanoseconds high) noexcept;
-
- private:
-  std::uint64_t state_;
-};
-
 [[nodiscard]] Plan plan_of(std::uint64_t seed);
+/// The same with a line that does no harm.
+[[nodiscard]] Plan calmed(Plan plan);
 /// "restart of peer 3, 2.104 s to 2.950 s"
 [[nodiscard]] std::string text_of(const Fault& fault);
 /// "5 peers, 3 numbers, loss 12 %, .."

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What happened in a run, for who replays it.
+// Event log of a simulation run.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ namespace reckon::fuzz {
 
 class Story {
  public:
-  /// @param life whom it concerns; kNobody: all
+  /// @param life the life concerned; kNobody: all
   void tell(std::size_t life, std::string text) { lines_.push_back({life, std::move(text)}); }
 
   /// The last lines, of the two lives that a finding concerns where there is one.
-  [[nodiscard]] std::vector<std::string> lines(const std::optional<Finding>& finding) const {
+  [[nodiscard]] std::vector<std::string> lines(const std::optional<LivesFinding>& finding) const {
     std::vector<std::string> lines;
     for (const Line& line : lines_) {
       const bool concerned = !finding || line.life == kNobody || line.life == finding->life ||

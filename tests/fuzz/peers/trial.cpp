@@ -8,13 +8,12 @@
 #include <array>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/tests/fuzz/peers/agenda.hpp"
 #include "reckon/tests/fuzz/peers/claim_watch.hpp"
 #include "reckon/tests/fuzz/peers/cut_watch.hpp"
-#include "reckon/tests/fuzz/peers/datagrams_under_way.hpp"
 #include "reckon/tests/fuzz/peers/event_name.hpp"
 #include "reckon/tests/fuzz/peers/forger.hpp"
 #include "reckon/tests/fuzz/peers/story.hpp"
+#include "reckon/tests/fuzz/search/agenda.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -29,7 +28,24 @@ constexpr nanoseconds kLook = milliseconds(50);
 constexpr nanoseconds kEcho = std::chrono::microseconds(50);
 constexpr nanoseconds kNap = milliseconds(1200);  // shorter ones need not be noticed
 constexpr nanoseconds kCalmDelay = milliseconds(1);
-constexpr std::size_t kSocket = 256;  // datagrams that the socket of a frozen process holds
+
+enum class What : std::uint8_t {
+  start,
+  kill,
+  wake,
+  arrive,
+  fault,
+  fault_end,
+  forge,
+  look,
+  look_at_cut
+};
+
+struct Event {
+  What what;
+  std::size_t which;  ///< host, life or fault
+  SharedDatagram datagram;
+};
 
 class Trial {
  public:
@@ -49,8 +65,8 @@ class Trial {
 
  private:
   void plan_ahead();
-  void at(nanoseconds when, What what, std::size_t which, std::size_t datagram = 0) {
-    agenda_.add(when, what, which, datagram);
+  void at(nanoseconds when, What what, std::size_t which, SharedDatagram datagram = {}) {
+    agenda_.add(when, {what, which, std::move(datagram)});
   }
   void happen(const Event& event);
   void begin_fault(std::size_t which);
@@ -61,16 +77,16 @@ class Trial {
   void wake_up(std::size_t life);
   [[nodiscard]] std::size_t living(std::size_t host) const noexcept;
   [[nodiscard]] bool is_cut(std::size_t from, std::size_t to) const noexcept;
-  void send(Datagram datagram);
-  void carry(std::size_t datagram, std::size_t to);
-  void arrive(std::size_t life, std::size_t datagram);
-  void receive(std::size_t life, const Datagram& datagram);
+  void send(PeerDatagram datagram);
+  void carry(const SharedDatagram& datagram, std::size_t to);
+  void arrive(std::size_t life, const SharedDatagram& datagram);
+  void receive(std::size_t life, const PeerDatagram& datagram);
   void step(std::size_t life);
   [[nodiscard]] bool is_a_life(std::uint32_t epoch) const noexcept {
     return std::any_of(lives_.begin(), lives_.end(),
                        [epoch](const Life& life) { return life.epoch == epoch; });
   }
-  void take_events(std::size_t life, const Datagram* cause);
+  void take_events(std::size_t life, const PeerDatagram* cause);
   void note(std::uint64_t value) noexcept { hash_ = (hash_ ^ value) * 0x100000001b3ULL; }
   template <typename... T>
   void tell(std::size_t life, fmt::format_string<T...> format, T&&... values);
@@ -84,10 +100,9 @@ class Trial {
   ClaimWatch claims_;
   Dice dice_;
   std::vector<nanoseconds> clocks_;  ///< of the hosts: UTC - now
-  DatagramsUnderWay datagrams_;
   std::vector<std::size_t> active_;  ///< faults
   std::vector<std::uint32_t> forged_count_;
-  Agenda agenda_;
+  Agenda<Event> agenda_;
   std::uint64_t hash_ = 0xcbf29ce484222325ULL, received_ = 0;
   Story story_;
 };
@@ -104,10 +119,10 @@ void Trial::tell(std::size_t life, fmt::format_string<T...> format, T&&... value
 Outcome Trial::run() {
   plan_ahead();
   const nanoseconds end = calm_ + kEnd;
-  while (!watch_.finding() && agenda_.has_until(end)) {
-    const Event event = agenda_.take();
-    now_ = event.at;
-    happen(event);
+  while (!watch_.finding() && agenda_.next() <= end) {
+    const auto entry = agenda_.take();
+    now_ = entry.at;
+    happen(entry.event);
   }
   return {watch_.finding(), hash_, received_,
           keep_log_ ? story_.lines(watch_.finding()) : std::vector<std::string>()};
@@ -142,7 +157,7 @@ void Trial::happen(const Event& event) {
     case What::kill:
       return kill(event.which, false);
     case What::wake:
-      if (lives_[event.which].wake == event.at) step(event.which);
+      if (lives_[event.which].wake == now_) step(event.which);
       return;
     case What::arrive:
       return arrive(event.which, event.datagram);
@@ -177,10 +192,9 @@ void Trial::start(std::size_t host) {
   Life& born = lives_.emplace_back();
   born.host = host;
   born.epoch = static_cast<std::uint32_t>(mixed(plan_.seed, 4, life * 1000 + host)) | 1;
-  born.from.octets = {0, 0, 0,    0,    0,  0, 0, 0,
-                      0, 0, 0xFF, 0xFF, 10, 0, 0, static_cast<std::uint8_t>(host / 4)};
   const std::size_t port = plan_.hosts[host].keeps_port ? host : life + kMostPeers;
-  born.from.port = static_cast<std::uint16_t>(40'000 + port);
+  born.from = address_of(0, 0, static_cast<std::uint8_t>(host / 4),
+                         static_cast<std::uint16_t>(40'000 + port));
   born.born = born.id_since = now_;
   born.peer = std::make_unique<SimulatedPeer>(plan_, host, born.epoch, now_, clocks_[host]);
   born.ids.push_back(born.peer->id());
@@ -193,7 +207,7 @@ void Trial::kill(std::size_t host, bool politely) {
   if (life == kNobody) return;
   if (politely && !lives_[life].frozen) {
     lives_[life].peer->leave(now_, [&](aoim::GroupIndex group, std::span<const std::byte> octets) {
-      send({{octets.begin(), octets.end()}, group, lives_[life].from, life, lives_[life].epoch, 0});
+      send({{{octets.begin(), octets.end()}, group, lives_[life].from}, life, lives_[life].epoch});
     });
     lives_[life].left = true;
   }
@@ -247,11 +261,8 @@ void Trial::wake_up(std::size_t life) {
   lives_[life].slept += nap;
   if (nap > kNap) lives_[life].slept_long += nap;
   tell(life, "wakes up with {} datagrams", lives_[life].held.size());
-  const std::vector<std::size_t> held = std::move(lives_[life].held);
-  lives_[life].held.clear();
-  for (const std::size_t datagram : held) {
-    if (!watch_.finding()) receive(life, datagrams_[datagram]);
-    datagrams_.release(datagram);
+  for (const SharedDatagram& datagram : std::exchange(lives_[life].held, {})) {
+    if (!watch_.finding()) receive(life, *datagram);
   }
   step(life);
 }
@@ -270,28 +281,22 @@ void Trial::forge(std::size_t which) {
 // -------------------------------------------------------------------------------------- network
 
 bool Trial::is_cut(std::size_t from, std::size_t to) const noexcept {
-  return std::any_of(active_.begin(), active_.end(), [&](std::size_t which) {
-    const Fault& fault = plan_.faults[which];
-    const auto inside = [&fault](std::size_t host) { return (fault.side >> (host % 64) & 1) != 0; };
-    if (fault.kind == FaultKind::split) return inside(from) != inside(to);
-    return fault.kind == FaultKind::one_way && fault.peer == from && inside(to);
-  });
+  return std::any_of(active_.begin(), active_.end(),
+                     [&](std::size_t which) { return cuts(plan_.faults[which], from, to); });
 }
 
-void Trial::send(Datagram datagram) {
+void Trial::send(PeerDatagram datagram) {
   if (datagram.sender != kNobody) datagram.announces = announced_in(datagram.octets);
-  const std::size_t place = datagrams_.put(std::move(datagram));
+  const auto shared = std::make_shared<const PeerDatagram>(std::move(datagram));
   for (std::size_t i = 0; i < lives_.size(); ++i) {
-    if (lives_[i].alive) carry(place, i);
+    if (lives_[i].alive) carry(shared, i);
   }
-  datagrams_.release(place);
 }
 
-void Trial::carry(std::size_t datagram, std::size_t to) {
-  const std::size_t sender = datagrams_[datagram].sender;
+void Trial::carry(const SharedDatagram& datagram, std::size_t to) {
+  const std::size_t sender = datagram->sender;
   const auto arrives = [&](nanoseconds after) {
     const nanoseconds when = now_ + after;
-    ++datagrams_[datagram].on_the_way;
     at(now_ < calm_ ? std::min(when, std::max(calm_, now_)) : when, What::arrive, to, datagram);
   };
   if (sender == to) return arrives(kEcho);
@@ -305,20 +310,19 @@ void Trial::carry(std::size_t datagram, std::size_t to) {
   if (dice_.chance(plan_.line.duplicates)) arrives(delay());
 }
 
-void Trial::arrive(std::size_t life, std::size_t datagram) {
+void Trial::arrive(std::size_t life, const SharedDatagram& datagram) {
   Life& to = lives_[life];
-  if (to.alive && to.frozen && to.held.size() < kSocket) {
-    to.held.push_back(datagram);
+  if (!to.alive) return;
+  if (to.frozen) {
+    if (to.held.size() < kSocket) to.held.push_back(datagram);
     return;
   }
-  if (to.alive && !to.frozen && to.peer->is_joined(datagrams_[datagram].group)) {
-    receive(life, datagrams_[datagram]);
-    step(life);
-  }
-  datagrams_.release(datagram);
+  if (!to.peer->is_joined(datagram->group)) return;
+  receive(life, *datagram);
+  step(life);
 }
 
-void Trial::receive(std::size_t life, const Datagram& datagram) {
+void Trial::receive(std::size_t life, const PeerDatagram& datagram) {
   ++received_;
   Life& to = lives_[life];
   const bool listed = to.peer->lists(datagram.epoch, datagram.from);
@@ -344,7 +348,7 @@ void Trial::step(std::size_t life) {
   Life& own = lives_[life];
   if (!own.alive || own.frozen) return;
   own.peer->step(now_, [&](aoim::GroupIndex group, std::span<const std::byte> octets) {
-    send({{octets.begin(), octets.end()}, group, own.from, life, own.epoch, 0});
+    send({{{octets.begin(), octets.end()}, group, own.from}, life, own.epoch});
   });
   take_events(life, nullptr);
   watch_.see_step(life, now_);
@@ -354,7 +358,7 @@ void Trial::step(std::size_t life) {
   at(next, What::wake, life);
 }
 
-void Trial::take_events(std::size_t life, const Datagram* cause) {
+void Trial::take_events(std::size_t life, const PeerDatagram* cause) {
   Life& own = lives_[life];
   for (const aoim::PresenceEvent& event : own.peer->take_events()) {
     const auto kind = static_cast<std::uint64_t>(event.kind);

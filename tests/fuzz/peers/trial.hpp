@@ -3,23 +3,24 @@
 // Runs a plan: one thread, a clock that jumps from event to event, a network in memory.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "reckon/tests/fuzz/peers/watch.hpp"
+#include "reckon/tests/fuzz/search/seeded_simulation.hpp"
 
 namespace reckon::fuzz {
 
-/// What a run came to.
-struct Outcome {
-  std::optional<Finding> finding;
-  std::uint64_t hash = 0;        ///< of all that was received and all that followed
-  std::uint64_t received = 0;    ///< datagrams
-  std::vector<std::string> log;  ///< of the two lives that the finding concerns; of all without one
-};
+/// The hash covers all that was received and all that followed; the log tells of the two lives that
+/// the finding concerns, of all without one.
+using Outcome = SeededOutcome<LivesFinding>;
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);
+
+inline constexpr SeededSimulation<Plan, Outcome> kSimulation{
+    .target = "peers",
+    .about = "Runs seeded simulations of peers that start, fail, and are lied to.",
+    .letter = "I",
+    .same_again = 8,
+    .plan_of = plan_of,
+    .try_out = try_out,
+    .calmed = calmed};
 
 }  // namespace reckon::fuzz

@@ -32,7 +32,7 @@ constexpr std::size_t kMostIds = 7;
 
 void Watch::report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
                    std::string sentence) {
-  if (!finding_) finding_ = Finding{invariant, now, life, other, std::move(sentence)};
+  if (!finding_) finding_ = LivesFinding{{invariant, now, std::move(sentence)}, life, other};
 }
 
 std::size_t Watch::life_of(std::uint32_t epoch) const noexcept {
@@ -44,7 +44,7 @@ std::size_t Watch::life_of(std::uint32_t epoch) const noexcept {
 
 // -------------------------------------------------------------------------------------- events
 
-void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const Datagram* cause,
+void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const PeerDatagram* cause,
                       nanoseconds now) {
   const bool ends = event.kind == PresenceEventKind::restarted ||
                     event.kind == PresenceEventKind::departed ||
@@ -180,8 +180,8 @@ void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanos
 
 // ------------------------------------------------------------------------------------ datagrams
 
-void Watch::see_received(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
-                         nanoseconds now) {
+void Watch::see_received(std::size_t life, const PeerDatagram& datagram,
+                         const aoim::Incoming& incoming, nanoseconds now) {
   if (datagram.sender == kNobody) return see_forged(life, datagram, incoming, now);
   if (lives_[life].peer->was_misjudged()) {
     report(7, now, life, datagram.sender,
@@ -198,8 +198,8 @@ void Watch::see_received(std::size_t life, const Datagram& datagram, const aoim:
 }
 
 // Against what the life itself has said: a stranger may have said more in its name.
-void Watch::see_too_old(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
-                        nanoseconds now) {
+void Watch::see_too_old(std::size_t life, const PeerDatagram& datagram,
+                        const aoim::Incoming& incoming, nanoseconds now) {
   std::uint32_t& highest = highest_[{life, datagram.sender, datagram.group.value}];
   const std::uint32_t sequence = incoming.trailer.sequence;
   highest = std::max(highest, sequence);
@@ -210,13 +210,13 @@ void Watch::see_too_old(std::size_t life, const Datagram& datagram, const aoim::
       fmt::format("number {} of {:08x} was too old, after {}", sequence, datagram.epoch, highest));
 }
 
-void Watch::see_counted_stranger(std::size_t life, const Datagram& datagram, nanoseconds now) {
+void Watch::see_counted_stranger(std::size_t life, const PeerDatagram& datagram, nanoseconds now) {
   report(7, now, life, datagram.sender,
          fmt::format("a number of {:08x} was counted, which was not listed", datagram.epoch));
 }
 
-void Watch::see_forged(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
-                       nanoseconds now) {
+void Watch::see_forged(std::size_t life, const PeerDatagram& datagram,
+                       const aoim::Incoming& incoming, nanoseconds now) {
   const std::size_t victim = life_of(datagram.epoch);
   if (victim == kNobody || victim == life || !lives_[victim].alive) return;
   const aoim::Peer* known = lives_[life].peer->find(datagram.epoch);

@@ -38,6 +38,7 @@
 #include <vector>
 
 #include "reckon/tests/fuzz/peers/life.hpp"
+#include "reckon/tests/fuzz/search/seeded_simulation.hpp"
 
 namespace reckon::fuzz {
 
@@ -49,12 +50,9 @@ inline constexpr nanoseconds kHeld = std::chrono::seconds(2);
   return std::to_string(id.site) + ':' + std::to_string(id.application);
 }
 
-/// An invariant that does not hold.
-struct Finding {
-  int invariant = 0;
-  nanoseconds at{};
+/// With the lives that it concerns.
+struct LivesFinding : Finding {
   std::size_t life = kNobody, other = kNobody;
-  std::string sentence;
 };
 
 /// Stands beside a trial and looks at its lives.
@@ -63,20 +61,20 @@ class Watch {
   Watch(const Plan& plan, const std::vector<Life>& lives, nanoseconds calm, nanoseconds probe)
       : plan_(plan), lives_(lives), calm_(calm), probe_(probe) {}
 
-  void see_event(std::size_t life, const aoim::PresenceEvent& event, const Datagram* cause,
+  void see_event(std::size_t life, const aoim::PresenceEvent& event, const PeerDatagram* cause,
                  nanoseconds now);
-  void see_received(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+  void see_received(std::size_t life, const PeerDatagram& datagram, const aoim::Incoming& incoming,
                     nanoseconds now);
   void see_step(std::size_t life, nanoseconds now);
   /// A number was counted of one that is not listed, or of itself.
-  void see_counted_stranger(std::size_t life, const Datagram& datagram, nanoseconds now);
+  void see_counted_stranger(std::size_t life, const PeerDatagram& datagram, nanoseconds now);
   /// To be called every 50 ms.
   void look(nanoseconds now);
   /// Keeps the first that is reported.
   void report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
               std::string sentence);
 
-  [[nodiscard]] const std::optional<Finding>& finding() const noexcept { return finding_; }
+  [[nodiscard]] const std::optional<LivesFinding>& finding() const noexcept { return finding_; }
 
  private:
   struct Pace {
@@ -89,10 +87,10 @@ class Watch {
   [[nodiscard]] bool has_answered(std::size_t life, std::uint32_t old_epoch,
                                   std::uint32_t young_epoch, nanoseconds now) const noexcept;
   void see_farewell(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
-  void see_too_old(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+  void see_too_old(std::size_t life, const PeerDatagram& datagram, const aoim::Incoming& incoming,
                    nanoseconds now);
   void see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
-  void see_forged(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+  void see_forged(std::size_t life, const PeerDatagram& datagram, const aoim::Incoming& incoming,
                   nanoseconds now);
   void check_listed(std::size_t life, nanoseconds now);
   void check_bounds(std::size_t life, nanoseconds now);
@@ -122,7 +120,7 @@ class Watch {
   std::map<Numbering, std::uint32_t> highest_;
   /// Since when a life lists an epoch under an id, also where it was taken for over meanwhile.
   std::map<std::tuple<std::size_t, std::uint32_t, aoim::PeerId>, nanoseconds> listed_;
-  std::optional<Finding> finding_;
+  std::optional<LivesFinding> finding_;
 };
 
 }  // namespace reckon::fuzz

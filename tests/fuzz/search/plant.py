@@ -51,8 +51,8 @@ def planted_program(plant, target, folder, release):
     unit.write_text(united.replace(line, f'#include "{faulty}"\n'), encoding="utf-8")
     compiler = os.environ.get("CXX", "c++")
     main = release / f"tests/fuzz/{target}/CMakeFiles/{target}_simulation.dir/simulate.cpp.o"
-    libraries = [release / f"tests/fuzz/{name}/libreckon_{name}.a" for name in dict.fromkeys((target, PEERS))]
-    libraries += [release / "aoim/libreckon_aoim.a", release / "pdu/libreckon_pdu.a"]
+    libraries = [release / f"tests/fuzz/{target}/libreckon_{target}.a",
+                 release / "aoim/libreckon_aoim.a", release / "pdu/libreckon_pdu.a"]
     program = folder / "simulation"
     command = ["nice", compiler, *FLAGS, f"-I{release / 'include'}", unit, main, *libraries, "-lfmt", "-o",
                program]

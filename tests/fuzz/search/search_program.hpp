@@ -39,9 +39,10 @@ inline void print_finding(std::string_view sentence, std::string_view target,
 }
 
 /// What `run` returns; 2, with a sentence, where it throws.
-inline int guarded(int (*run)(int, char**), int argc, char** argv) {
+template <typename Run>
+int guarded(Run&& run) {
   try {
-    return run(argc, argv);
+    return run();
   } catch (const std::exception& error) {
     fmt::print(stderr, "reckon fuzz: {}\n", error.what());
     return 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The program of a simulation whose plans follow from seeds: runs them until one breaks an
-// invariant, and tells how to see it again. `./run fuzz peers`, `./run fuzz leaders`.
+// The program of a seeded simulation: runs seeds until one breaks an invariant, and prints how to
+// replay it. `./run fuzz peers`, `./run fuzz leaders`, `./run fuzz unplugs`.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,33 +17,19 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/search/leave_out.hpp"
 #include "reckon/tests/fuzz/search/search_program.hpp"
+#include "reckon/tests/fuzz/search/seeded_simulation.hpp"
 
 namespace reckon::fuzz {
-
-/// What a simulation says of itself. Its Plan has `seed`, `faults` and `line`; its Outcome
-/// `finding` (an optional with `invariant`, `at` and `sentence`), `hash`, `received` and `log`. A
-/// plan and a fault have a text_of() beside them.
-template <typename Plan, typename Outcome>
-struct SeededSimulation {
-  std::string target;  ///< of `./run fuzz`
-  std::string about;   ///< the sentence of --help
-  std::string letter;  ///< before the number of an invariant
-  int same_again = 0;  ///< number of the invariant that a seed runs the same way twice
-  Plan (*plan_of)(std::uint64_t seed) = nullptr;
-  Outcome (*try_out)(const Plan& plan, bool keep_log) = nullptr;
-  Plan (*calmed)(Plan plan) = nullptr;         ///< the same with a line that does no harm
-  std::string counted = "datagrams received";  ///< what `received` of an outcome counts
-};
 
 template <typename Plan, typename Outcome>
 class SeededSearch {
  public:
-  explicit SeededSearch(SeededSimulation<Plan, Outcome> simulation)
-      : simulation_(std::move(simulation)) {}
+  explicit SeededSearch(const SeededSimulation<Plan, Outcome>& simulation)
+      : simulation_(simulation) {}
 
   /// @return 0 where every invariant held, 1 where one did not, or what CLI11 says
   int run(int argc, char** argv) const {
-    CLI::App app{simulation_.about};
+    CLI::App app{std::string(simulation_.about)};
     std::uint64_t first = 1, seeds = 10'000, every = 1, again = 0;
     bool all = false;
     app.add_option("--first", first, "seed to begin with");
@@ -138,7 +124,13 @@ class SeededSearch {
     return broken.empty() ? 0 : 1;
   }
 
-  SeededSimulation<Plan, Outcome> simulation_;
+  const SeededSimulation<Plan, Outcome>& simulation_;
 };
+
+/// The main() of a seeded simulation.
+template <typename Plan, typename Outcome>
+int search_seeds(const SeededSimulation<Plan, Outcome>& simulation, int argc, char** argv) {
+  return guarded([&] { return SeededSearch(simulation).run(argc, argv); });
+}
 
 }  // namespace reckon::fuzz

@@ -185,4 +185,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace reckon::fuzz
 
-int main(int argc, char** argv) { return reckon::fuzz::guarded(reckon::fuzz::run, argc, argv); }
+int main(int argc, char** argv) {
+  return reckon::fuzz::guarded([&] { return reckon::fuzz::run(argc, argv); });
+}

@@ -36,5 +36,5 @@ int run(int argc, char** argv) {
 }  // namespace reckon::fuzz::unplugs
 
 int main(int argc, char** argv) {
-  return reckon::fuzz::guarded(reckon::fuzz::unplugs::run, argc, argv);
+  return reckon::fuzz::guarded([&] { return reckon::fuzz::unplugs::run(argc, argv); });
 }

@@ -3,20 +3,18 @@
 #include "reckon/tests/fuzz/unplugs/trial.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
 #include <functional>
-#include <map>
 #include <memory>
 #include <utility>
 
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/search/agenda.hpp"
 #include "reckon/tests/fuzz/unplugs/tried_device.hpp"
 #include "reckon/tests/fuzz/unplugs/watch.hpp"
 
@@ -67,7 +65,7 @@ class Trial {
   void hold_handle(nanoseconds now);
   void home(nanoseconds now);
   void in(nanoseconds time, std::function<void()> act) {
-    agenda_.emplace(now() + time, std::move(act));
+    agenda_.add(now() + time, std::move(act));
   }
 
   // What befalls it.
@@ -94,7 +92,7 @@ class Trial {
   std::unique_ptr<TriedDevice> tried_{tried_device(plan_, hand_)};
   haptics::ServoLoop servo_;
   Watch watch_;
-  std::multimap<nanoseconds, std::function<void()>> agenda_;
+  Agenda<std::function<void()>> agenda_;
   nanoseconds next_step_ = kServoStep;
   bool servo_runs_ = true, is_homed_by_hand_ = true, stays_ = false, ends_ = false;
   nanoseconds frozen_until_{};
@@ -157,11 +155,7 @@ bool Trial::go(const std::function<bool()>& until, nanoseconds longest) {
 }
 
 void Trial::pass_beside(nanoseconds now) {
-  while (!agenda_.empty() && agenda_.begin()->first <= now) {
-    const std::function<void()> act = std::move(agenda_.begin()->second);
-    agenda_.erase(agenda_.begin());
-    act();
-  }
+  while (agenda_.next() <= now) agenda_.take().event();
   home(now);
   hold_handle(now);
   watch_.see({now, runs(), tried_->rests(), tried_->commands()});
@@ -299,7 +293,7 @@ void Trial::open_anew() {
 // Lets time pass until it is struck; at once is left to who calls.
 bool Trial::reach(const Fault& fault) {
   if (fault.phase == Phase::any) return true;
-  if (!go([this] { return agenda_.empty(); }, seconds(10))) return false;
+  if (!go([this] { return agenda_.is_empty(); }, seconds(10))) return false;
   if (fault.phase == Phase::running) {
     come_back();
     return wait_and_strike(fault);
@@ -372,7 +366,7 @@ Outcome Trial::run() {
   for (const Fault& fault : plan_.faults) {
     if (!watch_.finding()) play(fault);
   }
-  go([this] { return agenda_.empty() && now() >= frozen_until_; }, seconds(10));
+  go([this] { return agenda_.is_empty() && now() >= frozen_until_; }, seconds(10));
   come_back();
   depth_ = kDeep;
   if (!comes_to_feel() && !plan_.line.splits) watch_.fail(4, now(), "the force does not come back");
@@ -383,25 +377,6 @@ Outcome Trial::run() {
   outcome_.hash = hash_;
   if (log_) outcome_.log = std::move(*log_);
   return std::move(outcome_);
-}
-
-// What the program holds of memory and files may not grow. The allocator's caches come and go.
-std::optional<std::string> growth() {
-  constexpr std::size_t kSettled = 64;          // seeds
-  constexpr std::size_t kLeeway = 128 * 1'024;  // octets
-  static std::size_t seeds = 0, most = 0;
-  static int next_file = -1;
-  const int file = ::dup(STDIN_FILENO);  // the lowest number that is free
-  ::close(file);
-  const std::size_t now = mallinfo2().uordblks;
-  if (++seeds <= kSettled) {
-    most = std::max(most, now);
-    next_file = file;
-    return {};
-  }
-  if (now > most + kLeeway) return fmt::format("{} octets are left allocated", now - most);
-  if (file != next_file) return "files are left open";
-  return {};
 }
 
 }  // namespace

@@ -5,29 +5,27 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
+#include "reckon/tests/fuzz/search/seeded_simulation.hpp"
 #include "reckon/tests/fuzz/unplugs/plan.hpp"
 
 namespace reckon::fuzz::unplugs {
 
-/// An invariant that did not hold.
-struct Finding {
-  int invariant = 0;
-  nanoseconds at{};
-  std::string sentence;
-};
-
-struct Outcome {
-  std::optional<Finding> finding;
-  std::uint64_t hash = 0;      ///< of what was said and where the handle was
-  std::uint64_t received = 0;  ///< times that the plug was pulled
-  std::uint64_t pressed = 0;   ///< of them while the motors had a force
-  std::vector<std::string> log;
+/// The hash covers notices and places of the handle; `received` counts unplugs.
+struct Outcome : SeededOutcome<> {
+  std::uint64_t pressed = 0;  ///< unplugs while the motors had a force
 };
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);
+
+inline constexpr SeededSimulation<Plan, Outcome> kSimulation{
+    .target = "unplugs",
+    .about = "Unplugs devices at random instants, and breaks their lines otherwise.",
+    .letter = "U",
+    .same_again = 9,
+    .plan_of = plan_of,
+    .try_out = try_out,
+    .calmed = calmed,
+    .counted = "times unplugged"};
 
 }  // namespace reckon::fuzz::unplugs

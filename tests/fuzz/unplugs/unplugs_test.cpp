@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Some seeds of the storm of unplugs; `./run fuzz unplugs` runs thousands.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "reckon/tests/fuzz/search/seeded_test.hpp"
 #include "reckon/tests/fuzz/unplugs/trial.hpp"
 
 namespace reckon::fuzz::unplugs {
@@ -23,17 +23,12 @@ constexpr std::uint64_t kFirst = 1'000'654, kSeeds = 20;
 
 TEST(Unplugs, LeaveNoForceAndTheDeviceIsTakenUpAgain) {
   std::array<std::uint64_t, kDeviceKinds> seeds{}, pulled{}, pressed{};
-  for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {
-    const Plan plan = plan_of(seed);
-    const Outcome outcome = try_out(plan);
-    ASSERT_FALSE(outcome.finding) << fmt::format("U{}: {}; again: ./run fuzz unplugs --replay {}",
-                                                 outcome.finding->invariant,
-                                                 outcome.finding->sentence, seed);
+  expect_holds(kSimulation, kFirst, kSeeds, [&](const Plan& plan, const Outcome& outcome) {
     const auto kind = static_cast<std::size_t>(plan.device);
     ++seeds[kind];
     pulled[kind] += outcome.received;
     pressed[kind] += outcome.pressed;
-  }
+  });
   for (std::size_t kind = 0; kind < kDeviceKinds; ++kind) {
     SCOPED_TRACE(kind);
     EXPECT_EQ(seeds[kind], kSeeds / kDeviceKinds);
@@ -45,9 +40,8 @@ TEST(Unplugs, LeaveNoForceAndTheDeviceIsTakenUpAgain) {
 TEST(Unplugs, RunTheSameFromTheSameSeed) {
   std::array<bool, kDeviceKinds> is_tried{};
   for (std::uint64_t seed = 1; std::ranges::count(is_tried, false) > 0; ++seed) {
-    const Plan plan = plan_of(seed);
-    if (std::exchange(is_tried[static_cast<std::size_t>(plan.device)], true)) continue;
-    EXPECT_EQ(try_out(plan).hash, try_out(plan).hash) << "seed " << seed;
+    if (!std::exchange(is_tried[static_cast<std::size_t>(plan_of(seed).device)], true))
+      expect_same_again(kSimulation, seed);
   }
   EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
 }

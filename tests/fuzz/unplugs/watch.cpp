@@ -3,6 +3,8 @@
 #include "reckon/tests/fuzz/unplugs/watch.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <utility>
@@ -80,6 +82,25 @@ void Watch::hear(const std::string& sentence, nanoseconds now) {
   events_before_ = events_;
   if (++sentences_ > kSentences * (events_ + 1))
     fail(6, now, fmt::format("{} sentences for {} events", sentences_, events_));
+}
+
+// The caches of the allocator come and go.
+std::optional<std::string> growth() {
+  constexpr std::size_t kSettled = 64;          // seeds
+  constexpr std::size_t kLeeway = 128 * 1'024;  // octets
+  static std::size_t seeds = 0, most = 0;
+  static int next_file = -1;
+  const int file = ::dup(STDIN_FILENO);  // the lowest number that is free
+  ::close(file);
+  const std::size_t now = mallinfo2().uordblks;
+  if (++seeds <= kSettled) {
+    most = std::max(most, now);
+    next_file = file;
+    return {};
+  }
+  if (now > most + kLeeway) return fmt::format("{} octets are left allocated", now - most);
+  if (file != next_file) return "files are left open";
+  return {};
 }
 
 }  // namespace reckon::fuzz::unplugs

@@ -62,4 +62,7 @@ class Watch {
   std::uint64_t sentences_ = 0, events_ = 0, events_before_ = 0;
 };
 
+/// Called after each run: how memory or open files of the program have grown, as a sentence.
+[[nodiscard]] std::optional<std::string> growth();
+
 }  // namespace reckon::fuzz::unplugs

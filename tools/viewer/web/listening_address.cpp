@@ -16,8 +16,7 @@ using asio::ip::tcp;
 
 constexpr int kPortsTried = 32;
 
-}  // namespace
-
+// As a browser writes it.
 std::string address_text(const asio::ip::address& address) {
   return address.is_v6() ? fmt::format("[{}]", address.to_string()) : address.to_string();
 }
@@ -46,6 +45,16 @@ std::vector<std::string> own_addresses(const asio::ip::address& bound) {
   }
   freeifaddrs(all);
   return own;
+}
+
+}  // namespace
+
+ServerNames server_names(const asio::ip::address& bound,
+                         const std::vector<std::string>& certified) {
+  ServerNames names{certified, bound.is_unspecified() ? "127.0.0.1" : address_text(bound)};
+  if (!certified.empty()) names.own = certified.front();
+  for (std::string& address : own_addresses(bound)) names.all.push_back(std::move(address));
+  return names;
 }
 
 tcp::acceptor open_acceptor(asio::io_context& io, const std::string& text,

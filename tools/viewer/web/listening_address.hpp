@@ -14,11 +14,14 @@
 
 namespace reckon::tools {
 
-/// As a browser writes it.
-[[nodiscard]] std::string address_text(const asio::ip::address& address);
-
-/// By which a server that listens at `bound` is reached.
-[[nodiscard]] std::vector<std::string> own_addresses(const asio::ip::address& bound);
+/// Host names and addresses that lead to a server.
+struct ServerNames {
+  std::vector<std::string> all;
+  std::string own;  ///< from this host
+};
+/// @param bound where it listens  @param certified names of its certificate, which come first
+[[nodiscard]] ServerNames server_names(const asio::ip::address& bound,
+                                       const std::vector<std::string>& certified);
 
 /// What a server hands out, and by which flags it goes elsewhere.
 struct ServerPurpose {
