@@ -25,6 +25,7 @@ using meters::kPassive;
 using meters::kT;
 using meters::Meter;
 using test::plane;
+using Kind = pdu::ForceModelKind;
 
 // A random walk of a hand against a random history of surfaces of every kind.
 class PortFuzz {

@@ -20,7 +20,10 @@ namespace {
 
 using namespace frames;
 using namespace samples;
+using blocks::kCooked;
+using blocks::kCooked2;
 using blocks::kEthernet;
+using blocks::kUsb;
 using blocks::PcapngFile;
 using std::chrono::nanoseconds;
 using test::ScratchFolder;

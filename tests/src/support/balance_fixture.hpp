@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kLife = 77;
 
 inline DatagramEvent event(DatagramFate fate, std::uint32_t number = 0) {
   DatagramEvent event;
-  event.group = group(1);
+  event.group = reckon::test::group(1);
   event.epoch = kLife;
   event.sequence = number;
   event.fate = fate;
