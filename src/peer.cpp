@@ -113,6 +113,17 @@ std::optional<UrgentRing> urgent_ring(const SceneFile& scene, DatagramRing* ring
   return UrgentRing{*urgent_pool_of(scene), *ring};
 }
 
+// Adds the entities that follow tracks, from number `first` on. Returns the next free number.
+EntityNumber add_tracked(ModelLoop& model, const PeerOptions& options, std::size_t first) {
+  const std::vector<EntityTrack> tracks = tracks_of(options.entities);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto number = static_cast<EntityNumber>(first + i);
+    model.add(number, description_of(options.entities[i]));
+    model.follow(number, tracks[i]);
+  }
+  return static_cast<EntityNumber>(first + tracks.size());
+}
+
 }  // namespace
 
 Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
@@ -170,14 +181,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
     servo_due_.push_back({period_of(options, devices[i])});
     servo_period_ = i == 0 ? servo_due_[0].period : std::min(servo_period_, servo_due_[i].period);
   }
-  const std::vector<EntityTrack> tracks = tracks_of(options.entities);
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const auto number = static_cast<EntityNumber>(devices.size() + i + 1);
-    model_.add(number, description_of(options.entities[i]));
-    model_.follow(number, tracks[i]);
-  }
-  if (sends_bodies(options))
-    model_.add_bodies(static_cast<EntityNumber>(devices.size() + tracks.size() + 1));
+  const EntityNumber next = add_tracked(model_, options, devices.size() + 1);
+  if (sends_bodies(options)) model_.add_bodies(next);
 }
 
 bool Peer::sends_bodies(const PeerOptions& options) const noexcept {

@@ -44,8 +44,8 @@ PICTURES = [
 ]
 
 
-def page_browser():
-    spec = importlib.util.spec_from_file_location("page_browser", ROOT / "tests/tools/viewer/page/page_browser.py")
+def page_driver():
+    spec = importlib.util.spec_from_file_location("page_driver", ROOT / "tests/tools/viewer/page/page_driver.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -100,7 +100,7 @@ def main(arguments):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         write_trucks(folder)
-        browser = page_browser()
+        browser = page_driver()
         for picture in PICTURES:
             if picture.name in wanted:
                 take(browser, picture, reckon, folder)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
@@ -31,14 +30,10 @@ constexpr double kLeverage = 0.4;         // lightest resistance of a body that 
 
 BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
                        std::shared_ptr<ObjectMover> mover, const WorkSpace& work_space)
-    : solver_(plan, gravity, work_space), mover_(std::move(mover)), near_(radii_of_moving(plan)) {
+    : solver_(plan, gravity, work_space),
+      carried_(plan, solver_, std::move(mover)),
+      near_(radii_of_moving(plan)) {
   const std::vector<BodyKind>& kinds = solver_.slots().kinds();
-  for (std::size_t slot = 0; slot < solver_.size(); ++slot) {
-    const std::uint32_t object = kinds[solver_.body(slot)].object;
-    if (solver_.is_carried(slot)) carried_.push_back({slot, object, plan.objects()[object].origin});
-  }
-  if (!carried_.empty() && mover_ == nullptr)
-    throw std::invalid_argument("the scene has objects that are carried, which need a mover");
   for (std::vector<BodyPush>* pushes : {&pushes_, &last_}) pushes->reserve(BodyWorld::kMostPushes);
   works_.reserve(BodyWorld::kMostPushes);
   forces_.reserve(2 * BodyWorld::kMostPushes);
@@ -51,7 +46,8 @@ BodyEngine::BodyEngine(const EffectPlan& plan, const Vector3d& gravity,
     static_cast<ObjectMotion&>(states_[i]) = kinds[i].lying();
     states_[i].awake = false;
   }
-  for (const Carried& one : carried_) states_[solver_.body(one.slot)].carried = true;
+  for (std::size_t slot = 0; slot < solver_.size(); ++slot)
+    if (solver_.is_carried(slot)) states_[solver_.body(slot)].carried = true;
   next_ = states_;
   for (std::size_t slot = 0; slot < solver_.size(); ++slot)
     in_slot_[slot] = static_cast<std::uint32_t>(solver_.body(slot));
@@ -69,7 +65,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     lead_ = 0.0;
     return true;
   }
-  see_carried(now);
+  carried_.see(now);
   frozen_ = frozen;
   if (is_first || frozen) {
     go_back();
@@ -78,7 +74,7 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     pushes_.clear();
     begin_period();
     lead_ = 0.0;
-    put_carried();
+    carried_.put(solver_);
     read_states(BodySolver::all(), 0.0);
     return true;
   }
@@ -90,15 +86,15 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
   double length = kLongestStep;
   if (rest != 0) {
     // What is pushed goes on in small steps, all else as if nothing were.
-    const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps()));
+    const double dt = std::min(kLongestStep, period_ / static_cast<double>(most_steps(pushes_)));
     if (rest != BodySolver::all()) {
-      drive_carried(gap);
+      carried_.drive(solver_, gap);
       solver_.only(~rest);
       length = push_for(whole, dt);
     }
     lead_ = ahead_ - whole;
     if (lead_ < -kJitter) {
-      drive_carried(gap);
+      carried_.drive(solver_, gap);
       solver_.only(rest);
       go_on(-lead_);
       lead_ = 0.0;
@@ -106,10 +102,10 @@ bool BodyEngine::advance_to(nanoseconds now, bool frozen) noexcept {
     }
     solver_.only(BodySolver::all());
   } else {
-    drive_carried(gap);
+    carried_.drive(solver_, gap);
     length = push_for(whole, kLongestStep);
   }
-  put_carried();
+  carried_.put(solver_);
   read_states(~foreseen, length, rest != 0 ? ~rest : BodySolver::all());
   for (BodyPush& push : pushes_) push.renew();
   std::swap(pushes_, last_);
@@ -122,10 +118,6 @@ std::span<const std::uint32_t> BodyEngine::near(std::size_t hand, const HandReac
                                                 double period) noexcept {
   return near_.of(
       hand, reach, [this] { return about(states_); }, period);
-}
-
-const ObjectMotion& BodyEngine::state_before(std::size_t body) const noexcept {
-  return next_[body];
 }
 
 bool BodyEngine::written(std::size_t hand, const HandReach& reach) noexcept {
@@ -146,7 +138,7 @@ void BodyEngine::go_ahead() noexcept {
   if (rest_ == 0) return;
   ahead_ = period_;
   // What is carried goes on as it does now.
-  put_carried();
+  carried_.put(solver_);
   solver_.only(rest_);
   solver_.keep();
   go_on(period_ - lead_);
@@ -192,7 +184,7 @@ void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   const auto own = [hand](const BodyPush& push) { return push.hand() == hand; };
   // What is frozen gives way to nobody.
   if (frozen_ || std::ranges::none_of(pushes_, own)) return;
-  const BodySet pushed = pushed_by(pushes_) | still_pushed();
+  const BodySet pushed = slots_of(pushes_, solver_.slots()) | still_pushed();
   const std::size_t steps = steps_for(period);
   BodySet island = solver_.island(pushed);
   if (!is_small(island, steps)) {
@@ -212,16 +204,8 @@ void BodyEngine::foresee(std::size_t hand, double period) noexcept {
   for (BodyPush& push : last_) push.rewind();
 }
 
-Vector3d BodyEngine::change(std::size_t push) const noexcept {
-  return push < pushes_.size() ? pushes_[push].change() : Vector3d::Zero();
-}
-
 void BodyEngine::hold(std::size_t push, double share, const Vector3d& rest) noexcept {
   if (push < pushes_.size()) pushes_[push].hold(share, rest);
-}
-
-double BodyEngine::work(std::size_t push) const noexcept {
-  return push < works_.size() ? works_[push] : 0.0;
 }
 
 double BodyEngine::take_back(std::size_t body, double energy) noexcept {
@@ -236,10 +220,6 @@ double BodyEngine::take_back(std::size_t body, double energy) noexcept {
   return taken;
 }
 
-std::span<const std::uint32_t> BodyEngine::with_slot() const noexcept {
-  return {in_slot_.data(), solver_.size()};
-}
-
 // Nothing moves, and has not since both sets of states were read.
 BodiesAbout BodyEngine::about(std::span<const BodyState> states) const noexcept {
   return {states, with_slot(), solver_.slots().asleep()};
@@ -250,7 +230,8 @@ std::size_t BodyEngine::slot_for(std::size_t body) noexcept {
   const std::size_t had = solver_.slots().slot_of(body);
   if (had != BodySlots::kNone) return had;
   go_back();
-  const std::size_t slot = solver_.take_in(body, pushed_by(pushes_) | pushed_by(last_));
+  const std::size_t slot =
+      solver_.take_in(body, slots_of(pushes_, solver_.slots()) | slots_of(last_, solver_.slots()));
   if (slot == BodySlots::kNone) {
     if (!std::exchange(is_crowded_, true)) ++crowded_;
     return slot;
@@ -300,17 +281,11 @@ void BodyEngine::begin_period() noexcept {
   ahead_ = 0.0;
 }
 
-std::size_t BodyEngine::most_steps() const noexcept {
-  std::size_t steps = 1;
-  for (const BodyPush& push : pushes_) steps = std::max(steps, push.steps());
-  return steps;
-}
-
 // What is stepped apart from the islands that hands push; none where these take one step.
 BodySet BodyEngine::apart() const noexcept {
   if (pushes_.empty()) return BodySolver::all();
-  const std::size_t steps = most_steps();
-  const BodySet pushed = steps > 1 ? solver_.island(pushed_by(pushes_)) : 0;
+  const std::size_t steps = most_steps(pushes_);
+  const BodySet pushed = steps > 1 ? solver_.island(slots_of(pushes_, solver_.slots())) : 0;
   return pushed != 0 && is_small(pushed, steps) ? ~pushed : 0;
 }
 
@@ -322,16 +297,6 @@ bool BodyEngine::is_small(BodySet island, std::size_t steps) const noexcept {
   return kBodyTime * bodies * times <= kMostTime;
 }
 
-std::size_t BodyEngine::slot_of(const BodyPush& push) const noexcept {
-  return solver_.slots().slot_of(push.body());
-}
-
-BodySet BodyEngine::pushed_by(std::span<const BodyPush> pushes) const noexcept {
-  BodySet out = 0;
-  for (const BodyPush& push : pushes) out |= BodySet{1} << slot_of(push);
-  return out;
-}
-
 // A hand that has not stepped yet in this period still pushes as in the last one.
 bool BodyEngine::is_due(const BodyPush& push) const noexcept {
   return push.stiffness() > 0 && (stepped_ >> push.hand() % 64 & 1) == 0;
@@ -340,41 +305,17 @@ bool BodyEngine::is_due(const BodyPush& push) const noexcept {
 BodySet BodyEngine::still_pushed() const noexcept {
   BodySet out = 0;
   for (const BodyPush& push : last_)
-    if (is_due(push)) out |= BodySet{1} << slot_of(push);
+    if (is_due(push)) out |= BodySet{1} << solver_.slots().slot_of(push.body());
   return out;
-}
-
-void BodyEngine::see_carried(nanoseconds now) noexcept {
-  for (Carried& one : carried_) {
-    one.before = one.now;
-    one.now = mover_->motion_of(one.object, now);
-    const Vector3d arm = one.now.orientation * one.origin;
-    one.now.position += arm;
-    one.now.velocity += one.now.turn_rate.cross(arm);
-  }
-}
-
-// From where they were they get to where they are, at one speed.
-void BodyEngine::drive_carried(double gap) noexcept {
-  for (const Carried& one : carried_) {
-    ObjectMotion way = one.before;
-    way.velocity = (one.now.position - one.before.position) / gap;
-    const Eigen::AngleAxisd turn(one.now.orientation * one.before.orientation.conjugate());
-    way.turn_rate = turn.angle() / gap * turn.axis();
-    solver_.carry(one.slot, way);
-  }
-}
-
-void BodyEngine::put_carried() noexcept {
-  for (const Carried& one : carried_) solver_.carry(one.slot, one.now);
 }
 
 // So many that the lightest body that is pushed is stepped right.
 std::size_t BodyEngine::steps_for(double period) const noexcept {
   std::array<double, BodySlots::kMost> stiffness{};
-  for (const BodyPush& push : pushes_) stiffness[slot_of(push)] += push.stiffness();
+  for (const BodyPush& push : pushes_)
+    stiffness[solver_.slots().slot_of(push.body())] += push.stiffness();
   for (const BodyPush& push : last_)
-    if (is_due(push)) stiffness[slot_of(push)] += push.stiffness();
+    if (is_due(push)) stiffness[solver_.slots().slot_of(push.body())] += push.stiffness();
   double most = 0.0;
   for (std::size_t i = 0; i < solver_.size(); ++i)
     if (!solver_.is_carried(i)) most = std::max(most, stiffness[i] / (kLeverage * solver_.mass(i)));
@@ -397,14 +338,14 @@ void BodyEngine::foresee_step(std::size_t hand, double time, double dt) noexcept
 }
 
 void BodyEngine::add_force(BodyPush& push, const Vector3d& force, double share) noexcept {
-  const std::size_t slot = slot_of(push);
+  const std::size_t slot = solver_.slots().slot_of(push.body());
   const Vector3d torque =
       push.torque(solver_.motion(slot).turn_rate, solver_.least_inertia(slot), share);
   forces_.push_back({slot, push.place(), force, torque});
 }
 
 void BodyEngine::follow(BodyPush& push, double dt) noexcept {
-  const std::size_t slot = slot_of(push);
+  const std::size_t slot = solver_.slots().slot_of(push.body());
   const ObjectMotion at = solver_.motion(slot);
   push.follow(solver_.velocity(slot, push.place()), at.turn_rate, at.orientation, dt);
 }

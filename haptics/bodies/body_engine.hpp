@@ -16,6 +16,7 @@
 #include "reckon/haptics/bodies/body_push.hpp"
 #include "reckon/haptics/bodies/body_solver.hpp"
 #include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/bodies/carried_objects.hpp"
 #include "reckon/haptics/bodies/near_bodies.hpp"
 #include "reckon/haptics/bodies/object_mover.hpp"
 
@@ -35,7 +36,9 @@ class BodyEngine {
 
   [[nodiscard]] std::span<const std::uint32_t> near(std::size_t hand, const HandReach& reach,
                                                     double period) noexcept;
-  [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept;
+  [[nodiscard]] const ObjectMotion& state_before(std::size_t body) const noexcept {
+    return next_[body];
+  }
   [[nodiscard]] bool has_hands() const noexcept { return near_.hands() > 0; }
 
   /// @return whether all hands have
@@ -51,9 +54,13 @@ class BodyEngine {
 
   void foresee(std::size_t hand, double period) noexcept;
 
-  [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept;
+  [[nodiscard]] Eigen::Vector3d change(std::size_t push) const noexcept {
+    return push < pushes_.size() ? pushes_[push].change() : Eigen::Vector3d::Zero();
+  }
   void hold(std::size_t push, double share, const Eigen::Vector3d& rest) noexcept;
-  [[nodiscard]] double work(std::size_t push) const noexcept;
+  [[nodiscard]] double work(std::size_t push) const noexcept {
+    return push < works_.size() ? works_[push] : 0.0;
+  }
   double take_back(std::size_t body, double energy) noexcept;
   [[nodiscard]] std::span<const BodyState> states() const noexcept { return states_; }
   [[nodiscard]] std::chrono::nanoseconds time() const noexcept { return time_; }
@@ -61,7 +68,9 @@ class BodyEngine {
   [[nodiscard]] std::uint64_t coarse() const noexcept { return coarse_; }
   [[nodiscard]] std::uint64_t crowded() const noexcept { return crowded_; }
   /// Bodies with a slot.
-  [[nodiscard]] std::span<const std::uint32_t> with_slot() const noexcept;
+  [[nodiscard]] std::span<const std::uint32_t> with_slot() const noexcept {
+    return {in_slot_.data(), solver_.size()};
+  }
   /// Number of changes of the states, from 1 on.
   [[nodiscard]] std::uint64_t version() const noexcept { return version_; }
   /// How many have lost their slot, and the last of them.
@@ -78,18 +87,11 @@ class BodyEngine {
 
   void go_back() noexcept;
   void begin_period() noexcept;
-  [[nodiscard]] std::size_t most_steps() const noexcept;
   [[nodiscard]] BodySet apart() const noexcept;
 
   [[nodiscard]] bool is_small(BodySet island, std::size_t steps) const noexcept;
-  [[nodiscard]] std::size_t slot_of(const BodyPush& push) const noexcept;
-  [[nodiscard]] BodySet pushed_by(std::span<const BodyPush> pushes) const noexcept;
   [[nodiscard]] bool is_due(const BodyPush& push) const noexcept;
   [[nodiscard]] BodySet still_pushed() const noexcept;
-
-  void see_carried(std::chrono::nanoseconds now) noexcept;
-  void drive_carried(double gap) noexcept;
-  void put_carried() noexcept;
 
   [[nodiscard]] std::size_t steps_for(double period) const noexcept;
 
@@ -104,13 +106,6 @@ class BodyEngine {
   void read_states(BodySet some, double step, BodySet fine = BodySolver::all()) noexcept;
   void read_state(std::size_t slot, double step, BodyState& out) const noexcept;
 
-  struct Carried {
-    std::size_t slot = 0;
-    std::uint32_t object = 0;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of its shape's axes in its own [m]
-    ObjectMotion before{}, now{};
-  };
-
   static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
   static constexpr std::array<std::uint32_t, BodySlots::kMost> all_nobody() noexcept {
     std::array<std::uint32_t, BodySlots::kMost> out{};
@@ -119,8 +114,7 @@ class BodyEngine {
   }
 
   BodySolver solver_;
-  std::shared_ptr<ObjectMover> mover_;
-  std::vector<Carried> carried_;
+  CarriedObjects carried_;
   std::vector<BodyState> states_;
   // Those of the period's end, as far as they are foreseen; until then those of the period before.
   std::vector<BodyState> next_;

@@ -153,4 +153,16 @@ Vector3d BodyPush::mean(double from, double to) const noexcept {
   return (sum + std::max(0.0, rest) * held(late_)) / (to - from);
 }
 
+BodySet slots_of(std::span<const BodyPush> pushes, const BodySlots& slots) noexcept {
+  BodySet out = 0;
+  for (const BodyPush& push : pushes) out |= BodySet{1} << slots.slot_of(push.body());
+  return out;
+}
+
+std::size_t most_steps(std::span<const BodyPush> pushes) noexcept {
+  std::size_t steps = 1;
+  for (const BodyPush& push : pushes) steps = std::max(steps, push.steps());
+  return steps;
+}
+
 }  // namespace reckon::haptics

@@ -8,6 +8,9 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <span>
+
+#include "reckon/haptics/bodies/body_slots.hpp"
 
 namespace reckon::haptics {
 
@@ -125,5 +128,10 @@ class BodyPush {
   std::size_t noted_ = 0;
   double step_ = 0.0;  // [s]
 };
+
+/// Of the bodies that are pushed.
+[[nodiscard]] BodySet slots_of(std::span<const BodyPush> pushes, const BodySlots& slots) noexcept;
+/// Most substeps of any of them, 1 or more.
+[[nodiscard]] std::size_t most_steps(std::span<const BodyPush> pushes) noexcept;
 
 }  // namespace reckon::haptics

@@ -19,7 +19,6 @@
 namespace reckon::haptics {
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 // Of the iterative solver, for one contact, so that a step of many takes no longer.
@@ -88,22 +87,6 @@ void BodySolver::destroy() noexcept {
   joints_.reset();
   geoms_.reset();
   dWorldDestroy(world_);
-}
-
-void BodySolver::carry(std::size_t slot, const ObjectMotion& motion) noexcept {
-  const dBodyID id = body_at(slot).id;
-  const Quaterniond& q = motion.orientation;
-  const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
-  dBodySetPosition(id, motion.position.x(), motion.position.y(), motion.position.z());
-  dBodySetQuaternion(id, turned);
-  const Vector3d &v = motion.velocity, &w = motion.turn_rate;
-  dBodySetLinearVel(id, v.x(), v.y(), v.z());
-  dBodySetAngularVel(id, w.x(), w.y(), w.z());
-  if (v.isZero(0.0) && w.isZero(0.0)) {
-    dBodyDisable(id);
-  } else {
-    dBodyEnable(id);
-  }
 }
 
 bool BodySolver::awake(std::size_t slot) const noexcept {
@@ -351,16 +334,7 @@ void BodySolver::step_alone(BodySet some, Step&& step) noexcept {
 
 void BodySolver::apply(std::span<BodyForce> forces) noexcept {
   for (const BodyForce& force : forces) {
-    RigidBody& body = body_at(force.slot);
-    if (force.force.squaredNorm() > 0 && !body.is_awake()) {
-      dBodyEnable(body.id);
-      body.still = 0.0;
-    }
-    const Vector3d at = vector_of(dBodyGetPosition(body.id)) +
-                        body_at(force.slot).turned() * (force.place - body.middle);
-    const Vector3d& f = force.force;
-    dBodyAddForceAtPos(body.id, f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
-    dBodyAddTorque(body.id, force.torque.x(), force.torque.y(), force.torque.z());
+    body_at(force.slot).push(force.place, force.force, force.torque);
   }
 }
 

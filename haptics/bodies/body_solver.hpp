@@ -68,7 +68,7 @@ class BodySolver {
     return body_at(slot).is_carried;
   }
   /// Puts a carried one there; in the next steps it goes on at this velocity.
-  void carry(std::size_t slot, const ObjectMotion& motion) noexcept;
+  void carry(std::size_t slot, const ObjectMotion& motion) noexcept { body_at(slot).carry(motion); }
   [[nodiscard]] ObjectMotion motion(std::size_t slot) const noexcept {
     return body_at(slot).motion();
   }

@@ -94,4 +94,30 @@ void RigidBody::slow(double factor) noexcept {
   dBodySetAngularVel(id, w.x(), w.y(), w.z());
 }
 
+void RigidBody::carry(const ObjectMotion& motion) noexcept {
+  const Quaterniond& q = motion.orientation;
+  const dQuaternion turned{q.w(), q.x(), q.y(), q.z()};
+  dBodySetPosition(id, motion.position.x(), motion.position.y(), motion.position.z());
+  dBodySetQuaternion(id, turned);
+  const Vector3d &v = motion.velocity, &w = motion.turn_rate;
+  dBodySetLinearVel(id, v.x(), v.y(), v.z());
+  dBodySetAngularVel(id, w.x(), w.y(), w.z());
+  if (v.isZero(0.0) && w.isZero(0.0)) {
+    dBodyDisable(id);
+  } else {
+    dBodyEnable(id);
+  }
+}
+
+void RigidBody::push(const Vector3d& place, const Vector3d& force,
+                     const Vector3d& torque) noexcept {
+  if (force.squaredNorm() > 0 && !is_awake()) {
+    dBodyEnable(id);
+    still = 0.0;
+  }
+  const Vector3d point = vector_of(dBodyGetPosition(id)) + turned() * (place - middle);
+  dBodyAddForceAtPos(id, force.x(), force.y(), force.z(), point.x(), point.y(), point.z());
+  dBodyAddTorque(id, torque.x(), torque.y(), torque.z());
+}
+
 }  // namespace reckon::haptics

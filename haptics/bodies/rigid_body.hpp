@@ -82,6 +82,12 @@ struct RigidBody : BodyKind {
   [[nodiscard]] double weight_energy(const Eigen::Vector3d& gravity) const noexcept;
   /// Both, and what is kept to lift it, see IslandEnergy [J].
   [[nodiscard]] double energy(const Eigen::Vector3d& gravity) const noexcept;
+  /// Puts one that is carried there, to go on at this velocity.
+  void carry(const ObjectMotion& motion) noexcept;
+  /// Wakes it for a force other than zero. @param place in the axes of its shape [m]
+  /// @param force [N]  @param torque [N m], S, for the next step
+  void push(const Eigen::Vector3d& place, const Eigen::Vector3d& force,
+            const Eigen::Vector3d& torque) noexcept;
   /// Multiplies its speeds.
   void slow(double factor) noexcept;
 };

@@ -50,4 +50,26 @@ void share_way(const Vector3d& way, std::span<ContactShare> shares) noexcept {
   if (!shares.empty()) shares[0].way = way;
 }
 
+std::size_t find_holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t other,
+                         const Vector3d& way, ContactShares& shares) noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < walk.solution.active_count; ++i) {
+    if (!(walk.solution.loads[i] > 0.0)) continue;
+    const ConstraintPlane& plane = walk.planes[walk.solution.active[i]];
+    std::size_t place = 0;
+    while (place < count && shares[place].object != plane.object) ++place;
+    if (place == count) shares[count++].object = plane.object;
+    shares[place].push += walk.solution.loads[i] * plane.normal;
+    if (walk.solution.loads[i] > shares[place].load) {
+      shares[place].load = walk.solution.loads[i];
+      shares[place].triangle = plane.triangle;
+    }
+  }
+  if (count > 0) return count;
+  shares[0].object = walk.planes.size() > 0 ? walk.planes[0].object : other;
+  shares[0].triangle = walk.planes.size() > 0 ? walk.planes[0].triangle : 0;
+  shares[0].push = way.isZero(0.0) && walk.planes.size() > 0 ? walk.planes[0].normal : way;
+  return 1;
+}
+
 }  // namespace reckon::haptics

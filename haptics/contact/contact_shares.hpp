@@ -9,6 +9,9 @@
 #include <cstdint>
 #include <span>
 
+#include "reckon/haptics/contact/object_obstacles.hpp"
+#include "reckon/haptics/geometry/contact_walk.hpp"
+
 namespace reckon::haptics {
 
 /// Share of one object in the displacement from the device to the contact point, frame S.
@@ -29,5 +32,11 @@ using ContactShares = std::array<ContactShare, 3>;
 /// |way|^2 / 2 together, and springs of different stiffness have no curvature above the greatest.
 /// Two pushes within 1e-3 rad of each other count as one, which belongs to the stronger.
 void share_way(const Eigen::Vector3d& way, std::span<ContactShare> shares) noexcept;
+
+/// The objects whose planes carry load at the end of a walk. A walk that needs more moves than one
+/// step has may end without load. Then the object of a plane that it met holds the point, or else
+/// `other`. @return their number
+std::size_t find_holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t other,
+                         const Eigen::Vector3d& way, ContactShares& shares) noexcept;
 
 }  // namespace reckon::haptics

@@ -13,54 +13,14 @@
 #include <span>
 #include <vector>
 
-#include "reckon/haptics/contact/mesh_stroke.hpp"
+#include "reckon/haptics/contact/contact_result.hpp"
+#include "reckon/haptics/contact/felt_object.hpp"
+#include "reckon/haptics/contact/moving_objects.hpp"
 #include "reckon/haptics/contact/object_obstacles.hpp"
-#include "reckon/haptics/contact/patch_blend.hpp"
 #include "reckon/haptics/geometry/contact_walk.hpp"
-#include "reckon/haptics/geometry/surface_contact_point.hpp"
-#include "reckon/haptics/queries/query_shape.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::haptics {
-
-/// Contact with one object, frame S.
-struct ObjectContact {
-  /// [m]; the same for all objects that hold it. For a free object, the device point when it was
-  /// near.
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero if free
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
-  double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
-  double depth = 0.0;                                ///< [m], this object's share of |device - scp|
-                                                     ///< that is not hidden
-  std::uint32_t patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
-  std::uint32_t triangle = ContactedObject::kNoTriangle;  ///< of a mesh, below the SCP
-  bool in_contact = false;
-  bool started_inside = false;  ///< since reset, until this object is left once
-};
-
-/// A body that is near the probe and does not touch it, frame S.
-struct NearBody {
-  std::uint32_t index = 0;                           ///< of the object
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< of the body, the nearest one [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the body
-  double gap = 0.0;                                  ///< between both [m], > 0
-};
-
-/// Result of a step, frame S. The spans stay valid until the solver's next call.
-struct ContactResult {
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< outside all objects; device if free
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the deepest contact; zero if free
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< springs only, summed over objects [N]
-  double stored_energy = 0.0;                        ///< summed over objects [J]
-  std::size_t deepest = kNone;                       ///< index of the deepest contact in objects
-  bool in_contact = false;
-  bool started_inside = false;             ///< inside any object: the servo ramps the force up
-  std::span<const ObjectContact> objects;  ///< in the plan's order
-  std::span<const std::uint32_t> touched;  ///< indices of objects in contact, ascending
-};
 
 /// One SCP for all objects, kept outside each of them to within its clearance (1e-7 of its size).
 /// If only one object is within reach, the SCP settles in that object's own closed form or walk. If
@@ -89,9 +49,9 @@ class ContactSolver {
   /// of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
-  /// From now on a contact with an object that moves ends after 50 ms in which the device is outside
-  /// of it, and at least 10 mm farther from the SCP than `force` [N], the greatest that is shown,
-  /// stretches the object's springs.
+  /// From now on a contact with an object that moves ends after 50 ms in which the device is
+  /// outside of it, and at least 10 mm farther from the SCP than `force` [N], the greatest that is
+  /// shown, stretches the object's springs.
   void let_through_beyond(double force) noexcept { strongest_ = force; }
   /// Storage of what was let through in the last step [J], which is lost.
   [[nodiscard]] double lost() const noexcept { return lost_; }
@@ -99,25 +59,33 @@ class ContactSolver {
   [[nodiscard]] std::uint32_t passed() const noexcept { return passed_; }
 
   /// How many of the plan's objects that move the last step met.
-  [[nodiscard]] std::size_t placed() const noexcept { return placed_.size(); }
+  [[nodiscard]] std::size_t placed() const noexcept { return moving_.placed().size(); }
   /// Puts one of them where it is, before a step, which meets only those that were placed since the
   /// last one. The SCP goes on with the body that holds it; one that comes from elsewhere pushes
   /// it.
   /// @param before where it was a step ago, if the last step did not meet it
-  void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept;
+  void place(std::uint32_t body, const ObjectMotion& motion, const ObjectMotion& before) noexcept {
+    moving_.place(body, motion, before, contacts_);
+  }
   /// Of what is at `point` [m, S] of an object [m/s]; zero of one that stands still.
   [[nodiscard]] Eigen::Vector3d velocity_of(std::uint32_t index,
-                                            const Eigen::Vector3d& point) const noexcept;
+                                            const Eigen::Vector3d& point) const noexcept {
+    return moving_.velocity_of(index, point);
+  }
   /// Work of the carried objects on the springs in the last move, place() to step() [J]: what the
   /// storage grew by because the surfaces moved.
-  [[nodiscard]] double carried_work() const noexcept;
+  [[nodiscard]] double carried_work() const noexcept { return moving_.carried_work(contacts_); }
   /// By how much its speed is ahead of its place [s]; see ObjectMotion::step.
-  [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept;
+  [[nodiscard]] double ahead_of(std::uint32_t index) const noexcept {
+    return moving_.ahead_of(index);
+  }
   /// Of those that were placed, the next one from `next` on that the probe may touch within `time`
   /// [s] at this velocity [m/s], and does not touch yet. @return none if there is none
   [[nodiscard]] std::optional<NearBody> near_body(std::size_t& next,
                                                   const Eigen::Vector3d& velocity,
-                                                  double time) const noexcept;
+                                                  double time) const noexcept {
+    return moving_.near_body(next, {last_device_, velocity, radius_, time}, contacts_);
+  }
   /// Of an object: greatest force along its surface over that across it; 0 if it is smooth.
   [[nodiscard]] double friction_of(std::uint32_t index) const noexcept {
     return cones_[index] != nullptr ? cones_[index]->at_rest() : 0.0;
@@ -147,7 +115,9 @@ class ContactSolver {
   /// Least share of a touched object's depth that is not hidden, [0, 1].
   [[nodiscard]] double shown_depth() const noexcept;
   /// Present stiffness of all springs of an object together [N/m].
-  [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept;
+  [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept {
+    return states_[index].stiffness();
+  }
 
   /// Forces of the effects besides the springs [N, S], summed over objects, at the last step's
   /// contacts: dampers, and any other effect with the hook force(). Call once a step, so that an
@@ -163,44 +133,8 @@ class ContactSolver {
 
  private:
   static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
-  struct ObjectState {
-    SurfaceContactPoint point;  // while this object alone is within reach
-    PlannedEffects effects;
-    bool started_inside = false;
-    PatchBlend blend{};                                 // of a mesh with patches
-    std::uint64_t touched_at = 0;                       // step of the last touch; 0: none
-    Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs end, its own axes
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();    // of the SCP, for effects that follow it
-    bool follows = false;                               // it has such an effect
-    MeshStroke stroke{};                                // over a mesh, for effects with a force
-    bool began = false;                                 // its contact is new in this step
-    double hidden = 0.0;                                // [m], of the depth
-  };
 
-  /// An object that moves: where it is, and was one step ago.
-  struct MovingObject {
-    std::uint32_t object = 0;  // its number in the plan
-    PlannedObject now;
-    ObjectMotion motion{}, before{};
-    std::uint64_t placed = 0;                          // the round in which it was placed last
-    Eigen::Vector3d pushed = Eigen::Vector3d::Zero();  // force on the device before the move [N]
-    QueryShape solid;                                  // for what is inside
-    double beyond = 0.0;                               // [s], see let_through_beyond()
-
-    // Of a point that stayed where it was, a step ago. Its axes are those of the object: a body's
-    // shape has no origin of its own.
-    [[nodiscard]] Eigen::Vector3d before_of(const Eigen::Vector3d& p_S) const noexcept {
-      return before.orientation.conjugate() * (p_S - before.position);
-    }
-    [[nodiscard]] bool is_moved() const noexcept {
-      return motion.position != before.position ||
-             motion.orientation.coeffs() != before.orientation.coeffs();
-    }
-  };
-
-  void forget_placed(std::uint64_t round) noexcept;
   void carry() noexcept;
-  [[nodiscard]] const MovingObject* moving_as(std::uint32_t index) const noexcept;
   [[nodiscard]] bool within_reach(std::uint32_t index,
                                   const Eigen::Vector3d& device) const noexcept;
   void let_through(const Eigen::Vector3d& device, double dt) noexcept;
@@ -211,20 +145,16 @@ class ContactSolver {
   void settle_on_one(std::uint32_t index, const Eigen::Vector3d& device) noexcept;
   void settle_among(const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] SurfaceFeel goal_of(std::uint32_t index) const noexcept;
-  void apply(std::uint32_t index, const SurfaceFeel& feel) noexcept;
   void note_touch(std::uint32_t index, std::uint32_t triangle) noexcept;
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
-  void stroke(std::uint32_t index, EffectContact& seen, ContactedObject& contacted) noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 
   const EffectPlan& plan_;
-  std::vector<MovingObject> moving_;
-  std::vector<std::uint32_t> placed_;          // of these, those that were placed for the last step
-  std::vector<std::uint32_t> moving_of_;       // per object, its number in moving_, or kNobody
+  MovingObjects moving_;
   std::vector<const PlannedObject*> objects_;  // of the plan, where they are now
-  std::vector<ObjectState> states_;
+  std::vector<FeltObject> states_;
   std::vector<ObjectContact> contacts_;
   double radius_;
   double patch_cap_;  // [N/m]
@@ -235,7 +165,6 @@ class ContactSolver {
   std::vector<std::uint32_t> touched_;  // of these, objects in contact
   std::vector<std::uint64_t> noted_;    // per object, the step at which it was put into near_
   std::uint64_t step_ = 1;
-  std::uint64_t round_ = 1;  // of place() and step(): a step that cannot be made ends one too
   bool any_follows_ = false;
   double strongest_ = std::numeric_limits<double>::infinity();  // [N]
   double lost_ = 0.0;                                           // [J]

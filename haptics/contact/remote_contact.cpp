@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "reckon/deadreckon/motion/acceleration_trust.hpp"
+#include "reckon/haptics/contact/hand_record.hpp"
+#include "reckon/haptics/contact/surface_push.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -28,42 +30,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Difference of two untrusted times, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
   return 1e-9 * (static_cast<double>(to.count()) - static_cast<double>(from.count()));
-}
-
-bool is_sound(const RemoteHand& hand) {
-  return deadreckon::is_finite(hand.state) && hand.model.point.allFinite() &&
-         hand.model.normal.allFinite() && std::isfinite(hand.model.damping) &&
-         hand.model.damping >= 0;
-}
-
-// Whether the spring differs, whatever its place.
-bool is_reshaped(const deadreckon::ForceModel& from, const deadreckon::ForceModel& to) {
-  const auto differs = [](double a, double b) { return std::abs(b - a) > 0.01 * std::max(a, b); };
-  return differs(from.k1, to.k1) || differs(from.k3, to.k3) || differs(from.radius, to.radius) ||
-         differs(from.static_friction, to.static_friction) ||
-         differs(from.kinetic_friction, to.kinetic_friction);
-}
-
-// Force of a surface and its point of action.
-struct SurfacePush {
-  explicit SurfacePush(const ContactSpring& spring) noexcept
-      : depth(std::max(0.0, spring.geometry().depth)),
-        along(spring.normal_force()),
-        across(spring.force() - along * spring.geometry().normal),
-        point(spring.parameters().point) {}
-  double depth;            // [m]
-  double along;            // [N], along the normal
-  Eigen::Vector3d across;  // [N], across the normal
-  Eigen::Vector3d point;   // [m]
-};
-
-// Whether a ball on its way touches a probe more deeply than at either end.
-bool passes(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach,
-            const Eigen::Vector3d& probe) noexcept {
-  const Eigen::Vector3d way = to - from, away = probe - from;
-  const double along = way.dot(away), length = way.squaredNorm();
-  if (!(along > 0 && along < length)) return false;
-  return (away - along / length * way).squaredNorm() < reach * reach;
 }
 
 }  // namespace
@@ -115,14 +81,12 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
 
 // Observes the work of the moving surface on our spring. Positive work counts in full even if the
 // spring is only partly held, because a hand that lacks energy would otherwise never credit
-// anybody. Negative work counts only for the held share. The normal part follows the change of
-// depth, the lateral part the motion of the surface. A stiffer spring is no work of a hand.
+// anybody. Negative work counts only for the held share.
 void RemoteContact::show(const ContactParameters& target) noexcept {
   const SurfacePush before(spring_);
   spring_.move(target);
   const SurfacePush after(spring_);
-  const double work = 0.5 * ((before.along + after.along) * (after.depth - before.depth) +
-                             (before.across + after.across).dot(after.point - before.point));
+  const double work = work_between(before, after);
   account_->see(work > 0 ? work : share_ * work);
 }
 

@@ -141,6 +141,17 @@ typename StaticContactOf<axes>::Force StaticContactOf<axes>::held_back(
   return sum;
 }
 
+template <int axes>
+bool StaticContactOf<axes>::touches_others_body(const EffectPlan& plan) const noexcept {
+  for (std::size_t probe = 0; probe < size(); ++probe) {
+    for (const std::uint32_t index : walls_[probe]->result().touched) {
+      const PlannedObject& object = plan.objects()[index];
+      if (object.carried && object.matter.mass > 0) return true;
+    }
+  }
+  return false;
+}
+
 template class StaticContactOf<3>;
 template class StaticContactOf<6>;
 

@@ -93,6 +93,8 @@ class StaticContactOf {
   [[nodiscard]] const Grab& grab(std::size_t probe) const noexcept { return grabs_[probe]; }
   [[nodiscard]] bool grabs() const noexcept { return std::ranges::any_of(grabs_, &Grab::holds); }
   [[nodiscard]] const RegionForces& regions() const noexcept { return regions_; }
+  /// Whether a probe touches a body that another peer moves: a carried object with a mass.
+  [[nodiscard]] bool touches_others_body(const EffectPlan& plan) const noexcept;
   /// Sum of walls and regions at all probes [N, S], after shown().
   [[nodiscard]] Eigen::Vector3d force() const noexcept;
   /// See WallContact, all probes.

@@ -56,4 +56,16 @@ void ToolOf<6>::move(const HandlePose& pose) noexcept {
   place_probes();
 }
 
+ToolState ToolOf<6>::state(const Force& written) const noexcept {
+  ToolState out;
+  out.turns = true;
+  out.handle = pose_.position;
+  out.orientation = pose_.orientation;
+  out.turn_rate = turn_;
+  out.torque = wrench(written).tail<3>();
+  out.count = size_;
+  for (std::size_t i = 0; i < size_; ++i) out.probes[i] = place(i);
+  return out;
+}
+
 }  // namespace reckon::haptics

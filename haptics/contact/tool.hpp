@@ -157,6 +157,8 @@ class ToolOf<6> {
   [[nodiscard]] double slope(const WrenchCurvature& curvature) const noexcept {
     return axes_.slope(curvature);
   }
+  /// @param written in the port's coordinates
+  [[nodiscard]] ToolState state(const Force& written) const noexcept;
   [[nodiscard]] static constexpr double damping() noexcept { return 1.0; }
   /// A spring at the first probe, or springs at all of them, meet the damping of all axes that
   /// they move [N s/m].

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/servo/servo_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
-#include "reckon/haptics/contact/load_sum.hpp"
-#include "reckon/haptics/passivity/rate_limit.hpp"
 #include "reckon/haptics/servo/between_hands.hpp"
 #include "reckon/pdu/seconds.hpp"
 
@@ -20,29 +17,12 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
-constexpr double kToSpare = 1.05;          // times the energy that the whole force needs
-constexpr double kShakeRate = 0.5;         // of the fastest growth of the force, for oscillations
 constexpr int kHoldSteps = 100;            // of zero force after a trip
 constexpr double kStill = 0.02;            // [m/s], a hand with a tremor is at rest too
 constexpr double kRest = 1.0;              // [s]
 constexpr double kRestAfterGuests = 0.05;  // [s], guests took the energy that hands lack
 constexpr double kReadFor = 0.002;         // [s]: within it an encoder step may be no motion
-constexpr double kUnit = 1e-6;             // of a quaternion's length
 constexpr std::uint64_t kPartsEach = 8;    // steps between two checks for solids between hands
-constexpr double kTurnMisfit = 1e-4;       // [rad], of the filter of turns
-
-double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(symmetric, Eigen::EigenvaluesOnly);
-  return (1.0 + 1e-9) * solver.eigenvalues()(2);
-}
-
-template <class Force>
-Force stepped_to(const Force& from, const Force& to, double most) {
-  const Force way = to - from;
-  const double length = way.norm();
-  return length > most ? Force(from + most / length * way) : to;
-}
 
 template <int axes>
 EnergyPortOf<axes> port_of(const DeviceLimits& limits, const ToolOf<axes>& tool) {
@@ -56,7 +36,7 @@ template <int axes>
 ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
                                const ServoConfig& config, std::shared_ptr<BodyWorld> bodies)
     : ServoCore(device, std::move(plan), config, std::move(bodies)),
-      device_axes_(config_.device_orientation.toRotationMatrix()),
+      handle_(config_, limits_.turn_resolution),
       tool_({limits_.damping, limits_.turn_damping}, config_.probes),
       static_(*plan_,
               cap_for(tool_.probe_damping(), tool_.tool_damping(), tool_.bend(step_.force_limit)),
@@ -66,7 +46,6 @@ ServoStepOf<axes>::ServoStepOf(HapticDevice& device, std::shared_ptr<const Effec
       resolution_(limits_.resolution),
       port_rate_(tool_.size_at_port(max_rate_)),
       safety_(step_.force_limit, max_power_, limits_.max_speed, kHoldSteps),
-      turn_motion_(std::max(kTurnMisfit, limits_.turn_resolution)),
       pressed_(bodies_, *plan_, config_, tool_.size(), static_cap_) {
   port_.limit_received_power(config_.max_received_power);
   static_.let_through_beyond(step_.force_limit);
@@ -92,8 +71,7 @@ void ServoStepOf<axes>::limit_sources() {
 template <int axes>
 void ServoStepOf<axes>::step(nanoseconds now) noexcept {
   DeviceSample reading = device_.read(now);
-  if constexpr (axes == 6)
-    reading.ok &= reading.turn && std::abs(reading.turn->orientation.norm() - 1.0) < kUnit;
+  reading.ok &= handle_.is_whole(reading);
   step_.now = now;
   note_time();
   obey_stop(reading);
@@ -174,7 +152,7 @@ bool ServoStepOf<axes>::at_rest() noexcept {
   const bool touches = std::ranges::any_of(hands_.all(), &RemoteContact::touching);
   const bool is = touches && softening_.share() < 1.0 && sure_speed() <= kStill;
   rested_ = is ? rested_ + step_.dt : 0.0;
-  return rested_ >= (guests_.pressed_lately() ? kRestAfterGuests : kRest);
+  return rested_ >= (springs_.guests().pressed_lately() ? kRestAfterGuests : kRest);
 }
 
 template <int axes>
@@ -187,31 +165,6 @@ std::size_t ServoStepOf<axes>::exchange(const Load& load) noexcept {
   return exchange_energy(hands_.all(), port_, {spare, walls, sure_speed(), rests, step_.dt});
 }
 
-// A contact whose force is cut to zero lets go, and fades in again from there.
-template <int axes>
-void ServoStepOf<axes>::reduce(double scale) noexcept {
-  static_.attenuate(scale, port_);
-  if (scale > 0.0) return;
-  static_.drop();
-  for (RemoteContact* remote : hands_.all()) remote->drop();
-}
-
-// A cut lowers the gain of the walls, which at once begins to rise again. Their full force is
-// therefore greater than the force of this step.
-template <int axes>
-void ServoStepOf<axes>::note_limit(const Force& force, double scale) noexcept {
-  limit_share_ = 1.0;
-  if (!(scale > 0.0) || scale >= 1.0 || safety_.ramps()) return;
-  const Force asked = force + static_.held_back(tool_);
-  limit_share_ = std::min(1.0, scale * force.norm() / asked.norm());
-  tally_.limit.note(limit_share_, newtons(asked), step_.dt);
-}
-
-template <int axes>
-HandlePose ServoStepOf<axes>::pose_of(const Vector3d& position) const noexcept {
-  return {config_.device_origin + device_axes_ * position, Eigen::Quaterniond::Identity()};
-}
-
 // A failed reading leaves the hand where it was; the held force is cut in this step.
 template <int axes>
 bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
@@ -221,8 +174,7 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
     port_.miss(elapsed_);
     return false;
   }
-  HandlePose pose = pose_of(reading.position);
-  if constexpr (axes == 6) pose.orientation = turned(reading.turn->orientation);
+  const HandlePose pose = handle_.pose_of(reading);
   buttons_ = reading.buttons;
   step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
@@ -236,7 +188,8 @@ bool ServoStepOf<axes>::sample(const DeviceSample& reading) noexcept {
   if (reading.watchdog) let_go(reading, pose);
   tool_.move(pose);
   step_.probe = tool_.place();
-  note_velocity(reading);
+  handle_.follow(reading, pdu::to_seconds(step_.now), tool_);
+  step_.velocity = tool_.velocity();
   return true;
 }
 
@@ -253,46 +206,13 @@ void ServoStepOf<axes>::note_pose(const DeviceSample& reading) noexcept {
                                     : static_cap_);
 }
 
-template <int axes>
-void ServoStepOf<axes>::note_velocity(const DeviceSample& reading) noexcept {
-  const double time = pdu::to_seconds(step_.now);
-  const bool measured = reading.has_velocity && reading.velocity.allFinite();
-  if constexpr (axes == 3) {
-    device_motion_.add(step_.probe, time);
-    tool_.set_velocity(measured ? Vector3d(device_axes_ * reading.velocity)
-                                : device_motion_.velocity());
-  } else {
-    device_motion_.add(tool_.pose().position, time);
-    turned_ += tool_.step().template tail<3>();
-    turn_motion_.add(turned_, time);
-    const bool turns = measured && reading.turn->rate.allFinite();
-    tool_.set_velocity(
-        turns ? Vector3d(device_axes_ * reading.velocity) : device_motion_.velocity(),
-        turns ? Vector3d(device_axes_ * reading.turn->rate) : turn_motion_.velocity());
-  }
-  step_.velocity = tool_.velocity();
-}
-
-template <int axes>
-std::optional<HandlePose> ServoStepOf<axes>::released_at(
-    const DeviceSample& reading) const noexcept {
-  if (!reading.released_at || !reading.released_at->allFinite()) return std::nullopt;
-  HandlePose pose = pose_of(*reading.released_at);
-  if constexpr (axes == 6) {
-    const auto& orientation = reading.released_turned;
-    if (!orientation || !(std::abs(orientation->norm() - 1.0) < kUnit)) return std::nullopt;
-    pose.orientation = turned(*orientation);
-  }
-  return pose;
-}
-
 // The device dropped the force by itself. Up to that place the sample is a normal one, and after it
 // the hand moved without a force. If the place is unknown, the energy exchanged with the hand is
 // unknown too.
 template <int axes>
 void ServoStepOf<axes>::let_go(const DeviceSample& reading, const HandlePose& pose) noexcept {
   ++tally_.let_go;
-  if (const auto released = released_at(reading)) {
+  if (const auto released = handle_.released_at(reading)) {
     tool_.move(*released);
     step_.probe = tool_.place();
     settle();
@@ -329,7 +249,7 @@ void ServoStepOf<axes>::settle() noexcept {
     remote->settle(step_);
     if (in_steps) change += remote->spring().force();
   }
-  if (in_steps) port_.follow(tool_.at_port(0, crowd_share_ * held_.springs * change), dx);
+  if (in_steps) port_.follow(tool_.at_port(0, springs_.crowd_share() * held_.springs * change), dx);
   if (port_.debt() > 0) pressed_.repay(port_);
 }
 
@@ -347,140 +267,17 @@ template <int axes>
 typename ServoStepOf<axes>::Load ServoStepOf<axes>::load() noexcept {
   Load load;
   static_.load(tool_, period_, load);
-  load_hands(load);
-  soften_crowd(load);
+  springs_.load(hands_.all(),
+                {tool_.at_probe(port_.spare(load.walls_slope, period_)), port_.level()}, tool_,
+                step_, tally_, load);
+  const double whole = axes == 3 ? step_.body_stiffness_limit : stiffness_per_damping_;
+  springs_.soften(whole - load.walls_slope, tool_, step_, tally_, load);
   return load;
 }
 
 template <int axes>
-void ServoStepOf<axes>::load_hands(Load& load) noexcept {
-  guests_.make_room(hands_.all(), tool_.at_probe(port_.spare(load.walls_slope, period_)),
-                    port_.level(), step_.dt);
-  LoadSum<axes> sum(load);
-  PortLoad& one = sum.of_probe();
-  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d of_guests = Eigen::Vector3d::Zero();
-  std::size_t touched = 0;
-  for (const RemoteContact* remote : hands_.all()) {
-    if (!remote->touching()) continue;
-    const ContactSpring& spring = remote->spring();
-    if (remote->is_guest()) of_guests += spring.force();
-    const double share = guests_.share_of(*remote);
-    one.springs += share * spring.force();
-    one.stored += share * spring.stored();
-    one.extra += share * remote->damper(step_);
-    one.springs_slope = std::max(one.springs_slope, share * spring.greatest_slope());
-    slopes += share * spring.slope();
-    ++touched;
-  }
-  tally_.guests.note_force(guests_.share(), of_guests, step_.dt);
-  if (touched > 0) tally_.hands += step_.dt;
-  if (touched > 1) one.springs_slope = greatest_eigenvalue(slopes);
-  sum.add(tool_, 0);
-  sum.finish(tool_);
-}
-
-// If the springs together are stiffer than the device can show, they would buzz at the expense of
-// the ledger. So all are softened by the same factor.
-template <int axes>
-void ServoStepOf<axes>::soften_crowd(Load& load) noexcept {
-  const double whole = axes == 3 ? step_.body_stiffness_limit : stiffness_per_damping_;
-  const double most = whole - load.walls_slope;
-  const bool beyond = load.springs_slope > std::max(0.0, most);  // none has no slope
-  const double goal = beyond ? std::max(0.0, most) / load.springs_slope : 1.0;
-  const double step = step_.dt / RemoteContact::kRamp;
-  crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
-  tally_.crowd.note_force(crowd_share_, tool_.force(load.springs), step_.dt);
-  load.springs *= crowd_share_;
-  load.stored *= crowd_share_;
-  load.springs_slope *= crowd_share_;
-}
-
-template <int axes>
-typename ServoStepOf<axes>::Force ServoStepOf<axes>::hold(Load& load) noexcept {
-  const bool shakes = port_.shakes() || !load.shake.isZero(0.0);
-  const Force wish = load.shake;
-  if (shakes)
-    load.shake = stepped_to<Force>(port_.shaking(), wish, kShakeRate * port_rate_ * elapsed_);
-  held_ = port_.hold(load, period_);
-  if (held_.walls < 1.0) {
-    static_.attenuate(held_.walls, port_);
-    load.walls *= held_.walls;
-    load.walls_slope *= held_.walls;
-    load.walls_stored *= held_.walls;
-  }
-  tally_.held_back.note_force(held_.springs, tool_.force(load.springs), step_.dt);
-  tally_.effects.note_force(held_.extra, tool_.force(load.extra), step_.dt);
-  static_.shown(held_.extra);
-  if (shakes) shake(load, wish);
-  const Force force = keep_rate(load, held_.force);
-  const double whole = held_.force.norm();
-  const double reached = whole > 0 ? std::min(1.0, (force - port_.shaking()).norm() / whole) : 1.0;
-  const double share = crowd_share_ * held_.springs * reached;
-  for (RemoteContact* remote : hands_.all()) {
-    remote->shown(guests_.share_of(*remote) * share, port_.free());
-  }
-  tally_.rate.note(reached, newtons(held_.force), step_.dt);
-  if (softening_.share() < 1.0) {
-    tally_.softened.note(softening_.share(), newtons(load.springs) / softening_.share(), step_.dt);
-  }
-  soften(load, held_.springs);
-  return force;
-}
-
-template <int axes>
-void ServoStepOf<axes>::shake(const Load& load, const Force& wish) noexcept {
-  const Force& shown = port_.shake(load, period_);
-  const double whole = wish.norm();
-  const double share = whole > 0 ? std::min(1.0, shown.norm() / whole) : 1.0;
-  static_.shook(share);
-  tally_.effects.note_force(share, tool_.force(wish), step_.dt);
-}
-
-// A crease, an edge or a quick blow turns the force within one sample. The force follows at a
-// limited rate, which the port accounts for like any held force. If the energy does not allow that,
-// the whole force is reduced. Its rate is that of the sum with the oscillations.
-template <int axes>
-typename ServoStepOf<axes>::Force ServoStepOf<axes>::keep_rate(const Load& load,
-                                                               const Force& held) noexcept {
-  const Force wanted = held + port_.shaking();
-  if (!wanted.allFinite()) return wanted;  // safety handles it
-  const double most = port_rate_ * elapsed_;
-  const Force near_by = nearest_in_reach(written_, wanted, most);
-  if (near_by == wanted || port_.hold_instead(load, near_by - port_.shaking(), period_))
-    return near_by;
-  const double part = part_in_reach(written_, wanted, most);
-  static_.attenuate(part, port_);
-  port_.attenuate(part);
-  return part * wanted;
-}
-
-template <int axes>
-void ServoStepOf<axes>::soften(const Load& load, double held) noexcept {
-  double whole = 0.0;  // [J]
-  if (load.stored > 0) {
-    const double pays = port_.spare(load.walls_slope, period_);
-    if (pays > 0) whole = load.springs.squaredNorm() / (4 * pays);
-  }
-  softening_.learn(held, port_.level() > kToSpare * whole, load.stored > 0, step_.dt);
-  step_.softening = softening_.share();
-}
-
-// A carried object with a mass is a body that another peer moves.
-template <int axes>
-bool ServoStepOf<axes>::touches_others_body() const noexcept {
-  for (std::size_t probe = 0; probe < tool_.size(); ++probe) {
-    for (const std::uint32_t index : static_.walls(probe).result().touched) {
-      const PlannedObject& object = plan_->objects()[index];
-      if (object.carried && object.matter.mass > 0) return true;
-    }
-  }
-  return false;
-}
-
-template <int axes>
 void ServoStepOf<axes>::write() noexcept {
-  const auto to_device = device_axes_.transpose();
+  const auto to_device = handle_.axes_in_scene().transpose();
   if constexpr (axes == 3) {
     device_.write(to_device * written_, step_.now);
   } else {
@@ -494,7 +291,7 @@ template <int axes>
 void ServoStepOf<axes>::publish(bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
   if (mesh.in_contact) tally_.scene += step_.dt;
-  if (touches_others_body()) tally_.bodies += step_.dt;
+  if (static_.touches_others_body(*plan_)) tally_.bodies += step_.dt;
   const bool grabs = static_.grabs();
   if (grabs) tally_.grabbed += step_.dt;
   // Others feel the hand at the first probe.
@@ -509,17 +306,10 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.velocity = first.in_contact ? scp_motion_.velocity() : step_.velocity;
   out.acceleration = scp_motion_.acceleration();
   out.device_velocity = step_.velocity;
-  out.device_acceleration = device_motion_.acceleration();
+  out.device_acceleration = handle_.acceleration();
   out.force = tool_.force(written_);
   if constexpr (axes == 6) {
-    const Wrench wrench = tool_.wrench(written_);
-    out.tool.turns = true;
-    out.tool.handle = tool_.pose().position;
-    out.tool.orientation = tool_.pose().orientation;
-    out.tool.turn_rate = tool_.twist().template tail<3>();
-    out.tool.torque = wrench.tail<3>();
-    out.tool.count = tool_.size();
-    for (std::size_t i = 0; i < tool_.size(); ++i) out.tool.probes[i] = tool_.place(i);
+    out.tool = tool_.state(written_);
   }
   out.mesh_force = static_.force();
   out.mesh_normal = mesh.normal;
@@ -527,7 +317,7 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.in_mesh_contact = mesh.in_contact;
   out.grabs = grabs;
   out.spring_share = held_.springs;
-  out.crowd_share = crowd_share_;
+  out.crowd_share = springs_.crowd_share();
   out.extra_share = held_.extra;
   out.limit_share = limit_share_;
   out.enabled = enabled;
@@ -545,15 +335,12 @@ void ServoStepOf<axes>::publish(bool enabled) noexcept {
   out.left_out = hands_.left_out();
   out.port_energy = port_.absorbed() + hands_.transferred() + static_.carried() - pressed_.work();
   out.encoder_allowance = port_.encoder_allowance();
-  out.softening = crowd_share_ * softening_.share();
+  out.softening = springs_.crowd_share() * softening_.share();
   out.loan = port_.owed();
   out.region_loan = port_.region_loan().owed();
-  out.region_loan_most = region_loan_most_ = std::max(region_loan_most_, out.region_loan);
   out.oscillation_energy = port_.oscillations().spent() + port_.shakes_under_way(period_);
-  port_min_ = std::min(port_min_, out.port_energy + out.loan + out.source_energy());
-  out.port_energy_min = port_min_;
   out.late_cost = port_.late_cost();
-  out.loan_most = loan_most_ = std::max(loan_most_, out.loan);
+  extremes_.note(out);
   if (trace_ != nullptr) trace_->push(out);
   snapshots_.publish();
 }

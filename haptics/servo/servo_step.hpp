@@ -7,13 +7,14 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "reckon/haptics/contact/guest_share.hpp"
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/haptics/passivity/softening.hpp"
+#include "reckon/haptics/servo/energy_extremes.hpp"
+#include "reckon/haptics/servo/hand_springs.hpp"
+#include "reckon/haptics/servo/handle_motion.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
 #include "reckon/haptics/servo/pressed_bodies.hpp"
 #include "reckon/haptics/servo/safety.hpp"
@@ -43,25 +44,16 @@ class ServoStepOf final : public ServoCore {
   void reduce(double scale) noexcept;
   [[nodiscard]] std::size_t exchange(const Load& load) noexcept;  // number of contacts engaged
   void part_hands() noexcept;
-  [[nodiscard]] bool touches_others_body() const noexcept;
   [[nodiscard]] bool at_rest() noexcept;
   [[nodiscard]] double sure_speed() const noexcept;  // [m/s], lower bound
   void note_limit(const Force& force, double scale) noexcept;
-  [[nodiscard]] HandlePose pose_of(const Eigen::Vector3d& position) const noexcept;
-  [[nodiscard]] Eigen::Quaterniond turned(const Eigen::Quaterniond& in_device) const noexcept {
-    return config_.device_orientation * in_device;
-  }
-  [[nodiscard]] std::optional<HandlePose> released_at(const DeviceSample& reading) const noexcept;
   void let_go(const DeviceSample& reading, const HandlePose& pose) noexcept;
   void forfeit(const HandlePose& pose) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
   void note_pose(const DeviceSample& reading) noexcept;
-  void note_velocity(const DeviceSample& reading) noexcept;
   void settle() noexcept;
   void push_bodies(double scale) noexcept;
   [[nodiscard]] Load load() noexcept;
-  void load_hands(Load& load) noexcept;
-  void soften_crowd(Load& load) noexcept;
   [[nodiscard]] Force hold(Load& load) noexcept;
   void shake(const Load& load, const Force& wish) noexcept;
   [[nodiscard]] Force keep_rate(const Load& load, const Force& held) noexcept;
@@ -72,7 +64,7 @@ class ServoStepOf final : public ServoCore {
     return tool_.force(force).norm();
   }
 
-  Eigen::Matrix3d device_axes_;  // in the scene
+  HandleMotion<axes> handle_;
   ToolOf<axes> tool_;
   StaticContactOf<axes> static_;
   EnergyPortOf<axes> port_;
@@ -80,18 +72,14 @@ class ServoStepOf final : public ServoCore {
   double resolution_;        // [m], of the last reading
   double held_share_ = 1.0;  // of the force, since the reading before
   Softening softening_;
-  double crowd_share_ = 1.0;  // share of the springs of all hands that the device can show
-  GuestShare guests_;
+  HandSprings<axes> springs_;
   PortHoldOf<axes> held_;     // shares of the load that the port held
   double took_ = 0.0;         // [s], the handle for its last way
   double limit_share_ = 1.0;  // share of that within the greatest force
   double port_rate_;          // max_rate_ in the port's coordinates
   Safety safety_;
-  MotionFilter device_motion_;
   MotionFilter scp_motion_;
-  MotionFilter turn_motion_;                          // of a device that turns
-  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  // [rad], sum of all turns
-  std::uint64_t next_search_ = 0;                     // of surfaces, by count_
+  std::uint64_t next_search_ = 0;  // of surfaces, by count_
   bool near_surface_ = true;
   PressedBodiesOf<axes> pressed_;
   std::uint32_t buttons_ = 0;  // of the last good reading
@@ -99,9 +87,7 @@ class ServoStepOf final : public ServoCore {
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};  // last good reading
   Force written_ = Force::Zero();           // held since the last step
-  double port_min_ = 0.0;
-  double loan_most_ = 0.0;
-  double region_loan_most_ = 0.0;
+  EnergyExtremes extremes_;
 };
 
 }  // namespace reckon::haptics

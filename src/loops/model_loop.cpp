@@ -48,21 +48,13 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       intake_(wiring, aoim_, time_, remote_, counted_),
       outlet_(wiring, counted_),
       touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
-      own_bodies_(wiring.own_bodies),
-      mover_(wiring.mover),
-      has_bodies_(std::ranges::any_of(
-          scene_.scene.objects,
-          [](const haptics::SceneObject& object) { return object.matter.mass > 0; })),
+      bodies_(wiring),
       subscriber_(wiring, participant_, owned_, remote_),
       watches_(wiring),
       orders_(wiring.scene.network, aoim_, owned_, time_, watches_, counted_),
-      view_(wiring) {
-  if (mover_ != nullptr)
-    remote_bodies_.emplace(mover_->shown(), body_owner_, scene_.network.interop);
-}
+      view_(wiring) {}
 
 // A pass
-// ---------------------------------------------------------------------------------------------
 
 void ModelLoop::start(nanoseconds now) {
   pass_.now = now;
@@ -112,7 +104,8 @@ void ModelLoop::read_sensors() noexcept {
   doubt_the_silent();
   remote_.expire(pass_.now);
   if (touch_.read_hands()) subscriber_.note_moved();
-  if (own_bodies_ != nullptr) move_bodies();
+  bodies_.move_own(owned_,
+                   [this](EntityNumber number, const EntityTruth& truth) { move(number, truth); });
 }
 
 void ModelLoop::do_tasks() noexcept {
@@ -126,10 +119,7 @@ void ModelLoop::do_tasks() noexcept {
 }
 
 void ModelLoop::publish() noexcept {
-  if (mover_ != nullptr) {
-    mover_->set_offset(pass_.utc - pass_.now);
-    remote_bodies_->publish(remote_);
-  }
+  bodies_.publish(pass_.utc - pass_.now, remote_);
   touch_.publish_contacts(pass_);
   touch_.publish_felt_sources();
   view_.publish_shown(remote_, pass_.now);
@@ -166,7 +156,6 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
 }
 
 // The entities of this peer
-// ------------------------------------------------------------------------
 
 EntityNumber ModelLoop::add_hand(std::string_view marking,
                                  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
@@ -200,33 +189,9 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
 }
 
 void ModelLoop::add_bodies(EntityNumber first) {
-  first_body_ = first;
-  std::size_t body = 0;
-  for (const haptics::SceneObject& object : scene_.scene.objects) {
-    const bool is_body = object.matter.mass > 0 && !object.carried;
-    if (!is_body && !object.carried) continue;
-    const std::size_t number = body++;
-    if (!is_body) continue;
-    EntityDescription description;
-    description.marking = object.name;
-    description.type = body_type(number);
-    description.dead_reckoning = scene_.dead_reckoning;
-    add(static_cast<EntityNumber>(first + number), description);
-  }
-}
-
-// One that sleeps keeps its last state, which its heartbeat repeats.
-void ModelLoop::move_bodies() noexcept {
-  if (!own_bodies_->update()) return;
-  const haptics::BodyStates& states = own_bodies_->read();
-  for (std::size_t i = 0; i < states.bodies.size(); ++i) {
-    const auto number = static_cast<EntityNumber>(first_body_ + i);
-    const OwnedEntity* entity = owned_.find(number);
-    if (entity == nullptr) continue;
-    const haptics::BodyState& body = states.bodies[i];
-    if (body.awake || !entity->is_resting() || entity->truth().position != body.position)
-      move(number, truth_of(body, states.time));
-  }
+  bodies_.add_own(first, [this](EntityNumber number, const EntityDescription& description) {
+    add(number, description);
+  });
 }
 
 void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
@@ -263,15 +228,7 @@ aoim::AddResult ModelLoop::say(std::span<const std::byte> pdu,
   return aoim_.send(tier, aoim::PduPayload{pdu}, place.value_or(aoim::Position{}), pass_.now);
 }
 
-pdu::EntityId ModelLoop::own_id() const noexcept {
-  for (EntityNumber number = 1; number <= owned_.last_number(); ++number) {
-    if (const OwnedEntity* entity = owned_.find(number)) return entity->id();
-  }
-  return owned_.simulation();
-}
-
 // Out
-// ------------------------------------------------------------------------------------
 
 void ModelLoop::consider_others() noexcept {
   if (aoim_.introductions().is_pending()) {
@@ -320,9 +277,9 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 void ModelLoop::publish_view() noexcept {
   PeerView& view = view_.begin();
   const std::size_t unfelt = touch_.show(view);
-  if (has_bodies_) body_owner_.look(aoim_.presence());
+  bodies_.look(aoim_.presence());
   watches_.look(remote_, aoim_, unfelt, touch_.crowder(), pass_.now);
-  watches_.look(body_owner_, pass_.now);
+  watches_.look(bodies_.owner(), pass_.now);
   view.own = own_id();
   view.owned = owned_.size();
   view.peers = aoim_.presence().peers().size();
@@ -330,13 +287,7 @@ void ModelLoop::publish_view() noexcept {
   view.leaders = subscriber_.leaders();
   const OwnedEntity* first = owned_.find(view.own.entity);
   view.frozen = first != nullptr && first->is_frozen();
-  if (own_bodies_ != nullptr) {
-    const haptics::BodyStates& states = own_bodies_->read();
-    view.bodies = states.bodies.size();
-    view.bodies_awake =
-        static_cast<std::size_t>(std::ranges::count_if(states.bodies, &haptics::BodyState::awake));
-    view.bodies_not_woken = states.crowded;
-  }
+  bodies_.show(view);
   view.set_out = tracked_.begun();
   view.middle = middle_of_interest();
   emissions_.expire(pass_.now);
@@ -345,7 +296,6 @@ void ModelLoop::publish_view() noexcept {
 }
 
 // In
-// ------------------------------------------------------------------------------------
 
 void ModelLoop::take_datagram(std::span<const std::byte> octets) noexcept {
   watches_.hooks().received(octets);
@@ -359,9 +309,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
   if (!remote_.take(update, arrival, touch_.servo())) return;
   touch_.note_accounts(update, pass_);
-  if (!remote_bodies_ || !update.has_state || !body_of(update.state.entity_type)) return;
-  if (body_owner_.epoch() == 0) body_owner_.look(aoim_.presence());
-  remote_bodies_->note(update, arrival, remote_);
+  bodies_.note(update, arrival, aoim_.presence(), remote_);
 }
 
 // In another's name it is neither obeyed nor delivered.

@@ -18,6 +18,7 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/emissions/emission_table.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/body_stage.hpp"
 #include "reckon/peer/loops/datagram_intake.hpp"
 #include "reckon/peer/loops/datagram_outlet.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
@@ -126,7 +127,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   [[nodiscard]] const Pass& pass() const noexcept { return pass_; }
   /// The first entity of this peer; number 0 if it has none. By the thread of step(), or while the
   /// loops are stopped.
-  [[nodiscard]] pdu::EntityId own_id() const noexcept;
+  [[nodiscard]] pdu::EntityId own_id() const noexcept { return owned_.first_id(); }
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -146,7 +147,6 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
                const aoim::SourceAddress& from) noexcept override;
   void report(const aoim::PresenceEvent& event) noexcept override;
   void doubt_the_silent() noexcept;
-  void move_bodies() noexcept;
   void send_what_is_felt() noexcept;
   void consider_others() noexcept;
   [[nodiscard]] bool consider_other(OwnedEntity& entity, EntityNumber number) noexcept;
@@ -173,12 +173,7 @@ class ModelLoop : private UpdateHandler, private aoim::ParticipantHandler {
   DatagramIntake intake_;
   DatagramOutlet outlet_;
   TouchStage touch_;
-  haptics::TripleBuffer<haptics::BodyStates>* own_bodies_;  // null: there are none of ours
-  EntityNumber first_body_ = 0;
-  BodyMover* mover_;  // null: nothing is carried
-  bool has_bodies_;   // the scene, whoever owns them
-  BodyOwner body_owner_;
-  std::optional<RemoteBodies> remote_bodies_;
+  BodyStage bodies_;
   Subscriber subscriber_;
   PeerWatches watches_;
   OrderStage orders_;

@@ -10,6 +10,30 @@
 namespace reckon::peer {
 namespace {
 
+// Of addresses that claim the name of a peer.
+Notice sentence_of_addresses(const aoim::PresenceEvent& event) noexcept {
+  const aoim::PeerId peer = event.peer();
+  const AddressText source(event.source), other(event.other);
+  if (event.kind == aoim::PresenceEventKind::disputed && event.source == aoim::SourceAddress{})
+    return make_notice(NoticeKind::claimed_twice,
+                       "{}:{}, which is this peer, is claimed by another at {}, too", peer.site,
+                       peer.application, other.view());
+  if (event.kind == aoim::PresenceEventKind::disputed)
+    return make_notice(NoticeKind::claimed_twice,
+                       "peer {}:{} at {} is claimed by another at {}, too", peer.site,
+                       peer.application, source.view(), other.view());
+  if (event.kind == aoim::PresenceEventKind::moved)
+    return make_notice(NoticeKind::moved, "peer {}:{} is at {} now, no more at {}", peer.site,
+                       peer.application, source.view(), other.view());
+  if (event.kind == aoim::PresenceEventKind::impostor)
+    return make_notice(NoticeKind::impostor,
+                       "{} speaks in the name of peer {}:{}, which is at {}: not believed",
+                       other.view(), peer.site, peer.application, source.view());
+  return make_notice(NoticeKind::crowd,
+                     "{} speaks for more peers than one host may: the rest are not believed",
+                     source.view());
+}
+
 Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
   const aoim::PeerId peer = event.peer();
   switch (event.kind) {
@@ -33,27 +57,10 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
       return make_notice(NoticeKind::renamed, "peer {}:{} is {}:{} now", event.former.site,
                          event.former.application, peer.site, peer.application);
     case aoim::PresenceEventKind::disputed:
-      if (event.source == aoim::SourceAddress{}) {
-        return make_notice(NoticeKind::claimed_twice,
-                           "{}:{}, which is this peer, is claimed by another at {}, too", peer.site,
-                           peer.application, AddressText(event.other).view());
-      }
-      return make_notice(
-          NoticeKind::claimed_twice, "peer {}:{} at {} is claimed by another at {}, too", peer.site,
-          peer.application, AddressText(event.source).view(), AddressText(event.other).view());
     case aoim::PresenceEventKind::moved:
-      return make_notice(NoticeKind::moved, "peer {}:{} is at {} now, no more at {}", peer.site,
-                         peer.application, AddressText(event.source).view(),
-                         AddressText(event.other).view());
     case aoim::PresenceEventKind::impostor:
-      return make_notice(NoticeKind::impostor,
-                         "{} speaks in the name of peer {}:{}, which is at {}: not believed",
-                         AddressText(event.other).view(), peer.site, peer.application,
-                         AddressText(event.source).view());
     case aoim::PresenceEventKind::crowd:
-      return make_notice(NoticeKind::crowd,
-                         "{} speaks for more peers than one host may: the rest are not believed",
-                         AddressText(event.source).view());
+      return sentence_of_addresses(event);
     case aoim::PresenceEventKind::quiet:
       return make_notice(NoticeKind::quiet, "peer {}:{} has not been heard for 2.5 s", peer.site,
                          peer.application);

@@ -50,6 +50,13 @@ const OwnedEntity* OwnedEntities::find(EntityNumber number) const noexcept {
   return number == 0 || number > slots_.size() ? nullptr : slots_[number - 1u].entity.get();
 }
 
+pdu::EntityId OwnedEntities::first_id() const noexcept {
+  for (EntityNumber number = 1; number <= last_number(); ++number) {
+    if (const OwnedEntity* entity = find(number)) return entity->id();
+  }
+  return simulation();
+}
+
 void OwnedEntities::rename(const pdu::SimulationAddress& simulation) noexcept {
   settings_.simulation = simulation;
   for_each([&](OwnedEntity& entity, EntityNumber number) {

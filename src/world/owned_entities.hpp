@@ -70,6 +70,8 @@ class OwnedEntities {
   [[nodiscard]] std::size_t last_number() const noexcept { return slots_.size(); }
   /// Those that hands can feel, in the order of add().
   [[nodiscard]] std::span<const EntityNumber> touchable() const noexcept { return touchable_; }
+  /// Of the entity with the least number; simulation() if there is none.
+  [[nodiscard]] pdu::EntityId first_id() const noexcept;
   /// First half of their IDs; entity 0 is the whole simulation.
   [[nodiscard]] pdu::EntityId simulation() const noexcept {
     return {settings_.simulation.site, settings_.simulation.application, 0};

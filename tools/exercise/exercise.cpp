@@ -36,11 +36,6 @@ std::size_t most_steps(nanoseconds period) {
 
 }  // namespace
 
-std::string servo_text(const peer::PeerThreads& threads) {
-  if (threads.servo() == nullptr) return "none: no device";
-  return threads.servo()->describe() + (threads.memory_locked() ? "; memory locked" : "");
-}
-
 struct Exercise::Member {
   SimulatedHands hands;
   std::unique_ptr<peer::JoinedPeer> joined;
@@ -196,12 +191,6 @@ nanoseconds Exercise::now() const noexcept {
 }
 
 nanoseconds Exercise::elapsed() const noexcept { return now() - begun_; }
-
-void Exercise::on_step(StepSink sink) { sink_ = std::move(sink); }
-
-void Exercise::on_body(BodySink sink) { body_sink_ = std::move(sink); }
-
-void Exercise::on_stage(StageSink sink) { stage_sink_ = std::move(sink); }
 
 void Exercise::run(nanoseconds span) {
   if (options_.simulated_time) {
@@ -363,14 +352,7 @@ void Exercise::stop() {
 ServoReport Exercise::servo_report() const {
   ServoReport report;
   for (const auto& member : members_) {
-    const peer::PeerThreads* threads = member->joined->threads();
-    if (threads == nullptr) continue;
-    const peer::DutyCycle& duty = threads->servo_duty();
-    report.lateness = worst(report.lateness, peer::percentiles(duty.lateness()));
-    report.loops.add(loops_of(*threads));
-    report.steps += duty.steps();
-    report.missed += duty.missed();
-    report.thread = servo_text(*threads);
+    if (member->joined->threads() != nullptr) report.add(*member->joined->threads());
   }
   return report;
 }

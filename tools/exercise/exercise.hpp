@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/bodies/body_world.hpp"
@@ -23,10 +24,10 @@
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/servo_thread.hpp"
-#include "reckon/tools/exercise/loop_report.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
 #include "reckon/tools/exercise/notice_digest.hpp"
 #include "reckon/tools/exercise/real_devices.hpp"
+#include "reckon/tools/exercise/servo_report.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -51,19 +52,6 @@ struct ExerciseOptions {
   haptics::ForceStop* force_stop = nullptr;  ///< of all hands; outlives the exercise; null: none
   bool time_servo = false;                   ///< simulated time: measure what servo steps take
   std::vector<std::string> plugins = {};     ///< real time: files of drivers that may be loaded
-};
-
-/// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory
-/// locked".
-[[nodiscard]] std::string servo_text(const peer::PeerThreads& threads);
-
-/// Percentiles of the servo's lateness over all peers (the worst of each), and missed periods.
-struct ServoReport {
-  peer::Percentiles lateness;
-  std::uint64_t steps = 0;
-  std::uint64_t missed = 0;
-  LoopReports loops;   ///< the worst of each
-  std::string thread;  ///< how the thread that serves them keeps time; empty in simulated time
 };
 
 /// A few peers in one process. One thread drives it.
@@ -117,14 +105,14 @@ class Exercise {
   /// With (peer, device, step), both numbered from 0.
   using StepSink = std::function<void(std::size_t, std::size_t, const haptics::ServoSnapshot&)>;
   /// Called for each recorded servo step of every device; see `demo --trace`.
-  void on_step(StepSink sink);
+  void on_step(StepSink sink) { sink_ = std::move(sink); }
   using BodySink = std::function<void(const haptics::BodyStep&)>;
   /// With trace_bodies: called for each recorded step of a body of the first peer.
-  void on_body(BodySink sink);
+  void on_body(BodySink sink) { body_sink_ = std::move(sink); }
   /// With the peer, numbered from 0.
   using StageSink = std::function<void(std::size_t, const peer::LoopStep&)>;
   /// With trace_loops: called for each recorded stage of the model loop of every peer.
-  void on_stage(StageSink sink);
+  void on_stage(StageSink sink) { stage_sink_ = std::move(sink); }
 
  private:
   struct Member;

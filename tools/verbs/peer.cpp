@@ -19,23 +19,19 @@
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/verb_rows.hpp"
-#include "reckon/tools/exercise/balance_report.hpp"
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
 #include "reckon/tools/exercise/native_code.hpp"
-#include "reckon/tools/exercise/real_devices.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
-#include "reckon/tools/exercise/simulated_hand.hpp"
-#include "reckon/tools/exercise/stop_control.hpp"
 #include "reckon/tools/metrics/metrics_server.hpp"
 #include "reckon/tools/metrics/peer_metrics.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
-#include "reckon/tools/verbs/demo_page.hpp"
 #include "reckon/tools/verbs/page_address.hpp"
+#include "reckon/tools/verbs/peer_lines.hpp"
 #include "reckon/tools/verbs/peer_page.hpp"
+#include "reckon/tools/verbs/running_peer.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -43,23 +39,6 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
-
-struct PeerVerbOptions {
-  SceneOptions scene;
-  DeviceChoice device;
-  std::string name;
-  std::optional<std::uint64_t> operator_number;
-  std::optional<std::uint64_t> application;
-  std::optional<nanoseconds> duration;
-  bool json = false;
-  bool events = false;
-  bool felt = false;
-  std::optional<nanoseconds> balance;
-  std::string to;
-  std::string follow;
-  ViewSwitch view;
-  std::string metrics, log;
-};
 
 /// Letters of an entity marking on the wire.
 constexpr std::size_t kLongestMarking = 11;
@@ -117,135 +96,6 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   add_log_flag(line, options.log);
   return line.parse(arguments, console);
 }
-
-// Whether it asks who is there which peer of the scene it is.
-bool asks_for_number(const peer::SceneFile& scene, const PeerVerbOptions& options) {
-  return !options.operator_number && peer::peers_of(scene) > 1 && !scene.network.interop;
-}
-
-// The peer that `options` ask for, with its simulated hands, and what there is to report of its
-// link.
-class RunningPeer {
- public:
-  RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
-              EntityEvents& events, peer::DatagramTap* tap)
-      : real_(plugins_of(options.device)),
-        joined_(federate_options(scene, options, hands_, real_, tap, stop_.stop()),
-                options.events ? &events : nullptr) {
-    if (joined_.options().deal) {
-      fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
-                 joined_.options().scene_peer);
-    }
-    for (const std::string& sentence : joined_.link_report()) {
-      fmt::print(console.err, "{}\n", sentence);
-    }
-    joined_.run();
-  }
-
-  void stop() { joined_.resign(); }
-  [[nodiscard]] nanoseconds elapsed() const { return joined_.elapsed(); }
-  [[nodiscard]] nanoseconds now() const { return joined_.clock().now(); }
-  [[nodiscard]] peer::Peer& peer() { return joined_.peer(); }
-  [[nodiscard]] std::vector<peer::Notice> sealing_notices() {
-    return joined_.take_sealing_notices();
-  }
-  [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
-  /// Of its devices, and of the software stop.
-  [[nodiscard]] std::vector<std::string> device_notices() {
-    std::vector<std::string> all = real_.take_notices();
-    for (std::string& sentence : hands_.take_notices()) all.push_back(std::move(sentence));
-    for (std::string& sentence : stop_.take_notices()) all.push_back(std::move(sentence));
-    return all;
-  }
-  void press_stop_key() { stop_.press_key(now()); }
-  /// Its hands that a page may move.
-  [[nodiscard]] const std::vector<PointerHand>& pointers() const { return hands_.pointers; }
-
- private:
-  static peer::FederateOptions federate_options(const peer::SceneFile& scene,
-                                                const PeerVerbOptions& options,
-                                                SimulatedHands& hands, RealDevices& real,
-                                                peer::DatagramTap* tap, haptics::ForceStop& stop) {
-    peer::FederateOptions own;
-    own.tap = tap;
-    own.force_stop = &stop;
-    own.name = options.name;
-    own.scene = scene;
-    own.loops = peer::FederateLoops::threads;
-    own.even_if_slow = options.scene.even_if_slow;
-    if (options.application) own.application = static_cast<std::uint16_t>(*options.application);
-    const bool lends = flags_of_switch(options.view).has_value();
-    const auto make_hands = [&scene, &options, &hands, &real, lends](std::uint32_t number) {
-      peer::SceneFile held = scene;
-      choose_device(options.device, held, number, peer::kMostPeers);
-      if (lends) let_pages_move_hands(held, number);
-      hands = make_simulated_hands(held, number);
-      real.plug_in(held, number, hands.wired);
-      return hands.wired;
-    };
-    if (asks_for_number(scene, options)) {
-      own.deal = make_hands;
-    } else {
-      own.scene_peer = static_cast<std::uint32_t>(options.operator_number.value_or(1));
-      own.devices = make_hands(own.scene_peer);
-    }
-    return own;
-  }
-
-  StopControl stop_;      // before the devices
-  SimulatedHands hands_;  // before the peer, which makes them while it joins
-  RealDevices real_;      // as well
-  peer::JoinedPeer joined_;
-};
-
-// At once, for whoever reads them from a pipe.
-void print_line(std::FILE* out, const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), out);
-  std::fflush(out);
-}
-
-void print_notice(std::FILE* out, peer::NoticeKind kind, peer::Severity severity,
-                  std::string_view text, double seconds) {
-  std::string line;
-  JsonObject(line)
-      .text("event", "notice")
-      .decimals("seconds", seconds, 3)
-      .text("text", text)
-      .text("notice", peer::facts_of(kind).id)
-      .text("severity", peer::name_of(severity))
-      .end("\n");
-  print_line(out, line);
-}
-
-/// What became of each datagram, reported so often.
-class BalanceLines {
- public:
-  BalanceLines(nanoseconds every, std::FILE* out) : every_(every), next_(every), out_(out) {}
-
-  [[nodiscard]] peer::DatagramTap& tap() { return tap_; }
-  void look(const RunningPeer& running) {
-    balance_.look();
-    if (running.elapsed() < next_) return;
-    next_ += every_;
-    tell(running, false);
-  }
-  /// The last line: nothing happens any more.
-  void end(const RunningPeer& running) {
-    balance_.look();
-    tell(running, true);
-  }
-
- private:
-  void tell(const RunningPeer& running, bool end) {
-    const double seconds = pdu::to_seconds(running.elapsed());
-    print_line(out_, balance_line(balance_.report(running.now(), end), seconds, end));
-  }
-
-  nanoseconds every_, next_;
-  std::FILE* out_;
-  peer::DatagramTap tap_;
-  peer::DatagramBalance balance_{tap_};
-};
 
 // What there is to tell since the last look.
 void tell_notices(RunningPeer& running, const Console& console, bool as_events,
@@ -328,30 +178,50 @@ void print_run(const PeerVerbOptions& options, bool lines, const FinishedRun& fi
   }
 }
 
-std::unique_ptr<RunningPeer> joined_peer(const peer::SceneFile& scene,
-                                         const PeerVerbOptions& options, const Console& console,
-                                         EntityEvents& events, peer::DatagramTap* tap) {
-  try {
-    return std::make_unique<RunningPeer>(scene, options, console, events, tap);
-  } catch (const UsageError&) {
-    throw;
-  } catch (const peer::StepTooDear& slow) {
-    throw EnvironmentError(refusal_of(slow));
-  } catch (const std::runtime_error& error) {
-    throw EnvironmentError(error.what());
-  }
-}
-
-int run(const PeerVerbOptions& options, const Console& console) {
-  const std::vector<peer::NamedPeer> list = read_list(options.to);
+peer::SceneFile checked_scene(const PeerVerbOptions& options, const Console& console) {
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                      options.operator_number.value_or(peer::kMostPeers));
   say_native_code(scene, console);
   check_balance(scene, options);
   check_application(scene, options);
-  const auto flags = flags_of_switch(options.view);
-  const bool has_key = !scene.network.key.empty();
-  if (flags) (void)server_options(*flags, has_key);  // refused before it joins
+  if (const auto flags = flags_of_switch(options.view))
+    (void)server_options(*flags, !scene.network.key.empty());  // refused before it joins
+  return scene;
+}
+
+/// A page opens with the first picture, which has the hands.
+class PageWhenSeen {
+ public:
+  PageWhenSeen(const PeerVerbOptions& options, const peer::SceneFile& scene)
+      : options_(options), scene_(scene), flags_(flags_of_switch(options.view)) {}
+
+  [[nodiscard]] bool is_wanted() const { return flags_.has_value(); }
+  /// Null until it is open.
+  [[nodiscard]] PeerPage* page() { return page_ ? &*page_ : nullptr; }
+  void show(RunningPeer& running, const peer::PeerView& view, LiveDisplay& display) {
+    if (!flags_) return;
+    if (!page_) {
+      const PeerPageOptions named{options_.scene.scene, options_.scene.iface};
+      page_.emplace(*flags_, scene_, named, view, running.pointers());
+      page_->add_receiver(running.peer());
+      show_address(page_->view(), !scene_.network.key.empty(), display);
+      browser_ = open_browser(*flags_, page_->view().address());
+    }
+    page_->show(view);
+  }
+  void close() { page_.reset(); }
+
+ private:
+  const PeerVerbOptions& options_;
+  const peer::SceneFile& scene_;
+  std::optional<ViewFlags> flags_;
+  std::optional<PeerPage> page_;
+  std::unique_ptr<BrowserRedirect> browser_;
+};
+
+int run(const PeerVerbOptions& options, const Console& console) {
+  const std::vector<peer::NamedPeer> list = read_list(options.to);
+  peer::SceneFile scene = checked_scene(options, console);
   send_to(list, scene.network, console);
   follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer
@@ -365,26 +235,18 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1, options.log);
   if (metrics) display.add({metrics->sentence()});
-  std::optional<PeerPage> page;
-  std::unique_ptr<BrowserRedirect> browser;
+  PageWhenSeen page(options, scene);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};
-  bool shown = false;  // a picture has come: it has the hands
+  bool shown = false;  // a picture has come
   nanoseconds look_every = display.is_drawn() ? LiveDisplay::kKeysEvery : kLookEvery;
-  if (flags) look_every = SelfView::kLookEvery;
+  if (page.is_wanted()) look_every = SelfView::kLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
     std::this_thread::sleep_for(std::min(look_every, end - running->elapsed()));
     shown |= running->peer().views().update();
     const peer::PeerView& view = running->peer().views().read();
     const double elapsed = pdu::to_seconds(running->elapsed());
-    if (flags && shown && !page) {
-      const PeerPageOptions named{options.scene.scene, options.scene.iface};
-      page.emplace(*flags, scene, named, view, running->pointers());
-      page->add_receiver(running->peer());
-      show_address(page->view(), has_key, display);
-      browser = open_browser(*flags, page->view().address());
-    }
-    if (page) page->show(view);
+    if (shown) page.show(*running, view, display);
     if (metrics && metrics->is_due(running->now()))
       metrics->show(peer_metrics(running->peer(), running->threads(), view, elapsed),
                     running->now());
@@ -395,13 +257,13 @@ int run(const PeerVerbOptions& options, const Console& console) {
       next_felt += kLookEvery;
     }
     if (display.take_stop_key()) running->press_stop_key();
-    tell_notices(*running, console, options.events, display, page ? &*page : nullptr);
+    tell_notices(*running, console, options.events, display, page.page());
     const TablePeer table{&view, &running->peer().counters()};
     display.show(std::span(&table, 1), scene, running->elapsed());
   }
   const FinishedRun finished{running->peer(), running->threads(),
                              pdu::to_seconds(running->elapsed())};
-  page.reset();
+  page.close();
   running->stop();
   if (balance) balance->end(*running);
   tell_notices(*running, console, options.events, display, nullptr);

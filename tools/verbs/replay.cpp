@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,15 +22,16 @@
 #include "reckon/tools/captures/replay_senders.hpp"
 #include "reckon/tools/captures/timestamp_rewrite.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
-#include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/keys.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/replay_options.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -40,42 +39,10 @@ namespace {
 using std::chrono::nanoseconds;
 
 /// A long wait is split into pieces of this length, so that Ctrl-C takes effect.
-constexpr nanoseconds kReplayPatience = std::chrono::milliseconds(100);
+constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
 /// Interval between reads of the keys while datagrams follow each other closely.
 constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
-
-constexpr std::string_view kReplaySummary =
-    "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
-    "They reach every program of this host that has joined their groups; with --iface also the\n"
-    "network there, in IP fragments where they are above its MTU. FILE is pcap or pcapng, also\n"
-    "compressed. What is sealed goes out as it is, and members refuse it as a recording;\n"
-    "with --key it goes out plain, to the port below. At the end it tells the speed that it kept.\n"
-    "On a terminal, keys: space pauses and goes on, left and right leap by 10 s, + and - double\n"
-    "and halve the speed, q ends.";
-constexpr std::string_view kReplayExamples =
-    "reckon replay exercise.pcapng\n"
-    "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
-    "reckon replay exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
-    "reckon replay exercise.pcapng --to udp://192.168.1.255:3000\n"
-    "reckon replay exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'\n"
-    "reckon replay exercise.pcapng --map-exercise 1=7 --map-id 1:2:*=9:2:* --map-place "
-    "34.05,-118.24";
-
-struct ReplayOptions {
-  std::string file;
-  std::vector<std::string> to;  ///< as given: a destination, the end of the range, or both
-  std::optional<peer::IpEndpoint> destination;
-  bool broadcast = false;
-  std::string interface;  ///< empty: lo, or the interface of the broadcast address
-  double rate = 1.0;
-  std::uint64_t loop = 1;
-  bool rewrite_time = false;
-  bool json = false;
-  std::string key;  ///< file; empty: none
-  SelectionOptions selection;
-  ExerciseMapOptions map;
-};
 
 struct ReplayCounts {
   std::uint64_t sent = 0;
@@ -85,12 +52,6 @@ struct ReplayCounts {
   std::uint64_t refused = 0;     ///< by the kernel
   nanoseconds latest{};          ///< greatest lateness
 };
-
-/// Whether a capture can be read a second time from its beginning: a pipe cannot.
-bool can_be_read_again(const std::string& file) {
-  std::error_code none;
-  return file.starts_with("raw:") || std::filesystem::is_regular_file(file, none);
-}
 
 /// One run of the verb.
 class Replay {
@@ -223,11 +184,11 @@ bool Replay::wait_for_turn() {
   while (!has_ended() && !schedule_->is_skipped()) {
     const nanoseconds now = clock_.now();
     const bool paused = schedule_->is_paused();
-    const nanoseconds left = paused ? kReplayPatience : schedule_->due() - now;
+    const nanoseconds left = paused ? kPatience : schedule_->due() - now;
     const bool look = terminal_.is_active() && now - looked_ >= kKeyPeriod;
     if (left <= nanoseconds::zero() && !look) return true;
     if (status_.due(now)) show_status(now);
-    take_keys(std::clamp(left, nanoseconds::zero(), kReplayPatience));
+    take_keys(std::clamp(left, nanoseconds::zero(), kPatience));
     if (read_again_) return false;
   }
   return false;
@@ -359,65 +320,9 @@ ExitCode Replay::summarise() const {
   return whole || has_ended() ? ExitCode::good : ExitCode::findings;
 }
 
-/// Distinguishes a destination from a time, and finds the interface of a broadcast address.
-void settle_destination(ReplayOptions& options) {
-  for (const std::string& text : options.to) {
-    const auto end = parse_duration(text);
-    if ((end.has_value() && options.selection.to.has_value()) ||
-        (!end.has_value() && options.destination.has_value()))
-      throw UsageError(
-          fmt::format("--to {}: the second {}; give one, and run `reckon replay` twice for two",
-                      text, end.has_value() ? "end of the range" : "destination"));
-    if (end.has_value())
-      options.selection.to = end;
-    else
-      options.destination = parse_destination(text);
-  }
-  if (options.destination.has_value()) {
-    const auto interface = broadcast_interface(*options.destination, local_networks());
-    options.broadcast = interface.has_value();
-    if (options.interface.empty()) options.interface = interface.value_or("");
-  }
-  if (options.interface.empty()) options.interface = "lo";
-}
-
-void check(const ReplayOptions& options) {
-  if (!std::isfinite(options.rate) || options.rate < 0)
-    throw UsageError(fmt::format(
-        "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
-        options.rate));
-  // A missing file is reported when it is opened.
-  std::error_code none;
-  const bool is_pipe = options.file == "-" || (std::filesystem::exists(options.file, none) &&
-                                               !can_be_read_again(options.file));
-  if (is_pipe && options.loop != 1)
-    throw UsageError(fmt::format("{} can be played only once; save it to a file for --loop",
-                                 options.file == "-" ? "standard input" : options.file));
-}
-
 int run_replay(Arguments arguments, const Console& console) {
   ReplayOptions options;
-  CommandLine line("replay", kReplaySummary, kReplayExamples);
-  line.word("FILE", options.file, true, "the capture; - is stdin");
-  line.option("--to", options.to,
-              "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
-              "where it was sent); or stop this long after the first datagram, for example 2min");
-  line.option("--iface", options.interface,
-              "interface to send on (default: lo, which reaches only this host; for a broadcast "
-              "address, the "
-              "one it belongs to); 'recorded': the one that the capture names");
-  line.offer("--iface", kInterfaces);
-  line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
-  line.option("--loop", options.loop, "repeat this many times; 0: until Ctrl-C");
-  options.selection.declare(line);
-  line.option("--key", options.key, "key file: what is sealed is sent plain, to the port below");
-  line.flag("--rewrite-time", options.rewrite_time,
-            "set the PDUs' timestamps to the time of sending");
-  options.map.declare(line);
-  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
-  if (const auto status = line.parse(arguments, console)) return *status;
-  check(options);
-  settle_destination(options);
+  if (const auto status = parse_replay(arguments, console, options)) return *status;
 
   Replay replay(options, console);
   replay.run();

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "reckon/haptics/bodies/contact_islands.hpp"
+#include "reckon/tests/haptics/support/body_table.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::haptics {
@@ -20,57 +21,9 @@ namespace {
 
 using Eigen::Vector3d;
 using std::chrono::nanoseconds;
-
-constexpr nanoseconds kStep = std::chrono::milliseconds(1);
-constexpr double kG = 9.81;
-
-/// Objects of a scene, and its world on a clock that is stepped.
-class Table {
- public:
-  /// What is returned lasts until the next one is added.
-  SceneObject& box(double edge, const Vector3d& at, Matter matter) {
-    SceneObject& object = scene_.objects.emplace_back();
-    object.name = "box " + std::to_string(scene_.objects.size());
-    object.shape = BoxShape{Vector3d::Constant(edge)};
-    object.pose.position = at;
-    object.matter = matter;
-    return object;
-  }
-  SceneObject& ball(double radius, const Vector3d& at, Matter matter) {
-    SceneObject& object = box(1.0, at, matter);
-    object.shape = SphereShape{radius};
-    return object;
-  }
-  SceneObject& floor(Matter matter = {}) {
-    SceneObject& object = box(1.0, Vector3d::Zero(), matter);
-    object.shape = PlaneShape{Vector3d::UnitZ()};
-    return object;
-  }
-  void without_gravity() { scene_.gravity.setZero(); }
-  void within(const Vector3d& size, double restitution) {
-    scene_.work_space.size = size;
-    scene_.work_space.restitution = restitution;
-  }
-  BodyWorld& begin() {
-    plan_.emplace(scene_);
-    world_ = std::make_unique<BodyWorld>(*plan_, scene_.gravity, nullptr, scene_.work_space);
-    world_->advance_to(now_);
-    return *world_;
-  }
-  void run(double seconds, nanoseconds step = kStep) {
-    const auto steps = std::llround(seconds / (1e-9 * static_cast<double>(step.count())));
-    for (long i = 0; i < steps; ++i) world_->advance_to(now_ += step);
-  }
-  [[nodiscard]] const BodyState& state(std::size_t body = 0) const {
-    return world_->states()[body];
-  }
-
- private:
-  Scene scene_;
-  std::optional<EffectPlan> plan_;
-  std::unique_ptr<BodyWorld> world_;
-  nanoseconds now_{1'000'000'000};
-};
+using tables::kG;
+using tables::kStep;
+using tables::Table;
 
 TEST(BodyWorld, AFreeBodyFallsAsTheClosedFormSays) {
   for (const int microseconds : {1000, 250, 3000}) {
@@ -390,75 +343,6 @@ TEST(BodyWorld, LiesOnAMesh) {
   table.run(1.5);
   EXPECT_NEAR(table.state(0).position.z(), 0.02, 1e-4);
   EXPECT_NEAR(table.state(1).position.z(), 0.03, 1e-4);
-}
-
-// A ball between the walls of a work space: each rebound leaves the square of the restitution, of
-// each axis, and nothing is ever outside.
-TEST(BodyWorld, KeepsBodiesWithinTheWorkSpace) {
-  for (const double e : {1.0, 0.9}) {
-    for (const double speed : {0.5137, 20.31, 150.7}) {
-      Table table;
-      table.without_gravity();
-      table.within({0.4, 0.3, 0.5}, e);
-      table.ball(0.02, Vector3d::Zero(), {0.1});
-      BodyWorld& world = table.begin();
-      world.push(0, Vector3d::Zero(), 0.1 * speed / 1e-3 * Vector3d::UnitX());
-      table.run(0.001);
-      const double begin = world.energy();
-      int rebounds = 0;
-      for (int i = 0; i < 2000; ++i) {
-        const double before = table.state().velocity.x(), at = table.state().position.x();
-        table.run(0.001);
-        const Vector3d& p = table.state().position;
-        ASSERT_LE(std::abs(p.x()), 0.18 + 1e-15) << speed;
-        // Walls that it met in this step, from where it was.
-        double v = before, x = at, left = 1e-3;
-        while (v != 0 && (v > 0 ? 0.18 - x : x + 0.18) < std::abs(v) * left) {
-          left -= (v > 0 ? 0.18 - x : x + 0.18) / std::abs(v);
-          x = v > 0 ? 0.18 : -0.18;
-          v *= -e;
-          ++rebounds;
-        }
-        ASSERT_NEAR(world.energy() / (begin * std::pow(e, 2 * rebounds)), 1.0, 1e-9) << rebounds;
-      }
-      EXPECT_GT(rebounds, 1);
-    }
-  }
-}
-
-TEST(BodyWorld, HoldsTumblingBoxesInTheWorkSpaceTooWithWeight) {
-  Table table;
-  table.within({0.4, 0.3, 0.5}, 0.7);
-  for (int i = 0; i < 8; ++i)
-    table.box(0.04, Vector3d(0.05 * (i % 4) - 0.08, 0.06 * (i / 4), 0), {0.1});
-  BodyWorld& world = table.begin();
-  for (std::size_t i = 0; i < 8; ++i)
-    world.push(i, table.state(i).position + Vector3d(0, 0.01, 0.02),
-               Vector3d(40.0 - 9.0 * static_cast<double>(i), 30, 50));
-  double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 5000; ++i) {
-    table.run(0.001);
-    ASSERT_LE(world.energy(), last + 1e-3) << i;
-    last = std::min(last, world.energy());
-    for (std::size_t k = 0; k < 8; ++k)
-      ASSERT_TRUE((table.state(k).position.array().abs() <= Eigen::Array3d(0.2, 0.15, 0.25)).all());
-  }
-}
-
-TEST(BodyWorld, SlowsABodyByItsDrag) {
-  Table table;
-  table.ball(0.02, {0, 0, 1}, {0.1, 0.5, 0.0, 0.05});
-  table.begin();
-  table.run(1.0);
-  const double c = 0.5, t = 1.0;
-  EXPECT_NEAR(table.state().velocity.z(), -kG / c * (1 - std::exp(-c * t)), 1e-9);
-  EXPECT_NEAR(table.state().position.z(), 1 - kG / c * (t - (1 - std::exp(-c * t)) / c), 1e-9);
-}
-
-TEST(BodyWorld, RefusesWhatCannotMoveByName) {
-  Table plane;
-  plane.floor({1.0});
-  EXPECT_THROW(plane.begin(), std::invalid_argument);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -21,33 +20,24 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/haptics/support/flaky_device.hpp"
+#include "reckon/tests/haptics/support/squeezed_cube.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
+using faults::FlakyDevice;
+using faults::weaken;
+using squeezed::cube_of;
+using squeezed::device_at;
+using squeezed::ease;
+using squeezed::hand_at;
+using squeezed::kHalf;
+using squeezed::kT;
+using squeezed::target;
 using std::chrono::nanoseconds;
-
-constexpr double kT = 1e-3;
-constexpr double kHalf = 0.02;  // [m], of the cube
-
-double ease(double t) {
-  return t <= 0 ? 0 : t >= 1 ? 1 : 0.5 - 0.5 * std::cos(std::numbers::pi * t);
-}
-
-/// Where hand 0, at the left, or 1 wants to be: they close in, squeeze, and carry to and fro.
-double target(int side, double t) {
-  const double way = side == 1 ? 1 : -1;
-  const double carry = t > 4 && t < 8 ? 0.02 * std::sin(2 * std::numbers::pi * 1.5 * (t - 4)) : 0;
-  return way * (0.03 - 0.01 * ease(t / 0.2)) - way * 0.015 * ease((t - 0.2) / 0.8) + carry;
-}
-HandTarget hand_at(int side, double t) {
-  HandTarget out;
-  out.position.x() = target(side, t);
-  out.velocity.x() = (target(side, t + 1e-4) - target(side, t - 1e-4)) / 2e-4;
-  return out;
-}
 
 struct Play {
   std::vector<std::array<double, 2>> forces;  // [N], on each hand, a row each millisecond
@@ -78,29 +68,6 @@ Play truth(double mass, double stiffness, double end) {
     body += kStep * speed;
   }
   return out;
-}
-
-Scene cube_of(double mass, double stiffness) {
-  Scene scene;
-  scene.gravity.setZero();
-  SceneObject& cube = scene.objects.emplace_back();
-  cube.name = "cube";
-  cube.shape = BoxShape{Vector3d::Constant(2 * kHalf)};
-  cube.effects.of<SpringDamper>() = {stiffness, 0.0};
-  cube.matter.mass = mass;
-  return scene;
-}
-
-SimulatedDeviceConfig device_at(const Vector3d& start) {
-  SimulatedDeviceConfig config;
-  config.mass = 0.1;
-  config.damping = 1.0;
-  config.hand_stiffness = 300;
-  config.hand_damping = 3;
-  config.max_force = 30;
-  config.max_speed = 5;
-  config.start = start;
-  return config;
 }
 
 Play served(double mass, double stiffness, double end, unsigned late_seed = 0) {
@@ -188,22 +155,11 @@ TEST(PushedBody, MakesNoEnergyWhereStepsAreLate) {
 // A handle that is not read for some samples: the body goes on, and the books go with it. What the
 // hand did meanwhile is not known, so that the force may fade in again, on a loan.
 TEST(PushedBody, KeepsTheBooksWhileAReadingFails) {
-  class Flaky : public SimulatedDevice {
-   public:
-    using SimulatedDevice::SimulatedDevice;
-    DeviceSample read(nanoseconds now) noexcept override {
-      DeviceSample sample = SimulatedDevice::read(now);
-      sample.ok = random() % rate != 0;
-      return sample;
-    }
-    std::mt19937 random{1};
-    unsigned rate = 1000;
-  };
   const Scene scene = cube_of(0.2, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
   for (const unsigned rate : {1000U, 40U}) {
     const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-    Flaky left(device_at(hand_at(0, 0).position), [](double t) { return hand_at(0, t); });
+    FlakyDevice left(device_at(hand_at(0, 0).position), [](double t) { return hand_at(0, t); });
     SimulatedDevice right(device_at(hand_at(1, 0).position),
                           [](double t) { return hand_at(1, t); });
     left.rate = rate;
@@ -231,21 +187,39 @@ TEST(PushedBody, KeepsTheBooksWhileAReadingFails) {
   }
 }
 
+// A hand squeezes the cube, lets it go and squeezes it again.
+HandTarget squeezes(int side, double t) {
+  HandTarget out = hand_at(side, std::min(t, 3.0));
+  const double open = t > 1.5 ? 0.5 - 0.5 * std::cos(4 * (t - 1.5)) : 0.0;
+  out.position.x() += (side == 1 ? 0.025 : -0.025) * open;
+  return out;
+}
+
+// A hand of another peer that lies about its place and gives nothing.
+ContactSet lying_hand(std::mt19937& random, nanoseconds now, std::uint32_t version) {
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  ContactSet set;
+  set.count = 1;
+  RemoteHand& other = set.hands[0];
+  other.id = {2, 1, 7};
+  other.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  other.state.position = {-0.02 + 0.01 * any(random), 0, 0};
+  other.state.velocity = {any(random) - 0.5, 0, 0};
+  other.state_time = now;
+  other.model.kind = pdu::ForceModelKind::plane;
+  other.model.k1 = 400;
+  other.model.normal = {-1, 0, 0};
+  other.model.validity = 12;
+  other.valid_until = now + std::chrono::seconds(12);
+  other.version = version;
+  other.epoch = 1;
+  return set;
+}
+
 // What cuts the force also cuts what the body gets: little strength, readings that fail, a device
 // that lets go, steps that are late, and another peer's hand at the first one, which lies about its
 // place and gives nothing.
 TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
-  class Flaky : public SimulatedDevice {
-   public:
-    using SimulatedDevice::SimulatedDevice;
-    DeviceSample read(nanoseconds now) noexcept override {
-      DeviceSample sample = SimulatedDevice::read(now);
-      sample.ok = rate == 0 || random() % rate != 0;
-      return sample;
-    }
-    std::mt19937 random{1};
-    unsigned rate = 0;
-  };
   double worst = -1e9, cut = 0.0;
   int free = 0;
   // In 364 the port of a light, fast body has nothing left for less than the force at the begin.
@@ -260,23 +234,14 @@ TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
     const Scene scene = cube_of(mass, stiffness);
     const auto plan = std::make_shared<const EffectPlan>(scene);
     const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-    std::array<std::optional<Flaky>, 2> devices;
+    std::array<std::optional<FlakyDevice>, 2> devices;
     std::array<std::optional<ServoLoop>, 2> servos;
     for (int s = 0; s < 2; ++s) {
       const auto k = static_cast<std::size_t>(s);
       SimulatedDeviceConfig config = device_at(hand_at(s, 0).position);
       config.damping = 0.5 + any(random);
-      config.max_force = random() % 2 == 0 ? 0.5 + 2 * any(random) : 30.0;
-      config.delay_samples = random() % 4 == 0 ? 1 : 0;
-      config.resolution = random() % 4 == 0 ? 1e-5 : 0.0;
-      if (random() % 3 == 0) config.hold = nanoseconds(1'500'000);
-      // They squeeze it, let it go and squeeze it again.
-      devices[k].emplace(config, [s](double t) {
-        HandTarget out = hand_at(s, std::min(t, 3.0));
-        const double open = t > 1.5 ? 0.5 - 0.5 * std::cos(4 * (t - 1.5)) : 0.0;
-        out.position.x() += (s == 1 ? 0.025 : -0.025) * open;
-        return out;
-      });
+      weaken(config, random);
+      devices[k].emplace(config, [s](double t) { return squeezes(s, t); });
       devices[k]->random.seed(seed);
       devices[k]->rate = random() % 3 == 0 ? 200 : 0;
       servos[k].emplace(*devices[k], plan, ServoConfig{}, world);
@@ -289,22 +254,7 @@ TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
       bool touched = false;
       for (std::size_t s = 0; s < 2; ++s) {
         if (s == 0 && lies && i % 20 == 0) {
-          ContactSet set;
-          set.count = 1;
-          RemoteHand& other = set.hands[0];
-          other.id = {2, 1, 7};
-          other.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
-          other.state.position = {-0.02 + 0.01 * any(random), 0, 0};
-          other.state.velocity = {any(random) - 0.5, 0, 0};
-          other.state_time = now;
-          other.model.kind = pdu::ForceModelKind::plane;
-          other.model.k1 = 400;
-          other.model.normal = {-1, 0, 0};
-          other.model.validity = 12;
-          other.valid_until = now + std::chrono::seconds(12);
-          other.version = ++version;
-          other.epoch = 1;
-          servos[s]->contacts().write(set);
+          servos[s]->contacts().write(lying_hand(random, now, ++version));
         }
         servos[s]->step(now);
         EXPECT_TRUE(servos[s]->snapshots().update());
@@ -324,99 +274,6 @@ TEST(PushedBody, MakesNoEnergyWhateverCutsItsForce) {
   }
   EXPECT_GT(cut, 0.5) << "nothing was cut";
   EXPECT_GT(free, 50'000) << "they never let go";
-}
-
-/// A cube on a floor, and fingers from both sides that lift it, shake it and put it down.
-struct Lift {
-  double highest = 0.0;  // [m], of the cube's middle
-  double turned = 0.0;   // [rad], at most
-  double slipped = 0.0;  // [m], of the cube against the fingers while it is carried
-  double at_end = 0.0;   // [m], height
-  double made = -1e9;    // [J]
-};
-/// @param off [m], of the fingers beside the cube's middle  @param patch [m], of the fingers
-Lift lift(double mass, double stiffness, double friction, double off = 0.0, double patch = 0.0) {
-  Scene scene = cube_of(mass, stiffness);
-  scene.gravity = {0, 0, -9.81};
-  scene.objects[0].pose.position.z() = kHalf;
-  scene.objects[0].effects.declare<StickSlipFriction>() = {friction, 0.9 * friction};
-  SceneObject& floor = scene.objects.emplace_back();
-  floor.name = "floor";
-  floor.shape = PlaneShape{Vector3d::UnitZ()};
-  floor.effects.of<SpringDamper>() = {400, 0.0};
-  const auto plan = std::make_shared<const EffectPlan>(scene);
-  const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-  const auto script = [off](int side, double t) {
-    HandTarget out = hand_at(side, std::min(t, 3.0));
-    out.position.y() = off;
-    out.velocity.setZero();
-    const double way = side == 1 ? 1 : -1;
-    if (t > 8.5) out.position.x() += way * 0.02 * ease((t - 8.5) / 0.5);
-    const double shake =
-        t > 4 && t < 7 ? 0.008 * std::sin(2 * std::numbers::pi * 3 * (t - 4)) : 0.0;
-    out.position.z() = kHalf + 0.04 * (ease((t - 2) / 1.0) - ease((t - 7.2) / 1.0)) + shake;
-    return out;
-  };
-  std::array<std::optional<SimulatedDevice>, 2> devices;
-  std::array<std::optional<ServoLoop>, 2> servos;
-  for (int s = 0; s < 2; ++s) {
-    const auto k = static_cast<std::size_t>(s);
-    devices[k].emplace(device_at(script(s, 0).position), [=](double t) { return script(s, t); });
-    ServoConfig config;
-    config.patch_radius = patch;
-    servos[k].emplace(*devices[k], plan, config, world);
-  }
-  Lift out;
-  std::optional<double> carried;
-  for (int i = 0; i < 10'000; ++i) {
-    double taken = 0.0;
-    Vector3d fingers = Vector3d::Zero();
-    for (std::size_t s = 0; s < 2; ++s) {
-      servos[s]->step(nanoseconds(1'000'000'000 + 1'000'000L * i));
-      taken += devices[s]->port_work() + devices[s]->damping_loss();
-      EXPECT_TRUE(servos[s]->snapshots().update());
-      fingers += 0.5 * servos[s]->snapshots().read().device;
-    }
-    const BodyState& cube = world->states()[0];
-    out.made = std::max(out.made, world->energy() - taken);
-    out.highest = std::max(out.highest, cube.position.z());
-    if (i > 3000 && i < 7000) {
-      const Eigen::AngleAxisd turn(cube.orientation);
-      out.turned = std::max(out.turned, std::abs(turn.angle()));
-      const double below = fingers.z() - cube.position.z();
-      if (!carried) carried = below;
-      out.slipped = std::max(out.slipped, std::abs(below - *carried));
-    }
-  }
-  out.at_end = world->states()[0].position.z();
-  return out;
-}
-
-TEST(PushedBody, IsLiftedByTwoFingersShakenAndPutDown) {
-  const Lift cube = lift(0.05, 400, 0.9);
-  std::printf("turned %.3g rad, moved %.3g mm against the fingers, made %.3g J\n", cube.turned,
-              1e3 * cube.slipped, cube.made);
-  EXPECT_GT(cube.highest, kHalf + 0.03);
-  EXPECT_LT(cube.turned, 0.02);
-  EXPECT_LT(cube.slipped, 0.003) << "the springs of the fingers give way";
-  EXPECT_NEAR(cube.at_end, kHalf, 1e-4);
-  EXPECT_LE(cube.made, 1e-9);
-  EXPECT_LT(lift(0.05, 400, 0.05).highest, kHalf + 0.005) << "a slippery one stays on the floor";
-}
-
-// Held beside its middle, a cube swings through between two points. A patch holds it, as far as
-// 2/3 of friction, force and radius goes.
-TEST(PushedBody, IsHeldAgainstTurningByPatches) {
-  const Lift points = lift(0.1, 400, 0.9, 0.004);
-  const Lift patches = lift(0.1, 400, 0.9, 0.004, 0.006);
-  std::printf(
-      "turned %.3g rad between points, %.3g between patches of 6 mm, made %.3g and %.3g J\n",
-      points.turned, patches.turned, points.made, patches.made);
-  EXPECT_GT(points.turned, 0.5);
-  EXPECT_LT(patches.turned, 0.02);
-  EXPECT_GT(patches.highest, kHalf + 0.03);
-  EXPECT_LE(patches.made, 1e-9);
-  EXPECT_GT(lift(0.1, 400, 0.9, 0.004, 0.001).turned, 0.3) << "too small a patch slips";
 }
 
 // What is malloc'd by the engine below is counted nowhere here: a run with malloc replaced says 0.
@@ -454,119 +311,6 @@ TEST(PushedBody, IsSteppedWithoutAllocation) {
   EXPECT_GT(felt, 0.1);
 }
 
-// What lies against something that stands still does not give way, however light it is.
-TEST(PushedBody, IsAWallWhereItLiesOnTheFloor) {
-  for (const double mass : {0.001, 0.01, 0.1, 1.0}) {
-    Scene scene = cube_of(mass, 500);
-    scene.gravity = {0, 0, -9.81};
-    scene.objects[0].pose.position.z() = kHalf;
-    SceneObject& floor = scene.objects.emplace_back();
-    floor.name = "floor";
-    floor.shape = PlaneShape{Vector3d::UnitZ()};
-    floor.effects.of<SpringDamper>() = {400, 0.0};
-    const auto plan = std::make_shared<const EffectPlan>(scene);
-    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-    const auto down = [](double t) {
-      HandTarget target;
-      target.position.z() = 2 * kHalf + 0.01 - 0.02 * ease(t);
-      return target;
-    };
-    SimulatedDevice device(device_at(down(0).position), down);
-    ServoLoop servo(device, plan, ServoConfig{}, world);
-    for (int i = 0; i < 3000; ++i) servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
-    ASSERT_TRUE(servo.snapshots().update());
-    const ServoSnapshot& step = servo.snapshots().read();
-    // The hand's spring of 300 N/m wants 10 mm into what has 500 N/m.
-    const double right = 500.0 * 300.0 / 800.0 * 0.01;
-    EXPECT_NEAR(step.force.z(), right, 0.005 * right) << mass << " kg";
-    EXPECT_NEAR(world->states()[0].position.z(), kHalf, 1e-4) << mass << " kg";
-  }
-}
-
-// A hand that pushes a cube over a floor with friction feels that friction, mu m g.
-TEST(PushedBody, IsPushedOverAFloorAgainstItsFriction) {
-  for (const double mass : {0.005, 0.05, 0.5}) {
-    Scene scene = cube_of(mass, 500);
-    scene.gravity = {0, 0, -9.81};
-    scene.objects[0].pose.position.z() = kHalf;
-    scene.objects[0].matter.friction = 0.5;
-    SceneObject& floor = scene.objects.emplace_back();
-    floor.name = "floor";
-    floor.shape = PlaneShape{Vector3d::UnitZ()};
-    floor.effects.of<SpringDamper>() = {400, 0.0};
-    floor.matter.friction = 0.5;
-    const auto plan = std::make_shared<const EffectPlan>(scene);
-    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-    const auto along = [](double t) {
-      HandTarget target;
-      target.position = {-0.03 + 0.05 * t, 0, 0.3 * kHalf};  // below the middle: it does not tip
-      return target;
-    };
-    SimulatedDevice device(device_at(along(0).position), along);
-    ServoLoop servo(device, plan, ServoConfig{}, world);
-    double sum = 0.0;
-    for (int i = 0; i < 4000; ++i) {
-      servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
-      ASSERT_TRUE(servo.snapshots().update());
-      if (i >= 2000) sum -= servo.snapshots().read().force.x() / 2000;
-    }
-    const double right = 0.5 * mass * 9.81;
-    EXPECT_NEAR(sum, right, 0.02 * right) << mass << " kg";
-  }
-}
-
-TEST(PushedBody, StandsStillWhileTheSimulationIsFrozen) {
-  Scene scene = cube_of(0.05, 400);
-  scene.gravity = {0, 0, -9.81};
-  const auto plan = std::make_shared<const EffectPlan>(scene);
-  const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-  SimulatedDevice device(device_at(Vector3d(0, 0, 0.2)));
-  ServoLoop servo(device, plan, ServoConfig{}, world);
-  nanoseconds now{1'000'000'000};
-  const auto run = [&](int steps, bool frozen) {
-    ContactSet set;
-    set.frozen = frozen;
-    servo.contacts().write(set);
-    for (int i = 0; i < steps; ++i) servo.step(now += nanoseconds(1'000'000));
-  };
-  run(100, false);
-  const double fell = world->states()[0].position.z();
-  EXPECT_NEAR(fell, -0.5 * 9.81 * 0.01, 1e-3);
-  run(1, true);
-  const double stands = world->states()[0].position.z();
-  run(500, true);
-  EXPECT_EQ(world->states()[0].position.z(), stands);
-  run(1, false);
-  const double on = world->states()[0].position.z();
-  run(50, false);
-  EXPECT_NEAR(world->states()[0].position.z(), on - 9.81 * (0.1 * 0.05 + 0.5 * 0.0025), 1e-3)
-      << "it falls on as fast as it was";
-}
-
-// However light it is, and whoever presses it.
-TEST(PushedBody, IsAWallWhileTheSimulationIsFrozen) {
-  const Scene scene = cube_of(0.001, 500);
-  const auto plan = std::make_shared<const EffectPlan>(scene);
-  const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-  const auto in = [](double t) {
-    HandTarget target;
-    target.position.x() = -0.03 + 0.02 * ease(t);
-    return target;
-  };
-  SimulatedDevice device(device_at(in(0).position), in);
-  ServoLoop servo(device, plan, ServoConfig{}, world);
-  ContactSet set;
-  set.frozen = true;
-  servo.contacts().write(set);
-  for (int i = 0; i < 3000; ++i) servo.step(nanoseconds(1'000'000'000 + 1'000'000L * i));
-  ASSERT_TRUE(servo.snapshots().update());
-  // The hand's spring of 300 N/m wants 10 mm into what has 500 N/m.
-  const double right = 500.0 * 300.0 / 800.0 * 0.01;
-  EXPECT_NEAR(-servo.snapshots().read().force.x(), right, 0.005 * right);
-  EXPECT_EQ(world->states()[0].position, Vector3d::Zero());
-  EXPECT_EQ(world->states()[0].velocity, Vector3d::Zero());
-}
-
 TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
   const Scene scene = cube_of(0.0003, 500);
   const auto plan = std::make_shared<const EffectPlan>(scene);
@@ -574,61 +318,6 @@ TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
   SimulatedDevice device{SimulatedDeviceConfig{}};
   EXPECT_THROW(ServoLoop(device, plan, ServoConfig{}, world), std::invalid_argument);
   EXPECT_THROW(ServoLoop(device, plan, ServoConfig{}), std::invalid_argument);
-}
-
-// It goes on after the hands' forces are written, for a whole period: where the next step comes
-// sooner it is ahead by so much, and where it comes up to 50 us later, behind.
-TEST(PushedBody, FallsBesideAHandAsTheClosedFormSaysWhereStepsJitter) {
-  Scene scene = cube_of(0.05, 400);
-  scene.gravity = {0, 0, -9.81};
-  const auto plan = std::make_shared<const EffectPlan>(scene);
-  for (const long jitter : {0L, 40'000L, 400'000L, 20'000'000L}) {
-    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-    SimulatedDevice device(device_at(Vector3d(0, 0.5, 0)));
-    ServoLoop servo(device, plan, ServoConfig{}, world);
-    std::mt19937 random(7);
-    nanoseconds now{1'000'000'000};
-    const long soonest = std::min(jitter, 800'000L) / 2;
-    const double off = jitter > 0 ? 1e-9 * static_cast<double>(std::max(soonest, 50'000L)) : 0.0;
-    for (int i = 0; i < 300; ++i) {
-      servo.step(now);
-      const double t = 1e-9 * static_cast<double>((now - nanoseconds(1'000'000'000)).count());
-      const double z = world->states()[0].position.z();
-      EXPECT_NEAR(z, -0.5 * 9.81 * t * t, 1e-9 + 9.81 * off * (t + off))
-          << jitter << " ns, step " << i;
-      now += nanoseconds(1'000'000 - soonest);
-      if (jitter > 0) now += nanoseconds(static_cast<long>(random()) % jitter);
-    }
-  }
-}
-
-// A cube thrown at a hand that holds still: what moves meets the hand, and is felt.
-TEST(PushedBody, MeetsAHandThatStandsInItsWay) {
-  for (unsigned seed = 1; seed <= 40; ++seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> any(-1.0, 1.0);
-    Scene scene = cube_of(0.2, 800);
-    scene.objects[0].pose.orientation = Eigen::Quaterniond(
-        Eigen::AngleAxisd(any(random), Vector3d(any(random), 1, any(random)).normalized()));
-    const Vector3d from = Vector3d(any(random), any(random), any(random)).normalized();
-    scene.objects[0].pose.position = -0.1 * from;
-    const auto plan = std::make_shared<const EffectPlan>(scene);
-    const auto world = std::make_shared<BodyWorld>(*plan, scene.gravity);
-    SimulatedDevice device(device_at(Vector3d::Zero()));
-    ServoLoop servo(device, plan, ServoConfig{}, world);
-    nanoseconds now{1'000'000'000};
-    servo.step(now);
-    world->push(0, -0.1 * from, 0.2 * 0.5 / kT * from);  // 0.5 m/s
-    double felt = 0.0, made = -1e9;
-    for (int i = 0; i < 1000; ++i) {
-      servo.step(now += nanoseconds(1'000'000));
-      EXPECT_TRUE(servo.snapshots().update());
-      felt = std::max(felt, servo.snapshots().read().force.norm());
-      made = std::max(made, world->energy() - device.port_work() - device.damping_loss() - 0.025);
-    }
-    EXPECT_GT(felt, 1.0) << "seed " << seed << ": it flew through the hand";
-    EXPECT_LE(made, 1e-6) << "seed " << seed;
-  }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -13,6 +12,7 @@
 #include "reckon/peer/capture/capture_file.hpp"
 #include "reckon/tests/src/support/capture_samples.hpp"
 #include "reckon/tests/src/support/made_fragments.hpp"
+#include "reckon/tests/src/support/pcapng_file.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::peer {
@@ -20,60 +20,15 @@ namespace {
 
 using namespace frames;
 using namespace samples;
+using blocks::kCooked;
+using blocks::kCooked2;
+using blocks::kEthernet;
+using blocks::kUsb;
+using blocks::PcapngFile;
 using std::chrono::nanoseconds;
 using test::ScratchFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr std::uint16_t kEthernet = 1, kCooked = 113, kCooked2 = 276, kUsb = 220;
-
-/// A pcapng file, block by block, in either order of octets.
-class PcapngFile {
- public:
-  explicit PcapngFile(bool is_swapped = false) : is_swapped_(is_swapped) { section(); }
-
-  void section() {
-    block(0x0a0d0d0a, number<std::uint32_t>(0x1a2b3c4d) + number<std::uint16_t>(1) +
-                          number<std::uint16_t>(0) + Bytes(8, 0xff));
-  }
-  void swap_order() { is_swapped_ = !is_swapped_; }
-  void interface(std::uint16_t link_type, std::uint32_t snap_length, const Bytes& options = {}) {
-    block(1, number(link_type) + number<std::uint16_t>(0) + number(snap_length) + options);
-  }
-  Bytes option(std::uint16_t code, const Bytes& value) const {
-    return number(code) + number(static_cast<std::uint16_t>(value.size())) + value +
-           Bytes((4 - value.size() % 4) % 4, 0);
-  }
-  void packet(std::uint32_t interface, std::uint64_t stamp, const Bytes& frame) {
-    const auto size = static_cast<std::uint32_t>(frame.size());
-    block(6, number(interface) + number(static_cast<std::uint32_t>(stamp >> 32)) +
-                 number(static_cast<std::uint32_t>(stamp)) + number(size) + number(size) + frame);
-  }
-  void block(std::uint32_t type, Bytes body) {
-    body.resize((body.size() + 3) / 4 * 4);
-    const auto length = static_cast<std::uint32_t>(body.size() + 12);
-    octets_ = octets_ + number(type) + number(length) + body + number(length);
-  }
-  template <typename T>
-  [[nodiscard]] Bytes number(T value) const {
-    Bytes out(sizeof value);
-    std::memcpy(out.data(), &value, sizeof value);
-    if (is_swapped_) std::reverse(out.begin(), out.end());
-    return out;
-  }
-  [[nodiscard]] Bytes& octets() { return octets_; }
-
-  const std::string& write(const std::string& path) const {
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(octets_.data()),
-               static_cast<std::streamsize>(octets_.size()));
-    return path;
-  }
-
- private:
-  bool is_swapped_;
-  Bytes octets_;
-};
 
 std::vector<std::size_t> sizes_of(const ReadBack& read) {
   std::vector<std::size_t> sizes;
@@ -340,65 +295,6 @@ TEST(Pcapng, IsReadAsMergecapMergesIt) {
   const ReadBack read = read_all(folder.file("m.pcapng"));
   EXPECT_THAT(sizes_of(read), ElementsAre(10, 11, 12));
   EXPECT_EQ(read.report.problem, "");
-}
-
-/// Fragments of datagrams of 3,000 to 9,000 octets, of both families, by turns, with copies, and
-/// one of a third datagram lost.
-std::vector<Bytes> mixed_fragments(std::vector<Bytes>& whole) {
-  std::mt19937 random(31);
-  std::vector<Bytes> out;
-  for (std::size_t round = 0; round < 20; ++round) {
-    std::vector<Bytes> frames;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t number = 3 * round + i;
-      const Bytes datagram = numbered_udp(3000 + number * 100, number);
-      const bool is_v6 = number % 2 == 1;
-      std::vector<Bytes> pieces = fragments(datagram, number, is_v6 ? &fragment6 : &fragment4);
-      if (i == 2)
-        pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(random() % pieces.size()));
-      else
-        whole.emplace_back(datagram.begin() + 8, datagram.end());
-      frames.insert(frames.end(), pieces.begin(), pieces.end());
-    }
-    frames.push_back(frames[random() % frames.size()]);
-    std::shuffle(frames.begin(), frames.end(), random);
-    out.insert(out.end(), frames.begin(), frames.end());
-  }
-  return out;
-}
-
-TEST(FragmentedCapture, GivesTheDatagramsThatTsharkPutsTogether) {
-  const ScratchFolder folder;
-  std::vector<Bytes> whole;
-  PcapngFile file;
-  file.interface(kEthernet, 65535);
-  std::uint64_t stamp = 0;
-  for (const Bytes& frame : mixed_fragments(whole)) file.packet(0, stamp += 1000, frame);
-  const ReadBack read = read_all(file.write(folder.file("fragments.pcapng")));
-  EXPECT_EQ(read.report.fragments.whole, 40U);
-  EXPECT_EQ(read.report.fragments.lost, 20U);
-  EXPECT_EQ(read.report.fragments.overlapping + read.report.fragments.late, 0U);
-  std::string text;
-  std::vector<Bytes> found;
-  for (const Kept& kept : read.datagrams) {
-    if (kept.datagram.portion != Portion::whole) continue;
-    const auto* begin = reinterpret_cast<const std::uint8_t*>(kept.bytes.data());
-    found.emplace_back(begin, begin + kept.bytes.size());
-    text += std::to_string(kept.datagram.frame) + "\t";
-    for (const std::byte octet : kept.bytes) {
-      constexpr const char* kDigits = "0123456789abcdef";
-      text +=
-          {kDigits[std::to_integer<int>(octet) >> 4], kDigits[std::to_integer<int>(octet) & 15]};
-    }
-    text += "\n";
-  }
-  EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(whole));
-  if (std::system("command -v tshark >/dev/null") != 0)
-    GTEST_SKIP() << "tshark is not here to judge";
-  EXPECT_EQ(output_of("tshark -r " + folder.file("fragments.pcapng") +
-                      " -d udp.port==3000,data -Y udp -T fields -e frame.number -e data.data "
-                      "2>/dev/null"),
-            text);
 }
 
 }  // namespace

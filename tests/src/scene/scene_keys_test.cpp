@@ -72,6 +72,31 @@ TEST(SceneKeys, AreAllCheckedForTheirRange) {
   }
 }
 
+void expect_same_prediction(const SceneFile& told, const SceneFile& silent) {
+  EXPECT_EQ(told.dead_reckoning.algorithm, silent.dead_reckoning.algorithm);
+  EXPECT_EQ(told.dead_reckoning.thresholds.position, silent.dead_reckoning.thresholds.position);
+  EXPECT_DOUBLE_EQ(told.dead_reckoning.thresholds.angle, silent.dead_reckoning.thresholds.angle);
+  EXPECT_EQ(told.dead_reckoning.thresholds.force, silent.dead_reckoning.thresholds.force);
+  EXPECT_EQ(told.dead_reckoning.heartbeat, silent.dead_reckoning.heartbeat);
+  EXPECT_EQ(told.dead_reckoning.rule, silent.dead_reckoning.rule);
+  EXPECT_EQ(told.dead_reckoning.thresholds.weber, silent.dead_reckoning.thresholds.weber);
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    for (const auto& row : Rule::kParameters)
+      EXPECT_EQ(told.dead_reckoning.thresholds.of<Rule>().*row.field,
+                silent.dead_reckoning.thresholds.of<Rule>().*row.field)
+          << row.key;
+  });
+  EXPECT_EQ(told.dead_reckoning.acceleration, silent.dead_reckoning.acceleration);
+  EXPECT_EQ(told.convergence.settings.curve, silent.convergence.settings.curve);
+  EXPECT_EQ(told.convergence.settings.duration, silent.convergence.settings.duration);
+  EXPECT_EQ(told.convergence.settings.longest, silent.convergence.settings.longest);
+  EXPECT_DOUBLE_EQ(told.convergence.settings.teleport_angle,
+                   silent.convergence.settings.teleport_angle);
+  EXPECT_EQ(told.convergence.settings.teleport_distance,
+            silent.convergence.settings.teleport_distance);
+  EXPECT_EQ(told.convergence.prediction, silent.convergence.prediction);
+}
+
 TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   const auto& keys = scene_keys();
   const auto section_as_written = [&](const std::string& section) {
@@ -100,28 +125,7 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.hand.static_friction, silent.hand.static_friction);
   EXPECT_EQ(told.hand.kinetic_friction, silent.hand.kinetic_friction);
   EXPECT_EQ(told.hand.validity, silent.hand.validity);
-  EXPECT_EQ(told.dead_reckoning.algorithm, silent.dead_reckoning.algorithm);
-  EXPECT_EQ(told.dead_reckoning.thresholds.position, silent.dead_reckoning.thresholds.position);
-  EXPECT_DOUBLE_EQ(told.dead_reckoning.thresholds.angle, silent.dead_reckoning.thresholds.angle);
-  EXPECT_EQ(told.dead_reckoning.thresholds.force, silent.dead_reckoning.thresholds.force);
-  EXPECT_EQ(told.dead_reckoning.heartbeat, silent.dead_reckoning.heartbeat);
-  EXPECT_EQ(told.dead_reckoning.rule, silent.dead_reckoning.rule);
-  EXPECT_EQ(told.dead_reckoning.thresholds.weber, silent.dead_reckoning.thresholds.weber);
-  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
-    for (const auto& row : Rule::kParameters)
-      EXPECT_EQ(told.dead_reckoning.thresholds.of<Rule>().*row.field,
-                silent.dead_reckoning.thresholds.of<Rule>().*row.field)
-          << row.key;
-  });
-  EXPECT_EQ(told.dead_reckoning.acceleration, silent.dead_reckoning.acceleration);
-  EXPECT_EQ(told.convergence.settings.curve, silent.convergence.settings.curve);
-  EXPECT_EQ(told.convergence.settings.duration, silent.convergence.settings.duration);
-  EXPECT_EQ(told.convergence.settings.longest, silent.convergence.settings.longest);
-  EXPECT_DOUBLE_EQ(told.convergence.settings.teleport_angle,
-                   silent.convergence.settings.teleport_angle);
-  EXPECT_EQ(told.convergence.settings.teleport_distance,
-            silent.convergence.settings.teleport_distance);
-  EXPECT_EQ(told.convergence.prediction, silent.convergence.prediction);
+  expect_same_prediction(told, silent);
   EXPECT_EQ(told.aoim.radius, silent.aoim.radius);
   EXPECT_EQ(told.network.group, silent.network.group);
   EXPECT_EQ(told.network.interop, silent.network.interop);

@@ -108,8 +108,8 @@ void plant_large_pdu(CaptureBuilder& capture) {
   capture.add(datagram, kStart + seconds(4));
 }
 
-const std::vector<Planted>& planted() {
-  static const std::vector<Planted> kPlanted{
+std::vector<Planted> planted_errors() {
+  return {
       {"E-TRUNCATED", in_octets([](Octets& o) { o.resize(140); })},
       {"E-LENGTH", in_octets([](Octets& o) { o[9] = std::byte{8}; })},
       {"E-BYTE-ORDER", in_octets([](Octets& o) { std::swap(o[8], o[9]); })},
@@ -126,6 +126,11 @@ const std::vector<Planted>& planted() {
        [](CaptureBuilder& capture) {
          capture.add(Octets(100), kStart + seconds(4), Sender{1, 3000, 185});
        }},
+  };
+}
+
+std::vector<Planted> planted_values() {
+  return {
       {"W-NOT-FINITE",
        in_fields([](auto& pdu) { pdu.location.y = std::numeric_limits<double>::quiet_NaN(); })},
       {"W-TRAILING", in_octets([](Octets& o) {
@@ -152,6 +157,11 @@ const std::vector<Planted>& planted() {
        })},
       {"W-SIZE", plant_large_pdu},
       {"W-FAMILY", in_octets([](Octets& o) { o[3] = std::byte{2}; })},
+  };
+}
+
+std::vector<Planted> planted_courses() {
+  return {
       {"W-TIMESTAMP-ORDER", in_fields([](auto& pdu) {
          pdu.header.timestamp = pdu::to_dis_timestamp(kStart + seconds(1), true);
        })},
@@ -195,6 +205,15 @@ const std::vector<Planted>& planted() {
          capture.add(datagram, kStart + seconds(4));
        }},
   };
+}
+
+const std::vector<Planted>& planted() {
+  static const std::vector<Planted> kPlanted = [] {
+    std::vector<Planted> all = planted_errors();
+    for (const auto& more : {planted_values(), planted_courses()})
+      all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
   return kPlanted;
 }
 

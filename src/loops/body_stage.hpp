@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The bodies of the scene in a pass of the model loop: the owner sends them, the others show them.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/world/body_owner.hpp"
+#include "reckon/peer/world/owned_entities.hpp"
+#include "reckon/peer/world/peer_view.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/world/shared_bodies.hpp"
+
+namespace reckon::peer {
+
+/// Thread of the model loop.
+class BodyStage {
+ public:
+  explicit BodyStage(const ModelWiring& wiring);
+
+  /// Makes entities of the bodies that this peer owns, by add(number, description), under numbers
+  /// from `first` on.
+  template <typename Add>
+  void add_own(EntityNumber first, Add&& add) {
+    first_ = first;
+    std::size_t body = 0;
+    for (const haptics::SceneObject& object : scene_.scene.objects) {
+      const bool is_body = object.matter.mass > 0 && !object.carried;
+      if (!is_body && !object.carried) continue;
+      const std::size_t number = body++;
+      if (is_body) add(static_cast<EntityNumber>(first + number), description_of(object, number));
+    }
+  }
+  /// Moves these entities, by move(number, truth). One that sleeps keeps its last state, which its
+  /// heartbeat repeats.
+  template <typename Move>
+  void move_own(const OwnedEntities& owned, Move&& move) noexcept {
+    if (own_ == nullptr || !own_->update()) return;
+    const haptics::BodyStates& states = own_->read();
+    for (std::size_t i = 0; i < states.bodies.size(); ++i) {
+      const auto number = static_cast<EntityNumber>(first_ + i);
+      const OwnedEntity* entity = owned.find(number);
+      if (entity == nullptr) continue;
+      const haptics::BodyState& body = states.bodies[i];
+      if (body.awake || !entity->is_resting() || entity->truth().position != body.position)
+        move(number, truth_of(body, states.time));
+    }
+  }
+
+  /// An update that the table of remote entities has taken.
+  void note(const Inbound& update, const Arrival& arrival, const aoim::Presence& presence,
+            RemoteEntities& remote) noexcept;
+  /// Publishes the bodies that others own. @param offset universal time less that of the servos
+  void publish(std::chrono::nanoseconds offset, RemoteEntities& remote) noexcept;
+  /// Finds the owner of the bodies among the peers, if the scene has any.
+  void look(const aoim::Presence& presence) noexcept {
+    if (has_any_) owner_.look(presence);
+  }
+  [[nodiscard]] const BodyOwner& owner() const noexcept { return owner_; }
+  /// Writes how many there are, and how many are awake.
+  void show(PeerView& view) const noexcept;
+
+ private:
+  [[nodiscard]] EntityDescription description_of(const haptics::SceneObject& object,
+                                                 std::size_t number) const;
+
+  const SceneFile& scene_;
+  haptics::TripleBuffer<haptics::BodyStates>* own_;  // null: there are none of ours
+  EntityNumber first_ = 0;
+  BodyMover* mover_;  // null: nothing is carried
+  bool has_any_;      // the scene, whoever owns them
+  BodyOwner owner_;
+  std::optional<RemoteBodies> remote_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a tab learns of a scene and of its peers, and what it may push.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/tools/support/driven_trucks.hpp"
+#include "reckon/tests/tools/support/stage_tabs.hpp"
+#include "reckon/tools/viewer/view_stage.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using nlohmann::json;
+using tabs::kTick;
+using tabs::LiveTrucks;
+using tabs::Tab;
+using trucks::nanoseconds;
+using trucks::seconds;
+
+peer::SceneFile scene_of(const char* text) { return peer::parse_scene_file(text, "scene.toml"); }
+
+TEST(ViewStage, TellsWhoSharesAContactGroupWhereTheSceneHasSome) {
+  // Trucks are heard by group 5: the first one behind those of cells.
+  const peer::SceneFile scene = scene_of("[aoim]\npool = 4\n[[aoim.tier]]\nto = \"touch\"\n");
+  StageOptions options;
+  options.scene = &scene;
+  LiveTrucks live(options);
+  Tab tab(live.stage, false);
+  live.run(seconds(3), {&tab});
+  const json groups = tab.last("groups")["groups"];
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups[0], json::parse(R"({"tier":"contact","group":5,"slots":[0,1,2]})"));
+  EXPECT_FALSE(tab.last("cells").is_null()) << "cells are told as well";
+  tab.ask(2, 0.1);  // before any of them was named
+  live.run(seconds(1), {&tab});
+  EXPECT_EQ(tab.last("groups")["groups"][0]["slots"].size(), 3U);
+
+  LiveTrucks plain;
+  Tab other(plain.stage, false);
+  plain.run(seconds(3), {&other});
+  EXPECT_TRUE(other.last("groups").is_null()) << "nothing is known without a scene";
+}
+
+TEST(ViewStage, TellsTheThresholdsOfTheSceneAndTheFollowedOnesOwn) {
+  const peer::SceneFile scene = scene_of(
+      "[[operator]]\npassive = true\n[dead_reckoning]\nposition = \"1 mm\"\n"
+      "[[entity]]\nmarking = \"TRUCK\"\ntype = \"1.1\"\ndead_reckoning = {position = \"3 m\"}\n");
+  StageOptions options;
+  options.scene = &scene;
+  LiveTrucks live(options);
+  Tab tab(live.stage, false);
+  live.run(seconds(2), {&tab});
+  EXPECT_EQ(tab.last("numbers")["error"]["thresholds_m"], json({0.001, 3.0}));
+  EXPECT_FALSE(tab.last("numbers")["error"].contains("followed_m"));
+  tab.ask(10, std::uint16_t{1});
+  live.run(seconds(1), {&tab});
+  EXPECT_EQ(tab.last("numbers")["error"]["followed_m"], 3.0);
+}
+
+TEST(ViewStage, TellsHowThePeersReceiveEachOtherAsOfTheInstant) {
+  LiveTrucks live;
+  Tab tab(live.stage, false);
+  live.run(seconds(1), {&tab});
+  EXPECT_FALSE(tab.last("numbers").contains("peers"));
+  live.stage.take_reception({live.now, 0.2, 0.1, 0.13});
+  live.run(seconds(1), {&tab});
+  EXPECT_EQ(tab.last("numbers")["peers"],
+            json::parse(R"({"delay_ms":{"median":100.0,"p95":130.0},"lost_share":0.2})"));
+  live.stage.take_reception({live.now, {}, {}, {}});
+  live.run(seconds(1), {&tab});
+  EXPECT_TRUE(tab.last("numbers")["peers"].empty()) << "nothing arrives";
+  tab.ask(2, 1.5);
+  live.run(seconds(1), {&tab});
+  EXPECT_EQ(tab.last("numbers")["peers"]["lost_share"], 0.2);
+}
+
+/// Notes what pages ask of it.
+class NotedControls final : public ViewerControls {
+ public:
+  HandAnswer take_hand(Watcher watcher) override {
+    owner = watcher;
+    return {0, "yours"};
+  }
+  void give_hand(Watcher watcher) override {
+    if (owner == watcher) owner.reset();
+  }
+  void point(Watcher, const PointerRequest& request, nanoseconds) override {
+    pointed.push_back(request);
+  }
+  std::string set_network(const NetworkRequest&) override {
+    ++networks;
+    return "the network is as it was";
+  }
+  std::optional<Watcher> owner;
+  std::vector<PointerRequest> pointed;
+  int networks = 0;
+};
+
+TEST(ViewStage, LetsOnlyWhoKnowsTheWordPush) {
+  NotedControls controls;
+  StageOptions options;
+  options.controls = &controls;
+  LiveTrucks live(options);
+  Tab guest(live.stage, false), owner(live.stage, true);
+  const auto point = [](Tab& tab) { tab.ask(6, std::uint16_t{0}, 1.F, 2.F, 3.F, std::uint8_t{1}); };
+  guest.ask(8);
+  point(guest);
+  guest.ask(7, 100.F, 0.F, 0.F, std::uint8_t{0});
+  live.run(kTick, {&guest, &owner});
+  EXPECT_FALSE(controls.owner.has_value());
+  EXPECT_TRUE(controls.pointed.empty());
+  EXPECT_EQ(controls.networks, 0);
+  EXPECT_TRUE(guest.last("hand")["index"].is_null());
+
+  point(owner);
+  EXPECT_TRUE(controls.pointed.empty()) << "it has no hand yet";
+  owner.ask(8);
+  point(owner);
+  owner.ask(7, 100.F, 0.F, 0.F, std::uint8_t{0});
+  live.run(kTick, {&guest, &owner});
+  EXPECT_EQ(owner.texts[0]["may_push"], true);
+  EXPECT_EQ(owner.last("hand")["index"], 0);
+  EXPECT_EQ(controls.pointed.size(), 1U);
+  EXPECT_EQ(guest.last("note")["text"], "the network is as it was");
+  live.stage.leave(owner.watcher());
+  EXPECT_FALSE(controls.owner.has_value()) << "who goes gives its hand back";
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/live_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "reckon/tools/exercise/hand_report.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::PeerView;
+
+constexpr double kDegrees = 57.29577951308232;
+
+}  // namespace
+
+std::string title_of(const LivePicture& picture, double bar_end) {
+  const auto& thresholds = picture.scene.dead_reckoning.thresholds;
+  return fmt::format("{}  {:.1f} s   thresholds {:.2g} mm, {:.2g} deg, {:.2g} N   bars to {:g} N",
+                     picture.scene.name, picture.elapsed, 1e3 * thresholds.position,
+                     thresholds.angle * kDegrees, thresholds.force, bar_end);
+}
+
+std::string softer_text(const LivePicture& picture) {
+  std::set<std::string> all;
+  for (const TablePeer& peer : picture.peers) {
+    for (const peer::HandView& hand : peer.view->own_hands()) {
+      for (std::string& sentence : softer_than_asked(hand.stiffness))
+        all.insert(std::move(sentence));
+    }
+  }
+  std::string text;
+  for (const std::string& sentence : all) text += (text.empty() ? "" : ", ") + sentence;
+  return text.empty() ? text : "softer than asked: " + text;
+}
+
+std::string bodies_text(const LivePicture& picture) {
+  for (const TablePeer& peer : picture.peers) {
+    const PeerView& view = *peer.view;
+    if (view.bodies == 0) continue;
+    std::string text = fmt::format("bodies: {} of {} move", view.bodies_awake, view.bodies);
+    if (view.bodies_not_woken > 0)
+      text += fmt::format(", in {} steps one did not wake, as 64 moved", view.bodies_not_woken);
+    return text;
+  }
+  return {};
+}
+
+std::string keys_text(const LivePicture& picture) {
+  bool has_hands = false, stopped = false;
+  for (const TablePeer& peer : picture.peers) {
+    for (const peer::HandView& hand : peer.view->own_hands()) {
+      has_hands = true;
+      stopped |= hand.servo.stopped;
+    }
+  }
+  const std::string quit = "[q] quit";
+  if (!has_hands) return quit;
+  return (stopped ? "[s] let forces come back   " : "[s] stop all forces   ") + quit;
+}
+
+void append_head(std::string_view head, std::size_t columns, std::vector<ScreenLine>& out) {
+  while (!head.empty() && columns > 0) {
+    out.push_back({std::string(head.substr(0, columns))});
+    head.remove_prefix(std::min(columns, head.size()));
+  }
+}
+
+std::vector<ScreenLine> notice_lines(std::span<const std::string> notices, std::size_t columns,
+                                     std::size_t room) {
+  std::vector<ScreenLine> lines;
+  for (std::size_t i = notices.size(); i-- > 0;) {
+    const std::vector<std::string> wrapped = wrap(notices[i], columns);
+    if (!lines.empty() && lines.size() + wrapped.size() > room) break;
+    std::size_t at = 0;
+    for (const std::string& line : wrapped)
+      lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at++), ScreenLine{line});
+  }
+  lines.resize(std::min(lines.size(), room));
+  return lines;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What `reckon demo` prints at its end.
+#pragma once
+
+#include <cstdio>
+
+#include "reckon/tools/exercise/exercise.hpp"
+
+namespace reckon::tools {
+
+/// What a peer without dead reckoning would send every servo step: one Entity State and one
+/// Attribute PDU with one force model, alone in a datagram.
+inline constexpr double kRawOctets = 144 + 32 + 8 + 72;
+
+/// What an exercise cost.
+struct DemoCost {
+  double seconds = 0;
+  double remote_seen = -1;
+  double packets = 0, octets = 0, raw_packets = 0, raw_octets = 0;
+  ServoReport servo;
+  peer::Spread pose, force, possible_force;
+  double energy_min = 0, late_cost = 0;
+};
+
+[[nodiscard]] DemoCost cost_of(const Exercise& exercise);
+
+/// One line.
+void print_demo_json(std::FILE* out, const DemoCost& cost, Exercise& exercise);
+void print_demo_text(std::FILE* out, const DemoCost& cost, Exercise& exercise);
+
+}  // namespace reckon::tools
