@@ -33,12 +33,12 @@ std::string refusal_of(int result) {
 }  // namespace
 
 EvdevLoop::EvdevLoop(EvdevExchange& exchange, const EvdevSettings& settings,
-                     std::unique_ptr<EventCalls> calls, std::function<nanoseconds()> clock)
-    : exchange_(exchange),
+                     std::unique_ptr<EventCalls> calls, SteadyTime time)
+    : DeviceSession(std::move(time), kRetry),
+      exchange_(exchange),
       settings_(settings),
       calls_(std::move(calls)),
-      clock_(std::move(clock)),
-      walls_(*calls_, settings_, facts_, state_, clock_,
+      walls_(*calls_, settings_, facts_, state_, this->time(),
              [this](nanoseconds& now) { return look(now); }) {
   static_cast<void>(evdev_limits(settings));
 }
@@ -47,27 +47,27 @@ EvdevLoop::~EvdevLoop() { let_go(); }
 
 std::string EvdevLoop::name() const { return facts_.name.empty() ? "evdev" : facts_.name; }
 
-void EvdevLoop::step(microseconds longest) {
-  if (file_ < 0) {
-    if (clock_() >= next_try_) return attach();
-    calls_->wait(-1, longest);
-    return publish(clock_());
-  }
+void EvdevLoop::wait(microseconds longest) {
+  calls_->wait(-1, longest);
+  publish(now());
+}
+
+void EvdevLoop::exchange(microseconds longest) {
   calls_->wait(file_, longest);
   if (!read_events()) return detach("was unplugged");
-  nanoseconds now = clock_();
-  if (calls_->waits_for_device(file_)) publish(now);
-  const int result = walls_.show(wanted(now), now);
+  nanoseconds time = now();
+  if (calls_->waits_for_device(file_)) publish(time);
+  const int result = walls_.show(wanted(time), time);
   if (result == -ENODEV) return detach("was unplugged");
   const bool is_asked_again = result == -EAGAIN;  // in the next step
   if (result < 0 && !is_asked_again) return detach(refusal_of(result));
-  publish(now);
+  publish(time);
 }
 
-int EvdevLoop::look(nanoseconds& now) noexcept {
+int EvdevLoop::look(nanoseconds& time) noexcept {
   if (!read_events()) return -ENODEV;
-  now = clock_();
-  publish(now);
+  time = now();
+  publish(time);
   return 0;
 }
 
@@ -79,7 +79,7 @@ bool EvdevLoop::read_events() noexcept {
     if (count == -EAGAIN) break;
     if (count < 0) return false;
     for (int i = 0; i < count; ++i) state_.take(events[static_cast<std::size_t>(i)]);
-    placed_at_ = clock_();
+    placed_at_ = now();
     if (count < static_cast<int>(events.size())) break;
   }
   return !state_.wants_all() || ask_state(*calls_, file_, state_);
@@ -145,10 +145,10 @@ void EvdevLoop::let_go() noexcept {
 
 void EvdevLoop::detach(const std::string& why) {
   let_go();
-  notices_.clear_problem();
-  next_try_ = clock_() + kRetry;
-  publish(clock_());
-  notices_.tell(name(), why + ": it shows nothing; it is taken up again as soon as it is there");
+  clear_problem();
+  retry_after(kRetry);
+  publish(now());
+  tell(why + ": it shows nothing" + kIsTakenUpAgain);
 }
 
 // Another program that has the device for itself gets all its places, and we none.
@@ -232,19 +232,14 @@ std::string EvdevLoop::open() {
              : "no device whose name has '" + settings_.event + "' is attached";
 }
 
-void EvdevLoop::attach() {
-  std::string problem = open();
-  const nanoseconds now = clock_();
-  next_try_ = now + kRetry;
+void EvdevLoop::opened(nanoseconds now, std::string& problem) {
   if (!problem.empty()) {
     let_go();
-    publish(now);
-    notices_.tell_problem(name(), problem);
-    return;
+    return publish(now);
   }
-  notices_.clear_problem();
+  clear_problem();
   publish(now);
-  notices_.tell(name(), "ready: it renders walls");
+  tell("ready: it renders walls");
 }
 
 }  // namespace reckon::haptics

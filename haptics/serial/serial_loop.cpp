@@ -19,21 +19,21 @@ constexpr std::uint16_t kQuestions = 4'096;  // between those of one session and
 }  // namespace
 
 SerialLoop::SerialLoop(UsbExchange& exchange, const DeviceLimits& limits, SerialPlace place,
-                       std::function<nanoseconds()> clock)
-    : exchange_(exchange),
+                       SteadyTime time)
+    : DeviceSession(std::move(time), kRetry),
+      exchange_(exchange),
       limits_(limits),
       place_(std::move(place)),
-      clock_(std::move(clock)),
       run_(exchange.ended_run + 1),
-      question_(static_cast<std::uint16_t>(clock_().count() >> 10)) {}
+      question_(static_cast<std::uint16_t>(now().count() >> 10)) {}
 
 // The board would hold the last force until its watchdog ends it.
 SerialLoop::~SerialLoop() {
   if (!port_ || !session_) return;
   session_->end_run();
-  const nanoseconds end = clock_() + kFarewell;
+  const nanoseconds end = now() + kFarewell;
   const auto drain = [&] {
-    while (!port_->is_gone() && port_->is_sending() && clock_() < end) wait_without_line(kGlance);
+    while (!port_->is_gone() && port_->is_sending() && now() < end) wait_without_line(kGlance);
   };
   drain();
   port_->send(session_->farewell().span());
@@ -45,24 +45,14 @@ std::optional<SerialStage> SerialLoop::stage() const noexcept {
   return session_->stage();
 }
 
-void SerialLoop::tell(const std::string& sentence) { notices_.tell(place_.port, sentence); }
-
-void SerialLoop::tell_problem(const std::string& problem) {
-  notices_.tell_problem(place_.port, problem);
-}
-
-void SerialLoop::step(microseconds longest) {
-  if (!port_) {
-    if (clock_() >= next_try_) return attach();
-    return wait_without_line(longest);
-  }
+void SerialLoop::exchange(microseconds longest) {
   port_->wait(longest);
-  const nanoseconds now = clock_();
-  exchange_octets(now);
+  const nanoseconds time = now();
+  exchange_octets(time);
   if (port_->is_gone()) return detach("was unplugged", kRetry);
-  if (session_->is_lost(now)) return detach("does not answer any more", nanoseconds(0));
-  if (now - taken_at_ > kStuck) return detach("takes no octets for 6 ms", nanoseconds(0));
-  tell_stage(now);
+  if (session_->is_lost(time)) return detach("does not answer any more", nanoseconds(0));
+  if (time - taken_at_ > kStuck) return detach("takes no octets for 6 ms", nanoseconds(0));
+  tell_stage(time);
 }
 
 void SerialLoop::exchange_octets(nanoseconds now) {
@@ -84,9 +74,8 @@ void SerialLoop::tell_stage(nanoseconds now) {
   const nanoseconds chain = session_->chain();
   if (chain > nanoseconds(0) && !timed_) {
     timed_ = true;
-    const auto tenths = static_cast<int>((chain + microseconds(599)) / microseconds(100));
-    tell("a force is at the handle, and told so, within " + std::to_string(tenths / 10) + "." +
-         std::to_string(tenths % 10) + " ms: that is enough for the 'delay' of its [[device]]");
+    tell("a force is at the handle, and told so, within " + in_tenths(chain + microseconds(500)) +
+         ": that is enough for the 'delay' of its [[device]]");
   }
   const SerialStage stage = session_->stage();
   if (stage == SerialStage::asked || stage == SerialStage::greeted || told_ == stage) return;
@@ -97,7 +86,7 @@ void SerialLoop::tell_stage(nanoseconds now) {
   if (stage == SerialStage::homing)
     tell(name + " does not know its place yet; no force until then");
   if (stage == SerialStage::running) {
-    notices_.clear_problem();
+    clear_problem();
     unsigned axes = 0;
     for (std::size_t i = 0; i < session_->greeting().axes; ++i)
       axes |= 1U << session_->greeting().axis[i].direction;
@@ -113,18 +102,18 @@ void SerialLoop::detach(const std::string& why, nanoseconds pause) {
   session_.reset();
   port_.reset();
   told_.reset();
-  next_try_ = clock_() + pause;
-  tell_problem(why + ": its force is zero; it is taken up again as soon as it is there");
+  retry_after(pause);
+  tell_problem(why + ": its force is zero" + kIsTakenUpAgain);
 }
 
-void SerialLoop::attach() {
+std::string SerialLoop::open() {
   SerialOpening opening = SerialPort::open(place_.port, place_.baud);
-  const nanoseconds now = clock_();
-  next_try_ = now + kRetry;
-  if (!opening.port)
-    return tell_problem(std::move(opening.problem) +
-                        (opening.remedy.empty() ? "" : ": " + opening.remedy));
   port_ = std::move(opening.port);
+  return opening.problem + (opening.remedy.empty() ? "" : ": " + opening.remedy);
+}
+
+void SerialLoop::opened(nanoseconds now, std::string& problem) {
+  if (!problem.empty()) return;
   taken_at_ = now;
   session_.emplace(exchange_, limits_, run_, question_, now);
 }

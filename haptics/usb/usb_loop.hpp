@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the thread of a device on USB does: finds it, sets it up, exchanges forces and readings, and
-// finds it again.
+// The session of a device on USB: finds it, sets it up and exchanges forces and readings.
 #pragma once
 
 #include <atomic>
@@ -11,9 +10,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "reckon/haptics/devices/device_notices.hpp"
+#include "reckon/haptics/devices/device_session.hpp"
 #include "reckon/haptics/usb/usb_driver.hpp"
 #include "reckon/haptics/usb/usb_exchange.hpp"
 #include "reckon/haptics/usb/usb_line.hpp"
@@ -28,49 +26,41 @@ struct UsbLoopOptions {
   bool discover = true;                             ///< see UsbContext
 };
 
-/// One device. Its thread calls step() over and over; any thread may take the notices.
-///
-/// Whatever fails, the force is zero here within 10 ms, one sentence says so, and the device is set
-/// up again by itself as soon as it can be.
-class UsbLoop {
+/// One device on USB.
+class UsbLoop final : public DeviceSession {
  public:
   static constexpr std::chrono::milliseconds kRetry{200};  ///< between attempts
 
   /// @param exchange outlives it @throws std::runtime_error where the host has no USB
   UsbLoop(UsbExchange& exchange, std::unique_ptr<UsbDriver> driver, UsbLoopOptions options);
-  /// Tells the device a zero; waits 10 ms for it at most.
-  ~UsbLoop();
-  UsbLoop(const UsbLoop&) = delete;
-  UsbLoop& operator=(const UsbLoop&) = delete;
+  /// Sends the device a zero; waits 10 ms for it at most.
+  ~UsbLoop() override;
 
-  /// Waits for the device so long at most, except while setting it up, and does what is due.
-  void step(std::chrono::microseconds longest);
-  /// Sentences since the last call, each once. Any thread.
-  [[nodiscard]] std::vector<std::string> take_notices() { return notices_.take(); }
   /// How far it is; nothing while no device is set up. The thread of step().
   [[nodiscard]] std::optional<UsbStage> stage() const noexcept;
-  /// Any thread: ends an attempt to set the device up.
-  void stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
+  void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
 
  private:
-  void attach();
-  [[nodiscard]] std::string open();
+  [[nodiscard]] std::string name() const override { return driver_->facts().name; }
+  [[nodiscard]] bool is_open() const noexcept override { return line_.has_value(); }
+  [[nodiscard]] std::string open() override;
+  void opened(std::chrono::nanoseconds now, std::string& problem) override;
+  void wait(std::chrono::microseconds longest) override { context_.wait(longest); }
+  void exchange(std::chrono::microseconds longest) override;
   void detach(const std::string& why);
   void tell_stage();
-  void tell(const std::string& sentence);
 
   UsbExchange& exchange_;
   std::unique_ptr<UsbDriver> driver_;
-  UsbLoopOptions options_;
+  UsbOpener opener_;
+  bool discover_;
   UsbContext context_;
   std::optional<UsbLine> line_;
   std::optional<UsbSession> session_;
   std::uint32_t run_;
-  std::chrono::nanoseconds next_try_{0};
   std::optional<UsbStage> told_;
-  bool timed_ = false;  // and told so
+  bool timed_ = false;  // and reported
   std::atomic<bool> stopped_{false};
-  DeviceNotices notices_;
 };
 
 }  // namespace reckon::haptics

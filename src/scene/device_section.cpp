@@ -14,8 +14,6 @@
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/haptics/serial/serial_session.hpp"
-#include "reckon/haptics/usb/usb_session.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/device_descriptor.hpp"
@@ -76,48 +74,6 @@ void check_mapping(TomlReader& table, const DeviceConfig& device) {
         fmt::format("button {} already stops all forces, or is the clutch: name another", grabs));
 }
 
-// What only one kind of device has.
-void check_kind(TomlReader& table, DeviceConfig& device) {
-  std::string plugin;
-  table.read("plugin", plugin);
-  device.plugin = plugin;
-  if (device.driver != DeviceDriver::falcon && table.has("firmware"))
-    table.problem("firmware", "only a Falcon has one: add driver = \"falcon\", or take it out");
-  for (const char* key : {"plugin", "plugin_options"}) {
-    if (device.driver != DeviceDriver::plugin && table.has(key)) {
-      table.problem(key,
-                    "only a driver that is a shared library has it: add driver = \"plugin\", or "
-                    "take it out");
-    }
-  }
-  if (device.driver == DeviceDriver::plugin && !device.plugin.has_filename())
-    table.problem("driver", "a plugin is a shared library: name it with plugin = \"driver.so\"");
-  for (const char* key : {"port", "baud"}) {
-    if (device.driver != DeviceDriver::serial && table.has(key)) {
-      table.problem(
-          key, "only a board on a serial line has it: add driver = \"serial\", or take it out");
-    }
-  }
-  if (device.driver == DeviceDriver::serial && device.port.empty())
-    table.problem("driver", "a board is on a serial line: name that with port = \"/dev/ttyACM0\"");
-  for (const char* key : {"event", "event_axes", "travel", "full_force", "full_stiffness"}) {
-    const bool may_be_one =
-        device.driver == DeviceDriver::evdev || device.driver == DeviceDriver::simulated;
-    if (!may_be_one && table.has(key)) {
-      table.problem(key,
-                    "only a force feedback device of Linux has it: say driver = \"evdev\", or take "
-                    "it out");
-    }
-  }
-  for (const char* key : {"upper_weight", "fore_weight"}) {
-    if (device.driver != DeviceDriver::polhem && table.has(key)) {
-      table.problem(key,
-                    "only a Polhem has links whose weight is held up: add driver = "
-                    "\"polhem\", or take it out");
-    }
-  }
-}
-
 // It has a handle of its own making, which moves by a mass.
 void check_admittance(TomlReader& table, const DeviceConfig& device) {
   if (!(device.admittance.mass > 0)) {
@@ -142,63 +98,6 @@ void check_admittance(TomlReader& table, const DeviceConfig& device) {
     table.problem("damping", "a virtual mass needs damping, or nothing pays for walls");
   if (table.has("resolution"))
     table.problem("resolution", "the place of a virtual mass is computed and exact: take it out");
-}
-
-// What the numbers of such a device mean is asked for, and none of it guessed.
-void check_evdev(TomlReader& table, const DeviceConfig& device) {
-  if (device.driver != DeviceDriver::evdev) return;
-  if (device.source == DeviceSource::pointer)
-    table.problem("kind", "a person holds an event device, and no pointer moves it: take kind out");
-  if (const std::string fault = evdev_fault_of(device); !fault.empty())
-    table.problem("driver", fault);
-}
-
-// Friction is said of the handle or of the joints; what the table says goes before a descriptor.
-void check_joint_damping(TomlReader& table, DeviceConfig& device) {
-  const bool has_joints =
-      device.driver == DeviceDriver::falcon || device.driver == DeviceDriver::polhem;
-  if (table.has("joint_damping") && !has_joints)
-    table.problem("joint_damping",
-                  "only the joints of a Falcon or a Polhem are known: add its driver, or say the "
-                  "damping of the handle");
-  if (table.has("joint_damping") && table.has("damping"))
-    table.problem("joint_damping", "friction is said twice, of the handle too: keep one");
-  if (table.has("damping") && !table.has("joint_damping")) device.joint_damping = 0.0;
-}
-
-// What the driver knows of its device is not said once more.
-void check_driver(TomlReader& table, DeviceConfig& device) {
-  check_kind(table, device);
-  check_joint_damping(table, device);
-  check_evdev(table, device);
-  const haptics::UsbFacts* const facts = usb_facts_of(device);
-  if (facts == nullptr) return;
-  const std::string name = facts->name;
-  if (device.source == DeviceSource::pointer)
-    table.problem("kind", "a person holds a " + name + ", and no pointer moves it: take kind out");
-  const bool is_serial = device.driver == DeviceDriver::serial;
-  if (table.has("resolution") && !is_serial)
-    table.problem("resolution", "the driver knows the steps of a " + name + ": take it out");
-  const std::chrono::microseconds silence =
-      is_serial ? haptics::SerialSession::kSilence : haptics::UsbSession::kSilence;
-  if (5 * device.period > 2 * silence)
-    table.problem("rate", fmt::format("a {} is let go after {:.3g} ms without a force, which one "
-                                      "missed period must not bring about: 400 Hz is enough",
-                                      name, 1e-3 * static_cast<double>(silence.count())));
-  const bool described = !device.described.name.empty();
-  const auto said = [&](const char* key) { return described || table.has(key); };
-  use_driver(device, device.driver,
-             {said("damping"), said("delay"), said("max_force"), said("resolution"),
-              table.has("damping")});
-  if (device.upper_weight + device.fore_weight > 0 && !(device.damping > 0)) {
-    const haptics::UsbSettings settings = usb_settings_of(device);
-    const bool by_joints = settings.joint_damping > 0;
-    table.problem("damping",
-                  fmt::format("to hold the links up costs {:.2g} {}, and none is left for walls: "
-                              "state more, if you are sure of it, or less weight",
-                              by_joints ? settings.spent_joint_damping : settings.spent_damping,
-                              by_joints ? "N m s/rad of joint_damping" : "N s/m of damping"));
-  }
 }
 
 // Before the keys of the table, which go before it.
@@ -302,90 +201,93 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   check_mapping(table, device);
   check_admittance(table, device);
   check_motors(table, device);
-  check_driver(table, device);
+  check_device_driver(table, device);
 }
 
 namespace {
+
+using Device = DeviceConfig;
 
 Section<ProbeConfig> probe_section() {
   return {{{"position", &ProbeConfig::position, within("m", -0.5, 0.5),
             "from the handle, in the tool's axes"}}};
 }
 
-}  // namespace
-
-Section<DeviceConfig> device_section() {
-  using Device = DeviceConfig;
-  const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
+// Where the device stands and what drives it.
+std::vector<Row<Device>> driver_rows() {
   const auto no_text = [](const Device&) { return std::string(); };
-  const auto rate = [](const Device&) { return kStandardRate; };
-  const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };
-  Section<Device> section{
-      {
-          {"peer", &Device::peer, within("", 1, kMostPeers), "number of the peer it stands at"},
-          {"operator", &Device::operator_number, within("", 1, 65535),
-           "which [[operator]] of the file holds it"},
-          {"kind", &Device::source,
-           "who moves it: its operator; or a pointer, from where its operator, a passive one, "
-           "holds "
-           "it at first"},
-          {"driver", &Device::driver,
-           "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
-           "which a person holds; evdev, a wheel or stick with force feedback; or a plugin, a "
-           "driver of yours; in simulated time its operator stands in"},
-          {"descriptor", no_text,
-           "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
-           "before it: docs/devices.md"},
-          {"plugin", no_text,
-           "of a plugin: name of the driver's shared library, which is installed or given by "
-           "--plugin; what the device can do, it says itself"},
-          {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
-          {"firmware", &Device::firmware,
-           "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
-          {"port", &Device::port,
-           "of a serial board: its line, such as \"/dev/ttyACM0\", or better one of "
-           "/dev/serial/by-id"},
-          {"baud", &Device::baud, within("", 1'200, 12e6),
-           "of that line; a board that is on USB itself goes by none"},
-          {"upper_weight", &Device::upper_weight, within("N m", 0, 2),
-           "of a Polhem: torque that pulls its upper link down while that is level; held up by its "
-           "motors while forces are shown, which costs damping"},
-          {"fore_weight", &Device::fore_weight, within("N m", 0, 2), "the same of its fore link"},
-          {"event", &Device::event,
-           "of evdev: its path (/dev/input/event7, /dev/hidraw0), or a part of its name; absent: "
-           "the first that gives force feedback"},
-          {"event_axes", &Device::event_axes, within("", 1, 2),
-           "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is y"},
-          {"travel", &Device::travel, declared("m", 0.01, 10),
-           "of evdev: way of the handle from one end of an axis to the other; no device tells it"},
-          {"full_force", &Device::full_force, declared("N", 0.1, 1e3),
-           "of evdev: force at the handle at the greatest level; no device tells it"},
-          {"full_stiffness", &Device::full_stiffness, declared("N/m", 1, 1e6),
-           "of evdev: stiffness at the handle of a spring with the greatest coefficient; no device "
-           "tells it"},
-          {"virtual_mass", in(&Device::admittance, &AdmittanceConfig::mass),
-           declared("kg", 0.05, 100),
-           "makes it an admittance device, simulated: it measures the hand's force and goes where "
-           "a mass would go that hand and scene push, braked by `damping`; absent: it takes "
-           "forces"},
-          {"bandwidth", in(&Device::admittance, &AdmittanceConfig::bandwidth),
-           within("Hz", 1, 1000), "with a virtual mass: of the device's own motion"},
-          {"sensor_stiffness", in(&Device::admittance, &AdmittanceConfig::sensor_stiffness),
-           within("N/m", 100, 1e6), "with a virtual mass: of the sensor between hand and handle"},
-          {"motion_loop", in(&Device::admittance, &AdmittanceConfig::loop),
-           "with a virtual mass: whether it is told places or velocities"},
-          {"reach", &Device::reach, within("m", 0.001, 10),
-           "of a pointer: so far from there it takes the hand, along each axis of the device"},
-          {"marking", &Device::marking,
-           "of its hand, at most 11 printable ASCII characters; absent: the peer's name and a "
-           "number"},
-          {"position", &Device::position, within("m", -kWorld, kWorld),
-           "of its own origin, in S; absent: of a real device where its operator begins"},
-      },
-      check_device};
-  const std::vector<Row<Device>> attitude = attitude_rows<Device>();
-  section.rows.insert(section.rows.end(), attitude.begin(), attitude.end());
-  const std::vector<Row<Device>> rest = {
+  return {
+      {"peer", &Device::peer, within("", 1, kMostPeers), "number of the peer it stands at"},
+      {"operator", &Device::operator_number, within("", 1, 65535),
+       "which [[operator]] of the file holds it"},
+      {"kind", &Device::source,
+       "who moves it: its operator; or a pointer, from where its operator, a passive one, "
+       "holds "
+       "it at first"},
+      {"driver", &Device::driver,
+       "what it is: simulated; a Novint Falcon or a Polhem on USB or a board on a serial line, "
+       "which a person holds; evdev, a wheel or stick with force feedback; or a plugin, a "
+       "driver of yours; in simulated time its operator stands in"},
+      {"descriptor", no_text,
+       "file of what it is and can do, or the name of one that comes with Reckon; keys here go "
+       "before it: docs/devices.md"},
+      {"plugin", no_text,
+       "of a plugin: name of the driver's shared library, which is installed or given by "
+       "--plugin; what the device can do, it says itself"},
+      {"plugin_options", &Device::plugin_options, "of a plugin: what its driver is told"},
+      {"firmware", &Device::firmware,
+       "of a Falcon: file of its program, which is its maker's; absent: it has it already"},
+      {"port", &Device::port,
+       "of a serial board: its line, such as \"/dev/ttyACM0\", or better one of "
+       "/dev/serial/by-id"},
+      {"baud", &Device::baud, within("", 1'200, 12e6),
+       "of that line; a board that is on USB itself goes by none"},
+      {"upper_weight", &Device::upper_weight, within("N m", 0, 2),
+       "of a Polhem: torque that pulls its upper link down while that is level; held up by its "
+       "motors while forces are shown, which costs damping"},
+      {"fore_weight", &Device::fore_weight, within("N m", 0, 2), "the same of its fore link"},
+      {"event", &Device::event,
+       "of evdev: its path (/dev/input/event7, /dev/hidraw0), or a part of its name; absent: "
+       "the first that gives force feedback"},
+      {"event_axes", &Device::event_axes, within("", 1, 2),
+       "of evdev: 1, its ABS_X, which is x of the device; or 2, its ABS_Y too, which is y"},
+      {"travel", &Device::travel, declared("m", 0.01, 10),
+       "of evdev: way of the handle from one end of an axis to the other; no device tells it"},
+      {"full_force", &Device::full_force, declared("N", 0.1, 1e3),
+       "of evdev: force at the handle at the greatest level; no device tells it"},
+      {"full_stiffness", &Device::full_stiffness, declared("N/m", 1, 1e6),
+       "of evdev: stiffness at the handle of a spring with the greatest coefficient; no device "
+       "tells it"},
+  };
+}
+
+// How its handle moves and where it is.
+std::vector<Row<Device>> handle_rows() {
+  return {
+      {"virtual_mass", in(&Device::admittance, &AdmittanceConfig::mass), declared("kg", 0.05, 100),
+       "makes it an admittance device, simulated: it measures the hand's force and goes where "
+       "a mass would go that hand and scene push, braked by `damping`; absent: it takes "
+       "forces"},
+      {"bandwidth", in(&Device::admittance, &AdmittanceConfig::bandwidth), within("Hz", 1, 1000),
+       "with a virtual mass: of the device's own motion"},
+      {"sensor_stiffness", in(&Device::admittance, &AdmittanceConfig::sensor_stiffness),
+       within("N/m", 100, 1e6), "with a virtual mass: of the sensor between hand and handle"},
+      {"motion_loop", in(&Device::admittance, &AdmittanceConfig::loop),
+       "with a virtual mass: whether it is told places or velocities"},
+      {"reach", &Device::reach, within("m", 0.001, 10),
+       "of a pointer: so far from there it takes the hand, along each axis of the device"},
+      {"marking", &Device::marking,
+       "of its hand, at most 11 printable ASCII characters; absent: the peer's name and a "
+       "number"},
+      {"position", &Device::position, within("m", -kWorld, kWorld),
+       "of its own origin, in S; absent: of a real device where its operator begins"},
+  };
+}
+
+// What its motors, axes and buttons can do.
+std::vector<Row<Device>> motor_rows() {
+  const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
+  return {
       {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
        "instead: turned about S's x, then y, then z axis"},
       {"max_force", &Device::max_force, within("N", 0.1, 1e3), "it can show"},
@@ -410,6 +312,14 @@ Section<DeviceConfig> device_section() {
       {"probe", &Device::probes, probe_section(),
        "of six axes: a place of the tool that touches, at most 8; remote hands touch the first. "
        "None: the handle"},
+  };
+}
+
+// What its servo may do with it.
+std::vector<Row<Device>> servo_rows() {
+  const auto rate = [](const Device&) { return kStandardRate; };
+  const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };
+  return {
       {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
        "it can show; 0: as much as damping, rate and delay allow"},
       {"max_speed", &Device::max_speed, within("m/s", 0.01, 100), "faster readings cut the force"},
@@ -447,7 +357,15 @@ Section<DeviceConfig> device_section() {
       {"delay", no_delay, within("s", 0, 0.1),
        "until a force is at the handle; whole servo periods, rounded up"},
   };
-  section.rows.insert(section.rows.end(), rest.begin(), rest.end());
+}
+
+}  // namespace
+
+Section<DeviceConfig> device_section() {
+  Section<Device> section{{}, check_device};
+  for (const auto& rows :
+       {driver_rows(), handle_rows(), attitude_rows<Device>(), motor_rows(), servo_rows()})
+    section.rows.insert(section.rows.end(), rows.begin(), rows.end());
   return section;
 }
 

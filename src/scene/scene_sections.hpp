@@ -57,6 +57,7 @@ void check_operator(TomlReader& table, OperatorConfig& config);
 void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);
 void check_entity(TomlReader& table, EntityConfig& entity);
 void check_device(TomlReader& table, DeviceConfig& device);
+void check_device_driver(TomlReader& table, DeviceConfig& device);
 void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_cells(TomlReader& table, AoimConfig& config);
 /// @param aoim the table that has them

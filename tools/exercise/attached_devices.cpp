@@ -103,26 +103,27 @@ std::vector<std::string> ask(const Kind& kind) {
   return {fmt::format("{}: it says nothing", kind.facts.name)};
 }
 
+// A line that lets the group plugdev, and whoever sits at the host, open a device.
+std::string rule_of(std::string_view subsystem, std::string_view attribute, const peer::UsbId& id) {
+  return fmt::format(
+      "SUBSYSTEM==\"{0}\", {1}{{idVendor}}==\"{2:04x}\", {1}{{idProduct}}==\"{3:04x}\", "
+      "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n",
+      subsystem, attribute, id.vendor, id.product);
+}
+
 }  // namespace
 
 std::string udev_rule(const std::vector<peer::UsbId>& undriven) {
-  std::string rule =
-      "# Devices that Reckon drives, for whoever sits at this host.\n"
-      "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", "
-      "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
-      "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1234\", ATTR{idProduct}==\"0006\", "
-      "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n"
+  std::string rule = "# Devices that Reckon drives, for whoever sits at this host.\n";
+  for (const Kind& kind : kinds())
+    rule += rule_of("usb", "ATTR", {kind.facts.vendor, kind.facts.product});
+  rule +=
       "# Event devices that give force feedback.\n"
       "SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{capabilities/ff}==\"*[1-9a-f]*\", "
       "TAG+=\"uaccess\"\n";
   if (!undriven.empty())
     rule += "# Wheels and sticks whose force feedback the kernel leaves alone.\n";
-  for (const peer::UsbId& id : undriven) {
-    rule += fmt::format(
-        "SUBSYSTEM==\"hidraw\", ATTRS{{idVendor}}==\"{:04x}\", ATTRS{{idProduct}}==\"{:04x}\", "
-        "MODE=\"0660\", GROUP=\"plugdev\", TAG+=\"uaccess\"\n",
-        id.vendor, id.product);
-  }
+  for (const peer::UsbId& id : undriven) rule += rule_of("hidraw", "ATTRS", id);
   return rule;
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/plugin/plugin_device.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -120,6 +121,19 @@ std::unique_ptr<haptics::UsbDriver> usb_driver_of(const DeviceConfig& device) {
   if (!device.firmware.empty()) firmware = haptics::FalconFirmware::load(device.firmware.string());
   return std::make_unique<haptics::FalconDriver>(std::move(firmware));
 }
+
+// The servo calls it, and no thread of its own.
+class LoadedPlugin final : public peer::RealDevice {
+ public:
+  LoadedPlugin(const std::filesystem::path& file, const std::string& options)
+      : device_(file, options) {}
+  [[nodiscard]] const std::string& name() const noexcept { return device_.name(); }
+  haptics::HapticDevice& device() noexcept override { return device_; }
+  std::vector<std::string> take_notices() override { return device_.take_notices(); }
+
+ private:
+  haptics::PluginDevice device_;
+};
 
 }  // namespace
 
@@ -241,88 +255,87 @@ void RealDevices::plug_in(const peer::SceneFile& scene, std::uint32_t number,
   const std::vector<DeviceConfig> devices = peer::devices_of(scene, number);
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const DeviceConfig& device = devices[i];
-    if (device.driver == DeviceDriver::plugin) {
-      const std::filesystem::path file = trusted_plugin(device.plugin, trusted_);
-      plugins_.push_back(std::make_unique<haptics::PluginDevice>(file, device.plugin_options));
-      wired[i].device = as_mapped(*plugins_.back(), device);
-      sentences_.push_back(fmt::format(
-          "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
-          plugins_.back()->name(), plugins_.back()->limits().damping, file.string()));
-      continue;
-    }
-    if (device.driver == DeviceDriver::evdev) {
-      const haptics::EvdevSettings settings = peer::evdev_settings_of(device);
-      evdev_.push_back(std::make_unique<peer::EvdevThread>(clock_, settings));
-      wired[i].device = &evdev_.back()->device();
-      sentences_.push_back(
-          fmt::format("evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms "
-                      "later; what others "
-                      "have is felt along its axes, and pushes no hand that does not press",
-                      settings.max_speed, 1e3 * pdu::to_seconds(settings.chain)));
-      continue;
-    }
-    const haptics::UsbFacts* const facts = peer::usb_facts_of(device);
-    if (facts == nullptr) continue;
-    const haptics::DeviceLimits limits = haptics::usb_limits(*facts, peer::usb_settings_of(device));
-    const bool is_on_line = device.driver == DeviceDriver::serial;
-    wired[i].device = as_mapped(
-        is_on_line ? plug_in_serial(device, limits) : plug_in_usb(device, limits), device);
-    sentences_.push_back(fmt::format(
-        "{}: {:.2g} N s/m of damping{} are relied on, and forces are {:.2g} ms late; where you "
-        "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
-        "stiffer walls, and `reckon devices measure {}` finds them",
-        is_on_line ? device.port : facts->name, limits.damping,
-        limits.lever > 0 ? " in the middle of its work space, elsewhere by its joints," : "",
-        1e3 * limits.delay_samples * pdu::to_seconds(device.period),
-        is_on_line ? device.port : std::string(peer::word_of(device.driver))));
+    if (device.driver == DeviceDriver::simulated) continue;
+    driven_.push_back({device.driver, device.port, open(device)});
+    haptics::HapticDevice& real = driven_.back().real->device();
+    // A device that renders springs takes no force that could be mapped.
+    wired[i].device = device.driver == DeviceDriver::evdev ? &real : as_mapped(real, device);
   }
 }
 
-haptics::HapticDevice& RealDevices::plug_in_usb(const DeviceConfig& config,
-                                                const haptics::DeviceLimits& limits) {
-  if (std::ranges::find(plugged_, config.driver, &Plugged::driver) != plugged_.end()) {
-    throw std::runtime_error(
-        fmt::format("one program drives one {}: start another peer for the second",
-                    peer::usb_facts_of(config)->name));
-  }
-  plugged_.push_back(
-      {config.driver, std::make_unique<peer::UsbThread>(clock_, limits, usb_driver_of(config))});
-  return plugged_.back().thread->device();
+std::unique_ptr<peer::RealDevice> RealDevices::open(const DeviceConfig& config) {
+  if (config.driver == DeviceDriver::plugin) return open_plugin(config);
+  if (config.driver == DeviceDriver::evdev) return open_evdev(config);
+  return open_by_forces(config);
 }
 
-haptics::HapticDevice& RealDevices::plug_in_serial(const DeviceConfig& config,
-                                                   const haptics::DeviceLimits& limits) {
-  if (std::ranges::find(wired_, config.port, &Wired::port) != wired_.end())
+std::unique_ptr<peer::RealDevice> RealDevices::open_plugin(const DeviceConfig& config) {
+  const std::filesystem::path file = trusted_plugin(config.plugin, trusted_);
+  auto plugin = std::make_unique<LoadedPlugin>(file, config.plugin_options);
+  sentences_.push_back(fmt::format(
+      "{}: {:.2g} N s/m of damping are relied on, as its driver says; it was loaded from {}",
+      plugin->name(), plugin->device().limits().damping, file.string()));
+  return plugin;
+}
+
+std::unique_ptr<peer::RealDevice> RealDevices::open_evdev(const DeviceConfig& config) {
+  const haptics::EvdevSettings settings = peer::evdev_settings_of(config);
+  auto device = peer::evdev_device(clock_, settings);
+  sentences_.push_back(
+      fmt::format("evdev: its walls begin where a hand of {:.3g} m/s cannot be {:.2g} ms "
+                  "later; what others "
+                  "have is felt along its axes, and pushes no hand that does not press",
+                  settings.max_speed, 1e3 * pdu::to_seconds(settings.chain)));
+  return device;
+}
+
+// One that takes forces and reports where it is.
+std::unique_ptr<peer::RealDevice> RealDevices::open_by_forces(const DeviceConfig& config) {
+  const haptics::UsbFacts& facts = *peer::usb_facts_of(config);
+  const haptics::DeviceLimits limits = haptics::usb_limits(facts, peer::usb_settings_of(config));
+  const bool is_on_line = config.driver == DeviceDriver::serial;
+  check_free(config);
+  auto device = is_on_line ? peer::serial_device(clock_, limits, {config.port, config.baud})
+                           : peer::usb_device(clock_, limits, usb_driver_of(config));
+  sentences_.push_back(fmt::format(
+      "{}: {:.2g} N s/m of damping{} are relied on, and forces are {:.2g} ms late; where you "
+      "know more of the one or less of the other, 'damping' and 'delay' of its [[device]] give "
+      "stiffer walls, and `reckon devices measure {}` finds them",
+      is_on_line ? config.port : facts.name, limits.damping,
+      limits.lever > 0 ? " in the middle of its work space, elsewhere by its joints," : "",
+      1e3 * limits.delay_samples * pdu::to_seconds(config.period),
+      is_on_line ? config.port : std::string(peer::word_of(config.driver))));
+  return device;
+}
+
+void RealDevices::check_free(const DeviceConfig& config) const {
+  const bool is_on_line = config.driver == DeviceDriver::serial;
+  const bool is_free = std::ranges::none_of(driven_, [&](const Driven& one) {
+    return one.driver == config.driver && (!is_on_line || one.port == config.port);
+  });
+  if (is_free) return;
+  if (is_on_line)
     throw std::runtime_error(fmt::format("two devices are on {}: a line has one", config.port));
-  wired_.push_back(
-      {config.port, std::make_unique<peer::SerialThread>(
-                        clock_, limits, haptics::SerialPlace{config.port, config.baud})});
-  return wired_.back().thread->device();
+  throw std::runtime_error(
+      fmt::format("one program drives one {}: start another peer for the second",
+                  peer::usb_facts_of(config)->name));
 }
 
 unsigned RealDevices::axes() const noexcept {
   constexpr unsigned kAll = 7;
-  const unsigned told = wired_.empty() ? 0 : wired_.front().thread->axes();
-  return told == 0 ? kAll : told;
+  const unsigned known = driven_.empty() ? 0 : driven_.front().real->axes();
+  return known == 0 ? kAll : known;
 }
 
 const haptics::UsbDevice* RealDevices::reports() const noexcept {
-  if (!plugged_.empty()) return &plugged_.front().thread->device();
-  return wired_.empty() ? nullptr : &wired_.front().thread->device();
+  if (driven_.empty()) return nullptr;
+  return dynamic_cast<const haptics::UsbDevice*>(&driven_.front().real->device());
 }
 
 std::vector<std::string> RealDevices::take_notices() {
   std::vector<std::string> all = std::exchange(sentences_, {});
-  for (const Plugged& plugged : plugged_) {
-    for (std::string& sentence : plugged.thread->take_notices()) all.push_back(std::move(sentence));
-  }
-  for (const Wired& wired : wired_) {
-    for (std::string& sentence : wired.thread->take_notices()) all.push_back(std::move(sentence));
-  }
-  for (const auto& thread : evdev_)
-    for (std::string& sentence : thread->take_notices()) all.push_back(std::move(sentence));
-  for (const auto& plugin : plugins_)
-    for (std::string& sentence : plugin->take_notices()) all.push_back(std::move(sentence));
+  for (const Driven& one : driven_)
+    for (std::string& sentence : one.real->take_notices()) all.push_back(std::move(sentence));
   return all;
 }
 

@@ -10,13 +10,11 @@
 #include <vector>
 
 #include "reckon/haptics/devices/mapped_device.hpp"
-#include "reckon/haptics/plugin/plugin_device.hpp"
+#include "reckon/haptics/usb/usb_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/evdev_thread.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/peer/real_device.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
-#include "reckon/peer/serial_thread.hpp"
-#include "reckon/peer/usb_thread.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
@@ -69,29 +67,27 @@ class RealDevices {
   [[nodiscard]] const haptics::UsbDevice* reports() const noexcept;
 
  private:
-  [[nodiscard]] haptics::HapticDevice& plug_in_usb(const peer::DeviceConfig& config,
-                                                   const haptics::DeviceLimits& limits);
-  [[nodiscard]] haptics::HapticDevice& plug_in_serial(const peer::DeviceConfig& config,
-                                                      const haptics::DeviceLimits& limits);
+  struct Driven {
+    peer::DeviceDriver driver;
+    std::string port;  // of a serial board
+    std::unique_ptr<peer::RealDevice> real;
+  };
+
+  /// Opens it; its sentence joins the others.
+  [[nodiscard]] std::unique_ptr<peer::RealDevice> open(const peer::DeviceConfig& config);
+  [[nodiscard]] std::unique_ptr<peer::RealDevice> open_plugin(const peer::DeviceConfig& config);
+  [[nodiscard]] std::unique_ptr<peer::RealDevice> open_evdev(const peer::DeviceConfig& config);
+  [[nodiscard]] std::unique_ptr<peer::RealDevice> open_by_forces(const peer::DeviceConfig& config);
+  /// @throws std::runtime_error where another device of this process is in its place
+  void check_free(const peer::DeviceConfig& config) const;
   /// As the hand has it.
   [[nodiscard]] haptics::HapticDevice* as_mapped(haptics::HapticDevice& device,
                                                  const peer::DeviceConfig& config);
 
   std::vector<std::string> trusted_;
   peer::SteadyClock clock_;
-  struct Plugged {
-    peer::DeviceDriver driver;
-    std::unique_ptr<peer::UsbThread> thread;
-  };
-  std::vector<Plugged> plugged_;
-  struct Wired {
-    std::string port;
-    std::unique_ptr<peer::SerialThread> thread;
-  };
-  std::vector<Wired> wired_;
   std::vector<std::unique_ptr<haptics::MappedDevice>> mapped_;  // before the real ones
-  std::vector<std::unique_ptr<haptics::PluginDevice>> plugins_;
-  std::vector<std::unique_ptr<peer::EvdevThread>> evdev_;
+  std::vector<Driven> driven_;
   std::vector<std::string> sentences_;
 };
 

@@ -18,8 +18,7 @@
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/serial_thread.hpp"
-#include "reckon/peer/usb_thread.hpp"
+#include "reckon/peer/real_device.hpp"
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/far_end.hpp"
 #include "reckon/tests/haptics/support/polhem_model.hpp"
@@ -43,7 +42,7 @@ const Vector3d kForce(0.2, 0.1, 0.3);
 class Plug {
  public:
   virtual ~Plug() = default;
-  virtual haptics::UsbDevice& device() = 0;
+  virtual haptics::HapticDevice& device() = 0;
   virtual std::vector<std::string> take_notices() = 0;
   virtual void pull() = 0;
   virtual void plug() = 0;
@@ -151,11 +150,11 @@ class UsbPlug final : public Plug {
       };
     }
     const haptics::DeviceLimits limits = haptics::usb_limits(driver->facts(), {});
-    thread_.emplace(clock, limits, std::move(driver), std::move(finding));
+    real_ = peer::usb_device(clock, limits, std::move(driver), std::move(finding));
   }
 
-  haptics::UsbDevice& device() override { return thread_->device(); }
-  std::vector<std::string> take_notices() override { return thread_->take_notices(); }
+  haptics::HapticDevice& device() override { return real_->device(); }
+  std::vector<std::string> take_notices() override { return real_->take_notices(); }
   void pull() override {
     shim_.unplug();
     shim_.with_model([&] { model_.forget_line(); });
@@ -184,7 +183,7 @@ class UsbPlug final : public Plug {
   const UsbSite* site_;
   Model model_;
   test::UsbShim shim_;
-  std::optional<peer::UsbThread> thread_;
+  std::unique_ptr<peer::RealDevice> real_;
 };
 
 class BoardPlug final : public Plug {
@@ -197,12 +196,12 @@ class BoardPlug final : public Plug {
     settings.max_force = 5.0;
     settings.resolution = 20e-6;
     plug();
-    thread_.emplace(clock, haptics::usb_limits(haptics::serial_facts(), settings),
-                    haptics::SerialPlace{port(), haptics::SerialPlace::kBaud});
+    real_ = peer::serial_device(clock, haptics::usb_limits(haptics::serial_facts(), settings),
+                                {port(), haptics::SerialPlace::kBaud});
   }
 
-  haptics::UsbDevice& device() override { return thread_->device(); }
-  std::vector<std::string> take_notices() override { return thread_->take_notices(); }
+  haptics::HapticDevice& device() override { return real_->device(); }
+  std::vector<std::string> take_notices() override { return real_->take_notices(); }
   void pull() override {
     far_.reset();
     static_cast<void>(std::remove(port().c_str()));
@@ -234,7 +233,7 @@ class BoardPlug final : public Plug {
   test::ScratchFolder folder_;
   test::SerialBoard board_;
   std::optional<test::FarEnd> far_;
-  std::optional<peer::SerialThread> thread_;
+  std::unique_ptr<peer::RealDevice> real_;
 };
 
 template <class Model, class Options>

@@ -1,25 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// An event device that is pulled out before any of the calls that its loop makes, and at random
-// instants.
+// A device that renders springs and is pulled out before any of the calls that its session makes,
+// and at random instants.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <random>
-#include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "reckon/haptics/evdev/evdev_device.hpp"
-#include "reckon/haptics/evdev/evdev_loop.hpp"
-#include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/evdev_model.hpp"
+#include "reckon/tests/haptics/support/hid_wheel.hpp"
+#include "reckon/tests/haptics/support/plugged_events.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -28,141 +21,84 @@ using Eigen::Vector3d;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
-using test::EvdevModel;
-using test::EvdevModelOptions;
-using test::settings_for;
 using ::testing::AnyOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
 
-/// A file that was open when the device was pulled out stays as dead as it was.
-class PulledCalls final : public EventCalls {
- public:
-  explicit PulledCalls(EvdevModel& model) : model_(model) {}
-
-  void pull() {
-    model_.plug(false);
-    is_dead_ = true;
-  }
-  void plug() { model_.plug(true); }
-  std::function<void()> at_each_call = [] {};
-
-  std::vector<std::string> paths() override { return at_each_call(), model_.paths(); }
-  std::string closed_name(const std::string& path) override { return model_.closed_name(path); }
-  ReportIntervals report_intervals(const std::string& path) override {
-    return model_.report_intervals(path);
-  }
-  int open(const std::string& path) override {
-    at_each_call();
-    const int file = model_.open(path);
-    if (file >= 0) is_dead_ = false;
-    return file;
-  }
-  void close(int file) noexcept override { model_.close(file); }
-  int control(int file, unsigned long request, void* argument) noexcept override {
-    at_each_call();
-    return is_dead_ ? -ENODEV : model_.control(file, request, argument);
-  }
-  int read(int file, std::span<input_event> events) noexcept override {
-    at_each_call();
-    return is_dead_ ? -ENODEV : model_.read(file, events);
-  }
-  int write(int file, const input_event& event) noexcept override {
-    at_each_call();
-    return is_dead_ ? -ENODEV : model_.write(file, event);
-  }
-  void wait(int file, microseconds longest) noexcept override { model_.wait(file, longest); }
-
- private:
-  EvdevModel& model_;
-  bool is_dead_ = false;
+struct Evdev {
+  using Model = test::EvdevModel;
+  using Options = test::EvdevModelOptions;
+  static constexpr const char* kName = "Evdev";
+  static constexpr unsigned kCalls = 60;  // those of the set-up, and some of its use
+  static constexpr milliseconds kGone{10}, kBack{10};
+  static constexpr microseconds kTick{50};
+  static void pull(Model& model) { model.pull(); }
+  static double force(const Model& model) { return model.force(0); }
 };
 
-Scene one_wall() {
-  Scene scene;
-  SceneObject& wall = scene.objects.emplace_back();
-  wall.name = "wall";
-  wall.shape = PlaneShape{Vector3d::UnitX()};
-  wall.pose.position = {-0.02, 0, 0};
-  wall.effects.of<SpringDamper>().stiffness = 1'000;
-  return scene;
-}
+struct Hid {
+  using Model = test::HidWheel;
+  using Options = test::HidWheelOptions;
+  static constexpr const char* kName = "Hid";
+  static constexpr unsigned kCalls = 90;
+  static constexpr milliseconds kGone{12}, kBack{30};
+  static constexpr microseconds kTick{100};
+  static void pull(Model& model) { model.plug(false); }
+  static double force(const Model& model) { return model.wheel.force(0); }
+};
 
-// Into the wall and out of it, five times a second.
-EvdevModel::Places swaying(double t) { return {-0.02 + 0.01 * std::sin(30 * t), 0}; }
-
-class Plugged {
+template <class Kind>
+class Plugged : public test::PluggedEvents<typename Kind::Model> {
  public:
+  // Into the wall and out of it, five times a second.
   Plugged()
-      : model(EvdevModelOptions{}, swaying),
-        device(exchange, evdev_limits(settings)),
-        servo(device, EffectPlan(one_wall()), {}) {
-    auto owned = std::make_unique<PulledCalls>(model);
-    calls = owned.get();
-    loop = std::make_unique<EvdevLoop>(exchange, settings, std::move(owned),
-                                       [this] { return model.now(); });
-    model.beside([this](nanoseconds now) {
-      if (now < next_step_) return;
-      next_step_ += milliseconds(1);
-      servo.step(now);
-      servo.snapshots().update();
-    });
-  }
+      : test::PluggedEvents<typename Kind::Model>(
+            typename Kind::Options{},
+            [](double t) {
+              return typename Kind::Model::Places{-0.02 + 0.01 * std::sin(30 * t), 0};
+            },
+            test::one_wall(), test::settings_for(typename Kind::Options{}), Kind::kTick) {}
 
-  void run(nanoseconds time) {
-    for (const nanoseconds end = model.now() + time; model.now() < end;) {
-      const nanoseconds before = model.now();
-      loop->step(milliseconds(1));
-      for (std::string& notice : loop->take_notices()) notices.push_back(std::move(notice));
-      if (model.now() == before) model.pass(microseconds(50));  // it looked for the device
-    }
-  }
-  [[nodiscard]] bool is_ready() const {
-    return std::ranges::any_of(
-        notices, [](const std::string& one) { return one.find("ready") != std::string::npos; });
-  }
-  // 10 ms after it was pulled out.
+  // Some ms after it was pulled out.
   void expect_nothing() {
-    EXPECT_EQ(servo.snapshots().read().force, Vector3d::Zero());
-    EXPECT_FALSE(servo.snapshots().read().enabled);
-    EXPECT_EQ(model.open_files(), 0);
-    EXPECT_EQ(model.force(0), 0);
+    EXPECT_EQ(this->last().force, Vector3d::Zero());
+    EXPECT_FALSE(this->last().enabled);
+    EXPECT_EQ(this->model.open_files(), 0);
+    EXPECT_EQ(Kind::force(this->model), 0);
   }
   void expect_back() {
-    notices.clear();
-    calls->plug();
-    run(EvdevLoop::kRetry + milliseconds(10));
-    EXPECT_TRUE(is_ready());
-    EXPECT_LE(notices.size(), 1U);
+    this->notices.clear();
+    this->model.plug(true);
+    this->run(EvdevLoop::kRetry + Kind::kBack);
+    EXPECT_THAT(this->notices, ::testing::Contains(HasSubstr("ready")));
+    EXPECT_LE(this->notices.size(), 1U);
   }
-
-  EvdevModel model;
-  EvdevSettings settings = settings_for(EvdevModelOptions{});
-  EvdevExchange exchange;
-  EvdevDevice device;
-  ServoLoop servo;
-  PulledCalls* calls = nullptr;
-  std::unique_ptr<EvdevLoop> loop;
-  std::vector<std::string> notices;
-
- private:
-  nanoseconds next_step_{0};
 };
 
-TEST(EvdevUnplug, BeforeEachCallItIsSaidAndTakenUpAgain) {
-  constexpr unsigned kCalls = 60;  // those of the set-up, and some of its use
-  for (unsigned call = 0; call < kCalls; ++call) {
+template <class Kind>
+class EventUnplug : public ::testing::Test {};
+struct Names {
+  template <class Kind>
+  static std::string GetName(int) {
+    return Kind::kName;
+  }
+};
+using EventKinds = ::testing::Types<Evdev, Hid>;
+TYPED_TEST_SUITE(EventUnplug, EventKinds, Names);
+
+TYPED_TEST(EventUnplug, BeforeEachCallItIsSaidAndTakenUpAgain) {
+  for (unsigned call = 0; call < TypeParam::kCalls; ++call) {
     SCOPED_TRACE(call);
-    Plugged plugged;
+    Plugged<TypeParam> plugged;
     unsigned made = 0;
     bool is_pulled = false;
-    plugged.calls->at_each_call = [&] {
-      if (made++ != call) return;
+    plugged.model.at_each_call = [&] {
+      if (is_pulled || made++ != call) return;
       is_pulled = true;
-      plugged.calls->pull();
+      TypeParam::pull(plugged.model);
     };
-    while (!is_pulled) plugged.run(microseconds(50));
-    plugged.run(milliseconds(10));
+    while (!is_pulled) plugged.run(TypeParam::kTick);
+    plugged.run(TypeParam::kGone);
     plugged.expect_nothing();
     EXPECT_THAT(plugged.notices,
                 Each(AnyOf(HasSubstr("was unplugged"), HasSubstr("attached"), HasSubstr("ready"))));
@@ -173,16 +109,16 @@ TEST(EvdevUnplug, BeforeEachCallItIsSaidAndTakenUpAgain) {
 
 TEST(EvdevUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
   std::mt19937 random(11);
-  Plugged plugged;
+  Plugged<Evdev> plugged;
   double most = 0;
   for (int round = 0; round < 100; ++round) {
     SCOPED_TRACE(round);
     plugged.run(microseconds(50) * (random() % 8'000));
     most = std::max(most, plugged.model.force(0));
     plugged.notices.clear();
-    plugged.calls->pull();
+    plugged.model.pull();
     // It may be there again before anything was noticed.
-    if (round % 4 == 0) plugged.calls->plug();
+    if (round % 4 == 0) plugged.model.plug(true);
     plugged.run(milliseconds(10));
     plugged.expect_nothing();
     EXPECT_THAT(plugged.notices, ::testing::SizeIs(1));

@@ -58,20 +58,6 @@ class Plugged : public test::PluggedDevice<FalconModel> {
   }
 };
 
-TEST(FalconLoop, AWallIsFeltThroughTheRealLibrary) {
-  Plugged falcon;
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("ready: forces are shown")));
-  EXPECT_EQ(falcon.model.latency(), 1);
-  // A spring K of the wall against the hand's of 200 N/m, 20 mm behind it.
-  const double wall = falcon.servo.static_stiffness_limit();
-  const double force = 200 * wall / (200 + wall) * 0.02;
-  EXPECT_NEAR(falcon.model.force().z(), force, 0.05);
-  EXPECT_NEAR(falcon.last.force.z(), force, 0.05);
-  EXPECT_NEAR(falcon.last.device.z(), falcon.model.position().z(), 1e-4);
-  EXPECT_LE(falcon.last.trips, 1U) << "before there was a device";
-}
-
 TEST(FalconLoop, PositionsAndForcesHaveTheSignsOfTheAxes) {
   for (int axis = 0; axis < 3; ++axis) {
     Plugged falcon({}, [axis](double) { return Vector3d(0.02 * Vector3d::Unit(axis)); });
@@ -88,6 +74,7 @@ TEST(FalconLoop, PositionsAndForcesHaveTheSignsOfTheAxes) {
     EXPECT_LT((sample.position - falcon.model.position()).norm(), 2e-4);
     EXPECT_LT((falcon.model.force() - 2.0 * Vector3d::Unit(axis)).norm(), 0.01);
     EXPECT_EQ(sample.buttons, 4U);
+    EXPECT_EQ(falcon.model.latency(), 1);
   }
 }
 
@@ -183,19 +170,6 @@ TEST(FalconLoop, WithoutHomingThereIsNoForceAndTheUserIsToldWhatToDo) {
   EXPECT_THAT(falcon.notices, ::testing::ElementsAre(HasSubstr("pull the handle out")));
   EXPECT_TRUE(falcon.motors_rest());
   falcon.model.home();
-  falcon.run(std::chrono::seconds(3));
-  EXPECT_GT(falcon.model.force().z(), 0.5);
-}
-
-TEST(FalconLoop, AtTheEndOfItsReachThereIsNoForce) {
-  double out = 0;
-  Plugged falcon({}, [&](double t) { return Vector3d(pressing(t) - Vector3d(0, out, 0)); });
-  falcon.press();
-  out = 0.08;
-  falcon.run(std::chrono::seconds(1));
-  EXPECT_THAT(falcon.notices, Contains(HasSubstr("end of its reach")));
-  EXPECT_TRUE(falcon.motors_rest());
-  out = 0;
   falcon.run(std::chrono::seconds(3));
   EXPECT_GT(falcon.model.force().z(), 0.5);
 }

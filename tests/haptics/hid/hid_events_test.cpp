@@ -8,21 +8,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <memory>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "reckon/haptics/evdev/evdev_loop.hpp"
-#include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/hid_wheel.hpp"
+#include "reckon/tests/haptics/support/plugged_events.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
 namespace reckon::haptics {
@@ -31,36 +27,14 @@ namespace {
 using Eigen::Vector3d;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
-using std::chrono::nanoseconds;
 using test::HidWheel;
 using test::HidWheelOptions;
 using test::settings_for;
-using ::testing::AnyOf;
 using ::testing::Contains;
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using Hand = std::function<HidWheel::Places(double)>;
-
-constexpr double kStiffness = 1000.0;
-
-// Free from -20 to 20 mm along x and y.
-Scene room() {
-  Scene scene;
-  const auto add = [&](const Vector3d& normal, const Vector3d& at) {
-    SceneObject& wall = scene.objects.emplace_back();
-    wall.name = "wall " + std::to_string(scene.objects.size());
-    wall.shape = PlaneShape{normal};
-    wall.pose.position = at;
-    wall.effects.of<SpringDamper>().stiffness = kStiffness;
-  };
-  add(Vector3d::UnitX(), {-0.02, 0, 0});
-  add(-Vector3d::UnitX(), {0.02, 0, 0});
-  add(Vector3d::UnitY(), {0, -0.02, 0});
-  add(-Vector3d::UnitY(), {0, 0.02, 0});
-  return scene;
-}
+using Hand = test::PluggedEvents<HidWheel>::Hand;
 
 // Pushes into two walls and stays 10 mm behind each, once they stand.
 HidWheel::Places pressing(double t) {
@@ -68,56 +42,11 @@ HidWheel::Places pressing(double t) {
   return {-0.03 * share, 0.03 * share};
 }
 
-class Plugged {
+class Plugged : public test::PluggedEvents<HidWheel> {
  public:
   explicit Plugged(const HidWheelOptions& options = {}, Hand hand = pressing)
-      : wheel(options, std::move(hand)),
-        settings(settings_for(options)),
-        device(exchange, evdev_limits(settings)),
-        servo(device, EffectPlan(room()), servo_config()) {
-    wheel.beside([this](nanoseconds now) {
-      if (now < next_step_) return;
-      next_step_ += milliseconds(1);
-      if (!servo_runs) return;
-      servo.step(now);
-      servo.snapshots().update();
-      if (!last().enabled) ++steps_without_;
-    });
-    start();
-  }
-  void start() {
-    loop = std::make_unique<EvdevLoop>(exchange, settings, test::calls_of(wheel),
-                                       [this] { return wheel.now(); });
-  }
-  void run(nanoseconds time) {
-    for (const nanoseconds end = wheel.now() + time; wheel.now() < end;) {
-      const nanoseconds before = wheel.now();
-      loop->step(milliseconds(1));
-      for (std::string& notice : loop->take_notices()) notices.push_back(std::move(notice));
-      if (wheel.now() == before) wheel.pass(microseconds(100));  // it looked for the device
-    }
-  }
-  [[nodiscard]] const ServoSnapshot& last() { return servo.snapshots().read(); }
-  [[nodiscard]] int steps_without() { return std::exchange(steps_without_, 0); }
-
-  ForceStop stop;
-  HidWheel wheel;
-  EvdevSettings settings;
-  EvdevExchange exchange;
-  EvdevDevice device;
-  ServoLoop servo;
-  std::unique_ptr<EvdevLoop> loop;
-  std::vector<std::string> notices;
-  bool servo_runs = true;
-
- private:
-  ServoConfig servo_config() {
-    ServoConfig config;
-    config.stop = &stop;
-    return config;
-  }
-  nanoseconds next_step_{0};
-  int steps_without_ = 0;  // shown the hand where it is
+      : PluggedEvents(options, std::move(hand), test::four_walls(), settings_for(options),
+                      microseconds(100)) {}
 };
 
 TEST(HidEvents, WallsAreFeltWhereTheyAreAlongBothAxes) {
@@ -127,17 +56,17 @@ TEST(HidEvents, WallsAreFeltWhereTheyAreAlongBothAxes) {
   plugged.run(milliseconds(3000));
   EXPECT_THAT(plugged.notices, ElementsAre(HasSubstr("Reckon FFBoard model: ready")));
   for (const std::size_t axis : {0U, 1U}) {
-    const double depth = std::abs(plugged.wheel.wheel.place(axis)) - 0.02;
+    const double depth = std::abs(plugged.model.wheel.place(axis)) - 0.02;
     EXPECT_NEAR(depth, 0.01 * 300 / 1300, 1e-4);
     const double sign = axis == 0 ? 1 : -1;
     // A step of the place (12.5 um) and of the coefficient (0.2 N/m) of the device, and of the
     // event device's numbers.
-    const double within = kStiffness * 17e-6 + 0.3 * depth;
-    EXPECT_NEAR(plugged.wheel.wheel.force(axis), sign * kStiffness * depth, within);
+    const double within = 1'000 * 17e-6 + 0.3 * depth;
+    EXPECT_NEAR(plugged.model.wheel.force(axis), sign * 1'000 * depth, within);
     EXPECT_NEAR(plugged.last().force[static_cast<Eigen::Index>(axis)],
-                plugged.wheel.wheel.force(axis), within);
+                plugged.model.wheel.force(axis), within);
   }
-  EXPECT_EQ(plugged.wheel.wheel.strange(), 0);
+  EXPECT_EQ(plugged.model.wheel.strange(), 0);
   EXPECT_EQ(plugged.steps_without(), 0) << "its own reports keep the readings from ageing";
 }
 
@@ -146,16 +75,16 @@ TEST(HidEvents, AWheelOfOneAxisFeelsTheWallsAlongIt) {
   options.wheel.axes = 1;
   Plugged plugged(options);
   plugged.run(milliseconds(2000));
-  EXPECT_NEAR(plugged.wheel.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
+  EXPECT_NEAR(plugged.model.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
 }
 
 TEST(HidEvents, AWallThatStandsIsToldOnceAndOnlyTheAxisThatChanges) {
   const Hand rests = [](double) { return HidWheel::Places{0, 0}; };
   Plugged plugged({}, rests);
   plugged.run(milliseconds(1000));
-  const int before = plugged.wheel.wheel.changes();
+  const int before = plugged.model.wheel.changes();
   plugged.run(milliseconds(1000));
-  EXPECT_EQ(plugged.wheel.wheel.changes(), before);
+  EXPECT_EQ(plugged.model.wheel.changes(), before);
 }
 
 TEST(HidEvents, WhatTheKernelDrivesIsLeftToItButByItsPath) {
@@ -172,26 +101,26 @@ TEST(HidEvents, WhatTheKernelDrivesIsLeftToItButByItsPath) {
 TEST(HidEvents, AProgramThatEndsTakesItsEffectsWithIt) {
   Plugged plugged;
   plugged.run(milliseconds(1000));
-  EXPECT_EQ(plugged.wheel.wheel.effects(), 2U);
+  EXPECT_EQ(plugged.model.wheel.effects(), 2U);
   plugged.loop.reset();
-  EXPECT_EQ(plugged.wheel.wheel.effects(), 0U);
-  EXPECT_EQ(plugged.wheel.open_files(), 0);
+  EXPECT_EQ(plugged.model.wheel.effects(), 0U);
+  EXPECT_EQ(plugged.model.open_files(), 0);
 }
 
 // Nothing of the host is done any more: the device ends them, and the next program frees them.
 TEST(HidEvents, OneThatIsKilledLeavesNoForceOnceItsEffectsEndAndTheNextBeginsAnew) {
   Plugged plugged;
   plugged.run(milliseconds(1000));
-  ASSERT_GT(plugged.wheel.wheel.force(0), 1);
-  plugged.wheel.pass(EvdevLoop::kLength + milliseconds(1));
-  EXPECT_EQ(plugged.wheel.wheel.force(0), 0);
-  EXPECT_EQ(plugged.wheel.wheel.effects(), 2U);
+  ASSERT_GT(plugged.model.wheel.force(0), 1);
+  plugged.model.pass(EvdevLoop::kLength + milliseconds(1));
+  EXPECT_EQ(plugged.model.wheel.force(0), 0);
+  EXPECT_EQ(plugged.model.wheel.effects(), 2U);
   EvdevExchange exchange;
-  EvdevLoop next(exchange, plugged.settings, test::calls_of(plugged.wheel),
-                 [&] { return plugged.wheel.now(); });
+  EvdevLoop next(exchange, plugged.settings, test::calls_of(plugged.model),
+                 [&] { return plugged.model.now(); });
   next.step(milliseconds(1));
   EXPECT_THAT(next.take_notices(), ElementsAre(HasSubstr("ready")));
-  EXPECT_EQ(plugged.wheel.wheel.effects(), 2U) << "its own";
+  EXPECT_EQ(plugged.model.wheel.effects(), 2U) << "its own";
 }
 
 TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
@@ -204,42 +133,22 @@ TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
     plugged.run(milliseconds(400));
     static_cast<void>(plugged.steps_without());
     double most = 0;
-    const int before = plugged.wheel.wheel.changes();
+    const int before = plugged.model.wheel.changes();
     for (std::uint32_t i = 0; i < 300; ++i) {
       const double way = 0.02 * std::sin(0.1 * i);  // a hand of another that never rests
       plugged.servo.contacts().write(bench::only(bench::sphere({way, -0.045, 0}, 500, i + 1)));
       plugged.run(milliseconds(10));
-      most = std::max(most, std::abs(plugged.wheel.wheel.force(0)));
-      ASSERT_EQ(plugged.wheel.wheel.playing(), 2U);
+      most = std::max(most, std::abs(plugged.model.wheel.force(0)));
+      ASSERT_EQ(plugged.model.wheel.playing(), 2U);
     }
     EXPECT_EQ(plugged.steps_without(), 0);
     EXPECT_GT(most, 1.0);
-    EXPECT_GT(plugged.wheel.wheel.changes() - before, 60);
+    EXPECT_GT(plugged.model.wheel.changes() - before, 60);
   }
 }
 
-// Strokes that press every wall, stops, hands of others and stands of the program.
-struct Roaming {
-  explicit Roaming(unsigned seed) : random(seed) {
-    for (auto& axis : strokes)
-      for (auto& stroke : axis) stroke = {within(0.006, 0.018), within(2, 8), within(0, 6.3)};
-  }
-  double within(double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(random);
-  }
-  HidWheel::Places operator()(double t) const {
-    HidWheel::Places place{};
-    const double share = std::clamp(4.0 - t, 0.0, 1.0);
-    for (std::size_t i = 0; i < 2; ++i)
-      for (const auto& [size, rate, phase] : strokes[i])
-        place[i] += share * size * std::sin(rate * t + phase);
-    return place;
-  }
-  std::mt19937 random;
-  std::array<std::array<std::array<double, 3>, 3>, 2> strokes{};
-};
-
-// RECKON_SOAK=1 draws 200 of each.
+// Strokes that press every wall, stops, hands of others and stands of the program. RECKON_SOAK=1
+// draws 200 of each.
 TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
   const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 200 : 4;
   double least = 0, lead = 0, greatest = 0;
@@ -251,23 +160,23 @@ TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
       options.answers = microseconds(seed % 3 * 400 + 100);
       options.reports = microseconds(seed % 2 == 0 ? 1000 : 4000);
       options.wheel.hand_stiffness = seed % 2 == 0 ? 300 : 900;
-      Roaming hand(seed);
+      test::RoamingHand hand(seed, 0.006, 0.018, 8, 4);
       Plugged plugged(options, hand);
       for (std::uint32_t i = 0; i < 16; ++i) {
         const Vector3d other(hand.within(-0.05, 0.05), hand.within(-0.05, 0.05), 0);
         plugged.servo.contacts().write(i < 13 ? bench::only(bench::sphere(other, 500, i + 1))
                                               : ContactSet());
         plugged.run(microseconds(static_cast<int>(hand.within(50e3, 350e3))));
-        greatest = std::max(greatest, std::abs(plugged.wheel.wheel.force(0)));
+        greatest = std::max(greatest, std::abs(plugged.model.wheel.force(0)));
         if (i % 3 == 0) plugged.stop.press(StopCause::program);
         if (i % 3 == 1) plugged.stop.release(StopCause::program);
-        if (i % 5 == 2) plugged.wheel.pass(microseconds(static_cast<int>(hand.within(5e3, 90e3))));
+        if (i % 5 == 2) plugged.model.pass(microseconds(static_cast<int>(hand.within(5e3, 90e3))));
       }
-      plugged.run(milliseconds(4500) - plugged.wheel.now());
-      ASSERT_LT(plugged.wheel.wheel.fastest(), 1.0) << "the hand is faster than stated";
-      ASSERT_GE(plugged.wheel.wheel.least_absorbed(), -1e-9);
-      least = std::min(least, plugged.wheel.wheel.least_absorbed());
-      lead = std::max(lead, plugged.last().port_energy - plugged.wheel.wheel.absorbed());
+      plugged.run(milliseconds(4500) - plugged.model.now());
+      ASSERT_LT(plugged.model.wheel.fastest(), 1.0) << "the hand is faster than stated";
+      ASSERT_GE(plugged.model.wheel.least_absorbed(), -1e-9);
+      least = std::min(least, plugged.model.wheel.least_absorbed());
+      lead = std::max(lead, plugged.last().port_energy - plugged.model.wheel.absorbed());
     }
   }
   std::printf("  least %.3g J, the meter's lead %.3g J\n", least, lead);
@@ -275,37 +184,10 @@ TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
   EXPECT_GT(greatest, 3.0) << "no wall was ever pressed";
 }
 
-TEST(HidEvents, PulledOutBeforeAnyCallItIsSaidAndTakenUpAgain) {
-  constexpr unsigned kCalls = 90;  // those of the set-up, and some of its use
-  for (unsigned call = 0; call < kCalls; ++call) {
-    SCOPED_TRACE(call);
-    Plugged plugged;
-    unsigned made = 0;
-    bool is_pulled = false;
-    plugged.wheel.at_each_call = [&] {
-      if (is_pulled || made++ != call) return;
-      is_pulled = true;
-      plugged.wheel.plug(false);
-    };
-    while (!is_pulled) plugged.run(microseconds(100));
-    plugged.run(milliseconds(12));
-    EXPECT_EQ(plugged.last().force, Vector3d::Zero());
-    EXPECT_FALSE(plugged.last().enabled);
-    EXPECT_EQ(plugged.wheel.open_files(), 0);
-    EXPECT_THAT(plugged.notices,
-                Each(AnyOf(HasSubstr("was unplugged"), HasSubstr("attached"), HasSubstr("ready"))));
-    EXPECT_LE(plugged.notices.size(), 2U);
-    plugged.notices.clear();
-    plugged.wheel.plug(true);
-    plugged.run(EvdevLoop::kRetry + milliseconds(30));
-    EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
-  }
-}
-
 TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
   const auto said = [](const std::function<void(HidWheel&)>& spoil, HidWheelOptions options = {}) {
     Plugged plugged(options);
-    spoil(plugged.wheel);
+    spoil(plugged.model);
     plugged.run(milliseconds(200));
     return plugged.notices.empty() ? std::string("nothing") : plugged.notices.front();
   };
@@ -340,7 +222,7 @@ TEST(HidEvents, WhatIsInTheWayIsSaidWithTheRemedy) {
 TEST(HidEvents, OneThatIsMeantByItsPathIsToldWhyItIsNotUsed) {
   const auto said = [](std::vector<std::uint8_t> descriptor) {
     Plugged plugged;
-    plugged.wheel.seen.descriptor = std::move(descriptor);
+    plugged.model.seen.descriptor = std::move(descriptor);
     plugged.settings.event = HidWheel::kPath;
     plugged.start();
     plugged.run(milliseconds(200));
@@ -358,7 +240,7 @@ TEST(HidEvents, WhatIsLeftOutThatNothingDependsOnIsNotMissed) {
   options.wheel.without = {0x65, 0x51, 0x53, 0x54, 0xA7, 0x83, 0xA9, 0xAC};
   Plugged plugged(options);
   plugged.run(milliseconds(2000));
-  EXPECT_NEAR(plugged.wheel.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
+  EXPECT_NEAR(plugged.model.wheel.place(0), -0.02 - 0.01 * 300 / 1300, 1e-4);
 }
 
 TEST(HidEvents, OneThatDoesNotAnswerWhereItIsIsAskedToMove) {
@@ -379,19 +261,19 @@ TEST(HidEvents, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
   Plugged plugged;
   plugged.run(milliseconds(1000));
   plugged.notices.clear();
-  plugged.wheel.fail(HidWheel::Call::write, -ETIMEDOUT);
+  plugged.model.fail(HidWheel::Call::write, -ETIMEDOUT);
   plugged.run(milliseconds(100));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("refuses an effect (Connection timed out)")));
   EXPECT_FALSE(plugged.last().enabled);
   plugged.notices.clear();
-  plugged.wheel.fail(HidWheel::Call::write, 0, 0);
+  plugged.model.fail(HidWheel::Call::write, 0, 0);
   plugged.run(milliseconds(1000));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("ready")));
-  plugged.wheel.fail(HidWheel::Call::write, -EPROTO);
+  plugged.model.fail(HidWheel::Call::write, -EPROTO);
   plugged.run(milliseconds(100));
   EXPECT_THAT(plugged.notices, Contains(HasSubstr("does not answer (Protocol error), as one that "
                                                   "was unplugged")));
-  EXPECT_GE(plugged.wheel.wheel.least_absorbed(), -1e-9);
+  EXPECT_GE(plugged.model.wheel.least_absorbed(), -1e-9);
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thread of a serial board over a real tty, on the clock of this host. A busy host may miss the
 // board's 10 ms: then it goes on by itself, and what is waited for comes later.
-#include "reckon/peer/serial_thread.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +14,7 @@
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/haptics/usb/usb_limits.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/real_device.hpp"
 #include "reckon/tests/haptics/support/far_end.hpp"
 #include "reckon/tests/haptics/support/serial_board.hpp"
 
@@ -34,8 +33,8 @@ TEST(SerialThread, ForcesPassToABoardThatRunsBesideItAndItIsToldOfItsEnd) {
   settings.resolution = 20e-6;
   const SteadyClock clock;
   std::optional<test::FarEnd> far(std::in_place);
-  SerialThread thread(clock, haptics::usb_limits(haptics::serial_facts(), settings),
-                      {far->name(), haptics::SerialPlace::kBaud});
+  const auto real = serial_device(clock, haptics::usb_limits(haptics::serial_facts(), settings),
+                                  {far->name(), haptics::SerialPlace::kBaud});
   test::SerialBoard board({}, [](double) { return Vector3d(0.01, 0.02, 0.03); });
   const nanoseconds begin = clock.now();
   const Vector3d force(1, 2, -3);
@@ -45,8 +44,8 @@ TEST(SerialThread, ForcesPassToABoardThatRunsBesideItAndItIsToldOfItsEnd) {
       for (const auto& frame : board.pass()) far->send(frame);
     }
     for (const std::uint8_t octet : far->fetch()) board.take(octet);
-    is_read = is_read || thread.device().read(clock.now()).ok;
-    thread.device().write(force, clock.now());
+    is_read = is_read || real->device().read(clock.now()).ok;
+    real->device().write(force, clock.now());
     is_held = is_held || (board.force() - force).norm() < 1e-9;
     std::this_thread::sleep_for(milliseconds(1));
   }
@@ -56,7 +55,7 @@ TEST(SerialThread, ForcesPassToABoardThatRunsBesideItAndItIsToldOfItsEnd) {
   far.reset();
   std::string told;
   while (told.find("was unplugged") == std::string::npos && clock.now() - begin < seconds(60)) {
-    for (const std::string& notice : thread.take_notices()) told += notice + "\n";
+    for (const std::string& notice : real->take_notices()) told += notice + "\n";
     std::this_thread::sleep_for(milliseconds(1));
   }
   EXPECT_THAT(told, HasSubstr("Board is ready: forces are shown"));

@@ -23,20 +23,12 @@ using Eigen::Vector3d;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-DeviceLimits limits() {
-  UsbSettings settings;
-  settings.damping = 2.0;
-  settings.max_force = 5.0;
-  settings.resolution = 20e-6;
-  return usb_limits(serial_facts(), settings);
-}
-
 class Pulled : public test::WiredBoard {
  public:
   explicit Pulled(const test::SerialBoardOptions& options)
       : WiredBoard(
             options, [](double t) { return Vector3d(0, 0, 0.015 * std::sin(20 * t) - 0.01); },
-            limits(), test::stiff_floor()) {}
+            test::board_limits(), test::stiff_floor()) {}
 
   // The next session asks into a line on which nobody is.
   void pull() {
@@ -44,7 +36,7 @@ class Pulled : public test::WiredBoard {
     in_is_cut = out_is_cut = true;
     session->end_run();
     const std::uint32_t run = session->run();
-    session.emplace(exchange, limits(), run, question_ += 4'096, board.now());
+    session.emplace(exchange, test::board_limits(), run, question_ += 4'096, board.now());
   }
   void plug(bool has_lost_power) {
     if (has_lost_power) board.forget();
@@ -96,7 +88,7 @@ TEST(SerialUnplug, WhereTheServoWasSilentItsMeterIsNoHigherThanTheBoardsBooks) {
         const double share = std::clamp(2.0 * std::min(t - 1.0, 4.0 - t), 0.0, 1.0);
         return Vector3d(0, 0, 0.01 - share * (0.01 - 0.015 * std::sin(20 * t)));
       },
-      limits(), test::stiff_floor());
+      test::board_limits(), test::stiff_floor());
   while (wired.board.now() < milliseconds(4000)) {
     wired.run(milliseconds(83));
     wired.servo_runs = false;
@@ -123,7 +115,7 @@ TEST(SerialUnplug, AForceThatWasAllButWholeWhenTheLineBrokeIsNeverHeld) {
   const SerialFrame force = frame_of({7, {1'000, 0, 0}}, 3);
   tell(force.span().first(force.length - 1));
   UsbExchange exchange;
-  SerialSession session(exchange, limits(), 1, 100, milliseconds(300));
+  SerialSession session(exchange, test::board_limits(), 1, 100, milliseconds(300));
   const auto question = session.next(milliseconds(300));
   ASSERT_TRUE(question);
   tell(question->span());

@@ -159,7 +159,13 @@ void EvdevModel::order(int reports, std::function<void()> act) {
   orders_.push_back({last_order_, std::move(act)});
 }
 
+void EvdevModel::pull() {
+  plug(false);
+  is_dead_ = true;
+}
+
 std::vector<std::string> EvdevModel::paths() {
+  at_each_call();
   std::vector<std::string> all = others;
   if (plugged_) all.emplace_back(kPath);
   return all;
@@ -175,8 +181,10 @@ haptics::ReportIntervals EvdevModel::report_intervals(const std::string& /*path*
 }
 
 int EvdevModel::open(const std::string& path) {
+  at_each_call();
   if (path != kPath || !plugged_) return -ENOENT;
   if (opening < 0) return opening;
+  is_dead_ = false;
   ++open_;
   return kFile;
 }
@@ -219,7 +227,8 @@ int EvdevModel::ask_bits(unsigned long request, void* argument) const {
 }
 
 int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noexcept {
-  if (!plugged_) return -ENODEV;
+  at_each_call();
+  if (!plugged_ || is_dead_) return -ENODEV;
   if (const auto found = failing_.find(request); found != failing_.end() && found->second != 0)
     return -found->second;
   const int nr = _IOC_NR(request);
@@ -270,7 +279,8 @@ int EvdevModel::control(int /*file*/, unsigned long request, void* argument) noe
 }
 
 int EvdevModel::read(int /*file*/, std::span<input_event> events) noexcept {
-  if (!plugged_) return -ENODEV;
+  at_each_call();
+  if (!plugged_ || is_dead_) return -ENODEV;
   if (events_.empty()) return -EAGAIN;
   std::size_t count = 0;
   while (count < events.size() && !events_.empty()) {
@@ -282,7 +292,8 @@ int EvdevModel::read(int /*file*/, std::span<input_event> events) noexcept {
 }
 
 int EvdevModel::write(int /*file*/, const input_event& event) noexcept {
-  if (!plugged_) return -ENODEV;
+  at_each_call();
+  if (!plugged_ || is_dead_) return -ENODEV;
   if (failing_write_ != 0) return -failing_write_;
   if (event.type != EV_FF) return -EINVAL;
   if (event.code == FF_GAIN) {
@@ -301,5 +312,38 @@ int EvdevModel::write(int /*file*/, const input_event& event) noexcept {
 }
 
 void EvdevModel::wait(int /*file*/, microseconds longest) noexcept { pass(longest); }
+
+namespace {
+
+class Lent final : public haptics::EventCalls {
+ public:
+  explicit Lent(EvdevModel& model) : model_(model) {}
+  std::vector<std::string> paths() override { return model_.paths(); }
+  std::string closed_name(const std::string& path) override { return model_.closed_name(path); }
+  haptics::ReportIntervals report_intervals(const std::string& path) override {
+    return model_.report_intervals(path);
+  }
+  int open(const std::string& path) override { return model_.open(path); }
+  void close(int file) noexcept override { model_.close(file); }
+  int control(int file, unsigned long request, void* argument) noexcept override {
+    return model_.control(file, request, argument);
+  }
+  int read(int file, std::span<input_event> events) noexcept override {
+    return model_.read(file, events);
+  }
+  int write(int file, const input_event& event) noexcept override {
+    return model_.write(file, event);
+  }
+  void wait(int file, microseconds longest) noexcept override { model_.wait(file, longest); }
+
+ private:
+  EvdevModel& model_;
+};
+
+}  // namespace
+
+std::unique_ptr<haptics::EventCalls> calls_of(EvdevModel& model) {
+  return std::make_unique<Lent>(model);
+}
 
 }  // namespace reckon::test

@@ -13,6 +13,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -75,6 +76,9 @@ class EvdevModel final : public haptics::EventCalls {
 
   // What goes wrong.
   void plug(bool in);
+  /// Unplugs it; the file that is open stays dead though the device is plugged in again.
+  void pull();
+  std::function<void()> at_each_call = [] {};  ///< that may find it gone
   [[nodiscard]] bool is_plugged() const { return plugged_; }
   void fail(unsigned long request, int error) { failing_[request] = error; }  ///< 0: no more
   void fail_writes(int error) { failing_write_ = error; }
@@ -154,10 +158,13 @@ class EvdevModel final : public haptics::EventCalls {
   std::map<std::uint16_t, bool> keys_;
   std::map<unsigned long, int> failing_;
   int failing_write_ = 0;
-  bool plugged_ = true, drops_ = false;
+  bool plugged_ = true, is_dead_ = false, drops_ = false;
   int open_ = 0, uploads_ = 0;
   std::int32_t gain_ = -1, autocenter_ = -1;
   double absorbed_ = 0, least_ = 0, fastest_ = 0, greatest_ = 0;
 };
+
+/// For a session that does not own the model, which outlives it.
+std::unique_ptr<haptics::EventCalls> calls_of(EvdevModel& model);
 
 }  // namespace reckon::test

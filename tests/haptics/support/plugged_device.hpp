@@ -34,6 +34,13 @@ inline haptics::Scene stiff_floor() {
   return scene;
 }
 
+/// Limits of a device with 2 N s/m of its own.
+inline haptics::DeviceLimits damped_limits(const haptics::UsbFacts& facts) {
+  haptics::UsbSettings settings;
+  settings.damping = 2.0;
+  return haptics::usb_limits(facts, settings);
+}
+
 /// The servo steps every millisecond, beside the thread.
 template <class Model>
 class PluggedDevice {

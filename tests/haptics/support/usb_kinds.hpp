@@ -22,6 +22,10 @@ namespace reckon::test {
 
 inline constexpr int kUsbDelays = 5;
 
+template <class Model>
+using OptionsOf =
+    std::conditional_t<std::is_same_v<Model, FalconModel>, FalconModelOptions, PolhemModelOptions>;
+
 struct FalconKind {
   using Model = FalconModel;
   // Its chip's timer fires at other times of a frame, and the servo is told of more than there is.
@@ -79,7 +83,7 @@ using UsbKinds = testing::Types<FalconKind, PolhemKind>;
 struct UsbKindNames {
   template <class Kind>
   static std::string GetName(int) {
-    return std::is_same_v<Kind, FalconKind> ? "Falcon" : "Polhem";
+    return Kind::facts().name;
   }
 };
 

@@ -3,6 +3,8 @@
 // A serial board, its line, the talk with it and the servo that uses it, all on the board's clock.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
@@ -134,6 +136,44 @@ class WiredBoard {
   std::mt19937 random_;
   std::vector<std::uint8_t> kept_;
   std::chrono::nanoseconds next_step_, next_wake_{0};
+};
+
+/// Of a board with 2 N s/m of its own.
+inline haptics::DeviceLimits board_limits(
+    std::chrono::nanoseconds chain = haptics::UsbSettings::kChain) {
+  haptics::UsbSettings settings;
+  settings.damping = 2.0;
+  settings.max_force = 5.0;
+  settings.resolution = 20e-6;
+  settings.chain = chain;
+  return haptics::usb_limits(haptics::serial_facts(), settings);
+}
+
+inline haptics::Scene wall_of(const Eigen::Vector3d& normal, double stiffness = 20'000) {
+  haptics::Scene scene;
+  haptics::SceneObject object;
+  object.effects.of<haptics::SpringDamper>().stiffness = stiffness;
+  object.name = "wall";
+  object.shape = haptics::PlaneShape{normal.normalized()};
+  scene.objects.push_back(object);
+  return scene;
+}
+
+inline Eigen::Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)}; }
+
+class PressingBoard : public WiredBoard {
+ public:
+  explicit PressingBoard(const SerialBoardOptions& options = {},
+                         std::function<Vector3d(double)> hand = pressing,
+                         const haptics::DeviceLimits& limits = board_limits(),
+                         const haptics::Scene& scene = wall_of(Vector3d::UnitZ()))
+      : WiredBoard(options, std::move(hand), limits, scene) {}
+
+  // Until the force is there.
+  void press() {
+    run(std::chrono::seconds(3));
+    ASSERT_GT(board.force().z(), 0.5) << "no wall is felt";
+  }
 };
 
 }  // namespace reckon::test

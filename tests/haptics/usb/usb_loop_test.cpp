@@ -11,18 +11,12 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <random>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "reckon/haptics/falcon/falcon_driver.hpp"
-#include "reckon/haptics/polhem/polhem_driver.hpp"
-#include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
-#include "reckon/tests/haptics/support/polhem_model.hpp"
-#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/haptics/support/usb_kinds.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -34,33 +28,21 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-struct Falcon {
-  using Model = test::FalconModel;
-  using Options = test::FalconModelOptions;
-  static std::unique_ptr<UsbDriver> driver() {
-    return std::make_unique<FalconDriver>(FalconFirmware{});
-  }
-  static const UsbFacts& facts() { return falcon_facts(); }
+struct Falcon : test::FalconKind {
   static void wake(Model& model) { model.wake(); }
   static constexpr milliseconds kReady{1000};   // to be taken up
   static constexpr milliseconds kSettle{3000};  // to press again
+  static constexpr double kBeyond = 0.08;       // [m], out of reach
+  static constexpr const char* kNotice = "ready: forces are shown";
 };
 
-struct Polhem {
-  using Model = test::PolhemModel;
-  using Options = test::PolhemModelOptions;
-  static std::unique_ptr<UsbDriver> driver() { return std::make_unique<PolhemDriver>(); }
-  static const UsbFacts& facts() { return polhem_facts(); }
+struct Polhem : test::PolhemKind {
   static void wake(Model&) {}
   static constexpr milliseconds kReady{3000};  // and homed
   static constexpr milliseconds kSettle{5000};
+  static constexpr double kBeyond = 0.2;
+  static constexpr const char* kNotice = "press its calibration button";
 };
-
-DeviceLimits limits(const UsbFacts& facts = falcon_facts()) {
-  UsbSettings settings;
-  settings.damping = 2.0;
-  return usb_limits(facts, settings);
-}
 
 Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)}; }
 
@@ -68,8 +50,9 @@ template <class Kind>
 class Plugged : public test::PluggedDevice<typename Kind::Model> {
  public:
   explicit Plugged(std::function<Vector3d(double)> hand = pressing)
-      : test::PluggedDevice<typename Kind::Model>(typename Kind::Options{}, std::move(hand),
-                                                  Kind::driver(), limits(Kind::facts())) {}
+      : test::PluggedDevice<typename Kind::Model>(test::OptionsOf<typename Kind::Model>{},
+                                                  std::move(hand), Kind::driver(),
+                                                  test::damped_limits(Kind::facts())) {}
 
   // Until the force is there.
   void press() {
@@ -82,13 +65,35 @@ class Plugged : public test::PluggedDevice<typename Kind::Model> {
 template <class Kind>
 class UsbLoopTest : public ::testing::Test {};
 using Kinds = ::testing::Types<Falcon, Polhem>;
-struct Names {
-  template <class Kind>
-  static std::string GetName(int) {
-    return Kind::facts().name;
-  }
-};
-TYPED_TEST_SUITE(UsbLoopTest, Kinds, Names);
+TYPED_TEST_SUITE(UsbLoopTest, Kinds, test::UsbKindNames);
+
+TYPED_TEST(UsbLoopTest, AWallIsFeltThroughTheRealLibrary) {
+  Plugged<TypeParam> usb;
+  usb.run(TypeParam::kSettle);
+  EXPECT_THAT(usb.notices, Contains(HasSubstr(TypeParam::kNotice)));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("ready: forces are shown")));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("an exchange takes 1.")));
+  // A spring K of the wall against the hand's of 200 N/m, 20 mm behind it.
+  const double wall = usb.servo.static_stiffness_limit();
+  const double force = 200 * wall / (200 + wall) * 0.02;
+  EXPECT_NEAR(usb.model.force().z(), force, 0.05);
+  EXPECT_NEAR(usb.last.force.z(), force, 0.05);
+  EXPECT_LT((usb.last.device - usb.model.position()).norm(), 1e-4);
+  EXPECT_LE(usb.last.trips, 1U) << "before there was a device";
+}
+
+TYPED_TEST(UsbLoopTest, AtTheEndOfItsReachThereIsNoForce) {
+  double out = 0;
+  Plugged<TypeParam> usb([&](double t) { return Vector3d(pressing(t) - Vector3d(0, out, 0)); });
+  usb.press();
+  out = TypeParam::kBeyond;
+  usb.run(milliseconds(1000));
+  EXPECT_THAT(usb.notices, Contains(HasSubstr("end of its reach")));
+  EXPECT_TRUE(usb.motors_rest());
+  out = 0;
+  usb.run(TypeParam::kSettle);
+  EXPECT_GT(usb.model.force().z(), 0.5);
+}
 
 TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10Ms) {
   Plugged<TypeParam> usb;
@@ -129,10 +134,10 @@ TYPED_TEST(UsbLoopTest, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
 }
 
 TYPED_TEST(UsbLoopTest, UnpluggedTheForceIsZeroWithin10MsHoweverLongTheChain) {
-  DeviceLimits slow = limits(TypeParam::facts());
+  DeviceLimits slow = test::damped_limits(TypeParam::facts());
   slow.delay_samples = 30;
-  test::PluggedDevice<typename TypeParam::Model> usb(typename TypeParam::Options{}, pressing,
-                                                     TypeParam::driver(), slow);
+  test::PluggedDevice<typename TypeParam::Model> usb(test::OptionsOf<typename TypeParam::Model>{},
+                                                     pressing, TypeParam::driver(), slow);
   usb.run(TypeParam::kSettle);
   ASSERT_GT(usb.model.force().z(), 0.1);
   usb.shim.unplug();
@@ -233,283 +238,28 @@ TYPED_TEST(UsbLoopTest, ADeviceThatGoesMuteIsSetUpAgain) {
   EXPECT_GT(usb.model.force().z(), 0.5);
 }
 
-TYPED_TEST(UsbLoopTest, AStallIsSaidAndTheLineSetUpAgain) {
-  Plugged<TypeParam> usb;
+// A fault that breaks the line and leaves the device where it is.
+template <class Kind>
+void break_line(void (*strike)(typename Kind::Model&), const char* notice) {
+  Plugged<Kind> usb;
   usb.press();
   const nanoseconds fault = usb.model.now();
-  usb.model.stall();
+  strike(usb.model);
   usb.run(milliseconds(10));
   EXPECT_TRUE(usb.last.force.isZero(0));
   EXPECT_TRUE(usb.motors_rest());
   EXPECT_LE(usb.pulled_at - fault, milliseconds(10));
-  EXPECT_THAT(usb.notices, Contains(HasSubstr("refuses transfers")));
-  usb.run(TypeParam::kSettle);
+  EXPECT_THAT(usb.notices, Contains(HasSubstr(notice)));
+  usb.run(Kind::kSettle);
   EXPECT_GT(usb.model.force().z(), 0.5);
+}
+
+TYPED_TEST(UsbLoopTest, AStallIsSaidAndTheLineSetUpAgain) {
+  break_line<TypeParam>([](auto& model) { model.stall(); }, "refuses transfers");
 }
 
 TYPED_TEST(UsbLoopTest, AShortTransferIsSaidAndTheLineSetUpAgain) {
-  Plugged<TypeParam> usb;
-  usb.press();
-  const nanoseconds fault = usb.model.now();
-  usb.model.cut();
-  usb.run(milliseconds(10));
-  EXPECT_TRUE(usb.last.force.isZero(0));
-  EXPECT_TRUE(usb.motors_rest());
-  EXPECT_LE(usb.pulled_at - fault, milliseconds(10));
-  EXPECT_THAT(usb.notices, Contains(HasSubstr("cut short")));
-  usb.run(TypeParam::kSettle);
-  EXPECT_GT(usb.model.force().z(), 0.5);
-}
-
-TEST(UsbDevice, ReadsAndWritesAllocateNothing) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  const test::AllocationGuard guard;
-  for (int i = 1; i <= 1000; ++i) {
-    exchange.readings.push({Vector3d::Zero(), {}, i - 8, i - 7, 1, 0});
-    static_cast<void>(device.read(milliseconds(i)));
-    device.write(Vector3d::UnitX(), milliseconds(i));
-  }
-  EXPECT_EQ(guard.count(), 0U);
-}
-
-TEST(UsbDevice, AForceThatIsNoNumberIsNone) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  device.write(Vector3d(std::nan(""), 0, 0), milliseconds(1));
-  exchange.force.update();
-  EXPECT_TRUE(exchange.force.read().force.isZero(0));
-}
-
-// Each way of the handle is shown in the step for which the ledger books the force that was held.
-TEST(UsbDevice, ShowsAReadingJustWhenItsForceIsDue) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  const int delay = device.limits().delay_samples;
-  // The force of write 10 is held until the place 0.1, and that of write 12 (11 was left out) from
-  // then on until 0.2.
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 10, 1, 0});
-  exchange.readings.push({Vector3d(0.1, 0, 0), {}, 10, 12, 1, 0});
-  exchange.readings.push({Vector3d(0.2, 0, 0), {}, 12, 40, 1, 0});
-  for (int write = 1; write <= 12 + delay + 1; ++write) {
-    const DeviceSample sample = device.read(milliseconds(write));
-    device.write(Vector3d::Zero(), milliseconds(write));
-    ASSERT_TRUE(sample.ok);
-    const int due = write - 1 - delay;  // the write whose sample ends here
-    EXPECT_EQ(sample.position.x(), due < 10 ? 0.0 : due < 12 ? 0.1 : 0.2) << due;
-    EXPECT_FALSE(sample.watchdog);
-  }
-}
-
-TEST(UsbDevice, AReadingThatIsLateFails) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 1, 1, 0});
-  const int delay = device.limits().delay_samples;
-  for (int write = 1; write <= 20; ++write) {
-    EXPECT_EQ(device.read(milliseconds(write)).ok, write - 1 - delay < 1) << write;
-    device.write(Vector3d::Zero(), milliseconds(write));
-  }
-}
-
-// Else the first force after a silence would be that of a place from before it.
-TEST(UsbDevice, AReadingFromBeforeASilenceOfTheServoIsNone) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
-  EXPECT_TRUE(device.read(milliseconds(1)).ok);
-  device.write(Vector3d::UnitX(), milliseconds(1));
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
-  EXPECT_TRUE(device.read(milliseconds(11)).ok) << "its watchdog has not acted";
-  device.write(Vector3d::UnitX(), milliseconds(11));
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
-  EXPECT_FALSE(device.read(milliseconds(22)).ok);
-  device.write(Vector3d::Zero(), milliseconds(22));
-  EXPECT_FALSE(device.read(milliseconds(23)).ok) << "none has come since";
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 2, 0});
-  const DeviceSample sample = device.read(milliseconds(24));
-  EXPECT_TRUE(sample.ok && sample.watchdog);
-}
-
-// However long the chain may be that its user states.
-TEST(UsbDevice, WhereARunIsOverNothingIsRead) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 3, 0});
-  EXPECT_TRUE(device.read(milliseconds(1)).ok);
-  device.write(Vector3d::UnitX(), milliseconds(1));
-  exchange.ended_run = 3;
-  EXPECT_FALSE(device.read(milliseconds(2)).ok);
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 4, 0});
-  const DeviceSample sample = device.read(milliseconds(3));
-  EXPECT_TRUE(sample.ok && sample.watchdog);
-}
-
-// Also over readings that failed, and not over a force that was dropped.
-// Reports that are not due yet tell where the handle is by now.
-TEST(UsbDevice, TellsTheDampingOfTheWorstPoseThatIsHereAndTheDriverWhatThatPaysFor) {
-  UsbSettings settings;
-  settings.joint_damping = 0.02;
-  const UsbFacts& facts = falcon_facts();
-  UsbExchange exchange;
-  UsbDevice device(exchange, usb_limits(facts, settings));
-  const DeviceLimits limits = device.limits();
-  EXPECT_NEAR(limits.damping, facts.sure_share * 0.02 / (facts.lever * facts.lever), 1e-12);
-  const auto push = [&](std::int64_t before, double lever) {
-    UsbReading reading;
-    reading.before = before;
-    reading.after = before + 1;
-    reading.run = 1;
-    reading.lever = lever;
-    reading.step = 1e-3 * lever;
-    exchange.readings.push(reading);
-  };
-  push(0, 2 * facts.lever);
-  push(1, 3 * facts.lever);
-  DeviceSample sample = device.read(milliseconds(1));
-  ASSERT_TRUE(sample.ok && sample.damping && sample.resolution);
-  const double margin = std::sqrt(limits.damping / *sample.damping) / 3;
-  EXPECT_GT(margin, 1.0) << "it goes on meanwhile";
-  EXPECT_LT(margin, 1.2);
-  EXPECT_EQ(*sample.resolution, 2e-3 * facts.lever) << "of the place that is shown";
-  device.write(Vector3d::UnitX(), milliseconds(1));
-  exchange.force.update();
-  EXPECT_NEAR(exchange.force.read().lever, 3 * margin * facts.lever, 1e-12);
-
-  push(2, 0.1 * facts.lever);
-  for (int i = 2; i < 20; ++i) {
-    sample = device.read(milliseconds(i));
-    device.write(Vector3d::UnitX(), milliseconds(i));
-    if (!sample.ok) continue;
-    EXPECT_LE(*sample.damping, limits.damping) << "no more than is stated";
-  }
-}
-
-TEST(UsbDevice, OfADampingOfTheHandleItTellsNoneOfAPose) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  UsbReading reading;
-  reading.after = reading.run = 1;
-  reading.lever = 0.3;
-  exchange.readings.push(reading);
-  const DeviceSample sample = device.read(milliseconds(1));
-  EXPECT_TRUE(sample.ok && !sample.damping && !sample.resolution);
-  device.write(Vector3d::UnitX(), milliseconds(1));
-  exchange.force.update();
-  EXPECT_TRUE(std::isinf(exchange.force.read().lever));
-}
-
-TEST(UsbDevice, TellsTheLeastShareOfItsForceThatWasHeld) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  UsbReading reading;
-  reading.after = reading.run = 1;
-  for (const double held : {0.25, 1.0}) {
-    reading.held = held;
-    exchange.readings.push(reading);
-  }
-  EXPECT_EQ(device.read(milliseconds(1)).held, 0.25);
-  exchange.readings.push(reading);
-  EXPECT_EQ(device.read(milliseconds(1)).held, 1.0) << "told once";
-}
-
-TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  const int delay = device.limits().delay_samples;
-  const auto push = [&](std::int64_t before, std::int64_t after, std::uint32_t run,
-                        nanoseconds at) {
-    exchange.readings.push({Vector3d::Zero(), {}, before, after, run, 0, at});
-  };
-  push(0, 1, 1, milliseconds(100));
-  push(1, 2, 1, milliseconds(103));
-  push(4, 5, 1, milliseconds(107));  // 2 to 4 are not told
-  push(5, 9, 1, milliseconds(108));
-  std::vector<std::optional<nanoseconds>> took;
-  for (int write = 1; write <= delay + 8; ++write) {
-    if (write == delay + 8) push(0, 99, 2, milliseconds(200));
-    const DeviceSample sample = device.read(milliseconds(write));
-    device.write(Vector3d::Zero(), milliseconds(write));
-    if (write > delay && sample.ok) took.push_back(sample.took);
-  }
-  using ::testing::ElementsAre;
-  using ::testing::Optional;
-  EXPECT_THAT(took, ElementsAre(Optional(nanoseconds(0)), Optional(milliseconds(3)),
-                                Optional(milliseconds(4)), Optional(milliseconds(1)),
-                                Optional(nanoseconds(0)), std::nullopt));
-}
-
-// The servo is late once; that way comes to it `delay` steps later, when it is punctual again.
-TEST(UsbDevice, TellsHowLongAWayTookByTheWritesOfItsForceWhereItHasNoClock) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  const int delay = device.limits().delay_samples;
-  nanoseconds now(0);
-  for (int write = 1; write <= 3 * delay; ++write) {
-    now += milliseconds(write == delay + 1 ? 4 : 1);
-    exchange.readings.push({Vector3d::Zero(), {}, write - 1 - delay, write - delay, 1, 0});
-    const DeviceSample sample = device.read(now);
-    device.write(Vector3d::Zero(), now);
-    if (write <= delay + 1) continue;
-    ASSERT_TRUE(sample.ok) << write;
-    const int due = write - 1 - delay;
-    EXPECT_EQ(sample.took, milliseconds(due == delay ? 4 : 1)) << write;
-  }
-}
-
-// 3 mm that a handle went while nobody read it: over a period it would be 16 mJ of damping.
-TEST(UsbDevice, AWayBetweenTwoRunsCountsForNoDamping) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  ServoLoop servo(device, EffectPlan(Scene()), ServoConfig());
-  nanoseconds now(0);
-  const auto rest_at = [&](double x, std::uint32_t run) {
-    for (int i = 0; i < 20; ++i) {
-      now += milliseconds(1);
-      exchange.readings.push({Vector3d(x, 0, 0), {}, 0, 1000, run, 0});
-      servo.step(now);
-    }
-    servo.snapshots().update();
-    return servo.snapshots().read();
-  };
-  EXPECT_EQ(rest_at(0, 1).port_energy, 0);
-  const ServoSnapshot after = rest_at(0.003, 2);
-  EXPECT_EQ(after.tally.let_go, 1U);
-  EXPECT_NEAR(after.device.x(), 0.003, 1e-12);
-  EXPECT_LE(after.port_energy, 1e-12);
-}
-
-// A hand that presses slowly, and of which nobody knows how it came out.
-TEST(UsbDevice, WhereTheForceWasDroppedTheMeterLosesWhatTheWallStored) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  ServoLoop servo(device, EffectPlan(test::stiff_floor()), ServoConfig());
-  const int delay = device.limits().delay_samples;
-  int write = 0;
-  const auto read_at = [&](double z, std::uint32_t run) {
-    const std::int64_t held = std::max(0, write++ - delay);
-    exchange.readings.push({Vector3d(0, 0, z), {}, held, held + 1, run, 0});
-    servo.step(milliseconds(write));
-    servo.snapshots().update();
-    return servo.snapshots().read();
-  };
-  for (int i = 0; i < 400; ++i) read_at(0.001 - 1e-5 * i, 1);
-  const ServoSnapshot pressed = read_at(-0.003, 1);
-  const double stored = 0.5 * pressed.force.z() * 0.003;
-  ASSERT_GT(stored, 1e-4) << "no wall is felt";
-  EXPECT_LE(read_at(0.001, 2).port_energy, pressed.port_energy - stored + 1e-12);
-}
-
-TEST(UsbDevice, TellsThatTheForceWasDropped) {
-  UsbExchange exchange;
-  UsbDevice device(exchange, limits());
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 1, 0});
-  EXPECT_TRUE(device.read(milliseconds(1)).ok);
-  exchange.readings.push({Vector3d::Zero(), {}, 0, 100, 2, 0});
-  const DeviceSample sample = device.read(milliseconds(2));
-  EXPECT_TRUE(sample.ok && sample.watchdog);
-  EXPECT_FALSE(sample.released_at) << "nobody knows where";
-  EXPECT_FALSE(device.read(milliseconds(3)).watchdog);
+  break_line<TypeParam>([](auto& model) { model.cut(); }, "cut short");
 }
 
 }  // namespace

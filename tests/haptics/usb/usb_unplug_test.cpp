@@ -6,17 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "reckon/haptics/falcon/falcon_driver.hpp"
-#include "reckon/haptics/polhem/polhem_driver.hpp"
-#include "reckon/haptics/usb/usb_loop.hpp"
-#include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
-#include "reckon/tests/haptics/support/polhem_model.hpp"
+#include "reckon/tests/haptics/support/usb_kinds.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -27,34 +20,24 @@ using ::testing::AnyOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
 
-DeviceLimits limits(const UsbFacts& facts) {
-  UsbSettings settings;
-  settings.damping = 2.0;
-  return usb_limits(facts, settings);
-}
-
 Vector3d pressing(double t) { return {0, 0, 0.02 - 0.04 * std::min(1.0, 2 * t)}; }
 
-class PluggedFalcon : public test::PluggedDevice<test::FalconModel> {
+template <class Kind>
+class Plugged : public test::PluggedDevice<typename Kind::Model> {
  public:
-  PluggedFalcon()
-      : PluggedDevice(test::FalconModelOptions{}, pressing,
-                      std::make_unique<FalconDriver>(FalconFirmware{}), limits(falcon_facts())) {}
+  explicit Plugged(const test::OptionsOf<typename Kind::Model>& options = {})
+      : test::PluggedDevice<typename Kind::Model>(options, pressing, Kind::driver(),
+                                                  test::damped_limits(Kind::facts())) {}
 };
-
-class PluggedPolhem : public test::PluggedDevice<test::PolhemModel> {
- public:
-  explicit PluggedPolhem(const test::PolhemModelOptions& options)
-      : PluggedDevice(options, pressing, std::make_unique<PolhemDriver>(), limits(polhem_facts())) {
-  }
-};
+using PluggedFalcon = Plugged<test::FalconKind>;
+using PluggedPolhem = Plugged<test::PolhemKind>;
 
 // Whatever call to the kernel it is that fails.
-template <class Plugged>
-void unplug_at_each_call(const std::function<std::unique_ptr<Plugged>()>& made) {
+template <class Kind>
+void unplug_at_each_call() {
   constexpr unsigned kCalls = 60;  // and some of the first exchanges
   for (unsigned call = 0; call < kCalls; ++call) {
-    const std::unique_ptr<Plugged> usb = made();
+    const auto usb = std::make_unique<Plugged<Kind>>();
     unsigned calls = 0;
     usb->shim.at_each_call([&] {
       if (calls++ == call) usb->shim.unplug();
@@ -76,9 +59,8 @@ void unplug_at_each_call(const std::function<std::unique_ptr<Plugged>()>& made) 
 }
 
 TEST(UsbUnplug, AtEachCallOfTheSetUpItIsSaidAndTakenUpAgain) {
-  unplug_at_each_call<PluggedFalcon>([] { return std::make_unique<PluggedFalcon>(); });
-  unplug_at_each_call<PluggedPolhem>(
-      [] { return std::make_unique<PluggedPolhem>(test::PolhemModelOptions{}); });
+  unplug_at_each_call<test::FalconKind>();
+  unplug_at_each_call<test::PolhemKind>();
 }
 
 TEST(UsbUnplug, PluggedInAgainBeforeItIsNoticedTheOldLineIsGone) {

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A real device as a device of a peer: what its servo sees, and the thread that has it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/evdev/evdev_loop.hpp"
+#include "reckon/haptics/hid/hid_events.hpp"
+#include "reckon/haptics/serial/serial_loop.hpp"
+#include "reckon/haptics/usb/usb_loop.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+
+namespace reckon::peer {
+
+/// Its thread, if it has one, sleeps until the device has sent something, 1 ms at most.
+///
+///     SteadyClock clock;
+///     auto driver = std::make_unique<FalconDriver>(FalconFirmware::load("falcon.bin"));
+///     auto falcon = usb_device(clock, usb_limits(driver->facts(), settings), std::move(driver));
+///     options.devices = {{&falcon->device()}};
+class RealDevice {
+ public:
+  virtual ~RealDevice() = default;
+  RealDevice(const RealDevice&) = delete;
+  RealDevice& operator=(const RealDevice&) = delete;
+
+  /// For the servo; its reading fails while the device is not there.
+  [[nodiscard]] virtual haptics::HapticDevice& device() noexcept = 0;
+  /// Sentences for the user since the last call. Any thread.
+  [[nodiscard]] virtual std::vector<std::string> take_notices() = 0;
+  /// See haptics::DeviceSession::axes(). Any thread.
+  [[nodiscard]] virtual unsigned axes() const noexcept { return 0; }
+
+ protected:
+  RealDevice() = default;
+};
+
+/// One on USB. @param clock that of the servo; outlives the device, as below
+/// @param limits see haptics::usb_limits()  @param options how it is found, but for their clock
+/// @throws std::runtime_error where the host has no USB, std::system_error if no thread can be made
+[[nodiscard]] std::unique_ptr<RealDevice> usb_device(const Clock& clock,
+                                                     const haptics::DeviceLimits& limits,
+                                                     std::unique_ptr<haptics::UsbDriver> driver,
+                                                     haptics::UsbLoopOptions options = {});
+/// A board on a serial line. @param limits see haptics::usb_limits()
+/// @throws std::system_error if no thread can be made
+[[nodiscard]] std::unique_ptr<RealDevice> serial_device(const Clock& clock,
+                                                        const haptics::DeviceLimits& limits,
+                                                        haptics::SerialPlace place);
+/// A force feedback device of Linux. @param calls of the kernel @throws std::invalid_argument as
+/// haptics::evdev_limits(), std::system_error if no thread can be made
+[[nodiscard]] std::unique_ptr<RealDevice> evdev_device(
+    const Clock& clock, const haptics::EvdevSettings& settings,
+    std::unique_ptr<haptics::EventCalls> calls = haptics::force_feedback_calls());
+
+}  // namespace reckon::peer

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The keys of [[device]] that its driver decides.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/falcon/falcon_driver.hpp"
+#include "reckon/haptics/polhem/polhem_driver.hpp"
+#include "reckon/haptics/serial/serial_session.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using test::refusal;
+using testing::HasSubstr;
+
+constexpr const char* kOperator = "[[operator]]\npassive = true\n";
+
+DeviceConfig device_of(const std::string& lines) {
+  return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").devices.at(0);
+}
+
+// Each of these lines, with the words of its refusal.
+void expect_refused(const std::vector<std::pair<std::string, std::string>>& cases) {
+  for (const auto& [lines, words] : cases)
+    EXPECT_THAT(refusal("[[device]]\n" + lines + kOperator), HasSubstr(words)) << lines;
+}
+
+// What a servo may rely on is the driver's to say, as far as the file does not.
+TEST(DeviceSection, NamesAFalconAndTakesItsLimits) {
+  EXPECT_EQ(device_of("driver = \"simulated\"\n").driver, DeviceDriver::simulated);
+  const DeviceConfig plain = device_of("driver = \"falcon\"\n");
+  EXPECT_EQ(plain.driver, DeviceDriver::falcon);
+  EXPECT_EQ(plain.max_force, 8.9);
+  EXPECT_EQ(plain.delay_samples, 6);
+  // Assumed of the middle, less a tenth; elsewhere it is that of the joints.
+  EXPECT_NEAR(plain.damping, 0.9 * 0.3, 3e-4);
+  EXPECT_NEAR(plain.joint_damping, haptics::falcon_facts().joints_per_damping * 0.3, 1e-12);
+  EXPECT_EQ(plain.resolution, 90e-6);
+
+  const DeviceConfig known = device_of(
+      "driver = \"falcon\"\ndamping = \"2 N s/m\"\ndelay = \"3.5 ms\"\nmax_force = \"5 N\"\n");
+  EXPECT_EQ(known.delay_samples, 4);
+  EXPECT_NEAR(known.damping, 1.8, 1e-12);
+  EXPECT_EQ(known.max_force, 5);
+  // And its device has the same.
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::falcon_facts(), usb_settings_of(known));
+  EXPECT_EQ(limits.delay_samples, 4);
+  EXPECT_NEAR(limits.damping, 1.8, 1e-12);
+}
+
+TEST(DeviceSection, RefusesWhatAFalconIsNot) {
+  const std::string falcon = "driver = \"falcon\"\n";
+  expect_refused({{"driver = \"falkon\"\n", "did you mean \"falcon\"?"},
+                  {falcon + "kind = \"pointer\"\n", "no pointer moves it"},
+                  {falcon + "resolution = \"10 um\"\n", "knows the steps"},
+                  {falcon + "rate = \"300 Hz\"\n", "400 Hz is enough"},
+                  {falcon + "firmware = \"no_such_file\"\n", "no_such_file"},
+                  {"firmware = \"no_such_file\"\n", "only a Falcon has one"}});
+}
+
+TEST(DeviceSection, APluginIsNamedByItsFile) {
+  const std::string plugin = "driver = \"plugin\"\n";
+  expect_refused({{plugin, "name it with plugin = \"driver.so\""},
+                  {plugin + "plugin = \"drivers/\"\n", "name it with plugin = \"driver.so\""},
+                  {"plugin_options = \"x\"\n", "add driver = \"plugin\""}});
+  EXPECT_EQ(refusal("[[device]]\n" + plugin + "plugin = \"no_such.so\"\n" + kOperator), "")
+      << "it is not opened";
+}
+
+constexpr const char* kWheel =
+    "driver = \"evdev\"\ntravel = \"0.2 m\"\nfull_force = \"20 N\"\nfull_stiffness = \"2 kN/m\"\n"
+    "max_stiffness = \"1.5 kN/m\"\n";
+
+TEST(DeviceSection, AnEventDeviceIsWhatItsKeysSay) {
+  const DeviceConfig plain = device_of(kWheel);
+  EXPECT_EQ(plain.driver, DeviceDriver::evdev);
+  haptics::EvdevSettings settings = evdev_settings_of(plain);
+  EXPECT_EQ(settings.axes, 2);
+  EXPECT_EQ(settings.scale.travel, 0.2);
+  EXPECT_EQ(settings.scale.full_force, 20);
+  EXPECT_EQ(settings.scale.full_stiffness, 2000);
+  EXPECT_EQ(settings.max_stiffness, 1500);
+  EXPECT_EQ(settings.chain, haptics::EvdevSettings::kChain);
+
+  const DeviceConfig known =
+      device_of(std::string(kWheel) +
+                "event = \"FFBoard\"\nevent_axes = 1\ndelay = \"3 ms\"\nmax_force = \"5 N\"\n");
+  settings = evdev_settings_of(known);
+  EXPECT_EQ(settings.event, "FFBoard");
+  EXPECT_EQ(settings.axes, 1);
+  EXPECT_EQ(settings.chain, std::chrono::milliseconds(3));
+  EXPECT_EQ(haptics::evdev_limits(settings).max_force, 5);
+}
+
+TEST(DeviceSection, RefusesAnEventDeviceOfWhichSomethingIsNotSaid) {
+  const std::string whole = kWheel;
+  for (const std::string key : {"travel", "full_force", "full_stiffness", "max_stiffness"}) {
+    const std::size_t from = whole.find(key);
+    expect_refused({{std::string(whole).erase(from, whole.find('\n', from) + 1 - from),
+                     "state '" + key + "'"}});
+  }
+  expect_refused({{whole + "scale = 2\n", "take 'scale'"},
+                  {whole + "axes = 6\n", "take 'axes' out"},
+                  {whole + "kind = \"pointer\"\n", "no pointer moves it"},
+                  {"driver = \"falcon\"\ntravel = \"0.2 m\"\n", "say driver = \"evdev\""}});
+}
+
+TEST(DeviceSection, NamesAPolhemAndTakesItsLimits) {
+  const DeviceConfig plain = device_of("driver = \"polhem\"\n");
+  EXPECT_EQ(plain.driver, DeviceDriver::polhem);
+  EXPECT_EQ(plain.max_force, 5.0);
+  EXPECT_EQ(plain.delay_samples, 6);
+  const double lever = haptics::polhem_facts().lever;
+  EXPECT_NEAR(plain.damping,
+              0.9 * haptics::polhem_facts().joints_per_damping * 0.2 / (lever * lever), 1e-12)
+      << "assumed";
+  EXPECT_EQ(plain.resolution, 95e-6);
+
+  // To hold the links up costs damping: the slope of the torque, an exchange late, at 50 mm.
+  const DeviceConfig held = device_of(
+      "driver = \"polhem\"\ndamping = \"2 N s/m\"\nupper_weight = \"0.17 N m\"\n"
+      "fore_weight = \"0.055 N m\"\n");
+  EXPECT_NEAR(held.damping, 1.8 - 0.17 * 0.002 / (0.05 * 0.05), 1e-12);
+  EXPECT_EQ(polhem_weights_of(held).upper, 0.17);
+  EXPECT_EQ(polhem_weights_of(held).fore, 0.055);
+  // And its device has the same.
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::polhem_facts(), usb_settings_of(held));
+  EXPECT_NEAR(limits.damping, held.damping, 1e-12);
+}
+
+TEST(DeviceSection, TakesTheFrictionOfJointsInThePlaceOfThatOfTheHandle) {
+  for (const auto& [name, facts] :
+       {std::pair("falcon", &haptics::falcon_facts()), {"polhem", &haptics::polhem_facts()}}) {
+    const DeviceConfig device =
+        device_of("driver = \"" + std::string(name) + "\"\njoint_damping = \"0.02 N m s/rad\"\n");
+    const double square = facts->lever * facts->lever;
+    EXPECT_NEAR(device.damping, 0.9 * 0.02 / square, 1e-9) << name;
+    // And its device has the same.
+    const haptics::DeviceLimits limits = haptics::usb_limits(*facts, usb_settings_of(device));
+    EXPECT_NEAR(limits.damping, device.damping, 1e-12) << name;
+    EXPECT_EQ(limits.lever, facts->lever) << name;
+  }
+  EXPECT_EQ(haptics::usb_limits(haptics::falcon_facts(),
+                                usb_settings_of(device_of("driver = \"falcon\"\ndamping = 1\n")))
+                .lever,
+            0.0)
+      << "of the handle where that is said";
+  // To hold the links up costs the slope of the torque, an exchange late, wherever they are.
+  const DeviceConfig held = device_of(
+      "driver = \"polhem\"\njoint_damping = \"0.02 N m s/rad\"\nupper_weight = \"0.17 N m\"\n");
+  const double lever = haptics::polhem_facts().lever;
+  EXPECT_NEAR(held.damping, (0.9 * 0.02 - 0.17 * 0.002) / (lever * lever), 1e-9);
+  const std::string joints = "joint_damping = \"0.02 N m s/rad\"\n";
+  expect_refused(
+      {{joints, "only the joints of a Falcon or a Polhem are known"},
+       {"driver = \"falcon\"\ndamping = \"1 N s/m\"\n" + joints, "friction is said twice"}});
+}
+
+TEST(DeviceSection, RefusesWhatAPolhemIsNot) {
+  const std::string polhem = "driver = \"polhem\"\n";
+  expect_refused(
+      {{polhem + "axes = 6\n", "a Polhem has three axes"},
+       {polhem + "rate = \"300 Hz\"\n", "a Polhem is let go"},
+       {polhem + "kind = \"pointer\"\n", "a person holds a Polhem"},
+       {polhem + "firmware = \"x.bin\"\n", "only a Falcon has one"},
+       {polhem + "damping = 0.2\nupper_weight = \"0.5 N m\"\n", "costs 0.4 N s/m of damping"},
+       {polhem + "joint_damping = 0.001\nupper_weight = \"0.5 N m\"\n",
+        "costs 0.001 N m s/rad of joint_damping"},
+       {"upper_weight = \"0.1 N m\"\n", "only a Polhem has links"},
+       {"fore_weight = \"0.1 N m\"\n", "only a Polhem has links"}});
+}
+
+TEST(DeviceSection, NamesASerialBoardAndWhatIsKnownOfIt) {
+  const DeviceConfig plain = device_of("driver = \"serial\"\nport = \"/dev/ttyACM0\"\n");
+  EXPECT_EQ(plain.driver, DeviceDriver::serial);
+  EXPECT_EQ(plain.port, "/dev/ttyACM0");
+  EXPECT_EQ(plain.baud, 1'000'000U);
+  EXPECT_EQ(plain.max_force, 1.0) << "assumed";
+  EXPECT_NEAR(plain.damping, 0.9 * 0.1, 1e-12) << "assumed, less a tenth";
+  EXPECT_EQ(plain.resolution, 100e-6) << "assumed";
+  EXPECT_EQ(plain.delay_samples, 6);
+
+  const DeviceConfig known = device_of(
+      "driver = \"serial\"\nport = \"/dev/ttyUSB0\"\nbaud = 115200\nmax_force = \"3 N\"\n"
+      "resolution = \"14.7 um\"\ndamping = \"2 N s/m\"\ndelay = \"3.5 ms\"\n");
+  EXPECT_EQ(known.baud, 115'200U);
+  EXPECT_EQ(known.max_force, 3.0);
+  EXPECT_NEAR(known.resolution, 14.7e-6, 1e-18);
+  EXPECT_NEAR(known.damping, 1.8, 1e-12);
+  EXPECT_EQ(known.delay_samples, 4);
+  // And its device has the same.
+  const haptics::DeviceLimits limits =
+      haptics::usb_limits(haptics::serial_facts(), usb_settings_of(known));
+  EXPECT_EQ(limits.max_force, known.max_force);
+  EXPECT_EQ(limits.resolution, known.resolution);
+  EXPECT_NEAR(limits.damping, 1.8, 1e-12);
+  EXPECT_EQ(limits.delay_samples, 4);
+}
+
+TEST(DeviceSection, RefusesWhatASerialBoardIsNot) {
+  const std::string serial = "driver = \"serial\"\n";
+  const std::string wired = serial + "port = \"/dev/ttyACM0\"\n";
+  expect_refused({{serial, "name that with port = \"/dev/ttyACM0\""},
+                  {wired + "axes = 6\n", "take out axes = 6"},
+                  {wired + "rate = \"300 Hz\"\n", "after 6.5 ms"},
+                  {wired + "kind = \"pointer\"\n", "a person holds a serial board"},
+                  {"port = \"/dev/ttyACM0\"\n", "only a board on a serial line has it"},
+                  {"baud = 9600\n", "only a board on a serial line has it"}});
+}
+
+// Whose device it is, is each host's own matter.
+TEST(DeviceSection, ADriverDoesNotChangeTheWorld) {
+  const auto hash = [](const std::string& lines) {
+    return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").hash;
+  };
+  EXPECT_EQ(hash("driver = \"falcon\"\n"), hash(""));
+}
+
+}  // namespace
+}  // namespace reckon::peer
