@@ -38,7 +38,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
+constexpr nanoseconds kPeerLookEvery = std::chrono::milliseconds(100);
 
 /// Letters of an entity marking on the wire.
 constexpr std::size_t kLongestMarking = 11;
@@ -239,8 +239,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   nanoseconds next_felt{0};
   bool shown = false;  // a picture has come
-  nanoseconds look_every = display.is_drawn() ? LiveDisplay::kKeysEvery : kLookEvery;
-  if (page.is_wanted()) look_every = SelfView::kLookEvery;
+  nanoseconds look_every = display.is_drawn() ? LiveDisplay::kKeysEvery : kPeerLookEvery;
+  if (page.is_wanted()) look_every = SelfView::kPeerLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
     std::this_thread::sleep_for(std::min(look_every, end - running->elapsed()));
     shown |= running->peer().views().update();
@@ -254,7 +254,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     if (balance) balance->look(*running);
     if (options.felt && running->elapsed() >= next_felt) {
       print_line(console.out, felt_lines(view, elapsed));
-      next_felt += kLookEvery;
+      next_felt += kPeerLookEvery;
     }
     if (display.take_stop_key()) running->press_stop_key();
     tell_notices(*running, console, options.events, display, page.page());
@@ -294,7 +294,7 @@ int run_peer(Arguments arguments, const Console& console) {
   check_device_choice(options.device);
   (void)flags_of_switch(options.view);
   (void)metrics_address(options.metrics);
-  if (options.balance && *options.balance < kLookEvery)
+  if (options.balance && *options.balance < kPeerLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is printed");
   return run(options, console);
 }
