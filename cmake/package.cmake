@@ -92,10 +92,12 @@ add_custom_command(OUTPUT ${debian}/reckon.1.gz DEPENDS ${PROJECT_BINARY_DIR}/re
   COMMAND ${GZIP} -9nc ${PROJECT_BINARY_DIR}/reckon.1 > ${debian}/reckon.1.gz)
 add_custom_target(reckon_debian_pages ALL DEPENDS ${debian}/reckon.1.gz)
 install(FILES ${debian}/reckon.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT debian_program EXCLUDE_FROM_ALL)
-if(TARGET reckon-bench)
-  install(FILES ${debian}/reckon.1.gz RENAME reckon-bench.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
-    COMPONENT debian_program EXCLUDE_FROM_ALL)
-endif()
+foreach(program reckon-peer reckon-inspect reckon-bench)
+  if(TARGET ${program})
+    install(FILES ${debian}/reckon.1.gz RENAME ${program}.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+      COMPONENT debian_program EXCLUDE_FROM_ALL)
+  endif()
+endforeach()
 install(FILES cmake/debian/reckon-record.service DESTINATION lib/systemd/system COMPONENT debian_program EXCLUDE_FROM_ALL)
 
 include(CPack)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 # The programs write the manual page and the completions themselves, so that these are never behind them.
-set(programs reckon)
+set(programs reckon reckon-peer reckon-inspect)
 if(TARGET reckon-bench)
   list(APPEND programs reckon-bench)
 endif()

@@ -35,7 +35,7 @@ def spdx_id(kind, name):
 
 
 def programs(build):
-    return [path for path in (build / "reckon", build / "reckon-bench", *build.glob("python/reckon/_native*.so")) if path.exists()]
+    return [path for path in (*(build / name for name in ("reckon", "reckon-peer", "reckon-inspect", "reckon-bench")), *build.glob("python/reckon/_native*.so")) if path.exists()]
 
 
 def linked_packages(program):

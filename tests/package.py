@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 HOLDS = {  # package: some of its files, and what none of its files may match
-    "reckon": (["usr/bin/reckon", "usr/bin/reckon-bench", "usr/share/man/man1/reckon.1.gz",
+    "reckon": (["usr/bin/reckon", "usr/bin/reckon-peer", "usr/bin/reckon-inspect", "usr/bin/reckon-bench", "usr/share/man/man1/reckon.1.gz",
                 "usr/share/man/man1/reckon-bench.1.gz", "usr/share/reckon/scenes/two_hands.toml", "usr/share/reckon/devices/falcon.toml",
                 "usr/share/bash-completion/completions/reckon", "usr/lib/systemd/system/reckon-record.service",
                 "usr/share/doc/reckon/copyright"], r"\.hpp$|\.a$|/docs/"),

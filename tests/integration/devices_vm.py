@@ -126,7 +126,8 @@ def make_root(arguments, drivers, folder):
     for name in ("bin", "modules", "proc", "sys", "dev", "tmp"):
         (root / name).mkdir(parents=True)
     shutil.copy("/bin/busybox", root / "bin")
-    copy_program(arguments.reckon, root / "bin/reckon", root)
+    for program in ("reckon", "reckon-peer"):
+        copy_program(pathlib.Path(arguments.reckon).with_name(program), root / "bin" / program, root)
     for tests in arguments.tests:
         copy_program(tests, root / "bin" / tests.name, root)
     for module in MODULES:

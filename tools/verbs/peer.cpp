@@ -240,7 +240,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   nanoseconds next_felt{0};
   bool shown = false;  // a picture has come
   nanoseconds look_every = display.is_drawn() ? LiveDisplay::kKeysEvery : kPeerLookEvery;
-  if (page.is_wanted()) look_every = SelfView::kPeerLookEvery;
+  if (page.is_wanted()) look_every = SelfView::kLookEvery;
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
     std::this_thread::sleep_for(std::min(look_every, end - running->elapsed()));
     shown |= running->peer().views().update();
