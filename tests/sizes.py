@@ -27,12 +27,12 @@ TOTAL = {
     "pdu": 12500,
     "aoim": 12500,
     "deadreckon": 4500,
-    "haptics": 42500,
-    "src": 44500,
+    "haptics": 38500,
+    "src": 44000,
     "tools": 40000,
     "python": 2500,
-    "bench": 35000,
-    "tests": 133000,
+    "bench": 39000,
+    "tests": 132500,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {

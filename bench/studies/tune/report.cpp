@@ -66,9 +66,6 @@ std::string against(const TuneRow& row, const TuneRow& other) {
   return ratio >= 2 ? fmt::format("{:.3g} times", ratio) : fmt::format("{:.1f} %", 100 * ratio);
 }
 
-// Text
-// ------------------------------------------------------------------------------------------------
-
 void append_head(std::string& out, const TuneReport& report) {
   const TrackSummary& summary = report.summary;
   fmt::format_to(tools::end_of(out),
@@ -183,9 +180,6 @@ std::string toml_of(const TuneReport& report) {
       report.advice.row->model, metres(report.advice.row->threshold), angle * kDegrees,
       peer::format_quantity(std::min(report.options.heartbeat, kLongestHeartbeat), "s"));
 }
-
-// JSON and CSV
-// ------------------------------------------------------------------------------------------------
 
 /// Of a run in which hands never touched there is none.
 std::optional<double> error_of(const ForceRow& row, double error) {
@@ -330,9 +324,6 @@ std::string tune_svg(const TuneReport& report) {
         curve.name += fmt::format(", {}", twin);
   return log_plot_svg(plot);
 }
-
-// Force
-// ------------------------------------------------------------------------------------------------
 
 std::string force_text(std::span<const ForceRow> rows, bool contact) {
   constexpr auto kRight = tools::TextTable::Align::right;

@@ -82,6 +82,23 @@ TEST(EvdevLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
   EXPECT_GT(all.greatest, 3.0) << "no wall was ever pressed";
 }
 
+/// The changes of one step, and what was booked for them [J].
+struct BookedStep {
+  int changes;
+  double cost;
+};
+
+/// Expects that the device's own springs got no more by the changes of a step than was booked.
+/// @param rises [J], of each change
+void expect_within_books(const std::vector<BookedStep>& steps, const std::vector<double>& rises) {
+  std::size_t change = 0;
+  for (const BookedStep& step : steps) {
+    double rise = 0;
+    for (int i = 0; i < step.changes; ++i) rise += rises.at(change++);
+    ASSERT_LE(rise, step.cost + 1e-9) << "change " << change << " of " << rises.size();
+  }
+}
+
 // Nearly always at the greatest speed that is stated, through walls and hands of others. Of the
 // changes of each step the device's own springs get no more than was booked.
 TEST(EvdevLoop, NoChangeCostsMoreThanIsBookedThoughTheHandIsAlwaysAsFastAsStated) {
@@ -112,11 +129,7 @@ TEST(EvdevLoop, NoChangeCostsMoreThanIsBookedThoughTheHandIsAlwaysAsFastAsStated
         plugged.exchange.reading.update();
         return plugged.exchange.reading.read().shown.energy;
       };
-      struct Step {
-        int changes;
-        double cost;  // [J], as it was booked
-      };
-      std::vector<Step> steps;
+      std::vector<BookedStep> steps;
       std::uint32_t number = 0;
       for (int until = 0, i = 0; i < 4000; ++i) {
         if (i == until) {
@@ -131,14 +144,8 @@ TEST(EvdevLoop, NoChangeCostsMoreThanIsBookedThoughTheHandIsAlwaysAsFastAsStated
           steps.push_back({plugged.model.uploads() - uploads, energy - booked()});
       }
       plugged.model.pass(milliseconds(50));
-      const std::vector<double>& rises = plugged.model.rises();
-      std::size_t told = 0;
-      for (const Step& step : steps) {
-        double rise = 0;
-        for (int i = 0; i < step.changes; ++i) rise += rises.at(told++);
-        ASSERT_LE(rise, step.cost + 1e-9) << "seed " << seed << ", report " << report.count()
-                                          << " ms, change " << told << " of " << rises.size();
-      }
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", report " << report.count() << " ms");
+      expect_within_books(steps, plugged.model.rises());
       ASSERT_LT(plugged.model.fastest(), kSpeed);
       greatest = std::max(greatest, plugged.model.greatest_force());
     }

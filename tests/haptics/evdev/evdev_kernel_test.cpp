@@ -101,6 +101,31 @@ class Wheel : public test::MockedNode {
   }
 };
 
+/// Grabbed, with two springs uploaded and running, at full gain and without one of its own.
+void expect_taken_over(const Wheel& wheel) {
+  EXPECT_EQ(wheel.grabs, 1);
+  ASSERT_EQ(wheel.uploads.size(), 2U);
+  EXPECT_EQ(wheel.uploads[0].type, FF_SPRING);
+  EXPECT_EQ(wheel.uploads[0].replay.length, 60);
+  const auto wrote = [&](std::size_t i, int code, int value) {
+    return wheel.written.at(i).type == EV_FF && wheel.written[i].code == code &&
+           wheel.written[i].value == value;
+  };
+  ASSERT_EQ(wheel.written.size(), 4U);
+  EXPECT_TRUE(wrote(0, FF_AUTOCENTER, 0));
+  EXPECT_TRUE(wrote(1, FF_GAIN, 0xFFFF));
+  EXPECT_TRUE(wrote(2, 3, 1));
+  EXPECT_TRUE(wrote(3, 4, 1));
+}
+
+input_event event(int type, int code, int value) {
+  input_event out{};
+  out.type = static_cast<std::uint16_t>(type);
+  out.code = static_cast<std::uint16_t>(code);
+  out.value = value;
+  return out;
+}
+
 TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs under umockdev-wrapper alone";
   Wheel wheel;
@@ -115,19 +140,7 @@ TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
     EvdevLoop loop(exchange, settings, kernel_event_calls(), [&now] { return now; });
     loop.step(milliseconds(0));
     ASSERT_THAT(loop.take_notices(), Contains(HasSubstr("Wheel: ready")));
-    EXPECT_EQ(wheel.grabs, 1);
-    ASSERT_EQ(wheel.uploads.size(), 2U);
-    EXPECT_EQ(wheel.uploads[0].type, FF_SPRING);
-    EXPECT_EQ(wheel.uploads[0].replay.length, 60);
-    const auto wrote = [&](std::size_t i, int code, int value) {
-      return wheel.written.at(i).type == EV_FF && wheel.written[i].code == code &&
-             wheel.written[i].value == value;
-    };
-    ASSERT_EQ(wheel.written.size(), 4U);
-    EXPECT_TRUE(wrote(0, FF_AUTOCENTER, 0));
-    EXPECT_TRUE(wrote(1, FF_GAIN, 0xFFFF));
-    EXPECT_TRUE(wrote(2, 3, 1));
-    EXPECT_TRUE(wrote(3, 4, 1));
+    ASSERT_NO_FATAL_FAILURE(expect_taken_over(wheel));
 
     DeviceSample sample = device.read(now);
     ASSERT_TRUE(sample.ok);
@@ -135,13 +148,6 @@ TEST(EvdevKernel, TheCallsCarryTheRightNumbers) {
     EXPECT_NEAR(sample.position.y(), -0.05, 1e-12);
     EXPECT_EQ(sample.buttons, 2U);
 
-    const auto event = [](int type, int code, int value) {
-      input_event out{};
-      out.type = static_cast<std::uint16_t>(type);
-      out.code = static_cast<std::uint16_t>(code);
-      out.value = value;
-      return out;
-    };
     wheel.to_read = {event(EV_ABS, ABS_X, 500), event(EV_KEY, BTN_THUMB, 0),
                      event(EV_SYN, SYN_REPORT, 0)};
     SpringModel model;

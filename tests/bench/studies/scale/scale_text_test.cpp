@@ -309,54 +309,6 @@ TEST(PeerCosts, SlopesArePowers) {
   EXPECT_EQ(log_slope(std::vector<double>{80, 80}, std::vector<double>{20, 30}), 0);
 }
 
-HandsRow hands_at(std::string_view scene, double threshold, double touching, double whole,
-                  double p99) {
-  HandsRow row{scene, threshold, touching, whole, 300 * whole, {}};
-  row.error.p99 = p99;
-  return row;
-}
-
-// Of each touch the smallest threshold at which it sends little enough, also where a larger one
-// sends more again.
-TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
-  const std::vector rows{hands_at("press-20", 0.005, 41, 60, 0.03),
-                         hands_at("press-20", 0.015, 40, 30, 0.05),
-                         hands_at("press-20", 0.05, 44, 20, 0.11),
-                         hands_at("tap", 0.005, 0, 33, 0.6), hands_at("tap", 0.015, 0, 21, 0.7)};
-  const std::string text = hands_text(rows);
-  const std::string bars = text.substr(text.find("the least of these"));
-  std::istringstream in(bars);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 4U);
-  EXPECT_THAT(lines[2], testing::ContainsRegex("press-20 +15 mN +50 mN +50 mN +110 mN"));
-  EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
-}
-
-TEST(ScaleHands, AmongFourAreAllTouchingAndEndBetweenRuns) {
-  int asked = 0;
-  const auto rows = run_many_hands(4, {}, 1, [&](double) { return ++asked < 230; });
-  ASSERT_EQ(rows.size(), 1U) << "the second was stopped in its first second";
-  EXPECT_EQ(rows[0].peers, 4U);
-  EXPECT_EQ(rows[0].touching, 4U);
-  EXPECT_GT(rows[0].packets_per_s, 4);
-  EXPECT_GT(raw_stream_of(4).packets_per_s, 25 * rows[0].packets_per_s);
-  EXPECT_THAT(many_hands_text(rows), HasSubstr("4 peers with a hand each, 4 of them touching"));
-  EXPECT_THAT(many_hands_text(rows), Not(HasSubstr("the others moving")));
-}
-
-TEST(ScaleHands, AmongManyAreAsManyAsThereArePeers) {
-  ScaleWords words;
-  EXPECT_EQ(read_scale_plan(words).hands, 64U);
-  words.peers = "4,8";
-  EXPECT_EQ(read_scale_plan(words).hands, 8U);
-  words.peers = "200";
-  EXPECT_EQ(read_scale_plan(words).hands, kManyHands);
-  words.peers = "1";
-  words.many_hands = true;
-  EXPECT_THROW(static_cast<void>(read_scale_plan(words)), tools::UsageError);
-}
-
 // As `bench scale --many-hands` is left by Ctrl-C in its last runs, or in its first.
 TEST(ScaleFindings, TellWhatWasRunUntilTheStudyWasStopped) {
   ScaleReport report;
@@ -433,84 +385,6 @@ TEST(ScalePage, DrawsALineForEachNumberOfPeers) {
   page = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
   EXPECT_EQ(lines_of(page), 1U) << "over peers";
   EXPECT_THAT(page, Not(HasSubstr("peers solid")));
-}
-
-std::string refusal(const ScaleWords& words) {
-  try {
-    static_cast<void>(read_scale_plan(words));
-  } catch (const tools::UsageError& error) {
-    return error.what();
-  }
-  return "taken";
-}
-
-TEST(ScalePlan, CrossesPeersWithEntities) {
-  ScaleWords words;
-  words.peers = "2,4";
-  words.entities = "100,200";
-  words.threshold = "50cm";
-  words.delay = std::chrono::milliseconds(80);
-  words.jitter = "25%";
-  const ScalePlan plan = read_scale_plan(words);
-  ASSERT_EQ(plan.settings.size(), 4U);
-  EXPECT_EQ(plan.settings[1].peers, 2U);
-  EXPECT_EQ(plan.settings[1].crowd.entities, 200U);
-  EXPECT_EQ(plan.settings[3].peers, 4U);
-  EXPECT_DOUBLE_EQ(plan.settings[0].thresholds.position, 0.5);
-  EXPECT_EQ(plan.settings[0].network.jitter, std::chrono::milliseconds(20));
-}
-
-TEST(ScalePlan, RefusesByNameWhatCannotBe) {
-  ScaleWords words;
-  words.peers = "8.5";
-  EXPECT_THAT(refusal(words), HasSubstr("--peers: 8.5"));
-  words = {};
-  words.entities = "10";
-  EXPECT_THAT(refusal(words), HasSubstr("--entities"));
-  words = {};
-  words.jitter = "10%";
-  EXPECT_THAT(refusal(words), HasSubstr("--delay"));
-  words = {};
-  words.rate = 0;
-  EXPECT_THAT(refusal(words), HasSubstr("--rate"));
-  words = {};
-  words.loss = "120%";
-  EXPECT_THAT(refusal(words), HasSubstr("--loss"));
-}
-
-// Two that last the study and one that comes and goes; copies lie beside them.
-TEST(ScalePlan, TakesTracksThatLast) {
-  const test::ScratchFolder folder;
-  const std::string file = folder.file("tracks.csv");
-  std::ofstream out(file);
-  out << "t_s,id,x_m,y_m\n";
-  for (int t = 0; t <= 12; ++t) {
-    out << t << ",1," << 10 * t << ",0\n" << t << ",2,0," << 5 * t << '\n';
-    if (t > 4 && t < 8) out << t << ",3,50,50\n";
-  }
-  out.close();
-  ScaleWords words;
-  words.file = file;
-  words.peers = "2";
-  words.entities = "6";
-  words.length = std::chrono::seconds(5);
-  const ScalePlan plan = read_scale_plan(words);
-  EXPECT_EQ(plan.tracks.size(), 2U);
-  Crowd crowd(plan.settings[0].crowd);
-  EXPECT_EQ(crowd.size(), 6U);
-  crowd.advance(3);
-  int of_first = 0;
-  for (std::size_t i = 0; i < crowd.size(); ++i) {
-    const Eigen::Vector3d velocity = crowd.motion(i).velocity;
-    of_first += (velocity - Eigen::Vector3d(10, 0, 0)).norm() < 1e-6;
-    EXPECT_TRUE(std::abs(velocity.norm() - 10) < 1e-6 || std::abs(velocity.norm() - 5) < 1e-6);
-  }
-  EXPECT_EQ(of_first, 3);
-  words.movement = "walkers";
-  EXPECT_THAT(refusal(words), HasSubstr("--movement"));
-  words.movement = "";
-  words.length = std::chrono::seconds(60);
-  EXPECT_THAT(refusal(words), HasSubstr("--for"));
 }
 
 }  // namespace
