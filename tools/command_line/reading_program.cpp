@@ -13,7 +13,6 @@
 #include "reckon/tools/terminal/foreign_text.hpp"
 
 namespace reckon::tools {
-namespace {
 
 int run_reading(const Verb& verb, Arguments arguments, const Console& console) {
   const haptics::LoadProgress progress(
@@ -29,8 +28,6 @@ int run_reading(const Verb& verb, Arguments arguments, const Console& console) {
     throw UsageError(error.what());
   }
 }
-
-}  // namespace
 
 int run_reading_program(VerbProgram program, Arguments arguments, const Console& console) noexcept {
   program.around = run_reading;

@@ -7,8 +7,11 @@
 
 namespace reckon::tools {
 
-/// run_verb_program(). Reports on stderr each second which file is being read. A faulty table is
-/// wrong usage.
+/// Runs a verb. Reports on stderr each second which file is being read. A faulty table is wrong
+/// usage.
+[[nodiscard]] int run_reading(const Verb& verb, Arguments arguments, const Console& console);
+
+/// run_verb_program(), where each verb is run by run_reading().
 [[nodiscard]] int run_reading_program(VerbProgram program, Arguments arguments,
                                       const Console& console) noexcept;
 

@@ -3,6 +3,7 @@
 // Runs the program in process and keeps what it wrote.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/reading_program.hpp"
 #include "reckon/tools/inspect_program.hpp"
 #include "reckon/tools/peer_program.hpp"
 #include "reckon/tools/program.hpp"
@@ -77,10 +79,10 @@ inline ProgramResult run_captured(Program program, const std::vector<std::string
 inline int start_in_process(const tools::VerbRow& row, tools::Arguments arguments,
                             const tools::Console& console) {
   if (row.program == tools::kBenchProgram) return tools::start_program(row, arguments, console);
-  std::vector<std::string_view> words{row.name};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return row.program == tools::kPeerProgram ? tools::run_peer_program(words, console)
-                                            : tools::run_inspect_program(words, console);
+  const auto own =
+      row.program == tools::kPeerProgram ? tools::peer_verbs() : tools::inspect_verbs();
+  return tools::run_reading(*std::ranges::find(own, row.name, &tools::Verb::name), arguments,
+                            console);
 }
 
 /// `reckon ARGUMENTS`, in this process.
