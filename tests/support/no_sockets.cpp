@@ -13,7 +13,7 @@ extern "C" int socket(int domain, int type, int protocol) noexcept {
   const bool network = domain == AF_INET || domain == AF_INET6;
   if (network && std::getenv("RECKON_NO_SOCKETS") != nullptr) {
     std::fputs("a fast test opens a socket: list its suite behind LIVE in CMakeLists.txt\n", stderr);
-    std::abort();
+    std::_Exit(1);
   }
   return next(domain, type, protocol);
 }
