@@ -296,7 +296,7 @@ class Setup:
         # A copy that any user may run and read.
         self.folder = pathlib.Path(folder)
         self.folder.chmod(0o755)
-        self.reckon = shutil.copy(arguments.reckon, self.folder / "reckon")
+        self.reckon = testbed.copied_program(arguments.reckon, self.folder)
         pathlib.Path(self.reckon).chmod(0o755)
         self.stream = arguments.stream
         self.truck = shutil.copy(arguments.truck, self.folder / "truck") if arguments.truck else ""

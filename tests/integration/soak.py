@@ -38,7 +38,7 @@ def compare(name, one, other):
 def run(arguments, folder):
     folder = pathlib.Path(folder)
     folder.chmod(0o755)
-    program = shutil.copy(arguments.reckon, folder / "reckon")
+    program = testbed.copied_program(arguments.reckon, folder)
     shutil.copytree(arguments.scenes, folder / "scenes")
     text = (folder / "scenes/two_hands.toml").read_text()
     for usual, fine in FINE.items():

@@ -8,7 +8,6 @@ import json
 import math
 import pathlib
 import random
-import shutil
 import signal
 import socket
 import sys
@@ -261,7 +260,7 @@ def tell(balance, hosts, length):
 def run(arguments, folder):
     folder = pathlib.Path(folder)
     folder.chmod(0o755)
-    program = shutil.copy(arguments.reckon, folder / "reckon")
+    program = testbed.copied_program(arguments.reckon, folder)
     for peer in range(1, PEERS + 1):
         (folder / f"track_{peer}.csv").write_text(track(peer))
     for peer in range(1, PEERS + 1):

@@ -5,6 +5,7 @@ observer that records what passes. Standard library, root and iproute2; nothing 
 import ctypes
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -182,6 +183,13 @@ class PeerProgram(Program):
         check(status == 0, f"peer ended with status {status}: {self.error_text()}")
         check(self.lines, "peer said nothing")
         return json.loads(self.lines[-1][1])
+
+
+def copied_program(reckon, folder):
+    """A copy of `reckon` in the folder, with the programs that it starts: a build may replace the originals meanwhile."""
+    for name in ("reckon-peer", "reckon-inspect"):
+        shutil.copy(pathlib.Path(reckon).with_name(name), folder / name)
+    return shutil.copy(reckon, folder / "reckon")
 
 
 def remove_leftovers():

@@ -82,7 +82,7 @@ def peers(reckon, scene):
 
     third = start(*run, "1s")
     text = third.communicate(timeout=20)[1]
-    told = re.search(r"this is application 3 of site \d+: 1 is taken on this host by process (\d+) \(reckon\)", text)
+    told = re.search(r"this is application 3 of site \d+: 1 is taken on this host by process (\d+) \(reckon-peer\)", text)
     check(told and int(told[1]) in (first.pid, second.pid), f"the third does not say what it is:\n{text}")
 
     refused = start(*run, "1s", "--application", "2")

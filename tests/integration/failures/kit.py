@@ -32,7 +32,7 @@ class Setup:
     def __init__(self, arguments, folder):
         self.folder = pathlib.Path(folder)
         self.folder.chmod(0o755)
-        self.reckon = shutil.copy(arguments.reckon, self.folder / "reckon")
+        self.reckon = testbed.copied_program(arguments.reckon, self.folder)
         pathlib.Path(self.reckon).chmod(0o755)
         self.tests = arguments.tests
         shutil.copytree(arguments.scenes, self.folder / "scenes")
