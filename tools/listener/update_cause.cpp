@@ -18,7 +18,7 @@ constexpr double kOldSpread = 0.6;       // [s]
 
 // Noise of an extrapolation: float32 fields; that of its time comes with the interval.
 constexpr double kLeastJump = 5e-5;         // [m]
-constexpr double kLeastTurn = 1e-4;         // [rad]
+constexpr double kTurnTolerance = 1e-4;     // [rad]
 constexpr double kVelocityRounding = 2e-7;  // of a float32, of both updates
 
 // Fields of which a change is an event: force, types, appearance, algorithm, marking, capabilities.
@@ -58,7 +58,7 @@ Innovation innovation(const deadreckon::KinematicState& before,
   const double timing = between.noise + kVelocityRounding * between.seconds;
   found.above_noise =
       found.jump > kLeastJump + timing * std::max(predicted.velocity.norm(), now.velocity.norm()) ||
-      found.turn > kLeastTurn + timing * predicted.angular_velocity.norm();
+      found.turn > kTurnTolerance + timing * predicted.angular_velocity.norm();
   return found;
 }
 
