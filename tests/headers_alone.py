@@ -133,13 +133,16 @@ def shown_by_sources(commands, include, headers):
 def compiler_of(folder, commands):
     """How a folder is compiled: the compiler, its limits of memory, where it looks for includes, the standard; no more."""
     folder = {"peer": "src"}.get(folder, folder)
+    found = []
     for command in commands:
         words = shlex.split(command["command"])
         if words[words.index("-o") + 1].startswith(folder + "/"):
-            kept = [word for at, word in enumerate(words) if word.startswith(("-I", "-isystem", "-std=", "--param="))
-                    or words[at - 1] == "-isystem" or at < words.index(next(w for w in words if w[0] == "-"))]
-            return shlex.join(kept)
-    raise SystemExit(f"headers_alone: nothing of {folder}/ is compiled in this build")
+            found.append([word for at, word in enumerate(words) if word.startswith(("-I", "-isystem", "-std=", "--param="))
+                          or words[at - 1] == "-isystem" or at < words.index(next(w for w in words if w[0] == "-"))])
+    if not found:
+        raise SystemExit(f"headers_alone: nothing of {folder}/ is compiled in this build")
+    # Of the libraries of a folder that which looks in the most places.
+    return shlex.join(max(found, key=len))
 
 
 def write(path, text):
