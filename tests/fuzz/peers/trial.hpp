@@ -8,8 +8,8 @@
 
 namespace reckon::fuzz {
 
-/// The hash covers all that was received and all that followed; the log tells of the two lives that
-/// the finding concerns, of all without one.
+/// The hash covers all received datagrams and what followed from them. The log has the two lives
+/// that the finding concerns, or all lives if there is no finding.
 using Outcome = SeededOutcome<LivesFinding>;
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);

@@ -187,7 +187,7 @@ TEST(UsbDevice, TellsHowLongAWayTookByTheDevicesOwnClock) {
   };
   push(0, 1, 1, milliseconds(100));
   push(1, 2, 1, milliseconds(103));
-  push(4, 5, 1, milliseconds(107));  // 2 to 4 are not told
+  push(4, 5, 1, milliseconds(107));  // 2 to 4 give no notice
   push(5, 9, 1, milliseconds(108));
   std::vector<std::optional<nanoseconds>> took;
   for (int write = 1; write <= delay + 8; ++write) {

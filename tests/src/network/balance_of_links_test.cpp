@@ -179,7 +179,7 @@ TEST_F(DatagramBalances, TellWhatTheLawDidToWhom) {
             500 - statistics.lost_by_law + statistics.duplicated_by_law);
 }
 
-// Three of a list: each copy is told under the group that it was said to, at both ends.
+// Three of a list: both ends count each copy under the group that it was sent to.
 TEST_F(DatagramBalances, HoldWhereDatagramsGoToAListOfAddresses) {
   const GroupPool pool = GroupPool::ipv4_default();
   UdpMulticastOptions options = on("lo");

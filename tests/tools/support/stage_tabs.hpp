@@ -39,7 +39,7 @@ inline Head head_of(const std::string& octets) {
           at(18, std::uint16_t{}), at(22, std::uint16_t{}), at(24, std::uint32_t{})};
 }
 
-/// A tab that draws what it gets, unless it is told not to.
+/// A tab that draws what it receives, unless a test switches that off.
 class Tab {
  public:
   Tab(ViewStage& stage, bool knows_word) : stage_(stage), watcher_(stage.admit(knows_word)) {}
