@@ -13,7 +13,8 @@ namespace {
 
 using Parameters = Eigen::Vector4d;  // ln mass, damping, friction, delay
 
-constexpr int kSubsteps = 10;
+// Substeps of a search, and of its last descent [periods].
+constexpr double kCoarse = 1.0, kFine = 0.1;
 constexpr int kMostIterations = 40;
 constexpr std::size_t kDescents = 3;                    // from the best of the starts
 constexpr double kLeastMass = 1e-3, kMostMass = 100.0;  // [kg]
@@ -75,11 +76,12 @@ double coasted(const AxisModel& model, double time) {
 
 // Where in such a step it began is not known either: of each push the mean is left out, and what a
 // speed at first makes.
-Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters& p, double period) {
+Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters& p,
+                          double substep) {
   std::vector<double> all;
   const AxisModel model = model_of(p);
   for (const AxisPush& push : pushes) {
-    const std::vector<double> said = places_of(model, push, period / kSubsteps);
+    const std::vector<double> said = places_of(model, push, substep);
     const std::size_t first = all.size();
     std::vector<double> ways;
     for (const std::size_t k : telling(push)) {
@@ -96,13 +98,13 @@ Eigen::VectorXd residuals(const std::vector<AxisPush>& pushes, const Parameters&
 }
 
 Eigen::MatrixXd slopes(const std::vector<AxisPush>& pushes, const Parameters& p,
-                       const Eigen::VectorXd& at, double period) {
+                       const Eigen::VectorXd& at, double substep) {
   const Parameters steps(1e-4, 1e-4, 1e-4, 1e-5);
   Eigen::MatrixXd out(at.size(), 4);
   for (Eigen::Index i = 0; i < 4; ++i) {
     Parameters there = p;
     there(i) += steps(i);
-    out.col(i) = (residuals(pushes, there, period) - at) / steps(i);
+    out.col(i) = (residuals(pushes, there, substep) - at) / steps(i);
   }
   return out;
 }
@@ -119,19 +121,19 @@ Parameters bounded(Parameters p, double longest_delay) {
   return p;
 }
 
-Descent descend(const std::vector<AxisPush>& pushes, Parameters p, double period,
+Descent descend(const std::vector<AxisPush>& pushes, Parameters p, double substep,
                 double longest_delay) {
-  Eigen::VectorXd at = residuals(pushes, p, period);
+  Eigen::VectorXd at = residuals(pushes, p, substep);
   Descent best{p, at.squaredNorm()};
   double care = 1e-3;
   for (int i = 0; i < kMostIterations && care < 1e8; ++i) {
-    const Eigen::MatrixXd J = slopes(pushes, best.place, at, period);
+    const Eigen::MatrixXd J = slopes(pushes, best.place, at, substep);
     Eigen::Matrix4d H = J.transpose() * J;
     H.diagonal() *= 1.0 + care;
     H.diagonal().array() += 1e-18;
     const Parameters step = H.ldlt().solve(J.transpose() * at);
     const Parameters next = bounded(best.place - step, longest_delay);
-    const Eigen::VectorXd there = residuals(pushes, next, period);
+    const Eigen::VectorXd there = residuals(pushes, next, substep);
     const double cost = there.squaredNorm();
     if (!(cost < best.cost)) {
       care *= 10;
@@ -153,7 +155,8 @@ Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double p
                      double longest_delay) {
   constexpr int kMostRounds = 6;
   const auto attempt = [&](const Parameters& there) {
-    const Descent one = descend(pushes, bounded(there, longest_delay), period, longest_delay);
+    const Descent one =
+        descend(pushes, bounded(there, longest_delay), kCoarse * period, longest_delay);
     if (one.cost < best.cost) best = one;
   };
   for (int round = 0; round < kMostRounds; ++round) {
@@ -169,22 +172,25 @@ Descent search_about(const std::vector<AxisPush>& pushes, Descent best, double p
 
 }  // namespace
 
-// Semi-implicit steps; the force is its mean over the step.
+// Semi-implicit steps with the exact decay, so that long ones are stable too; the force is its mean
+// over the step.
 std::vector<double> places_of(const AxisModel& model, const AxisPush& push, double substep) {
   Impulse impulse(push);
   std::vector<double> places;
   places.reserve(push.reads.size());
   double time = push.reads.front(), x = push.places.front(), v = 0.0;
   double before = impulse.until(time - model.delay);
+  const double mobility = 1.0 / model.mass;
   for (const double read : push.reads) {
     const int steps = static_cast<int>(std::ceil((read - time) / substep - 1e-6));
-    const double begin = time, h = steps > 0 ? (read - begin) / steps : 0.0;
+    const double begin = time - model.delay, h = steps > 0 ? (read - time) / steps : 0.0;
+    const double kept = std::exp(-h * model.damping * mobility);
+    const double rubs = h * model.friction * mobility;
     for (int i = 1; i <= steps; ++i) {
-      const double pushed = impulse.until(begin + i * h - model.delay);
-      v += (pushed - before - h * model.damping * v) / model.mass;
+      const double pushed = impulse.until(begin + i * h);
+      v = kept * v + (pushed - before) * mobility;
       before = pushed;
-      const double rubs = h * model.friction / model.mass;
-      v = std::abs(v) > rubs ? v - std::copysign(rubs, v) : 0.0;
+      v -= std::clamp(v, -rubs, rubs);
       x += h * v;
     }
     time = read;
@@ -200,7 +206,7 @@ AxisFit fit_axis(const std::vector<AxisPush>& pushes, double period, double long
       for (const double damping : {0.3, 2.0}) {
         for (const double friction : {0.0, 0.1}) {
           const Parameters start(std::log(mass), damping, friction, delay * longest_delay);
-          starts.push_back({start, residuals(pushes, start, period).squaredNorm()});
+          starts.push_back({start, residuals(pushes, start, kCoarse * period).squaredNorm()});
         }
       }
     }
@@ -208,12 +214,14 @@ AxisFit fit_axis(const std::vector<AxisPush>& pushes, double period, double long
   std::ranges::sort(starts, {}, &Descent::cost);
   Descent best;
   for (std::size_t i = 0; i < kDescents; ++i) {
-    const Descent one = descend(pushes, starts[i].place, period, longest_delay);
+    const Descent one = descend(pushes, starts[i].place, kCoarse * period, longest_delay);
     if (one.cost < best.cost) best = one;
   }
   best = search_about(pushes, best, period, longest_delay);
-  const Eigen::VectorXd at = residuals(pushes, best.place, period);
-  const Eigen::MatrixXd J = slopes(pushes, best.place, at, period);
+  const double substep = kFine * period;
+  best = descend(pushes, best.place, substep, longest_delay);
+  const Eigen::VectorXd at = residuals(pushes, best.place, substep);
+  const Eigen::MatrixXd J = slopes(pushes, best.place, at, substep);
   const Eigen::Matrix4d information = J.transpose() * J + 1e-18 * Eigen::Matrix4d::Identity();
   AxisFit fit;
   fit.model = model_of(best.place);
