@@ -76,7 +76,7 @@ endfunction()
 # is left over of folders is compiled with what is left over of the next, up to twelve files.
 # APART: "FILE FILE .." "FILE FILE .." ..: files with a name of their own (in an unnamed namespace) that a neighbour has
 # too, each list one unit. ALONE: those with definitions from CMake, or too long for company. Where the compiler says that
-# two names collide, rename one, or name its file here.
+# two names collide, rename one, or name its file here; a file of tests gets a namespace that has its name.
 # COLD: rooms and files that run at a start, for a person or for a page. They need no more than -O1, which takes half the
 # time to compile, and twice as many share what they include. A list of APART is as cold as its first file.
 # WARM: rooms in a cold one that are not cold.

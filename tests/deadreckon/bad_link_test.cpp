@@ -16,7 +16,7 @@
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/tests/deadreckon/support/oracle.hpp"
 
-namespace reckon::deadreckon {
+namespace reckon::deadreckon::bad_link_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -363,4 +363,4 @@ TEST(BadLink, AnErrorGoesAwayAtAThousandUpdatesASecondToo) {
 }
 
 }  // namespace
-}  // namespace reckon::deadreckon
+}  // namespace reckon::deadreckon::bad_link_test

@@ -18,7 +18,7 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/tests/deadreckon/support/oracle.hpp"
 
-namespace reckon::deadreckon {
+namespace reckon::deadreckon::wire_conversion_test {
 namespace {
 
 using Algorithm = pdu::DeadReckoningAlgorithm;
@@ -360,4 +360,4 @@ TEST(EntityConversion, TakesEveryEntityStateOfTheRecordedSessions) {
 }
 
 }  // namespace
-}  // namespace reckon::deadreckon
+}  // namespace reckon::deadreckon::wire_conversion_test

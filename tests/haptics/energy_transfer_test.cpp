@@ -18,7 +18,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impairment.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::energy_transfer_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -375,4 +375,4 @@ TEST(EnergyTransfer, WholeGridStaysPassive) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::energy_transfer_test

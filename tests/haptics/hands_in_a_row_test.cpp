@@ -12,7 +12,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace reckon::haptics {
+namespace reckon::haptics::hands_in_a_row_test {
 namespace {
 
 constexpr double kPassive = -1e-9;  // [J]
@@ -307,4 +307,4 @@ TEST(SlowPress, HandsThatHoldStillComeToRest) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::hands_in_a_row_test

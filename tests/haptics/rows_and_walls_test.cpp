@@ -14,7 +14,7 @@
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 #include "reckon/tests/support/climb.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::rows_and_walls_test {
 namespace {
 
 constexpr double kRight = 0.05;  // of the force
@@ -161,4 +161,4 @@ TEST(RowsAndWalls, NoClimbFindsARowThatIsWrong) { climb_to_the_worst(push_a_row)
 TEST(RowsAndWalls, NoClimbFindsAWallThatIsWrong) { climb_to_the_worst(push_at_a_wall); }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::rows_and_walls_test

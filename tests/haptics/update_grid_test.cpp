@@ -20,7 +20,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impairment.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::update_grid_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -286,4 +286,4 @@ TEST(UpdateGrid, MakesNoEnergyWhateverTheServerAnswers) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::update_grid_test

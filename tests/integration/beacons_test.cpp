@@ -18,7 +18,7 @@
 #include "reckon/tests/integration/field_of_peers.hpp"
 #include "reckon/tools/exercise/leaders_report.hpp"
 
-namespace reckon::test {
+namespace reckon::test::beacons_test {
 namespace {
 
 constexpr std::size_t kFollower = 0, kOwner = 1, kBystander = 2, kRival = 3;
@@ -208,4 +208,4 @@ TEST_F(FollowedTruck, IsNotMovedByAStranger) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::beacons_test

@@ -16,7 +16,7 @@
 #include "reckon/tests/integration/federates.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
-namespace reckon::test {
+namespace reckon::test::budget_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -227,4 +227,4 @@ stiffness = "150 N/m"
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::budget_test

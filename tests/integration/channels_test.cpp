@@ -13,7 +13,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
-namespace reckon::test {
+namespace reckon::test::channels_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -249,4 +249,4 @@ TEST(Awareness, ANimbusReachesBeyondTheRadius) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::channels_test

@@ -9,7 +9,7 @@
 #include "reckon/tests/integration/federates.hpp"
 #include "reckon/tests/support/emission_samples.hpp"
 
-namespace reckon::test {
+namespace reckon::test::emissions_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -54,4 +54,4 @@ TEST(EmissionsOfAPeer, AreSeenUntilTheirHeartbeatsFail) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::emissions_test

@@ -9,7 +9,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
-namespace reckon::test {
+namespace reckon::test::felt_sources_test {
 namespace {
 
 TEST(FeltSources, AreThoseOfBodiesInReachOfAHand) {
@@ -50,4 +50,4 @@ TEST(FeltSources, AreThoseOfBodiesInReachOfAHand) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::felt_sources_test

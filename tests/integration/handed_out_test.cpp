@@ -14,7 +14,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/integration/field_of_peers.hpp"
 
-namespace reckon::test {
+namespace reckon::test::handed_out_test {
 namespace {
 
 constexpr std::size_t kCells = 6, kGroups = 4;
@@ -239,4 +239,4 @@ TEST(HandedOut, WantsLeaders) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::handed_out_test

@@ -8,7 +8,7 @@
 #include "reckon/tests/support/in_process.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 
-namespace reckon::test {
+namespace reckon::test::impaired_run_test {
 namespace {
 
 peer::ImpairmentLaw bad_network() {
@@ -124,4 +124,4 @@ TEST(Loss, HandsThatKeepTalkingAreThereAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::impaired_run_test

@@ -15,7 +15,7 @@
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
-namespace reckon::test {
+namespace reckon::test::join_cost_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -106,4 +106,4 @@ TEST(JoinCost, IsHardlyMoreThanWithoutQuestionsAndAnswersSaidAgain) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::join_cost_test

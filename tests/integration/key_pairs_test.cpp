@@ -24,7 +24,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
-namespace reckon::test {
+namespace reckon::test::key_pairs_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -323,4 +323,4 @@ TEST(KeyPairs, RestSilentlyMoveRightlyAndShowAllToNewcomers) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::key_pairs_test

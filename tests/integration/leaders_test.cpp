@@ -15,7 +15,7 @@
 #include "reckon/pdu/reckon/group_map.hpp"
 #include "reckon/tests/integration/field_of_peers.hpp"
 
-namespace reckon::test {
+namespace reckon::test::leaders_test {
 namespace {
 
 constexpr std::size_t kWitness = 0;
@@ -286,4 +286,4 @@ TEST(Leaders, AreRefusedWhereTheyCannotBeHad) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::leaders_test

@@ -24,7 +24,7 @@
 #include "reckon/tests/support/in_process.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
 
-namespace reckon::test {
+namespace reckon::test::liars_test {
 namespace {
 
 constexpr std::string_view kPair = R"(
@@ -253,4 +253,4 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Liars,
                          testing::Range(1u, std::getenv("RECKON_SOAK") != nullptr ? 1001u : 21u));
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::liars_test

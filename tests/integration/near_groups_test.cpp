@@ -13,7 +13,7 @@
 
 #include "reckon/tests/integration/melee.hpp"
 
-namespace reckon::test {
+namespace reckon::test::near_groups_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -214,4 +214,4 @@ TEST(NearGroups, CarryStatesOfTheCompactForm) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::near_groups_test

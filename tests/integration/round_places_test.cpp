@@ -21,7 +21,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
-namespace reckon::test {
+namespace reckon::test::round_places_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -204,4 +204,4 @@ TEST(RoundPlaces, AreShownAllTheTimeToWhoIsInReachOrFollows) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::round_places_test

@@ -11,7 +11,7 @@
 #include "reckon/tests/integration/federates.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
 
-namespace reckon::test {
+namespace reckon::test::uneven_cells_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -192,4 +192,4 @@ TEST(WholePeersInLocales, SeeThroughDoorsAndNotThroughWalls) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::uneven_cells_test

@@ -20,7 +20,7 @@
 #include "reckon/tests/integration/losing_link.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
 
-namespace reckon::test {
+namespace reckon::test::visitor_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -337,4 +337,4 @@ TEST(Visitors, SeeAllWithinASecondWhicheverDatagramIsLost) {
 }
 
 }  // namespace
-}  // namespace reckon::test
+}  // namespace reckon::test::visitor_test

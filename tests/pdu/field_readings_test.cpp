@@ -13,7 +13,7 @@
 #include "reckon/pdu/print.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
-namespace reckon::pdu {
+namespace reckon::pdu::field_readings_test {
 namespace {
 
 using nlohmann::json;
@@ -188,4 +188,4 @@ TEST(JsonNumbers, BeyondWhatADoubleHoldsAreText) {
 }
 
 }  // namespace
-}  // namespace reckon::pdu
+}  // namespace reckon::pdu::field_readings_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 
-namespace reckon::pdu {
+namespace reckon::pdu::print_test {
 namespace {
 
 std::string tree(std::span<const std::byte> octets) {
@@ -119,4 +119,4 @@ TEST(TextSink, CutsAtItsBufferAndAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace reckon::pdu
+}  // namespace reckon::pdu::print_test

@@ -21,7 +21,7 @@
 #include "reckon/peer/thread_name.hpp"
 #include "reckon/tests/src/support/manual_link.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::peer_threads_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -257,4 +257,4 @@ TEST(PeerThreadsDeathTest, EndThoseThatRunWhereOneCannotBeStarted) {
 #endif
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::peer_threads_test

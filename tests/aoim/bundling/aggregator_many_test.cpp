@@ -14,7 +14,7 @@
 #include "reckon/tests/aoim/support/samples.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::aggregator_many_test {
 namespace {
 
 using namespace test;
@@ -202,4 +202,4 @@ TEST(AggregatorOfMany, CountsWhatItRefusesForWantOfRoom) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::aggregator_many_test

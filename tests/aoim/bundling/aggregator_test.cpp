@@ -10,7 +10,7 @@
 
 #include "reckon/tests/aoim/support/samples.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::aggregator_test {
 namespace {
 
 using namespace test;
@@ -367,4 +367,4 @@ TEST(Aggregator, KeepsTheOrderOfABundleForAnyMixOfUpdates) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::aggregator_test

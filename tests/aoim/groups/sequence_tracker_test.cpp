@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-namespace reckon::aoim {
+namespace reckon::aoim::sequence_tracker_test {
 namespace {
 
 constexpr GroupIndex kGroup{3};
@@ -253,4 +253,4 @@ TEST(SequenceTracker, HasRoomForAHundredPeersInThirtyGroups) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::sequence_tracker_test

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace reckon::aoim {
+namespace reckon::aoim::awareness_test {
 namespace {
 
 using Shape = AwarenessFocus::Shape;
@@ -190,4 +190,4 @@ TEST(Occluders, RefuseABoxThatIsNone) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::awareness_test

@@ -15,7 +15,7 @@
 
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::focus_cover_test {
 namespace {
 
 constexpr double kCell = 125.0;
@@ -195,4 +195,4 @@ TEST(FocusCover, ReachesThroughNoWallHoweverManyLocalesTheyAreIn) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::focus_cover_test

@@ -10,7 +10,7 @@
 
 #include "reckon/tests/aoim/support/samples.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::life_chain_test {
 namespace {
 
 using test::presence_of;
@@ -114,4 +114,4 @@ TEST(LifeChain, WithoutAFunctionNothingIsProved) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::life_chain_test

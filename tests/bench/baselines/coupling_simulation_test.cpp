@@ -14,7 +14,7 @@
 #include "reckon/bench/analysis/wave_line.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::coupling_simulation_test {
 namespace {
 
 constexpr double kPassive = -1e-9;  // [J]
@@ -235,4 +235,4 @@ TEST(TransmissionLine, CarriesTheWorkOfAWorldThatMoves) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::coupling_simulation_test

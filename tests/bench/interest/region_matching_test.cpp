@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace reckon::bench {
+namespace reckon::bench::region_matching_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -215,4 +215,4 @@ TEST(RegionMatching, GoesOnAfterASinkThatThrew) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::region_matching_test

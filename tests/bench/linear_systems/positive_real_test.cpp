@@ -13,7 +13,7 @@
 #include "reckon/bench/analysis/two_port.hpp"
 #include "reckon/tests/bench/linear_systems/random_systems.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::positive_real_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -251,4 +251,4 @@ TEST(PositiveReal, ShapesAndNumbersThatAreNotPortsAreRefused) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::positive_real_test

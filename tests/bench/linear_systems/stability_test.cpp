@@ -10,7 +10,7 @@
 #include "reckon/bench/linear_systems/transfer_function.hpp"
 #include "reckon/tests/bench/linear_systems/random_systems.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::stability_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -116,4 +116,4 @@ TEST(Stability, NothingIsStableAndContinuousHasNoRadius) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::stability_test

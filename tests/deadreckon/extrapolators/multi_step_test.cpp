@@ -25,7 +25,7 @@ static void PrintTo(const Extrapolator& row, std::ostream* out) { *out << row.na
 
 }  // namespace reckon::deadreckon
 
-namespace reckon::deadreckon::test {
+namespace reckon::deadreckon::test::multi_step_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -256,4 +256,4 @@ TEST(MotionHistory, SamplesBodyAxesAsTheModelMoves) {
 }
 
 }  // namespace
-}  // namespace reckon::deadreckon::test
+}  // namespace reckon::deadreckon::test::multi_step_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/deadreckon/support/oracle.hpp"
 #include "reckon/tests/deadreckon/support/quadrature.hpp"
 
-namespace reckon::deadreckon::test {
+namespace reckon::deadreckon::test::drm_quadrature_test {
 namespace {
 
 using Algorithm = pdu::DeadReckoningAlgorithm;
@@ -259,4 +259,4 @@ TEST(DrmQuadrature, TheReferencesExponentialTurnsByItsAngle) {
 }
 
 }  // namespace
-}  // namespace reckon::deadreckon::test
+}  // namespace reckon::deadreckon::test::drm_quadrature_test

@@ -17,7 +17,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 
-namespace reckon::deadreckon {
+namespace reckon::deadreckon::residual_state_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -210,7 +210,7 @@ TEST(ResidualState, WritesAndReadsTheOctetsThatOtherPeersDo) {
   const EntityState first = turning_vehicle(0);
   std::array<std::byte, pdu::kMostCompact> key;
   const std::size_t key_size = pdu::encode_compact(first, {}, key);
-  const auto stored = test::octets_from_hex(
+  const auto stored = reckon::test::octets_from_hex(
       "000008244713FB300047868C009502F900312C3B5006601873DF68FC9C670000A002BAF7808080F0808081942000"
       "8"
       "780A3A7A6702222A7080180");
@@ -231,7 +231,7 @@ TEST(ResidualState, WritesAndReadsTheOctetsThatOtherPeersDo) {
     const EntityState state = turning_vehicle(++step);
     std::array<std::byte, kMostResidual> body;
     const std::size_t size = sender.encode(state, body);
-    const auto known = test::octets_from_hex(hex);
+    const auto known = reckon::test::octets_from_hex(hex);
     EXPECT_TRUE(std::ranges::equal(std::span(body).first(size), known)) << step;
     EXPECT_EQ(receiver.decode(known, state.header.timestamp, back), ResidualVerdict::good) << step;
     EXPECT_TRUE(equal(back, state)) << step;
@@ -267,4 +267,4 @@ TEST(ResidualState, TakesAnyOctetsWithoutHarmAndNextToNoneForGood) {
 }
 
 }  // namespace
-}  // namespace reckon::deadreckon
+}  // namespace reckon::deadreckon::residual_state_test

@@ -14,7 +14,7 @@
 
 #include "reckon/tests/deadreckon/support/oracle.hpp"
 
-namespace reckon::deadreckon {
+namespace reckon::deadreckon::deadband_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -128,4 +128,4 @@ TEST(Deadband, PassesOverWhatIsNotFiniteOrNotNewer) {
 }
 
 }  // namespace
-}  // namespace reckon::deadreckon
+}  // namespace reckon::deadreckon::deadband_test

@@ -21,7 +21,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::around_contact_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -341,4 +341,4 @@ TEST(PassingBody, ThinBoardKeepsAPressedHandOut) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::around_contact_test

@@ -13,7 +13,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/squeezed_cube.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::body_in_the_way_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -194,4 +194,4 @@ TEST(PushedBody, MeetsAHandThatStandsInItsWay) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::body_in_the_way_test

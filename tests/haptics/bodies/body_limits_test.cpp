@@ -11,7 +11,7 @@
 #include "reckon/tests/haptics/support/body_table.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::body_limits_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -88,4 +88,4 @@ TEST(BodyWorld, RefusesWhatCannotMoveByName) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::body_limits_test

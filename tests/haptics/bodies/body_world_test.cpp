@@ -16,7 +16,7 @@
 #include "reckon/tests/haptics/support/body_table.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::body_world_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -346,4 +346,4 @@ TEST(BodyWorld, LiesOnAMesh) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::body_world_test

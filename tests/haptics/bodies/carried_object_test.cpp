@@ -23,7 +23,7 @@
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::carried_object_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -239,4 +239,4 @@ TEST(CarriedObject, NeedsAMover) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::carried_object_test

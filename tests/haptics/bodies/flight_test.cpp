@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace reckon::haptics {
+namespace reckon::haptics::flight_test {
 namespace {
 
 TEST(Flight, FallsWithDragAsInTinySteps) {
@@ -99,4 +99,4 @@ TEST(Flight, IsStoppedAtAWallThatSomethingElsePushesItThrough) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::flight_test

@@ -21,7 +21,7 @@
 #include "reckon/tests/haptics/support/flaky_device.hpp"
 #include "reckon/tests/haptics/support/held_cube.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::grab_adversary_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -140,4 +140,4 @@ TEST(Grab, MakesNoEnergyWhateverCutsItsForce) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::grab_adversary_test

@@ -20,7 +20,7 @@
 #include "reckon/tests/haptics/support/held_cube.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::grab_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -302,4 +302,4 @@ TEST(Grab, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::grab_test

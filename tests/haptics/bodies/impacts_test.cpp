@@ -15,7 +15,7 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::impacts_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -177,4 +177,4 @@ TEST(Impacts, KeepMomentumOfBoxesAndCylinders) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::impacts_test

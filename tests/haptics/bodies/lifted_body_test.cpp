@@ -17,7 +17,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/squeezed_cube.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::lifted_body_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -122,4 +122,4 @@ TEST(PushedBody, IsHeldAgainstTurningByPatches) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::lifted_body_test

@@ -16,7 +16,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::many_bodies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -243,4 +243,4 @@ TEST(ManyBodies, WakeAndSleepWithoutAllocation) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::many_bodies_test

@@ -23,7 +23,7 @@
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::mesh_body_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -334,4 +334,4 @@ TEST(MeshBody, IsRefusedByNameWhereItEnclosesNothing) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::mesh_body_test

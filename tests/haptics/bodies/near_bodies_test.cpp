@@ -15,7 +15,7 @@
 
 #include "reckon/haptics/bodies/body_world.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::near_bodies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -129,4 +129,4 @@ TEST(NearBodies, ListWhatActsFromAfar) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::near_bodies_test

@@ -24,7 +24,7 @@
 #include "reckon/tests/haptics/support/squeezed_cube.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::pushed_body_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -321,4 +321,4 @@ TEST(PushedBody, IsRefusedWhereItIsTooLightOrHasNoWorld) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::pushed_body_test

@@ -17,7 +17,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::spring_body_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -141,4 +141,4 @@ TEST(SpringBody, SwingsAsTheClosedFormSaysOrIsRefused) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::spring_body_test

@@ -16,7 +16,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::mapped_device_test {
 namespace {
 
 using bench::floor;
@@ -259,4 +259,4 @@ TEST(MappedDevice, AfterTheClutchTheForceComesBackBelowTheRisingLimit) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::mapped_device_test

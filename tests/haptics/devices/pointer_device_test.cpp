@@ -18,7 +18,7 @@
 #include "reckon/tests/haptics/support/pointer_play.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::pointer_device_test {
 namespace {
 
 using bench::kPassive;
@@ -297,4 +297,4 @@ TEST(PointerDevice, GoesItsCourseWhileNobodyPoints) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::pointer_device_test

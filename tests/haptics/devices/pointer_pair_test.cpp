@@ -12,7 +12,7 @@
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 #include "reckon/tests/haptics/support/pointer_play.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::pointer_pair_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -135,4 +135,4 @@ TEST(PointerPair, MakesNoEnergyBetweenTwoHandsWhateverThePointersDo) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::pointer_pair_test

@@ -20,7 +20,7 @@
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::virtual_handle_test {
 namespace {
 
 using bench::Bench;
@@ -345,4 +345,4 @@ TEST(VirtualHandle, AllocatesNothingWhileItRuns) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::virtual_handle_test

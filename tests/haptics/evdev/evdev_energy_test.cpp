@@ -13,7 +13,7 @@
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::evdev_energy_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -154,4 +154,4 @@ TEST(EvdevLoop, NoChangeCostsMoreThanIsBookedThoughTheHandIsAlwaysAsFastAsStated
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::evdev_energy_test

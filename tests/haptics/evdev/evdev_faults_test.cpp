@@ -14,7 +14,7 @@
 #include "reckon/haptics/evdev/event_facts.hpp"
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::evdev_faults_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -249,4 +249,4 @@ TEST(EventDevices, AreThoseWithForceFeedbackAndThoseThatMayNotBeOpened) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::evdev_faults_test

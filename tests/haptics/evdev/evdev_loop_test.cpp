@@ -17,7 +17,7 @@
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::evdev_loop_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -259,4 +259,4 @@ TEST(EvdevLoop, AHandleThatTellsItsPlaceSeldomDoesNotMoveInSteps) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::evdev_loop_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/haptics/support/hid_wheel.hpp"
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::evdev_unplug_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -130,4 +130,4 @@ TEST(EvdevUnplug, AtRandomInstantsNoForceIsLeftAndItIsTakenUpAgain) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::evdev_unplug_test

@@ -15,7 +15,7 @@
 
 #include "reckon/haptics/falcon/falcon_driver.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::falcon_kinematics_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -230,4 +230,4 @@ TEST(FalconKinematics, AFalconSolvesInTheWorkSpaceWithinItsStatedStep) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::falcon_kinematics_test

@@ -22,7 +22,7 @@
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::falcon_loop_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -253,4 +253,4 @@ TEST(FalconDevice, TellsWhatItsChainIs) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::falcon_loop_test

@@ -18,7 +18,7 @@
 #include "reckon/tests/support/implicit_solids.hpp"
 #include "reckon/tests/support/random_point.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::implicit_solid_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -295,4 +295,4 @@ TEST(ImplicitSolid, RefusesMeasuresThatMakeNoSolid) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::implicit_solid_test

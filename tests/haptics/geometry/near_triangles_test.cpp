@@ -9,7 +9,7 @@
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::near_triangles_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -112,4 +112,4 @@ TEST(ClosestPoint, IsFartherByThePrecisionAtMost) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::near_triangles_test

@@ -21,7 +21,7 @@
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::hid_events_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -277,4 +277,4 @@ TEST(HidEvents, AnEffectThatIsRefusedIsSaidAndTriedAgain) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::hid_events_test

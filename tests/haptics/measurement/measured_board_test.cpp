@@ -11,7 +11,7 @@
 #include "reckon/haptics/measurement/measuring_servo.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::measured_board_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -124,4 +124,4 @@ TEST(MeasuredBoard, ABoardThatHangsTakesTheRunToItsEnd) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::measured_board_test

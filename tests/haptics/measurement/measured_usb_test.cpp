@@ -19,7 +19,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/polhem_model.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::measured_usb_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -262,4 +262,4 @@ TYPED_TEST(MeasuredUsbTest, ThePersonAndTheSoftwareStopTakeTheForceOffForGood) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::measured_usb_test

@@ -19,7 +19,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::plugin_device_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -161,4 +161,4 @@ TEST(PluginDevice, ADriverThatKeepsTheServoWaitingIsTold) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::plugin_device_test

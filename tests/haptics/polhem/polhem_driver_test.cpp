@@ -12,7 +12,7 @@
 #include "reckon/tests/haptics/support/polhem_model.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::polhem_driver_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -81,4 +81,4 @@ TEST(PolhemDriver, AsksForLessOfAForceWhoseTorquesAreNotPaidForAndTellsSo) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::polhem_driver_test

@@ -15,7 +15,7 @@
 
 #include "reckon/haptics/polhem/polhem_driver.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::polhem_kinematics_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -247,4 +247,4 @@ TEST(PolhemKinematics, TheWorkSpaceHasTheStepsAndTheForcesThatAreTold) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::polhem_kinematics_test

@@ -23,7 +23,7 @@
 #include "reckon/tests/haptics/support/polhem_model.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::polhem_loop_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -345,4 +345,4 @@ TEST(PolhemLoop, AnotherDeviceUnderItsNumberIsLeftAlone) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::polhem_loop_test

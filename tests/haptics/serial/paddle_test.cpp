@@ -49,7 +49,7 @@ size_t SerialStub::write(const uint8_t* octets, size_t length) {
   return length;
 }
 
-namespace reckon::haptics {
+namespace reckon::haptics::paddle_test {
 namespace {
 
 constexpr int kForward = 7, kBackward = 8, kPulse = 9;
@@ -144,4 +144,4 @@ TEST(Paddle, WithoutFramesItLetsGoAfter10MsAndIsSilentAfterASecond) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::paddle_test

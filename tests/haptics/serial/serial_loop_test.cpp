@@ -28,7 +28,7 @@
 #include "reckon/tests/haptics/support/serial_board.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::serial_loop_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -263,4 +263,4 @@ TEST(SerialPort, WhoseOtherEndIsClosedIsGone) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::serial_loop_test

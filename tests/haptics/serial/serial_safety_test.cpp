@@ -12,7 +12,7 @@
 #include "reckon/haptics/serial/serial_session.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::serial_safety_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -194,4 +194,4 @@ TEST(SerialSession, WhatDoesNotAnswerAndWhatIsNoFrameIsTold) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::serial_safety_test

@@ -20,7 +20,7 @@
 
 #include "reckon/tests/haptics/support/wired_board.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::serial_session_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -343,4 +343,4 @@ TEST(SerialSession, TheChainThatItMeasuresIsEnough) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::serial_session_test

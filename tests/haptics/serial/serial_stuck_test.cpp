@@ -14,7 +14,7 @@
 #include "reckon/tests/haptics/support/serial_board.hpp"
 #include "reckon/tests/haptics/support/serial_shim.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::serial_stuck_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -86,4 +86,4 @@ TEST(SerialStuck, ALineThatTakesNoOctetsIsClosedAtOnceAndNothingOldReachesTheBoa
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::serial_stuck_test

@@ -18,7 +18,7 @@
 #include "reckon/tests/haptics/support/far_end.hpp"
 #include "reckon/tests/haptics/support/serial_board.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::serial_thread_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -63,4 +63,4 @@ TEST(SerialThread, ForcesPassToABoardThatRunsBesideItAndItIsToldOfItsEnd) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::serial_thread_test

@@ -11,7 +11,7 @@
 
 #include "reckon/tests/haptics/support/wired_board.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::serial_touch_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -70,4 +70,4 @@ TEST(SerialTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::serial_touch_test

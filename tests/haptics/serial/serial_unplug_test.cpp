@@ -16,7 +16,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::serial_unplug_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -123,4 +123,4 @@ TEST(SerialUnplug, AForceThatWasAllButWholeWhenTheLineBrokeIsNeverHeld) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::serial_unplug_test

@@ -22,7 +22,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::delayed_pair_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -293,4 +293,4 @@ TEST(ForcesUnderWay, AreAnsweredForWhateverIsGivenAway) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::delayed_pair_test

@@ -14,7 +14,7 @@
 
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::device_delay_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -177,4 +177,4 @@ INSTANTIATE_TEST_SUITE_P(OfUpdatesLiesAndWalls, DeviceDelay,
                                           testing::Values(0.0, 2e-6, 2e-5, 1e-4)));
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::device_delay_test

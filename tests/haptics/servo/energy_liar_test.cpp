@@ -16,7 +16,7 @@
 #include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::energy_liar_test {
 namespace {
 
 constexpr double kUnseen = EnergyPort::kUnseen;
@@ -328,4 +328,4 @@ TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::energy_liar_test

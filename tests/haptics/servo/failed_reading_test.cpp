@@ -9,7 +9,7 @@
 
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::failed_reading_test {
 namespace {
 
 using bench::floor;
@@ -94,4 +94,4 @@ TEST(FailedReading, IsBookedWhenTheNextGoodOneComes) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::failed_reading_test

@@ -13,7 +13,7 @@
 #include "reckon/haptics/passivity/rate_limit.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::force_limits_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -230,4 +230,4 @@ TEST(ForceRate, IsRefusedWhereItWouldLetNothingThrough) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::force_limits_test

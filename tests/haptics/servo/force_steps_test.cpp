@@ -14,7 +14,7 @@
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 #include "reckon/tests/support/climb.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::force_steps_test {
 namespace {
 
 using namespace bench;
@@ -241,4 +241,4 @@ TEST(AHandThatGetsStiffer, PushesNoHarderThanItWill) {
 INSTANTIATE_TEST_SUITE_P(Seeds, ForceStepsOfSeeds, ::testing::Range(1U, 6U));
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::force_steps_test

@@ -17,7 +17,7 @@
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::held_forces_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -248,4 +248,4 @@ TEST(HeldForces, TwoHandsOnALanHoldOneAnother) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::held_forces_test

@@ -16,7 +16,7 @@
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::hiccup_test {
 namespace {
 
 using bench::Bench;
@@ -267,4 +267,4 @@ TEST(Hiccup, AThousandFlapsAreLentNoMoreThanOnce) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::hiccup_test

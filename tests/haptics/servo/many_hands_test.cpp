@@ -14,7 +14,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::many_hands_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -288,4 +288,4 @@ TEST(DevicePose, GivesTheSameForcesInTheScene) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::many_hands_test

@@ -15,7 +15,7 @@
 #include "reckon/tests/haptics/support/region_scenes.hpp"
 #include "reckon/tests/support/effect_adversary.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::region_adversary_test {
 namespace {
 
 using adversary::BookedPort;
@@ -185,4 +185,4 @@ TEST(RegionAdversary, GetsNoMoreByMotion) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::region_adversary_test

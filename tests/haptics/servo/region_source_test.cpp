@@ -14,7 +14,7 @@
 #include "reckon/tests/haptics/support/region_scenes.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::region_source_test {
 namespace {
 
 using bench::Bench;
@@ -293,4 +293,4 @@ TEST(RegionSource, VibrationGivesALiarNothing) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::region_source_test

@@ -12,7 +12,7 @@
 
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::servo_loop_test {
 namespace {
 
 using namespace bench;
@@ -279,4 +279,4 @@ TEST(ServoLoop, RunsBesideAModelThreadThatWritesAndReads) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::servo_loop_test

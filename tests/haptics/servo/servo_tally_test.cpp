@@ -11,7 +11,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::servo_tally_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -229,4 +229,4 @@ TEST(Shortfall, KeepsTheStepInWhichMostNewtonsLacked) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::servo_tally_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::software_stop_test {
 namespace {
 
 using bench::Bench;
@@ -203,4 +203,4 @@ TEST(SoftwareStop, TwoHandsThatPushOneAnotherMakeNoEnergyOfIt) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::software_stop_test

@@ -16,7 +16,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/tool_scenes.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::tool_opponent_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -142,4 +142,4 @@ TEST(ToolServo, AnOpponentGetsNothingOutOfIt) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::tool_opponent_test

@@ -17,7 +17,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/tool_scenes.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::tool_servo_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -287,4 +287,4 @@ TEST(ToolServo, CutsTheForceOfAReadingThatIsNoPose) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::tool_servo_test

@@ -16,7 +16,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::usb_device_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -277,4 +277,4 @@ TEST(UsbDevice, TellsThatTheForceWasDropped) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::usb_device_test

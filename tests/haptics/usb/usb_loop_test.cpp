@@ -18,7 +18,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::usb_loop_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -263,4 +263,4 @@ TYPED_TEST(UsbLoopTest, AShortTransferIsSaidAndTheLineSetUpAgain) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::usb_loop_test

@@ -15,7 +15,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::usb_reach_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -122,4 +122,4 @@ TYPED_TEST(UsbReach, NeverGivesMoreEnergyThanTheHandPutInUpToTheEndOfItsReachAnd
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::usb_reach_test

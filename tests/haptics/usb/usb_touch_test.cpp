@@ -12,7 +12,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::usb_touch_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -72,4 +72,4 @@ TYPED_TEST(UsbTouch, NeverGivesMoreEnergyThanTheHandPutInWhateverThereIsToTouch)
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::usb_touch_test

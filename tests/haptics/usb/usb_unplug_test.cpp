@@ -11,7 +11,7 @@
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::usb_unplug_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -125,4 +125,4 @@ TEST(UsbUnplug, ASecondProgramPartOnTheSameExchangeIsReadToo) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::usb_unplug_test

@@ -19,7 +19,7 @@
 #include "reckon/pdu/radio/transmitter.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 
-namespace reckon::pdu {
+namespace reckon::pdu::sized_records_test {
 namespace {
 
 using Octets = std::vector<std::byte>;
@@ -175,4 +175,4 @@ TEST(Transmitter, HasVariableParametersInVersion7Only) {
 }
 
 }  // namespace
-}  // namespace reckon::pdu
+}  // namespace reckon::pdu::sized_records_test

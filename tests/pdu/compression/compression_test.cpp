@@ -13,7 +13,7 @@
 #include "reckon/pdu/compression/bit_stream.hpp"
 #include "reckon/pdu/compression/compact_state.hpp"
 
-namespace reckon::pdu {
+namespace reckon::pdu::compression_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -257,4 +257,4 @@ TEST(StateNumbers, AreOfUnlikeStatesWhereAnythingButTheMotionDiffers) {
 }
 
 }  // namespace
-}  // namespace reckon::pdu
+}  // namespace reckon::pdu::compression_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 
-namespace reckon::pdu {
+namespace reckon::pdu::datum_test {
 namespace {
 
 std::array<std::byte, 56> datum_bomb() {
@@ -112,4 +112,4 @@ TEST(VariableDatumWriter, ChangesNothingWhenADatumDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace reckon::pdu
+}  // namespace reckon::pdu::datum_test

@@ -19,7 +19,7 @@
 #include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::capture_file_test {
 namespace {
 
 using namespace frames;
@@ -299,4 +299,4 @@ TEST(LiveInterface, CapturesUdpOfTheInterface) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::capture_file_test

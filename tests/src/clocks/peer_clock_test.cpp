@@ -10,7 +10,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::peer_clock_test {
 namespace {
 
 using std::chrono::hours;
@@ -331,4 +331,4 @@ TEST(PeerClocks, StayBounded) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::peer_clock_test

@@ -12,7 +12,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/emission_samples.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::emission_table_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -218,4 +218,4 @@ TEST_F(Emissions, TakeAnyOctetsWithoutAllocating) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::emission_table_test

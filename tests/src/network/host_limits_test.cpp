@@ -12,7 +12,7 @@
 #include "reckon/tests/src/support/own_network.hpp"
 #include "reckon/tests/src/support/udp_on_loopback.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::host_limits_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -214,4 +214,4 @@ TEST(HostLimits, GiveEveryProblemARemedy) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::host_limits_test

@@ -13,7 +13,7 @@
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::impaired_link_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -273,4 +273,4 @@ TEST(ImpairedLink, AllocatesNothingOnceBuilt) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::impaired_link_test

@@ -15,7 +15,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::device_driver_keys_test {
 namespace {
 
 using test::refusal;
@@ -227,4 +227,4 @@ TEST(DeviceSection, ADriverDoesNotChangeTheWorld) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::device_driver_keys_test

@@ -13,7 +13,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::device_section_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -244,4 +244,4 @@ TEST(DeviceSection, RefusesWhatCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::device_section_test

@@ -12,7 +12,7 @@
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::prediction_keys_test {
 namespace {
 
 using test::refusal;
@@ -103,4 +103,4 @@ TEST(PredictionKeys, TakesEveryWordOfTheListsOfRulesCurvesAndModels) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::prediction_keys_test

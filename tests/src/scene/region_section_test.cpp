@@ -9,7 +9,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::region_section_test {
 namespace {
 
 TEST(SceneFile, ReadsRegionsAndTheirEffects) {
@@ -38,4 +38,4 @@ constant_force = {x = "300 mN"}
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::region_section_test

@@ -17,7 +17,7 @@
 
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::scene_file_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -385,4 +385,4 @@ TEST(SceneFile, SurvivesAnyCutAndAnyChangedOctet) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::scene_file_test

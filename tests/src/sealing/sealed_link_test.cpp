@@ -14,11 +14,11 @@
 
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/sealing/greeter.hpp"
-#include "reckon/tests/src/sealing/sealing_samples.hpp"
 #include "reckon/tests/src/sealing/sealed_members.hpp"
+#include "reckon/tests/src/sealing/sealing_samples.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::sealed_link_test {
 namespace {
 
 using namespace samples;
@@ -308,4 +308,4 @@ TEST(SealedGroup, IsThePortAbove) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::sealed_link_test

@@ -10,11 +10,11 @@
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/sealing/greeter.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
-#include "reckon/tests/src/sealing/sealing_samples.hpp"
 #include "reckon/tests/src/sealing/sealed_members.hpp"
+#include "reckon/tests/src/sealing/sealing_samples.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::sealed_recordings_test {
 namespace {
 
 using namespace samples;
@@ -129,4 +129,4 @@ TEST(SealedLink, GreetsEightTimesASecondAtMostForRecordings) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::sealed_recordings_test

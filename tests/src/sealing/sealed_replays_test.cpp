@@ -19,7 +19,7 @@
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tests/src/sealing/sealing_samples.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::sealed_replays_test {
 namespace {
 
 using namespace samples;
@@ -271,4 +271,4 @@ TEST(SealedReplays, KeepNoNewcomerFromHearingInTime) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::sealed_replays_test

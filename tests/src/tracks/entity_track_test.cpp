@@ -21,7 +21,7 @@
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::entity_track_test {
 namespace {
 
 using deadreckon::KinematicState;
@@ -397,4 +397,4 @@ TEST(TrackCurve, MovesCarsOfATownHardlyFasterThanTheyWent) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::entity_track_test

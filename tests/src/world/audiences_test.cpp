@@ -10,7 +10,7 @@
 
 #include "reckon/tests/src/support/poses.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::audiences_test {
 namespace {
 
 using deadreckon::SendReason;
@@ -102,4 +102,4 @@ TEST(Audiences, OfWhatIsFeltFollowHalfASecondLaterAtTheLatest) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::audiences_test

@@ -16,7 +16,7 @@
 #include "reckon/tests/src/support/incoming_half.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::outside_entities_test {
 namespace {
 
 using deadreckon::KinematicState;
@@ -396,4 +396,4 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::outside_entities_test

@@ -11,7 +11,7 @@
 #include "reckon/tests/src/support/incoming_half.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::remote_changes_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -309,4 +309,4 @@ TEST(RemoteEntities, ManyAreKeptAndEachIsForgottenOnItsOwn) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::remote_changes_test

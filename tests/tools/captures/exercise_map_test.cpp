@@ -22,7 +22,7 @@
 #include "reckon/tools/captures/placed_fields.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::exercise_map_test {
 namespace {
 
 using test::append_pdu;
@@ -360,4 +360,4 @@ TEST(ExerciseMap, RefusesWordsThatAreNoMapWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::exercise_map_test

@@ -18,7 +18,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/written_files.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::radio_audio_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -233,4 +233,4 @@ TEST_F(CutAudio, RefusesMoreThanAWavFileHolds) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::radio_audio_test

@@ -10,7 +10,7 @@
 
 #include "reckon/peer/clocks/clock.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::replay_keys_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -191,4 +191,4 @@ TEST(ReplayKeys, LeapFromWhatWasSentWhereTheMachineIsLate) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::replay_keys_test

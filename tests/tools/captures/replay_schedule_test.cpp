@@ -13,7 +13,7 @@
 #include "reckon/tools/captures/timestamp_rewrite.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::replay_schedule_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -159,4 +159,4 @@ TEST(SizeText, ReadsWhatPeopleWrite) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::replay_schedule_test

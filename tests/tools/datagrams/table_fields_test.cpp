@@ -18,7 +18,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tools/datagrams/filter.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::table_fields_test {
 namespace {
 
 using nlohmann::json;
@@ -290,4 +290,4 @@ TEST(PlaceFields, KnowPortAndArrival) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::table_fields_test

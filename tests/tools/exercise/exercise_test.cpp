@@ -15,7 +15,7 @@
 
 #include "reckon/tests/support/scratch_folder.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::exercise_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -157,4 +157,4 @@ TEST(Exercise, HasNoPoseErrorWhereNothingOfOthersWasShown) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::exercise_test

@@ -12,7 +12,7 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::contact_forces_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -226,4 +226,4 @@ TEST(ContactForces, OfAPlaneActOnBallsAndNotTheOtherWayRound) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::contact_forces_test

@@ -18,7 +18,7 @@
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
 #include "reckon/tools/listener/contact_forces.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::entity_table_test {
 namespace {
 
 using std::chrono::nanoseconds;
@@ -369,4 +369,4 @@ TEST(EntityTable, TellsTheRuleThatTheLastPduOfAnEntityBroke) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::entity_table_test

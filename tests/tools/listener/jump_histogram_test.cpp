@@ -16,7 +16,7 @@
 #include "reckon/tools/listener/contact_forces.hpp"
 #include "reckon/tools/listener/entity_table.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::jump_histogram_test {
 namespace {
 
 TEST(JumpHistogram, GivesPercentilesOfASortedListWithinItsBuckets) {
@@ -59,4 +59,4 @@ TEST(JumpHistogram, KeepsItsShapeWhereABucketIsFull) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::jump_histogram_test

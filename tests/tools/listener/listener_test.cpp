@@ -18,7 +18,7 @@
 #include "reckon/tests/tools/support/compressed_ship.hpp"
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::listener_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -306,4 +306,4 @@ TEST(Listener, AllocatesNothingForWhatItKnows) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::listener_test

@@ -16,7 +16,7 @@
 
 #include "reckon/tests/tools/support/captured_console.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::metrics_server_test {
 namespace {
 
 using std::chrono::nanoseconds;
@@ -155,4 +155,4 @@ TEST(MetricsServer, IsAnErrorWithARemedyWhereItsPortIsTaken) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::metrics_server_test

@@ -19,7 +19,7 @@
 
 #include "reckon/tests/tools/support/capture_verbs.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::keys_test {
 namespace {
 
 using namespace captures;
@@ -191,4 +191,4 @@ TEST_F(ReplayOnTerminal, GivesTheTerminalBackWhileItIsStopped) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::keys_test

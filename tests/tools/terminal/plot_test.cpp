@@ -15,7 +15,7 @@
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/terminal/plot_axis.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::plot_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -143,4 +143,4 @@ TEST(PlotAxis, HasRoundSteps) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::plot_test

@@ -10,7 +10,7 @@
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::text_test {
 namespace {
 
 using std::chrono_literals::operator""h;
@@ -106,4 +106,4 @@ TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::text_test

@@ -15,7 +15,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::demo_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -176,4 +176,4 @@ TEST(Demo, TracesEveryDeviceOfAPeer) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::demo_test

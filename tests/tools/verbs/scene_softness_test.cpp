@@ -12,7 +12,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/temporary_scene.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::scene_softness_test {
 namespace {
 
 using test::kPlain;
@@ -159,4 +159,4 @@ TEST(SceneExplain, SaysWithWhichStiffnessAWallIsFeltBesideWhatItAsks) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::scene_softness_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/temporary_scene.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::scene_test {
 namespace {
 
 using test::kFriction;
@@ -322,4 +322,4 @@ TEST(SceneVerb, SaysWhatItWants) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::scene_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/tools/support/served_page.hpp"
 #include "reckon/tests/tools/support/test_certificate.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::secure_page_test {
 namespace {
 
 using served::Client;
@@ -126,4 +126,4 @@ TEST_F(SecurePage, EndsAHandshakeThatNeverComes) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::secure_page_test

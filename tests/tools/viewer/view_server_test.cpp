@@ -12,7 +12,7 @@
 
 #include "reckon/tests/tools/support/served_page.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::view_server_test {
 namespace {
 
 using served::answer_to;
@@ -237,4 +237,4 @@ TEST(ViewServer, TakesTheNextPortWhereTheFirstIsTakenAndRefusesOneThatWasNamed) 
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::view_server_test

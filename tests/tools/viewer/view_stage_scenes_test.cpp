@@ -11,7 +11,7 @@
 #include "reckon/tests/tools/support/stage_tabs.hpp"
 #include "reckon/tools/viewer/view_stage.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::view_stage_scenes_test {
 namespace {
 
 using nlohmann::json;
@@ -131,4 +131,4 @@ TEST(ViewStage, LetsOnlyWhoKnowsTheWordPush) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::view_stage_scenes_test

@@ -11,7 +11,7 @@
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 #include "reckon/tests/tools/support/stage_tabs.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::view_stage_test {
 namespace {
 
 using nlohmann::json;
@@ -242,4 +242,4 @@ TEST(ViewStage, RefusesMessagesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::view_stage_test

@@ -16,7 +16,7 @@
 #include "reckon/bench/studies/tracks/motions.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::study_test {
 namespace {
 
 using deadreckon::ConvergenceCurve;
@@ -345,4 +345,4 @@ TEST(StudyText, ComparesWhatTheTablesShow) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::study_test

@@ -12,7 +12,7 @@
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::measured_peer_test {
 namespace {
 
 ScaleSetting small_setting() {
@@ -66,4 +66,4 @@ TEST(MeasuredPeer, RefusesMoreLightPeersThanItKeepsInMind) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::measured_peer_test

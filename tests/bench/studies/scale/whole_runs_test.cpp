@@ -19,7 +19,7 @@
 #include "reckon/bench/studies/scale/whole_text.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::whole_runs_test {
 namespace {
 
 ScaleSetting small_setting() {
@@ -268,4 +268,4 @@ TEST(WholeText, SaysWhereAPeerCannotKnowAll) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::whole_runs_test

@@ -9,7 +9,7 @@
 
 #include "reckon/deadreckon/motion/rotation.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::motions_test {
 namespace {
 
 using deadreckon::MotionSample;
@@ -151,4 +151,4 @@ TEST(Motions, HoverRestsWhileItsToldRatesAreNoiseAboutZero) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::motions_test

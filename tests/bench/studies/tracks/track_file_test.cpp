@@ -16,7 +16,7 @@
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::track_file_test {
 namespace {
 
 using deadreckon::MotionSample;
@@ -312,4 +312,4 @@ TEST_F(TrackCapture, ReadsTheRecordedSessions) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::track_file_test

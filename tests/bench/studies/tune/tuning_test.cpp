@@ -10,7 +10,7 @@
 #include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
-namespace reckon::bench {
+namespace reckon::bench::tuning_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -234,4 +234,4 @@ TEST(Tuning, NeedsFewerPacketsThanDrm4AtItsErrorOnRecordedPedestrians) {
 }
 
 }  // namespace
-}  // namespace reckon::bench
+}  // namespace reckon::bench::tuning_test

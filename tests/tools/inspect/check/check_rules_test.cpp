@@ -14,7 +14,7 @@
 #include "reckon/tests/tools/support/checked_traffic.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::check_rules_test {
 namespace {
 
 using namespace checks;
@@ -309,4 +309,4 @@ TEST(InspectCheck, ListsItsRulesWithRemedies) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::check_rules_test

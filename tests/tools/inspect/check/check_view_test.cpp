@@ -14,7 +14,7 @@
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/checked_traffic.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::check_view_test {
 namespace {
 
 using namespace checks;
@@ -263,4 +263,4 @@ TEST(InspectCheck, FindsWrongUnitsAndSignsOfVelocityInRecordedSessions) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::check_view_test

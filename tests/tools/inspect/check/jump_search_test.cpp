@@ -14,7 +14,7 @@
 
 #include "reckon/tests/tools/support/checked_traffic.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::jump_search_test {
 namespace {
 
 using namespace checks;
@@ -251,4 +251,4 @@ TEST(JumpSearch, PassesOverPlacesThatAreNoNumbers) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::jump_search_test

@@ -16,7 +16,7 @@
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/tests/tools/support/checked_traffic.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::motion_rules_test {
 namespace {
 
 using namespace checks;
@@ -143,4 +143,4 @@ TEST(MotionRules, LeaveFrozenEntitiesAlone) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::motion_rules_test

@@ -13,7 +13,7 @@
 #include <random>
 #include <string>
 
-namespace reckon::tools {
+namespace reckon::tools::format_test {
 namespace {
 
 std::string thousandths(double value) {
@@ -114,4 +114,4 @@ TEST(InspectCsvCell, IsNoFormula) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::format_test

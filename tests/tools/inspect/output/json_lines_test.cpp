@@ -14,7 +14,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::json_lines_test {
 namespace {
 
 using std::chrono::nanoseconds;
@@ -101,4 +101,4 @@ TEST(InspectJson, GivesTheLongestEntityStateInLessThan1400Octets) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::json_lines_test

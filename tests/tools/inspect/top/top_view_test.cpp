@@ -20,7 +20,7 @@
 #include "reckon/tests/tools/support/watched_entities.hpp"
 #include "reckon/tools/inspect/top/columns.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::top_view_test {
 namespace {
 
 using namespace watched;
@@ -253,4 +253,4 @@ TEST(InspectTop, CountsWhatTrailersSayIsLost) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::top_view_test

@@ -14,7 +14,7 @@
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::emissions_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -114,4 +114,4 @@ TEST(InspectEmissions, ReadsACaptureOfAnotherPacker) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::emissions_test

@@ -22,7 +22,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::haptics_test {
 namespace {
 
 using nlohmann::json;
@@ -278,4 +278,4 @@ TEST(ForceHistoryOfALongRun, KeepsPeaksInBoundedMemory) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::haptics_test

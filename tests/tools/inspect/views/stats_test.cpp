@@ -19,7 +19,7 @@
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::stats_test {
 namespace {
 
 using nlohmann::json;
@@ -319,4 +319,4 @@ TEST(InspectViews, AreShownInHelpWithExamples) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::stats_test

@@ -13,7 +13,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::history_test {
 namespace {
 
 using trucks::datagram_of;
@@ -361,4 +361,4 @@ TEST(Roster, HasNoSlotForMoreThanItsBound) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::history_test

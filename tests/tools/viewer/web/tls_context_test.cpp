@@ -11,7 +11,7 @@
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/test_certificate.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::tls_context_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ TEST(TlsContext, RefusesFilesThatAreNoPem) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::tls_context_test
