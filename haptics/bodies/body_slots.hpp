@@ -19,6 +19,11 @@ namespace reckon::haptics {
 /// Bodies by their slots, a bit each.
 using BodySet = std::uint64_t;
 
+/// Slot of a body that takes part.
+[[nodiscard]] inline std::size_t slot_of(dBodyID body) noexcept {
+  return reinterpret_cast<std::size_t>(dBodyGetData(body));
+}
+
 /// Those that take part have a slot each. A plan of no more bodies than slots has all of them in,
 /// in its order. Of others all but those that are carried begin asleep, as they stand, and without
 /// a slot; they are in a grid of their own, and in no space of ODE's. After some steps it allocates

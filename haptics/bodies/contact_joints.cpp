@@ -29,10 +29,6 @@ bool is_carried_on(dBodyID body) noexcept {
   return body != nullptr && dBodyIsKinematic(body) && dBodyIsEnabled(body);
 }
 
-std::size_t slot_of(dBodyID body) noexcept {
-  return reinterpret_cast<std::size_t>(dBodyGetData(body));
-}
-
 Vector3d velocity_at(dBodyID body, const Vector3d& at) noexcept {
   if (body == nullptr) return Vector3d::Zero();
   return vector_of(dBodyGetLinearVel(body)) +

@@ -20,10 +20,6 @@ constexpr double kTouch = 2e-6;        // [m], further way of both, so that they
 constexpr double kLeastSpeed = 1e-3;   // [m/s], least that is assumed for it
 constexpr std::size_t kMostPlaces = 8;
 
-std::size_t slot_of(dBodyID body) noexcept {
-  return reinterpret_cast<std::size_t>(dBodyGetData(body));
-}
-
 bool moves(dGeomID geom) noexcept {
   const dBodyID body = dGeomGetBody(geom);
   return body != nullptr && dBodyIsEnabled(body);
