@@ -3,22 +3,24 @@
 #include "reckon/bench/program.hpp"
 
 #include <array>
+#include <memory>
 
+#include "reckon/bench/studies/frame/study.hpp"
 #include "reckon/tools/command_line/reading_program.hpp"
 
 namespace reckon::bench {
-namespace verb {
+tools::Verb bench_verb();  // verbs/bench.cpp
 
-// One for each file of verbs/.
-tools::Verb bench();
-tools::Verb figures();
-tools::Verb tune();
-tools::Verb zwidth();
-
-}  // namespace verb
+// Studies that are verbs, each in its folder.
+std::unique_ptr<Study> figures_study();
+std::unique_ptr<Study> tune_study();
+std::unique_ptr<Study> zwidth_study();
 
 std::span<const tools::Verb> verbs() {
-  static const std::array kVerbs{verb::bench(), verb::figures(), verb::tune(), verb::zwidth()};
+  static const std::array kVerbs{bench_verb(),
+                                 study_verb(tools::verb_row("figures"), figures_study),
+                                 study_verb(tools::verb_row("tune"), tune_study),
+                                 study_verb(tools::verb_row("zwidth"), zwidth_study)};
   return kVerbs;
 }
 

@@ -31,8 +31,8 @@ TOTAL = {
     "src": 44000,
     "tools": 40000,
     "python": 2500,
-    "bench": 39000,
-    "tests": 132500,
+    "bench": 38500,
+    "tests": 133000,
 }
 # Class -> lines of function bodies, data members.
 LARGE = {
@@ -40,7 +40,6 @@ LARGE = {
     "aoim/AreaOfInterestManager": (317, 24),
     "aoim/LeaderRole": (367, 26),
     "aoim/Presence": (360, 18),
-    "bench/BenchOptions": (0, 31),
     "bench/ScaleWords": (0, 29),
     "bench/World": (309, 24),
     "haptics/BodyEngine": (354, 25),

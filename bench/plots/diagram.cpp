@@ -17,10 +17,10 @@ constexpr double kRow = 15;  // of text
 constexpr double kLeft = 24;
 constexpr double kEdge = 16;  // below all
 constexpr std::string_view kStyle =
-    "<style>.n{fill:#f6f8fa;stroke:#57606a;stroke-width:1.3}.w{fill:none;stroke:#24292f;"
-    "stroke-width:1.3}.h{fill:#24292f}.f{fill:none;stroke:#8b949e;stroke-dasharray:5 4}"
-    "@media(prefers-color-scheme:dark){.n{fill:#161b22;stroke:#8b949e}.w{stroke:#d0d7de}"
-    ".h{fill:#d0d7de}.f{stroke:#57606a}}</style>\n"
+    "<style>.n{fill:#f6f8fa;stroke:#57606a;stroke-width:1.3}.w{fill:none;stroke:#24292f;stroke-"
+    "width:1.3}.h{fill:#24292f}.f{fill:none;stroke:#8b949e;stroke-dasharray:5 "
+    "4}@media(prefers-color-scheme:dark){.n{fill:#161b22;stroke:#8b949e}.w{stroke:#d0d7de}.h{fill:#"
+    "d0d7de}.f{stroke:#57606a}}</style>\n"
     "<defs><marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" "
     "markerHeight=\"8\" orient=\"auto\"><path class=\"h\" d=\"M0 1L10 5L0 9z\"/></marker></defs>\n";
 
@@ -41,10 +41,10 @@ void Diagram::append_lines(double x, double y, std::string_view text) {
 Diagram::Node Diagram::shape(double x, double y, double width, double height, bool is_round,
                              std::string_view kind) {
   const double corner = is_round ? 0.5 * height : 6;
-  fmt::format_to(tools::end_of(inside_),
-                 "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\" "
-                 "rx=\"{:g}\"/>\n",
-                 kind, x - 0.5 * width, y - 0.5 * height, width, height, corner);
+  fmt::format_to(
+      tools::end_of(inside_),
+      "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\" rx=\"{:g}\"/>\n",
+      kind, x - 0.5 * width, y - 0.5 * height, width, height, corner);
   reach(y + 0.5 * height);
   return {{x, y}, width, height};
 }

@@ -33,8 +33,8 @@ constexpr std::array<std::string_view, LogPlot::kMostCurves> kColours{
     "#cc79a7", "#e69f00", "#999999", "#7e57c2", "#795548"};
 
 constexpr std::string_view kStyle =
-    "<style>.k{fill:none;stroke:#24292f;stroke-width:2}"
-    "@media(prefers-color-scheme:dark){.k{stroke:#d0d7de}}</style>\n";
+    "<style>.k{fill:none;stroke:#24292f;stroke-width:2}@media(prefers-color-scheme:dark){.k{stroke:"
+    "#d0d7de}}</style>\n";
 
 struct Dash {
   std::string_view name, pattern;

@@ -19,13 +19,17 @@ void check_writable(const std::string& path) {
   if (is_new) std::filesystem::remove(path, ignored);
 }
 
-void write_output(const std::string& path, const std::string& text, const Console& console) {
-  if (path.empty()) return;
+void save_output(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();
   if (!file)
     throw UsageError(fmt::format("{}: could not be written whole; is the disk full?", path));
+}
+
+void write_output(const std::string& path, const std::string& text, const Console& console) {
+  if (path.empty()) return;
+  save_output(path, text);
   fmt::print(console.err, "wrote {}\n", path);
 }
 

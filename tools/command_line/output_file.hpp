@@ -14,8 +14,10 @@ namespace reckon::tools {
 /// no file and passes. @throws UsageError with the path and the remedy.
 void check_writable(const std::string& path);
 
-/// Writes the text to the file, replaces an existing file, and reports the path on console.err. An
-/// empty path writes nothing. @throws UsageError.
+/// Writes the text to the file and replaces an existing file. @throws UsageError.
+void save_output(const std::string& path, const std::string& text);
+
+/// The same, and reports the path on console.err. An empty path writes nothing.
 void write_output(const std::string& path, const std::string& text, const Console& console);
 
 }  // namespace reckon::tools

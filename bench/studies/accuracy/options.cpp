@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <string_view>
 
+#include "reckon/bench/studies/sweep/values.hpp"
+#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
-#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -18,48 +18,99 @@ namespace {
 constexpr std::uint64_t kMostSeeds = 1000;
 constexpr double kLeastRate = 20, kMostRate = 500;  // [Hz]
 
-/// The parts between commas of all words, without blanks about them.
-std::vector<std::string> parts_of(std::span<const std::string> words) {
-  std::vector<std::string> parts;
-  for (std::string_view word : words) {
-    for (;;) {
-      const std::size_t comma = word.find(',');
-      std::string_view part = word.substr(0, comma);
-      while (part.starts_with(' ')) part.remove_prefix(1);
-      while (part.ends_with(' ')) part.remove_suffix(1);
-      parts.emplace_back(part);
-      if (comma == word.npos) break;
-      word.remove_prefix(comma + 1);
-    }
-  }
-  return parts;
+constexpr unsigned bit(AccuracyMode mode) { return static_cast<unsigned>(mode); }
+
+constexpr unsigned kPoses = bit(AccuracyMode::poses), kForces = bit(AccuracyMode::forces),
+                   kBoth = bit(AccuracyMode::poses_and_forces),
+                   kAgainst = bit(AccuracyMode::against), kCircle = bit(AccuracyMode::circle),
+                   kTrace = bit(AccuracyMode::trace), kTouch = bit(AccuracyMode::touch);
+constexpr unsigned kTables = kPoses | kForces | kBoth;
+constexpr unsigned kOfPoses = kPoses | kBoth | kAgainst | kTrace;
+
+/// Of two that exclude one another the first of trace, circle, against and touch; the check of
+/// flags then names the other.
+AccuracyMode mode_of(const BenchOptions& options) {
+  if (!options.trace.empty()) return AccuracyMode::trace;
+  if (options.circle) return AccuracyMode::circle;
+  if (!options.against.empty()) return AccuracyMode::against;
+  if (options.touch) return AccuracyMode::touch;
+  if (options.force) return options.pose ? AccuracyMode::poses_and_forces : AccuracyMode::forces;
+  return AccuracyMode::poses;
 }
 
-template <typename Row>
-const Row& row_named(std::string_view name, std::span<const Row> rows, std::string_view flag) {
-  std::vector<std::string_view> names;
-  for (const Row& row : rows) {
-    if (row.name == name) return row;
-    names.push_back(row.name);
+std::string refusal(AccuracyMode mode, std::string_view flag) {
+  switch (mode) {
+    case AccuracyMode::circle:
+      return fmt::format(
+          "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and "
+          "--json; leave {} out",
+          flag);
+    case AccuracyMode::against:
+      return fmt::format("--against looks for equal errors of poses: leave {} out", flag);
+    case AccuracyMode::trace:
+      return fmt::format("--trace is one run of one pose: leave {} out", flag);
+    case AccuracyMode::touch:
+      return fmt::format(
+          "--touch has cases of its own: beside it only --axis, --seed, --json, --csv, --plot and "
+          "--report; leave {} out",
+          flag);
+    case AccuracyMode::forces:
+      return fmt::format("--force: {} is for poses; give --pose too, or leave it out", flag);
+    case AccuracyMode::poses_and_forces:
+      if (flag == "--csv")
+        return "--csv: poses and forces are two tables; give --pose or --force alone";
+      return fmt::format("{} does not go with --pose --force; leave it out", flag);
+    case AccuracyMode::poses:
+      break;
   }
-  const std::string_view nearest = peer::nearest_word(name, names);
-  throw tools::UsageError(
-      fmt::format("{}: there is no '{}'{}; known: {}", flag, name,
-                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                  fmt::join(names, ", ")));
+  if (flag == "--axis" || flag == "--plot")
+    return fmt::format("{} is for error against time; give --touch too", flag);
+  if (flag == "--period") return "--period: with --trace FILE.csv only";
+  return fmt::format("{} is for forces; give --force too", flag);
 }
 
-template <typename Row>
-std::vector<Row> rows_named(std::span<const std::string> words, std::span<const Row> rows,
-                            std::string_view flag) {
-  std::vector<Row> chosen;
-  for (const std::string& name : parts_of(words)) {
-    if (name == "all")
-      chosen.insert(chosen.end(), rows.begin(), rows.end());
-    else
-      chosen.push_back(row_named(name, rows, flag));
-  }
-  return chosen;
+/// Whether what is shown jumps from prediction to prediction: asked for, or as files are looked at.
+bool snaps(const BenchOptions& options) {
+  if (options.curves.empty()) return !options.files.empty();
+  return std::ranges::all_of(options.curves, [](const auto& word) { return word == "snap"; });
+}
+
+/// Whether chance takes part: in a motion, in the network, in the phases of a touch.
+bool draws(AccuracyMode mode, const BenchOptions& options) {
+  if (!options.jitter.empty() || !options.loss.empty()) return true;
+  if (mode == AccuracyMode::circle || mode == AccuracyMode::touch) return true;
+  return mode != AccuracyMode::forces && (options.files.empty() || !options.motions.empty());
+}
+
+/// Flags that the study takes, but not beside some other.
+void check_values(AccuracyMode mode, const BenchOptions& options,
+                  std::span<const std::string> given) {
+  const auto is_given = [&](std::string_view flag) { return std::ranges::count(given, flag) > 0; };
+  if ((options.converge || options.converge_longest) && snaps(options))
+    throw tools::UsageError(
+        "--converge, --converge-longest: the curve snap does not converge; name another by "
+        "--curves, as in cubic");
+  if (options.front && !options.json && options.csv.empty())
+    throw tools::UsageError(
+        "--front is for CSV and JSON; the table shows the front unless --all is given");
+  if (options.all && options.json)
+    throw tools::UsageError(
+        "--all is for the table; --json has all settings unless --front is given");
+  const bool files_alone = !options.files.empty() && options.motions.empty();
+  if (is_given("--for") && files_alone && mode != AccuracyMode::poses_and_forces)
+    throw tools::UsageError("--for is the length of a motion, FILE has its own: leave --for out");
+  if (is_given("--seed") && !draws(mode, options))
+    throw tools::UsageError(
+        "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
+}
+
+/// What `read` makes of each part between commas.
+template <typename Read>
+auto each_part(std::span<const std::string> words, Read&& read) {
+  std::vector<decltype(read(std::string_view()))> values;
+  for (const std::string& word : words)
+    for (const std::string_view part : parts_between_commas(word)) values.push_back(read(part));
+  return values;
 }
 
 double quantity(std::string_view text, std::string_view unit, std::string_view flag) {
@@ -88,26 +139,105 @@ double heartbeat_of(const BenchOptions& options) {
   throw tools::UsageError("--heartbeat: has to be above 0; write it as in 5s");
 }
 
+/// Without words all; but snap for files, which hold a sample a second or a minute, too few to see
+/// a curve: what is looked at there is the prediction alone.
+std::vector<deadreckon::ConvergenceCurve> curves_of(const BenchOptions& options) {
+  if (options.curves.empty() && !options.files.empty()) return {deadreckon::ConvergenceCurve::snap};
+  using Row = deadreckon::ConvergenceCurveRow;
+  std::vector<deadreckon::ConvergenceCurve> curves;
+  for (const Row& row :
+       rows_named(options.curves, std::span<const Row>(deadreckon::kConvergenceCurves), "--curves"))
+    curves.push_back(row.curve);
+  return curves;
+}
+
+template <typename Rows>
+std::string names_of(const Rows& rows) {
+  std::string names;
+  for (const auto& row : rows) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  return names;
+}
+
 }  // namespace
+
+std::vector<Flag> BenchOptions::flags() {
+  const auto known = [](std::string_view help, const auto& rows) {
+    return fmt::format("{}{}", help, names_of(rows));
+  };
+  return {
+      {"--pose", &pose, kOfPoses | kCircle, "the study of poses (the default)"},
+      {"--force", &force, kForces | kBoth,
+       "hands in contact, what they send and feel: whole peers in simulated time; with --pose "
+       "beside them"},
+      {"--contact", &contacts, kForces | kBoth,
+       known("with --force: ways of touching, or all (the default): ", contact_scenes())},
+      {"--send-at", &sendings, kForces | kBoth,
+       "with --force: forces and fixed rates at which hands send "
+       "(10mN,15mN,20mN,30mN,50mN,100mN,200mN,50Hz)"},
+      {"--touch", &touch, kTouch,
+       "error of a force against nanoseconds per servo step, axis by axis"},
+      {"--axis", &axes, kTouch, known("with --touch: axes; all without it: ", touch_axes()),
+       names_of(touch_axes())},
+      {"--plot", &plot, kTouch, "with --touch: write the picture to this SVG file"},
+      {"--motion", &motions, kOfPoses, known("motions, or all (the default): ", bench::motions()),
+       names_of(bench::motions())},
+      {"--models", &models, kOfPoses | kCircle, known("models; all without it: ", kPoseModels),
+       names_of(kPoseModels)},
+      {"--thresholds", &thresholds, kPoses | kBoth | kTrace,
+       "lengths at which the owner sends, as in 50mm,1m; without it six that suit the motion"},
+      {"--curves", &curves, kOfPoses | kCircle,
+       known("convergence curves; without it all, for files snap: ",
+             deadreckon::kConvergenceCurves),
+       names_of(deadreckon::kConvergenceCurves)},
+      {"--angle", &angle, kOfPoses,
+       "angle at which the owner sends, or none (3deg; none for files without orientations)"},
+      {"--heartbeat", &heartbeat, kOfPoses,
+       "time after which the owner sends anyway (5s; for files never)"},
+      {"--first-heartbeat", &first_heartbeat, kOfPoses,
+       "silence after a change until it is said again, each repetition waiting twice as long, "
+       "against loss (none)"},
+      {"--converge", &converge, kOfPoses, "time that an error takes to go to zero (100ms)"},
+      {"--converge-longest", &converge_longest, kOfPoses,
+       "the same for a large one; as --converge: one time for all (1s)"},
+      {"--seeds", &seeds, kPoses | kBoth | kAgainst | kCircle,
+       "runs with seeds from there on, of which medians are told (1; with --circle 20)"},
+      {"--against", &against, kAgainst,
+       "MODEL:LENGTH; how many updates --models (auto) needs for the same p99 error"},
+      {"--circle", &circle, kCircle,
+       "the fixed case of a steady turn over a poor link, with a bar; status 1 where the default "
+       "misses it"},
+      {"--all", &all, kPoses | kBoth, "dominated settings in the table too"},
+      {"--front", &front, kPoses | kBoth, "no dominated settings in CSV and JSON"},
+      {"--trace", &trace, kTrace,
+       "write each sample of one run to this file: one motion or FILE, one model, one curve, and "
+       "one threshold or --period"},
+      {"--period", &period, kTrace, "with --trace: send at this period and not by a threshold"},
+  };
+}
+
+AccuracyMode BenchOptions::checked_mode(std::span<const std::string> given) {
+  const AccuracyMode mode = mode_of(*this);
+  std::vector<Flag> rows = flags();
+  const auto only_for = [&](std::string_view name, unsigned modes) {
+    rows.emplace_back(name, &pose, modes, "");
+  };
+  only_for("FILE", kOfPoses);
+  only_for("--json", kTables | kAgainst | kCircle | kTouch);
+  only_for("--for", kTables | kAgainst | kTrace);
+  for (const char* name : {"--delay", "--jitter", "--loss"}) only_for(name, kOfPoses | kForces);
+  only_for("--csv", kPoses | kForces | kTouch);
+  only_for("--report", kTables | kTouch);
+  check_modes(rows, bit(mode), given, [&](std::string_view flag) { return refusal(mode, flag); });
+  check_values(mode, *this, given);
+  return mode;
+}
 
 std::vector<PoseModel> read_models(std::span<const std::string> words) {
   return rows_named(words, std::span<const PoseModel>(kPoseModels), "--models");
 }
 
-std::vector<deadreckon::ConvergenceCurve> read_curves(std::span<const std::string> words) {
-  using Row = deadreckon::ConvergenceCurveRow;
-  std::vector<deadreckon::ConvergenceCurve> curves;
-  for (const Row& row :
-       rows_named(words, std::span<const Row>(deadreckon::kConvergenceCurves), "--curves"))
-    curves.push_back(row.curve);
-  return curves;
-}
-
 std::vector<double> read_thresholds(std::span<const std::string> words) {
-  std::vector<double> thresholds;
-  for (const std::string& part : parts_of(words))
-    thresholds.push_back(length_of(part, "--thresholds"));
-  return thresholds;
+  return each_part(words, [](std::string_view part) { return length_of(part, "--thresholds"); });
 }
 
 std::vector<Motion> read_motions(std::span<const std::string> words) {
@@ -119,18 +249,17 @@ std::vector<ContactScene> read_contacts(std::span<const std::string> words) {
 }
 
 std::vector<ContactSending> read_sendings(std::span<const std::string> words) {
-  std::vector<ContactSending> sendings;
-  for (const std::string& part : parts_of(words)) {
+  if (words.empty()) return {kContactSendings.begin(), kContactSendings.end()};
+  return each_part(words, [](std::string_view part) {
     const bool rate = part.ends_with("Hz");
     const double value = quantity(part, rate ? "Hz" : "N", "--send-at");
     if (rate ? !(value >= kLeastRate && value <= kMostRate) : !(value > 0))
-      throw tools::UsageError(fmt::format(
-          "--send-at: '{}' is no force above 0 and no rate from {} to {} Hz; write it as in "
-          "15mN,50Hz",
-          part, kLeastRate, kMostRate));
-    sendings.push_back(rate ? ContactSending{0, value} : ContactSending{value, 0});
-  }
-  return sendings;
+      throw tools::UsageError(
+          fmt::format("--send-at: '{}' is no force above 0 and no rate from {} to {} Hz; write it "
+                      "as in 15mN,50Hz",
+                      part, kLeastRate, kMostRate));
+    return rate ? ContactSending{0, value} : ContactSending{value, 0};
+  });
 }
 
 Baseline read_baseline(const std::string& text) {
@@ -144,6 +273,8 @@ Baseline read_baseline(const std::string& text) {
 
 AccuracyGrid read_conditions(const BenchOptions& options) {
   AccuracyGrid grid;
+  grid.models = read_models(options.models);
+  grid.curves = curves_of(options);
   if (options.angle == "none")
     grid.angle = kAnyAngle;
   else if (!options.angle.empty())
@@ -157,7 +288,7 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
   const double jitter = share_of(options.jitter, 1, "--jitter");
   grid.network.law = peer::delayed_by(options.delay ? pdu::to_seconds(*options.delay) : 0, jitter,
                                       share_of(options.loss, 0.99, "--loss"));
-  grid.network.seed = options.seed;
+  grid.network.seed = options.first_seed();
   grid.seeds = options.seeds.value_or(1);
   if (grid.seeds < 1 || grid.seeds > kMostSeeds)
     throw tools::UsageError(fmt::format("--seeds: {} is not from 1 to {}", grid.seeds, kMostSeeds));

@@ -1,17 +1,153 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/bench/studies/accuracy/page.hpp"
-
+// The page of a study of accuracy, with a picture of what each setting costs against how far off it
+// is.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <vector>
+
 #include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/plots/log_axis.hpp"
 #include "reckon/bench/plots/sortable_page.hpp"
-#include "reckon/bench/studies/accuracy/scatter.hpp"
+#include "reckon/bench/studies/accuracy/text.hpp"
+#include "reckon/bench/studies/contact/contact_report.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
+
+// Of the picture and of the area inside the axes.
+constexpr double kWidth = 760, kHeight = 430;
+constexpr double kLeft = 92, kRight = 744, kTop = 12, kBottom = 376;
+
+/// A shape in a square of 12 about the origin, by the place of the model in its list.
+constexpr std::array<std::string_view, kPoseModels.size()> kShapes{
+    "M-5 0A5 5 0 1 0 5 0A5 5 0 1 0-5 0Z",
+    "M-4.5-4.5H4.5V4.5H-4.5Z",
+    "M0-6L5.5 4.5H-5.5Z",
+    "M0 6L5.5-4.5H-5.5Z",
+    "M0-6.5L6 0L0 6.5L-6 0Z",
+    "M-6 0L4.5-5.5V5.5Z",
+    "M6 0L-4.5-5.5V5.5Z",
+    "M-2-6H2V-2H6V2H2V6H-2V2H-6V-2H-2Z",
+    "M0-6.5L1.9-2.2 6.2-2 2.9 1 4 5.4 0 3 -4 5.4 -2.9 1 -6.2-2 -1.9-2.2Z",
+    "M-6-3.5L-3.5-6 0-2.5 3.5-6 6-3.5 2.5 0 6 3.5 3.5 6 0 2.5 -3.5 6 -6 3.5 -2.5 0Z",
+    "M-3-5.5H3L6 0L3 5.5H-3L-6 0Z",
+};
+
+std::size_t place_of(const PoseModel& model) {
+  const auto found = std::find_if(kPoseModels.begin(), kPoseModels.end(),
+                                  [&](const PoseModel& row) { return row.name == model.name; });
+  return static_cast<std::size_t>(found - kPoseModels.begin()) % kPoseModels.size();
+}
+
+/// Over what `of` gives of the rows.
+template <typename Of>
+LogAxis axis_of(const AccuracyResult& result, double floor, double begin, double finish, Of&& of) {
+  std::vector<double> values;
+  for (const AccuracyRow& row : result.rows) values.push_back(of(row));
+  return log_axis_over(values, floor, begin, finish, 1);
+}
+
+struct Axes {
+  LogAxis octets, error;
+
+  explicit Axes(const AccuracyResult& result)
+      : octets(axis_of(result, 0.1, kLeft, kRight,
+                       [](const AccuracyRow& row) { return row.octets_per_second(); })),
+        error(axis_of(result, least_shown(result), kBottom, kTop,
+                      [](const AccuracyRow& row) { return row.result.position.p99; })) {}
+
+  [[nodiscard]] double x(const AccuracyRow& row) const {
+    return octets.at(row.octets_per_second());
+  }
+  [[nodiscard]] double y(const AccuracyRow& row) const { return error.at(row.result.position.p99); }
+
+ private:
+  // Errors of rounding alone would squeeze all others into a corner.
+  static double least_shown(const AccuracyResult& result) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const AccuracyRow& row : result.rows) least = std::min(least, row.threshold);
+    return least / 50;
+  }
+};
+
+/// The least error for the octets spent, as steps.
+void append_front(std::string& out, const AccuracyResult& result, const Axes& axes) {
+  std::string path;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : rows_in_order(result, true)) {
+    const AccuracyRow& row = result.rows[i];
+    if (!(row.result.position.p99 < least)) continue;
+    least = row.result.position.p99;
+    path += path.empty() ? fmt::format("M{:.1f} {:.1f}", axes.x(row), axes.y(row))
+                         : fmt::format("H{:.1f}V{:.1f}", axes.x(row), axes.y(row));
+  }
+  if (!path.empty()) out += fmt::format("<path class=\"f\" d=\"{}\"/>\n", path);
+}
+
+void append_marks(std::string& out, const AccuracyResult& result, const Axes& axes, bool front) {
+  std::set<std::string> drawn;
+  for (const AccuracyRow& row : result.rows) {
+    if (!row.beaten != front) continue;
+    const PoseResult& r = row.result;
+    // Several curves may come out alike.
+    if (!drawn.insert(fmt::format("{} {:.0f} {:.0f}", row.model.name, axes.x(row), axes.y(row)))
+             .second)
+      continue;
+    out += fmt::format(
+        "<use href=\"#s{0}\" class=\"m{0}{1}\" x=\"{2:.1f}\" y=\"{3:.1f}\"><title>{4}: {5} "
+        "octets/s, p99 {6}, velocity step {7} m/s{8}</title></use>\n",
+        place_of(row.model), front ? "" : " d", axes.x(row), axes.y(row), setting_text(row),
+        number_text(row.octets_per_second()), length_text(r.position.p99),
+        number_text(r.velocity_step.max), front ? "" : ", dominated");
+  }
+}
+
+/// The shapes of the marks, once in a page before any picture.
+std::string scatter_marks() {
+  std::string out = "<svg width=\"0\" height=\"0\" class=\"defs\" aria-hidden=\"true\"><defs>\n";
+  for (std::size_t i = 0; i < kShapes.size(); ++i)
+    out += fmt::format("<path id=\"s{}\" d=\"{}\"/>\n", i, kShapes[i]);
+  return out + "</defs></svg>\n";
+}
+
+/// Octets/s against p99 of the position error, both logarithmic. Colour and shape say the model;
+/// pale is dominated. The line joins the settings with the least error for their octets. What is
+/// below the axis lies on its end. Classes: of the page's style.
+std::string scatter_svg(const AccuracyResult& result) {
+  const Axes axes(result);
+  std::string out = fmt::format(
+      "<svg class=\"plot\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"Octets a second "
+      "against position error of {}\">\n",
+      kWidth, kHeight, html_escaped(result.subject));
+  append_log_grid(out, {axes.octets, "octets a second of one entity", number_text},
+                  {axes.error, "position error, 99 % below", length_text});
+  append_marks(out, result, axes, false);
+  append_front(out, result, axes);
+  append_marks(out, result, axes, true);
+  return out + "</svg>\n";
+}
+
+/// Colours and shapes with the names of the models that take part.
+std::string scatter_legend(const AccuracyResult& result) {
+  std::string out = "<p class=\"legend\">";
+  std::string_view last;
+  for (const AccuracyRow& row : result.rows) {
+    if (row.model.name == last) continue;
+    last = row.model.name;
+    out += fmt::format(
+        "<span title=\"{2}\"><svg viewBox=\"-8 -8 16 16\" width=\"14\" height=\"14\" "
+        "aria-hidden=\"true\"><use href=\"#s{0}\" class=\"m{0}\"/></svg> {1}</span>\n",
+        place_of(row.model), html_escaped(last), html_escaped(row.model.meaning));
+  }
+  return out + "</p>\n";
+}
 
 /// Colours that most people tell apart on white and on black; shapes tell them apart too.
 constexpr std::string_view kPoseStyle = R"(
@@ -38,9 +174,8 @@ void append_summary(std::string& out, const AccuracyReport& report) {
   row("command", fmt::format("<code>{}</code>", html_escaped(report.command)));
   row("conditions", html_escaped(conditions_text(report.grid)));
   row("octets", "172 an update: Entity State of 144, UDP and IPv4 headers of 28");
-  if (!report.processor.empty())
-    row("ns", html_escaped(report.processor) +
-                  "; one predicted and converged pose, median of blocks that took turns");
+  row("ns", html_escaped(report.processor) +
+                "; one predicted and converged pose, median of blocks that took turns");
   out +=
       "</dl>\n<p class=\"note\">In full colour: the Pareto front of octets, error (99 % below) and "
       "largest velocity step; no setting is better in one of these without being worse in another. "
@@ -53,63 +188,14 @@ void append_summary(std::string& out, const AccuracyReport& report) {
   out += "</nav>\n";
 }
 
-void append_row(std::string& out, const AccuracyResult& result, const AccuracyRow& row) {
-  const PoseResult& r = row.result;
-  const auto& curve = deadreckon::kConvergenceCurves[static_cast<std::size_t>(row.curve)];
-  out += fmt::format("<tr{}><td class=\"w\">{}</td><td class=\"w\">{}</td>",
-                     row.beaten ? " class=\"d\"" : "", row.model.name, curve.name);
-  out += page_cell(row.threshold, length_text(row.threshold));
-  out += page_cell(r.updates_per_second(), number_text(r.updates_per_second()));
-  out += page_cell(row.octets_per_second(), number_text(row.octets_per_second()));
-  for (const double error : {r.position.rms, r.position.p99, r.position.max})
-    out += page_cell(error, length_text(error));
-  out += page_cell(r.angle.p99, number_text(degrees(r.angle.p99)));
-  out += page_cell(r.velocity_step.max, number_text(r.velocity_step.max));
-  out += page_cell(row.query_ns, row.query_ns > 0 ? fmt::format("{:.0f}", row.query_ns) : "");
-  out += "<td class=\"w\">";
-  if (row.beaten)
-    out += fmt::format("{}{}", row.beaten->equal ? "same as " : "",
-                       setting_text(result.rows[row.beaten->by]));
-  out += "</td></tr>\n";
-}
-
-void append_table(std::string& out, const AccuracyResult& result) {
-  out +=
-      "<div class=\"wide\"><table>\n<thead><tr><th class=\"w\">model</th><th class=\"w\">curve</th>"
-      "<th>threshold</th><th>updates/s</th><th>octets/s</th><th>RMS</th><th>99 %</th><th>max</th>"
-      "<th>angle 99 % [deg]</th><th>velocity step [m/s]</th><th>ns</th>"
-      "<th class=\"w\">dominated by</th></tr></thead>\n<tbody>\n";
-  for (const std::size_t i : rows_in_order(result, false)) append_row(out, result, result.rows[i]);
-  out += "</tbody></table></div>\n";
-}
-
 void append_contacts(std::string& out, const AccuracyReport& report) {
   if (report.contacts.empty()) return;
   out +=
       "<section id=\"contacts\">\n<h2>hands in contact</h2>\n<p>Whole peers in simulated time; all "
       "packets, and how many times fewer they are than an Entity State and an Attribute PDU each "
       "millisecond of each hand. Errors: felt against the spring that the devices can show x the "
-      "true overlap at that instant.</p>\n"
-      "<div class=\"wide\"><table>\n<thead><tr><th class=\"w\">scene</th><th "
-      "class=\"w\">send at</th><th>packets/s</th><th>fewer</th><th>RMS [N]</th>"
-      "<th>99 % [N]</th><th>max [N]</th><th>linger [s]</th><th>servo step [ns]</th></tr></thead>\n"
-      "<tbody>\n";
-  for (const ContactRow& row : report.contacts) {
-    out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>",
-                       html_escaped(row.scene), html_escaped(sending_text(row.sending)));
-    const ForceError& error = row.from_shown;
-    if (!row.touched()) {
-      out += page_cell(row.packets_per_s, number_text(row.packets_per_s)) +
-             page_cell(row.times_fewer(), number_text(row.times_fewer())) +
-             "<td class=\"w\" colspan=\"5\">did not touch</td></tr>\n";
-      continue;
-    }
-    for (const double value : {row.packets_per_s, row.times_fewer(), error.rms, error.p99,
-                               error.max, row.linger, row.servo_step_ns})
-      out += page_cell(value, number_text(value));
-    out += "</tr>\n";
-  }
-  out += "</tbody></table></div>\n</section>\n";
+      "true overlap at that instant.</p>\n";
+  out += contact_page_table(report.contacts) + "</section>\n";
 }
 
 void append_result(std::string& out, const AccuracyResult& result, std::size_t number) {
@@ -120,8 +206,7 @@ void append_result(std::string& out, const AccuracyResult& result, std::size_t n
       "sample. {} of {} settings are on the front.</p>\n",
       tools::counted(result.entities, "track"), result.samples,
       number_text(result.own_velocity_step), result.on_front(), result.rows.size());
-  out += scatter_svg(result) + scatter_legend(result);
-  append_table(out, result);
+  out += scatter_svg(result) + scatter_legend(result) + accuracy_page_table(result);
   out += "</section>\n";
 }
 

@@ -8,21 +8,10 @@
 #include <iterator>
 #include <utility>
 
+#include "reckon/bench/studies/frame/fields.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
-namespace {
-
-/// As it is, or within quotes where a comma, quote or line end asks for them (RFC 4180).
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);
-  return out + '"';
-}
-
-}  // namespace
-
 PoseTrace::PoseTrace(std::string path, std::span<const Track> tracks)
     : path_(std::move(path)), file_(path_, std::ios::binary | std::ios::trunc) {
   if (!file_)

@@ -3,7 +3,6 @@
 #include "reckon/bench/studies/accuracy/query_cost.hpp"
 
 #include <chrono>
-#include <fstream>
 #include <vector>
 
 #include "reckon/bench/statistics/quantile.hpp"
@@ -97,16 +96,6 @@ QueryCosts measure_query_costs() {
     costs.adaptive[curve] = median(blocks[kModelCount][curve]);
   }
   return costs;
-}
-
-std::string processor_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("model name")) continue;
-    const std::size_t colon = line.find(": ");
-    if (colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown processor";
 }
 
 }  // namespace reckon::bench

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "reckon/bench/studies/pose/pose_study.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
@@ -28,8 +27,5 @@ struct QueryCosts {
 /// Measures all of them in blocks that take turns, and gives the median block of each, by the
 /// steady clock. Takes some 0.1 s. The only part of the pose studies that two runs disagree on.
 [[nodiscard]] QueryCosts measure_query_costs();
-
-/// The processor as the system names it, for people; "unknown processor" where it does not.
-[[nodiscard]] std::string processor_name();
 
 }  // namespace reckon::bench

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "reckon/bench/studies/accuracy/pareto.hpp"
 #include "reckon/bench/studies/accuracy/query_cost.hpp"
+#include "reckon/bench/studies/frame/pareto.hpp"
 #include "reckon/bench/studies/pose/pose_models.hpp"
 
 namespace reckon::bench {

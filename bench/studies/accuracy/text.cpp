@@ -9,18 +9,17 @@
 #include <iterator>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
+#include "reckon/bench/studies/contact/contact_report.hpp"
+#include "reckon/bench/studies/frame/fields.hpp"
+#include "reckon/bench/studies/frame/text_lines.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
-
-using tools::JsonObject;
-
-using Align = tools::TextTable::Align;
 
 std::string_view curve_name(deadreckon::ConvergenceCurve curve) {
   return deadreckon::kConvergenceCurves[static_cast<std::size_t>(curve)].name;
@@ -35,7 +34,7 @@ std::string nanoseconds_text(double ns) {
 /// What ran, above a table.
 std::string heading_of(const AccuracyResult& result) {
   const std::string colon = result.meaning.empty() ? "" : ": ";
-  return wrapped(result.subject + colon + result.meaning, kColumns) +
+  return wrapped(result.subject + colon + result.meaning, kTextColumns) +
          fmt::format(
              "\n{}, {} samples; the true velocity steps by up to {} m/s from sample to sample\n"
              "front: {} of {}; {} dominated\n",
@@ -44,26 +43,81 @@ std::string heading_of(const AccuracyResult& result) {
              tools::counted(result.rows.size(), "setting"), result.rows.size() - result.on_front());
 }
 
-std::string size_json(const ErrorSize& size) {
-  std::string out;
-  JsonObject(out).value("rms", size.rms).value("p99", size.p99).value("max", size.max).end();
-  return out;
+void add_size(Fields& fields, std::string_view what, std::string_view unit, const ErrorSize& size) {
+  Fields sizes;
+  for (const auto& [name, value] :
+       {std::pair{"rms", size.rms}, std::pair{"p99", size.p99}, std::pair{"max", size.max}}) {
+    sizes.json(name, value);
+    fields.csv(fmt::format("{}_{}_{}", what, name, unit), value);
+  }
+  fields.json(fmt::format("{}_{}", what, unit), sizes);
 }
 
-JsonObject& add_result(JsonObject& object, const PoseResult& result) {
-  return object.value("updates", result.updates)
+void add_result(Fields& fields, const PoseResult& result) {
+  fields.value("updates", result.updates)
       .value("updates_per_s", result.updates_per_second())
-      .value("octets_per_s", kUpdateOctets * result.updates_per_second())
-      .value("position_m", size_json(result.position))
-      .value("angle_rad", size_json(result.angle))
-      .value("velocity_step_mps", size_json(result.velocity_step));
+      .value("octets_per_s", kUpdateOctets * result.updates_per_second());
+  add_size(fields, "position", "m", result.position);
+  add_size(fields, "angle", "rad", result.angle);
+  add_size(fields, "velocity_step", "mps", result.velocity_step);
 }
 
-/// Within quotes, quotes doubled (RFC 4180).
-std::string csv_quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);
-  return out + '"';
+/// A setting with the names that its row refers to.
+struct NamedRow {
+  std::string_view subject;
+  AccuracyRow row;
+  std::string beaten_by;
+};
+
+std::vector<NamedRow> named_rows(const AccuracyResult& result, bool front_only) {
+  std::vector<NamedRow> rows;
+  for (const std::size_t i : rows_in_order(result, front_only)) {
+    const AccuracyRow& row = result.rows[i];
+    rows.push_back(
+        {result.subject, row, row.beaten ? setting_text(result.rows[row.beaten->by]) : ""});
+  }
+  return rows;
+}
+
+void add_cells(Fields& fields, const NamedRow& of) {
+  const AccuracyRow& row = of.row;
+  const PoseResult& r = row.result;
+  const auto shown = [&](std::string title, std::string_view page_title, double value,
+                         std::string (*text)(double)) {
+    fields.shown(std::move(title), page_title, value, text(value));
+  };
+  fields.shown_word("MODEL", "model", std::string(row.model.name))
+      .shown_word("CURVE", "curve", std::string(curve_name(row.curve)));
+  shown("SEND AT", "threshold", row.threshold, length_text);
+  shown("UPD/S", "updates/s", r.updates_per_second(), number_text);
+  shown("OCT/S", "octets/s", row.octets_per_second(), number_text);
+  shown("RMS", "RMS", r.position.rms, length_text);
+  shown("P99", "99 %", r.position.p99, length_text);
+  shown("MAX", "max", r.position.max, length_text);
+  fields.shown("ANGLE", "angle 99 % [deg]", r.angle.p99, number_text(degrees(r.angle.p99)));
+  shown("STEP", "velocity step [m/s]", r.velocity_step.max, number_text);
+  fields.cell("NS", nanoseconds_text(row.query_ns))
+      .page("ns", row.query_ns, row.query_ns > 0 ? fmt::format("{:.0f}", row.query_ns) : "")
+      .word("", beaten_mark(row.beaten))
+      .page_word("dominated by",
+                 (row.beaten && row.beaten->equal ? "same as " : "") + of.beaten_by);
+}
+
+Fields setting_fields(const NamedRow& of) {
+  const AccuracyRow& row = of.row;
+  Fields fields("setting");
+  fields.value("subject", Value::quoted(of.subject))
+      .value("model", row.model.name)
+      .value("curve", curve_name(row.curve))
+      .value("threshold_m", row.threshold);
+  add_result(fields, row.result);
+  const auto query = row.query_ns > 0 ? std::optional(row.query_ns) : std::nullopt;
+  fields.value("query_ns", Value::decimals(query, 1))
+      .value("front", !row.beaten)
+      .csv("beaten_by", Value::quoted(of.beaten_by));
+  if (row.beaten) fields.json("beaten_by", of.beaten_by).json("equal", row.beaten->equal);
+  add_cells(fields, of);
+  return fields;
 }
 
 /// Nothing where the value is that of no limit.
@@ -71,83 +125,77 @@ std::optional<double> below(double value, double none) {
   return value < none ? std::optional(value) : std::nullopt;
 }
 
-void append_study(std::string& out, const AccuracyReport& report) {
+Fields study_fields(const AccuracyReport& report) {
   const AccuracyGrid& grid = report.grid;
   const peer::ImpairmentLaw& law = grid.network.law;
-  JsonObject object(out);
-  object.text("kind", "study").text("command", report.command);
-  if (report.processor.empty())
-    object.value("processor", "null");
-  else
-    object.text("processor", report.processor);
-  object.number("angle_rad", below(grid.angle, kAnyAngle))
-      .number("heartbeat_s", below(grid.heartbeat, kNoHeartbeat))
-      .number("first_heartbeat_s",
-              grid.first_heartbeat > 0 ? std::optional(grid.first_heartbeat) : std::nullopt)
-      .value("converge_s", grid.convergence.duration)
-      .value("converge_longest_s", grid.convergence.longest)
-      .value("delay_s", pdu::to_seconds(law.delay))
-      .value("jitter", peer::jitter_share(law))
-      .value("loss", law.loss)
-      .value("seed", grid.network.seed)
-      .value("seeds", grid.seeds)
-      .value("update_octets", kUpdateOctets)
-      .end("\n");
+  return Fields("study")
+      .json("command", report.command)
+      .json("processor", report.processor)
+      .json("angle_rad", below(grid.angle, kAnyAngle))
+      .json("heartbeat_s", below(grid.heartbeat, kNoHeartbeat))
+      .json("first_heartbeat_s",
+            grid.first_heartbeat > 0 ? std::optional(grid.first_heartbeat) : std::nullopt)
+      .json("converge_s", grid.convergence.duration)
+      .json("converge_longest_s", grid.convergence.longest)
+      .json("delay_s", pdu::to_seconds(law.delay))
+      .json("jitter", peer::jitter_share(law))
+      .json("loss", law.loss)
+      .json("seed", grid.network.seed)
+      .json("seeds", grid.seeds)
+      .json("update_octets", kUpdateOctets);
 }
 
-void append_subject(std::string& out, const AccuracyResult& result) {
-  JsonObject(out)
-      .text("kind", "subject")
-      .text("subject", result.subject)
-      .text("meaning", result.meaning)
-      .value("tracks", result.entities)
-      .value("samples", result.samples)
-      .value("seconds", result.seconds)
-      .number("angle_rad", below(result.angle, kAnyAngle))
-      .value("own_velocity_step_mps", result.own_velocity_step)
-      .value("settings", result.rows.size())
-      .value("on_front", result.on_front())
-      .end("\n");
+Fields subject_fields(const AccuracyResult& result) {
+  return Fields("subject")
+      .json("subject", result.subject)
+      .json("meaning", result.meaning)
+      .json("tracks", result.entities)
+      .json("samples", result.samples)
+      .json("seconds", result.seconds)
+      .json("angle_rad", below(result.angle, kAnyAngle))
+      .json("own_velocity_step_mps", result.own_velocity_step)
+      .json("settings", result.rows.size())
+      .json("on_front", result.on_front());
 }
 
-void append_setting(std::string& out, const AccuracyResult& result, const AccuracyRow& row) {
-  JsonObject object(out);
-  object.text("kind", "setting")
-      .text("subject", result.subject)
-      .text("model", row.model.name)
-      .text("curve", curve_name(row.curve))
-      .value("threshold_m", row.threshold);
-  add_result(object, row.result);
-  if (row.query_ns > 0)
-    object.decimals("query_ns", row.query_ns, 1);
-  else
-    object.value("query_ns", "null");
-  object.value("front", !row.beaten);
-  if (row.beaten)
-    object.text("beaten_by", setting_text(result.rows[row.beaten->by]))
-        .value("equal", row.beaten->equal);
-  object.end("\n");
+Fields circle_fields(const CircleRow& row) {
+  const PoseResult& r = row.result;
+  Fields fields("circle");
+  fields.json("model", row.model.name).json("curve", curve_name(row.curve));
+  add_result(fields, r);
+  fields.json("clears", row.clears())
+      .word("MODEL", row.model.name)
+      .word("CURVE", curve_name(row.curve))
+      .cell("RMS", length_text(r.position.rms))
+      .cell("P99", length_text(r.position.p99))
+      .cell("MAX", length_text(r.position.max))
+      .cell("ANGLE RMS", fmt::format("{} deg", number_text(degrees(r.angle.rms))))
+      .cell("LARGEST STEP", fmt::format("{} m/s", number_text(r.velocity_step.max)))
+      .word("BAR", row.clears() ? "cleared" : "missed");
+  return fields;
+}
+
+Fields side_fields(const PoseModel& model, double threshold, const PoseResult& result) {
+  Fields fields;
+  fields.json("model", model.name).json("threshold_m", threshold);
+  add_result(fields, result);
+  return fields;
+}
+
+Fields equal_error_fields(const NamedEqualError& row) {
+  const auto& [subject, found] = row;
+  const bool is_found = found.threshold > 0;
+  const std::optional<double> none;
+  return Fields("equal_error")
+      .json("subject", subject)
+      .json("baseline",
+            side_fields(found.baseline, found.baseline_threshold, found.baseline_result))
+      .json("rival",
+            is_found ? Value(side_fields(found.rival, found.threshold, found.result)) : Value(none))
+      .json("saving", is_found ? Value(found.saving()) : Value(none));
 }
 
 }  // namespace
-
-std::string wrapped(std::string_view text, std::size_t columns) {
-  std::string out;
-  std::size_t column = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (column > 0 && column + 1 + tools::text_width(word) > columns) {
-      out += '\n';
-      column = 0;
-    }
-    if (column > 0) out += ' ';
-    out += word;
-    column += tools::text_width(word) + (column > 0 ? 1 : 0);
-  }
-  return out;
-}
 
 std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_only) {
   std::vector<std::size_t> order(result.rows.size());
@@ -184,149 +232,80 @@ std::string conditions_text(const AccuracyGrid& grid) {
   return text;
 }
 
-std::string accuracy_table(const AccuracyResult& result, bool front_only) {
-  tools::TextTable table({{"MODEL"},
-                          {"CURVE"},
-                          {"SEND AT", Align::right},
-                          {"UPD/S", Align::right},
-                          {"OCT/S", Align::right},
-                          {"RMS", Align::right},
-                          {"P99", Align::right},
-                          {"MAX", Align::right},
-                          {"ANGLE", Align::right},
-                          {"STEP", Align::right},
-                          {"NS", Align::right},
-                          {""}});
-  for (const std::size_t i : rows_in_order(result, front_only)) {
-    const AccuracyRow& row = result.rows[i];
-    const PoseResult& r = row.result;
-    const std::string mark = !row.beaten ? "" : row.beaten->equal ? "=" : "<";
-    table.add({std::string(row.model.name), std::string(curve_name(row.curve)),
-               length_text(row.threshold), number_text(r.updates_per_second()),
-               number_text(row.octets_per_second()), length_text(r.position.rms),
-               length_text(r.position.p99), length_text(r.position.max),
-               number_text(degrees(r.angle.p99)), number_text(r.velocity_step.max),
-               nanoseconds_text(row.query_ns), front_only ? "" : mark});
-  }
-  return heading_of(result) + table.text();
+std::string accuracy_text(const AccuracyReport& report, bool front_only) {
+  std::string text;
+  if (!report.contacts.empty()) text = contact_text(report.contacts, report.grid.network);
+  if (report.results.empty()) return text;
+  if (!report.contacts.empty()) text += '\n';
+  for (const AccuracyResult& result : report.results)
+    text += heading_of(result) + table_of(named_rows(result, front_only), setting_fields) + '\n';
+  return text + wrapped(conditions_text(report.grid), kTextColumns) +
+         "\nOCT/S: 172 octets an update (Entity State, UDP, IPv4), one entity. ANGLE: p99 [deg]. "
+         "STEP:\nlargest change of the drawn velocity between samples [m/s]. NS: one shown pose, "
+         "measured.\n" +
+         (front_only
+              ? "Front: nothing is better in OCT/S, P99 and STEP together; --all shows the rest.\n"
+              : "<: dominated in OCT/S, P99 and STEP; =: the same as another.\n");
 }
 
 std::string accuracy_csv(const AccuracyReport& report, bool front_only) {
-  std::string text =
-      "subject,model,curve,threshold_m,updates,updates_per_s,octets_per_s,position_rms_m,"
-      "position_p99_m,position_max_m,angle_rms_rad,angle_p99_rad,angle_max_rad,"
-      "velocity_step_rms_mps,velocity_step_p99_mps,velocity_step_max_mps,query_ns,front,beaten_"
-      "by\n";
-  for (const AccuracyResult& result : report.results) {
-    for (const std::size_t i : rows_in_order(result, front_only)) {
-      const AccuracyRow& row = result.rows[i];
-      const PoseResult& r = row.result;
-      text += fmt::format("{},{},{},{},{},{},{}", csv_quoted(result.subject), row.model.name,
-                          curve_name(row.curve), row.threshold, r.updates, r.updates_per_second(),
-                          row.octets_per_second());
-      for (const ErrorSize& size : {r.position, r.angle, r.velocity_step})
-        text += fmt::format(",{},{},{}", size.rms, size.p99, size.max);
-      text += fmt::format(
-          ",{},{},\"{}\"\n", row.query_ns > 0 ? fmt::format("{:.1f}", row.query_ns) : "",
-          row.beaten ? 0 : 1, row.beaten ? setting_text(result.rows[row.beaten->by]) : "");
-    }
-  }
-  return text;
+  std::vector<NamedRow> all;
+  for (const AccuracyResult& result : report.results)
+    std::ranges::move(named_rows(result, front_only), std::back_inserter(all));
+  return csv_of(all, setting_fields);
+}
+
+std::string accuracy_page_table(const AccuracyResult& result) {
+  return page_table_of(named_rows(result, false), setting_fields,
+                       [](const NamedRow& of) { return of.row.beaten.has_value(); });
 }
 
 std::string accuracy_json(const AccuracyReport& report, bool front_only) {
-  std::string text;
-  append_study(text, report);
-  for (const AccuracyResult& result : report.results) {
-    append_subject(text, result);
-    for (const std::size_t i : rows_in_order(result, front_only))
-      append_setting(text, result, result.rows[i]);
-  }
-  return text;
+  std::string text = study_fields(report).line();
+  for (const AccuracyResult& result : report.results)
+    text += subject_fields(result).line() + json_of(named_rows(result, front_only), setting_fields);
+  return text + contact_json(report.contacts, report.grid.network);
 }
 
-std::string circle_table(std::span<const CircleRow> rows) {
-  tools::TextTable table({{"MODEL"},
-                          {"CURVE"},
-                          {"RMS", Align::right},
-                          {"P99", Align::right},
-                          {"MAX", Align::right},
-                          {"ANGLE RMS", Align::right},
-                          {"LARGEST STEP", Align::right},
-                          {"BAR"}});
-  for (const CircleRow& row : rows) {
-    table.add({std::string(row.model.name), std::string(curve_name(row.curve)),
-               length_text(row.result.position.rms), length_text(row.result.position.p99),
-               length_text(row.result.position.max),
-               fmt::format("{} deg", number_text(degrees(row.result.angle.rms))),
-               fmt::format("{} m/s", number_text(row.result.velocity_step.max)),
-               row.clears() ? "cleared" : "missed"});
-  }
-  return table.text();
-}
-
-std::string circle_json(std::span<const CircleRow> rows) {
-  std::string out;
-  for (const CircleRow& row : rows) {
-    JsonObject object(out);
-    object.text("kind", "circle")
-        .text("model", row.model.name)
-        .text("curve", curve_name(row.curve));
-    add_result(object, row.result).value("clears", row.clears()).end("\n");
-  }
-  return out;
-}
-
-std::string equal_error_table(std::span<const NamedEqualError> rows) {
-  tools::TextTable table({{"OF"},
-                          {"MODEL"},
-                          {"SEND AT", Align::right},
-                          {"UPDATES", Align::right},
-                          {"P99", Align::right},
-                          {"RMS", Align::right},
-                          {"MAX", Align::right},
-                          {"SAVING", Align::right}});
-  const auto add = [&](std::string_view file, const PoseModel& model, double threshold,
-                       const PoseResult& result, const std::string& saving) {
-    table.add({std::string(file), std::string(model.name), length_text(threshold),
-               fmt::format("{}", result.updates), length_text(result.position.p99),
-               length_text(result.position.rms), length_text(result.position.max), saving});
-  };
-  std::string_view last;
-  for (const auto& [subject, found] : rows) {
-    if (subject != last)
-      add(subject, found.baseline, found.baseline_threshold, found.baseline_result, "");
-    last = subject;
-    if (found.threshold > 0)
-      add("", found.rival, found.threshold, found.result,
-          fmt::format("{:.1f} %", 100 * found.saving()));
-    else
-      table.add({"", std::string(found.rival.name), "none"});
-  }
-  return table.text();
+std::string circle_lines(std::span<const CircleRow> rows, bool json) {
+  return lines_of(json, rows, circle_fields);
 }
 
 std::string equal_error_json(std::span<const NamedEqualError> rows) {
-  std::string out;
-  const auto add = [](JsonObject& object, std::string_view key, const PoseModel& model,
-                      double threshold, const PoseResult& result) {
-    JsonObject inner(object.member(key));
-    inner.text("model", model.name).value("threshold_m", threshold);
-    add_result(inner, result).end();
+  return json_of(rows, equal_error_fields);
+}
+
+std::string equal_error_table(std::span<const NamedEqualError> rows) {
+  struct Side {
+    std::string_view of;
+    PoseModel model;
+    double threshold = 0;
+    PoseResult result;
+    std::string saving;
   };
+  std::vector<Side> sides;
+  std::string_view last;
   for (const auto& [subject, found] : rows) {
-    JsonObject object(out);
-    object.text("kind", "equal_error").text("subject", subject);
-    add(object, "baseline", found.baseline, found.baseline_threshold, found.baseline_result);
-    if (found.threshold > 0) {
-      add(object, "rival", found.rival, found.threshold, found.result);
-      object.value("saving", found.saving());
-    } else {
-      object.value("rival", "null").value("saving", "null");
-    }
-    object.end("\n");
+    if (subject != last)
+      sides.push_back(
+          {subject, found.baseline, found.baseline_threshold, found.baseline_result, ""});
+    last = subject;
+    sides.push_back({"", found.rival, found.threshold, found.result,
+                     fmt::format("{:.1f} %", 100 * found.saving())});
   }
-  return out;
+  return table_of(sides, [](const Side& side) {
+    Fields fields;
+    fields.word("OF", side.of)
+        .word("MODEL", side.model.name)
+        .cell("SEND AT", length_text(side.threshold))
+        .cell("UPDATES", fmt::format("{}", side.result.updates))
+        .cell("P99", length_text(side.result.position.p99))
+        .cell("RMS", length_text(side.result.position.rms))
+        .cell("MAX", length_text(side.result.position.max))
+        .cell("SAVING", side.saving);
+    if (!(side.threshold > 0)) fields.instead(2, "none");
+    return fields;
+  });
 }
 
 }  // namespace reckon::bench

@@ -24,20 +24,14 @@ struct AccuracyReport {
   std::vector<ContactRow> contacts;  ///< mostly none
 };
 
-/// Of tables and the sentences about them.
-inline constexpr std::size_t kColumns = 100;
-
-/// The text in lines of at most so many columns, without an end of line behind the last.
-[[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);
-
 /// Indices of the rows by octets/s, then error; those on the front alone where asked for.
 [[nodiscard]] std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_only);
 
 /// "80 ms +-40 %, 10 % lost, medians of 20 seeds from 1", and the other things in common.
 [[nodiscard]] std::string conditions_text(const AccuracyGrid& grid);
 
-/// A heading with what ran, and the table; at most 100 columns.
-[[nodiscard]] std::string accuracy_table(const AccuracyResult& result, bool front_only);
+/// The tables and what is said of them; at most 100 columns.
+[[nodiscard]] std::string accuracy_text(const AccuracyReport& report, bool front_only);
 
 /// Titles and one row a setting; lengths in metres, angles in radians.
 [[nodiscard]] std::string accuracy_csv(const AccuracyReport& report, bool front_only);
@@ -45,8 +39,12 @@ inline constexpr std::size_t kColumns = 100;
 /// A line for the study, one for each subject and one for each setting.
 [[nodiscard]] std::string accuracy_json(const AccuracyReport& report, bool front_only);
 
-[[nodiscard]] std::string circle_table(std::span<const CircleRow> rows);
-[[nodiscard]] std::string circle_json(std::span<const CircleRow> rows);
+/// The table of a page: every setting.
+[[nodiscard]] std::string accuracy_page_table(const AccuracyResult& result);
+/// One HTML file: for each subject the front as a picture, and the table, which can be sorted.
+[[nodiscard]] std::string accuracy_page(const AccuracyReport& report);
+
+[[nodiscard]] std::string circle_lines(std::span<const CircleRow> rows, bool json);
 
 /// A file and what was found of it.
 struct NamedEqualError {

@@ -6,38 +6,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <vector>
+#include <utility>
 
+#include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/studies/frame/fields.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
-#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
 
-/// A wide threshold is told to be worse from this much more error on.
+/// A wide threshold counts as worse from this ratio of errors on.
 constexpr double kWorse = 1.1;
 
 constexpr std::string_view kLegend =
     "Forces in mN. FEWER: an Entity State and an Attribute PDU each millisecond of each hand, over "
-    "all "
-    "packets.\nP50 to RMS: felt against the undelayed truth: spring that the devices can show x "
-    "true "
-    "overlap at that\ninstant, in contact. ASKED: P99 against the spring that was asked for. TWIN: "
-    "RMS "
-    "against a twin run of\nthe same hands and devices without a network. WEBER: share of the time "
-    "in "
-    "contact with an error that\na person may notice, above 10 % of the force and 50 mN; ! above 1 "
-    "%. "
-    "PEAK: in the first second of\ntouch, x the twin's. GAIN, PHASE [deg]: at the strokes' "
-    "frequency, "
-    "of the hand that strokes and of\nthe other, against the truth at that instant. LINGER [ms]: "
-    "felt "
-    "after the hands had parted. NS: one\nservo step, some 400 ns of it the simulated device. <: "
-    "another "
-    "row of the scene sends and errs no more.\n";
+    "all packets.\nP50 to RMS: felt against the undelayed truth: spring that the devices can show "
+    "x true overlap at that\ninstant, in contact. ASKED: P99 against the spring that was asked "
+    "for. TWIN: RMS against a twin run of\nthe same hands and devices without a network. WEBER: "
+    "share of the time in contact with an error that\na person may notice, above 10 % of the force "
+    "and 50 mN; ! above 1 %. PEAK: in the first second of\ntouch, x the twin's. GAIN, PHASE [deg]: "
+    "at the strokes' frequency, of the hand that strokes and of\nthe other, against the truth at "
+    "that instant. LINGER [ms]: felt after the hands had parted. NS: one\nservo step, some 400 ns "
+    "of it the simulated device. <: another row of the scene sends and errs no more.\n";
 
 std::string millinewtons(double newtons) { return number_text(1e3 * newtons); }
 
@@ -46,38 +37,100 @@ std::string ratio_text(const std::optional<double>& ratio) {
   return ratio ? fmt::format("{:.2f}", *ratio) : "-";
 }
 
-std::string gain_text(const ContactRow& row) {
-  if (!row.stroke) return "-";
-  return fmt::format("{:.2f} {:.2f}", (*row.stroke)[0].gain, (*row.stroke)[1].gain);
+/// Of both hands, between blanks.
+template <typename Text>
+std::string stroke_text(const ContactRow& row, Text&& text) {
+  return row.stroke ? text((*row.stroke)[0]) + ' ' + text((*row.stroke)[1]) : "-";
 }
 
-std::string phase_text(const ContactRow& row) {
-  if (!row.stroke) return "-";
-  return fmt::format("{:.0f} {:.0f}", degrees((*row.stroke)[0].phase),
-                     degrees((*row.stroke)[1].phase));
+void add_error(Fields& fields, std::string_view from, const ForceError& error) {
+  const auto known = [&](double value) {
+    return error.samples > 0 ? std::optional(value) : std::nullopt;
+  };
+  Fields sizes;
+  for (const auto& [name, value] : {std::pair{"p50", error.p50}, std::pair{"p99", error.p99},
+                                    std::pair{"max", error.max}, std::pair{"rms", error.rms}}) {
+    sizes.json(name, value);
+    fields.csv(fmt::format("{}_{}_n", from, name), known(value));
+  }
+  sizes.json("noticed", error.noticed).json("samples", error.samples);
+  fields.csv(fmt::format("{}_noticed", from), known(error.noticed))
+      .json(fmt::format("error_{}_n", from), error.samples > 0 ? Value(sizes) : Value(known(0)));
 }
 
-std::vector<std::string> cells_of(const ContactRow& row) {
+void add_stroke(Fields& fields, const ContactRow& row) {
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    const auto of = [&](double Response::*member) {
+      return row.stroke ? std::optional((*row.stroke)[hand].*member) : std::nullopt;
+    };
+    fields.csv(hand == 0 ? "gain" : "other_gain", of(&Response::gain))
+        .csv(hand == 0 ? "phase_rad" : "other_phase_rad", of(&Response::phase));
+  }
+  const auto hand_fields = [](const Response& response) {
+    return Fields().json("gain", response.gain).json("phase_rad", response.phase);
+  };
+  fields.json("stroke", row.stroke ? Value::array(*row.stroke, hand_fields) : Value::raw("null"));
+}
+
+void add_cells(Fields& fields, const ContactRow& row) {
   const ForceError& error = row.from_shown;
-  if (!row.touched())
-    return {sending_text(row.sending), number_text(row.packets_per_s),
-            number_text(row.times_fewer()), "did not touch"};
-  return {sending_text(row.sending),
-          number_text(row.packets_per_s),
-          number_text(row.times_fewer()),
-          millinewtons(error.p50),
-          millinewtons(error.p99),
-          millinewtons(error.max),
-          millinewtons(error.rms),
-          millinewtons(row.from_asked.p99),
-          row.from_twin ? millinewtons(*row.from_twin) : "-",
-          fmt::format("{:.1f} %{}", 100 * error.noticed, error.noticed > 0.01 ? " !" : ""),
-          ratio_text(row.first_peak),
-          gain_text(row),
-          phase_text(row),
-          fmt::format("{:.0f}", 1e3 * row.linger),
-          fmt::format("{:.0f}", row.servo_step_ns),
-          row.beaten ? "<" : ""};
+  fields.page_word("scene", html_escaped(row.scene))
+      .page_word("send at", html_escaped(sending_text(row.sending)))
+      .cell("SEND AT", sending_text(row.sending))
+      .shown("PKT/S", "packets/s", row.packets_per_s, number_text(row.packets_per_s))
+      .shown("FEWER", "fewer", row.times_fewer(), number_text(row.times_fewer()));
+  for (const auto& [title, newtons] :
+       {std::pair{"P50", error.p50}, std::pair{"P99", error.p99}, std::pair{"MAX", error.max},
+        std::pair{"RMS", error.rms}, std::pair{"ASKED", row.from_asked.p99}})
+    fields.cell(title, millinewtons(newtons));
+  fields.cell("TWIN", row.from_twin ? millinewtons(*row.from_twin) : "-")
+      .cell("WEBER",
+            fmt::format("{:.1f} %{}", 100 * error.noticed, error.noticed > 0.01 ? " !" : ""))
+      .cell("PEAK", ratio_text(row.first_peak))
+      .cell("GAIN", stroke_text(row, [](auto& at) { return fmt::format("{:.2f}", at.gain); }))
+      .cell("PHASE",
+            stroke_text(row, [](auto& at) { return fmt::format("{:.0f}", degrees(at.phase)); }))
+      .cell("LINGER", fmt::format("{:.0f}", 1e3 * row.linger))
+      .cell("NS", fmt::format("{:.0f}", row.servo_step_ns))
+      .word("", row.beaten ? "<" : "");
+  for (const auto& [title, value] :
+       {std::pair{"RMS [N]", error.rms}, std::pair{"99 % [N]", error.p99},
+        std::pair{"max [N]", error.max}, std::pair{"linger [s]", row.linger},
+        std::pair{"servo step [ns]", row.servo_step_ns}})
+    fields.page(title, value, number_text(value));
+  if (!row.touched()) fields.instead(3, "did not touch").page_instead(4, "did not touch");
+}
+
+Fields fields_of(const ContactRow& row, const peer::ImpairmentConfig& network) {
+  Fields fields("contact");
+  fields.value("scene", row.scene)
+      .value("send_at", sending_text(row.sending))
+      .value("delay_s", pdu::to_seconds(network.law.delay))
+      .value("jitter", peer::jitter_share(network.law))
+      .value("loss", network.law.loss)
+      .json("seed", network.seed)
+      .value("hands", row.hands)
+      .value("asked_n_per_m", row.asked)
+      .value("shown_n_per_m", row.shown)
+      .value("packets_per_s", row.packets_per_s)
+      .value("octets_per_s", row.octets_per_s)
+      .value("for_force_per_s", row.for_force_per_s)
+      .value("times_fewer", row.times_fewer());
+  add_error(fields, "shown", row.from_shown);
+  add_error(fields, "asked", row.from_asked);
+  fields.value("twin_rms_n", row.touched() ? row.from_twin : std::nullopt)
+      .value("first_peak", row.first_peak);
+  add_stroke(fields, row);
+  fields.value("linger_s", Value::decimals(row.linger, 3))
+      .value("servo_step_ns", row.servo_step_ns)
+      .value("front", !row.beaten);
+  add_cells(fields, row);
+  return fields;
+}
+
+/// A row's fields for a network.
+auto contact_fields(const peer::ImpairmentConfig& network) {
+  return [network](const ContactRow& row) { return fields_of(row, network); };
 }
 
 /// What wide thresholds do here, where they do not help.
@@ -102,24 +155,6 @@ std::string wide_text(std::span<const ContactRow> rows) {
 }
 
 std::string scene_text(std::span<const ContactRow> rows) {
-  constexpr auto kRight = tools::TextTable::Align::right;
-  tools::TextTable table({{"SEND AT", kRight},
-                          {"PKT/S", kRight},
-                          {"FEWER", kRight},
-                          {"P50", kRight},
-                          {"P99", kRight},
-                          {"MAX", kRight},
-                          {"RMS", kRight},
-                          {"ASKED", kRight},
-                          {"TWIN", kRight},
-                          {"WEBER", kRight},
-                          {"PEAK", kRight},
-                          {"GAIN", kRight},
-                          {"PHASE", kRight},
-                          {"LINGER", kRight},
-                          {"NS", kRight},
-                          {""}});
-  for (const ContactRow& row : rows) table.add(cells_of(row));
   const ContactRow& first = rows.front();
   std::string meaning;
   for (const ContactScene& scene : contact_scenes())
@@ -128,25 +163,7 @@ std::string scene_text(std::span<const ContactRow> rows) {
                                  number_text(first.asked));
   if (first.shown < first.asked)
     text += fmt::format(", of which the devices can show {}", number_text(first.shown));
-  return text + "\n" + table.text() + wide_text(rows) + "\n";
-}
-
-std::string error_json(const ForceError& error) {
-  if (error.samples == 0) return "null";
-  std::string out;
-  tools::JsonObject(out)
-      .value("p50", error.p50)
-      .value("p99", error.p99)
-      .value("max", error.max)
-      .value("rms", error.rms)
-      .value("noticed", error.noticed)
-      .value("samples", error.samples)
-      .end();
-  return out;
-}
-
-std::string maybe(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
+  return text + "\n" + table_of(rows, contact_fields({})) + wide_text(rows) + "\n";
 }
 
 }  // namespace
@@ -167,69 +184,15 @@ std::string contact_text(std::span<const ContactRow> rows, const peer::Impairmen
 }
 
 std::string contact_json(std::span<const ContactRow> rows, const peer::ImpairmentConfig& network) {
-  std::string text;
-  for (const ContactRow& row : rows) {
-    tools::JsonObject object(text);
-    object.text("kind", "contact")
-        .text("scene", row.scene)
-        .text("send_at", sending_text(row.sending))
-        .value("delay_s", pdu::to_seconds(network.law.delay))
-        .value("jitter", peer::jitter_share(network.law))
-        .value("loss", network.law.loss)
-        .value("seed", network.seed)
-        .value("hands", row.hands)
-        .value("asked_n_per_m", row.asked)
-        .value("shown_n_per_m", row.shown)
-        .value("packets_per_s", row.packets_per_s)
-        .value("octets_per_s", row.octets_per_s)
-        .value("for_force_per_s", row.for_force_per_s)
-        .value("times_fewer", row.times_fewer())
-        .value("error_shown_n", error_json(row.from_shown))
-        .value("error_asked_n", error_json(row.from_asked))
-        .number("twin_rms_n", row.touched() ? row.from_twin : std::nullopt)
-        .number("first_peak", row.first_peak);
-    if (row.stroke)
-      object.array("stroke", *row.stroke, [](std::string& out, const Response& response) {
-        tools::JsonObject(out)
-            .value("gain", response.gain)
-            .value("phase_rad", response.phase)
-            .end();
-      });
-    else
-      object.value("stroke", "null");
-    object.decimals("linger_s", row.linger, 3)
-        .value("servo_step_ns", row.servo_step_ns)
-        .value("front", !row.beaten)
-        .end("\n");
-  }
-  return text;
+  return json_of(rows, contact_fields(network));
 }
 
 std::string contact_csv(std::span<const ContactRow> rows, const peer::ImpairmentConfig& network) {
-  std::string text =
-      "scene,send_at,delay_s,jitter,loss,hands,asked_n_per_m,shown_n_per_m,packets_per_s,"
-      "octets_per_s,for_force_per_s,times_fewer,shown_p50_n,shown_p99_n,shown_max_n,shown_rms_n,"
-      "shown_noticed,asked_p50_n,asked_p99_n,asked_max_n,asked_rms_n,asked_noticed,twin_rms_n,"
-      "first_peak,gain,phase_rad,other_gain,other_phase_rad,linger_s,servo_step_ns,front\n";
-  for (const ContactRow& row : rows) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}", row.scene,
-                   sending_text(row.sending), pdu::to_seconds(network.law.delay),
-                   peer::jitter_share(network.law), network.law.loss, row.hands, row.asked,
-                   row.shown, row.packets_per_s, row.octets_per_s, row.for_force_per_s,
-                   row.times_fewer());
-    for (const ForceError& error : {row.from_shown, row.from_asked})
-      text += error.samples > 0 ? fmt::format(",{},{},{},{},{}", error.p50, error.p99, error.max,
-                                              error.rms, error.noticed)
-                                : ",,,,,";
-    text += fmt::format(",{},{}", maybe(row.touched() ? row.from_twin : std::nullopt),
-                        maybe(row.first_peak));
-    for (std::size_t hand = 0; hand < 2; ++hand)
-      text += row.stroke
-                  ? fmt::format(",{},{}", (*row.stroke)[hand].gain, (*row.stroke)[hand].phase)
-                  : ",,";
-    text += fmt::format(",{:.3f},{},{}\n", row.linger, row.servo_step_ns, row.beaten ? 0 : 1);
-  }
-  return text;
+  return csv_of(rows, contact_fields(network));
+}
+
+std::string contact_page_table(std::span<const ContactRow> rows) {
+  return page_table_of(rows, contact_fields({}));
 }
 
 }  // namespace reckon::bench

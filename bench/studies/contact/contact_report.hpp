@@ -19,5 +19,7 @@ namespace reckon::bench {
 /// With a line of names. What a row does not have is empty.
 [[nodiscard]] std::string contact_csv(std::span<const ContactRow> rows,
                                       const peer::ImpairmentConfig& network);
+/// The table of a page.
+[[nodiscard]] std::string contact_page_table(std::span<const ContactRow> rows);
 
 }  // namespace reckon::bench

@@ -223,10 +223,9 @@ Figure figure_unilateral_collision() {
       "zero without contact. No number is printed.";
   figure.why =
       "agrees in kind: where the hand rests both give its push, whatever K_s is (of the heavy "
-      "hands "
-      "some still swing after 1 s). The sizes are not reproducible, because mass, push and gap are "
-      "not printed (ours: 0.1 kg, 1 N s/m, 1 N, "
-      "5 mm). With K_s = 0.9 the wall is nine times as stiff; K_s = K_c is what (4.21) gives.";
+      "hands some still swing after 1 s). The sizes are not reproducible, because mass, push and "
+      "gap are not printed (ours: 0.1 kg, 1 N s/m, 1 N, 5 mm). With K_s = 0.9 the wall is nine "
+      "times as stiff; K_s = K_c is what (4.21) gives.";
   return figure;
 }
 
@@ -259,8 +258,8 @@ Figure figure_bilateral_collision() {
       "complex one.";
   figure.why =
       "not reproducible, because it is the complex model (5.4) that holds one sample of delay: in "
-      "no scene tried does the simple one come later. Masses and speed are not printed (ours: "
-      "0.1 kg at 0.3 m/s on 0.2 kg that slides with 2 N s/m).";
+      "no scene tried does the simple one come later. Masses and speed are not printed (ours: 0.1 "
+      "kg at 0.3 m/s on 0.2 kg that slides with 2 N s/m).";
   return figure;
 }
 

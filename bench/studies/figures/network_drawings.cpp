@@ -128,11 +128,10 @@ Figure drawing_signal_graph() {
   d.arrow({in2.at(35, -6), out1.at(-35, 6)});
   d.text(345, 84, "-z^-1 HD1 VE2 ZOH HD2");
   d.text(345, 200, "-z^-1 HD2 VE1 ZOH HD1");
-  return drawn(
-      std::move(d),
-      "Signal flow of two users, from pushes to speeds; it gives the matrix of (4.1).",
-      "printed_pair() is this graph: the loop of each user with the own environment is not "
-      "in it, and the coupling has the wrong sign. closed_pair() has both.");
+  return drawn(std::move(d),
+               "Signal flow of two users, from pushes to speeds; it gives the matrix of (4.1).",
+               "printed_pair() is this graph: the loop of each user with the own environment is "
+               "not in it, and the coupling has the wrong sign. closed_pair() has both.");
 }
 
 Figure drawing_delayed_junction() {
@@ -154,19 +153,17 @@ Figure drawing_transmission_line() {
   Diagram d;
   const Node one = d.box(110, 80, "subsystem a", 120, 110);
   const Node two = d.box(650, 80, "subsystem b", 120, 110);
-  const Node line = d.box(380, 80,
-                          "lossless line\nZ_0 = sqrt(M K), T = sqrt(M/K)\nwaves e + Z_0 f, "
-                          "e - Z_0 f",
-                          240, 110);
+  const Node line =
+      d.box(380, 80, "lossless line\nZ_0 = sqrt(M K), T = sqrt(M/K)\nwaves e + Z_0 f, e - Z_0 f",
+            240, 110);
   d.arrow({one.right(-30), line.left(-30)}, "e_a, f_a");
   d.arrow({line.right(-30), two.left(-30)}, "e^-Ts");
   d.arrow({two.left(30), line.right(30)}, "e_b, f_b");
   d.arrow({line.left(30), one.right(30)}, "e^-Ts");
-  return drawn(
-      std::move(d),
-      "A junction by a lossless, dispersionless transmission line between the subsystems.",
-      "transmission_line() and WaveLine (wave_line.hpp): what goes in at one end comes out "
-      "at the other T later; no energy made at any constant delay.");
+  return drawn(std::move(d),
+               "A junction by a lossless, dispersionless transmission line between the subsystems.",
+               "transmission_line() and WaveLine (wave_line.hpp): what goes in at one end comes "
+               "out at the other T later; no energy made at any constant delay.");
 }
 
 Figure drawing_environments() {

@@ -75,8 +75,8 @@ Figure figure_two_users_force() {
   figure.thesis =
       "Ideally 0; a steady-state error and an oscillation larger than alone. No number is printed.";
   figure.why =
-      "agrees in kind without T: both push, and each feels 0.4 N of the other's lateness, "
-      "K d/(b + K d). With T that is 0.007 N.";
+      "agrees in kind without T: both push, and each feels 0.4 N of the other's lateness, K d/(b + "
+      "K d). With T that is 0.007 N.";
   return figure;
 }
 

@@ -30,10 +30,9 @@ Figure drawing_family() {
   d.arrow({{380, 130}, left.right()}, "");
   d.arrow({{380, 130}, right.left()}, "");
   d.text(380, 120, "siblings");
-  return drawn(
-      std::move(d), "Parent, child and sibling in a scene graph.",
-      "src/scene/graph: of each node its parent and the end of its subtree; the first child "
-      "stands right behind its parent (docs/scene_graph.md).");
+  return drawn(std::move(d), "Parent, child and sibling in a scene graph.",
+               "src/scene/graph: of each node its parent and the end of its subtree; the first "
+               "child stands right behind its parent (docs/scene_graph.md).");
 }
 
 Figure drawing_traversal() {
@@ -57,10 +56,9 @@ Figure drawing_traversal() {
   for (const auto& [parent, child] : family) d.arrow({parent.bottom(), child.top()});
   return drawn(
       std::move(d),
-      "Traversal from top to bottom, left to right; the numbers show the order, once a "
-      "frame.",
-      "src/scene/graph: nodes are kept in this order, and GraphWalk modifies a state on the "
-      "way; the tree is an example of ours.");
+      "Traversal from top to bottom, left to right; the numbers show the order, once a frame.",
+      "src/scene/graph: nodes are kept in this order, and GraphWalk modifies a state on the way; "
+      "the tree is an example of ours.");
 }
 
 Figure drawing_contact_point() {
@@ -76,11 +74,11 @@ Figure drawing_contact_point() {
   d.text(590, 70, "SCP, on the surface");
   d.text(600, 164, "device, where it is");
   d.text(615, 124, "F = K (SCP - device) - b v");
-  return drawn(std::move(d),
-               "The surface contact point (SCP) stays on the surface while the device passes "
-               "through it.",
-               "haptics/geometry: the SCP never penetrates planes, solids, meshes and implicit "
-               "surfaces; the spring between SCP and device is the force.");
+  return drawn(
+      std::move(d),
+      "The surface contact point (SCP) stays on the surface while the device passes through it.",
+      "haptics/geometry: the SCP never penetrates planes, solids, meshes and implicit surfaces; "
+      "the spring between SCP and device is the force.");
 }
 
 Figure drawing_processes() {
@@ -106,10 +104,9 @@ Figure drawing_processes() {
   d.text(400, 238, "states");
   d.arrow({servo.bottom(-30), dynamics.top(-30)});
   d.arrow({dynamics.top(30), servo.bottom(30)});
-  return drawn(
-      std::move(d), "Application and haptic process and what passes between them.",
-      "Reckon's peer has the servo at 1 kHz in a thread of its own, and threads for model, "
-      "network and display beside it (docs/architecture.md, loops).");
+  return drawn(std::move(d), "Application and haptic process and what passes between them.",
+               "Reckon's peer has the servo at 1 kHz in a thread of its own, and threads for "
+               "model, network and display beside it (docs/architecture.md, loops).");
 }
 
 Figure drawing_simulation_loop() {
@@ -140,10 +137,10 @@ Figure drawing_work_space() {
   d.arrow({second.middle, other.at(20, 35)});
   d.arrow({cube.left(), space.left(40), space.at(-150, 90)});
   d.text(85, 175, "rebound with\ndamped velocity");
-  return drawn(std::move(d), "The work space: two users, cubes, and a box of six walls.",
-               "Reckon's scenes hold solids, bodies and hands at any place; the six walls are the "
-               "scene's work_space, which bodies rebound from and hands do not feel "
-               "(docs/bodies.md).");
+  return drawn(
+      std::move(d), "The work space: two users, cubes, and a box of six walls.",
+      "Reckon's scenes hold solids, bodies and hands at any place; the six walls are the scene's "
+      "work_space, which bodies rebound from and hands do not feel (docs/bodies.md).");
 }
 
 }  // namespace reckon::bench

@@ -14,16 +14,17 @@
 #include <thread>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/studies/frame/fields.hpp"
+#include "reckon/bench/studies/frame/study.hpp"
 #include "reckon/bench/studies/latency/stepped_hand.hpp"
 #include "reckon/bench/studies/latency/touch_matching.hpp"
 #include "reckon/bench/studies/latency/udp_ping.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
-#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -103,9 +104,9 @@ struct Side {
   nanoseconds last_step{0};  // of those collected in this round; 0: none
 };
 
-class Study {
+class Measurement {
  public:
-  Study(const LatencyOptions& options, const tools::Console& console)
+  Measurement(const LatencyOptions& options, const tools::Console& console)
       : console_(console),
         random_(options.seed),
         choice_(peer::choose_interface(options.iface, false)),
@@ -222,55 +223,97 @@ class Study {
   Latencies found_;
 };
 
-void print_text(std::FILE* out, const LatencyOptions& options, const Latencies& found) {
-  tools::TextTable table({{"WHAT"},
-                          {"P50 us", tools::TextTable::Align::right},
-                          {"P99 us", tools::TextTable::Align::right},
-                          {"P99.9 us", tools::TextTable::Align::right},
-                          {"MAX us", tools::TextTable::Align::right},
-                          {"NUMBER", tools::TextTable::Align::right}});
-  const auto row = [&](const char* what, const std::vector<nanoseconds>& times) {
-    const peer::Spread s = spread_us(times);
-    const auto text = [](double value) { return fmt::format("{:.1f}", value); };
-    table.add({what, text(s.p50), text(s.p99), text(s.p999), text(s.max),
-               fmt::format("{}", times.size())});
-  };
-  row("bare datagram, there", found.there);
-  row("bare datagram, there and back", found.there_and_back);
-  row("touch, servo to servo", found.touch);
-  row("one servo step to the next", found.servo_steps);
-  fmt::print(out, "{}On {}, two peers in one process, in turn for {:.0f} s. ", table.text(),
-             options.iface, pdu::to_seconds(options.length));
-  fmt::print(out, "A servo sees news at its next step: 0 to 1 ms of a touch are that wait.\n");
-  fmt::print(out, "{} touches did not show in time; the peers took {:.1f} % of a core each{}\n",
-             found.missed,
-             found.peer_seconds > 0 ? 50.0 * found.cpu_seconds / found.peer_seconds : 0.0,
-             found.real_time ? "" : "; no real-time right, see reckon doctor");
+struct LatencyRow {
+  std::string_view what;
+  const std::vector<nanoseconds>* times;
+};
+
+Fields row_fields(const LatencyRow& row) {
+  const peer::Spread s = row.times == nullptr ? peer::Spread{} : spread_us(*row.times);
+  const auto text = [](double value) { return fmt::format("{:.1f}", value); };
+  return Fields()
+      .word("WHAT", row.what)
+      .cell("P50 us", text(s.p50))
+      .cell("P99 us", text(s.p99))
+      .cell("P99.9 us", text(s.p999))
+      .cell("MAX us", text(s.max))
+      .cell("NUMBER", fmt::format("{}", s.count));
 }
 
-void print_json(std::FILE* out, const LatencyOptions& options, const Latencies& found) {
-  const auto spread = [](const std::vector<nanoseconds>& times) {
-    return tools::spread_json(spread_us(times));
-  };
-  std::string line;
-  tools::JsonObject(line)
-      .text("kind", "latency")
-      .text("iface", options.iface)
-      .value("seconds", pdu::to_seconds(options.length))
-      .value("there_us", spread(found.there))
-      .value("there_and_back_us", spread(found.there_and_back))
-      .value("touch_us", spread(found.touch))
-      .value("servo_step_us", spread(found.servo_steps))
-      .value("pings", found.there.size())
-      .value("touches", found.touch.size())
-      .value("missed", found.missed)
-      .value("real_time", found.real_time)
-      .value("cpu_of_peer",
-             found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0)
-      .value("felt", found.felt)
-      .end("\n");
-  fmt::print(out, "{}", line);
+std::string latency_text(const LatencyOptions& options, const Latencies& found) {
+  const std::vector<LatencyRow> rows{{"bare datagram, there", &found.there},
+                                     {"bare datagram, there and back", &found.there_and_back},
+                                     {"touch, servo to servo", &found.touch},
+                                     {"one servo step to the next", &found.servo_steps}};
+  return fmt::format(
+      "{}On {}, two peers in one process, in turn for {:.0f} s. A servo sees news at its next "
+      "step: 0 to 1 ms of a touch are that wait.\n{} touches did not show in time; the peers took "
+      "{:.1f} % of a core each{}\n",
+      table_of(rows, row_fields), options.iface, pdu::to_seconds(options.length), found.missed,
+      100 * found.cpu_of_peer(), found.real_time ? "" : "; no real-time right, see reckon doctor");
 }
+
+std::string latency_json(const LatencyOptions& options, const Latencies& found) {
+  const auto spread = [](const std::vector<nanoseconds>& times) {
+    return Value::raw(tools::spread_json(spread_us(times)));
+  };
+  return Fields("latency")
+      .json("iface", options.iface)
+      .json("seconds", pdu::to_seconds(options.length))
+      .json("there_us", spread(found.there))
+      .json("there_and_back_us", spread(found.there_and_back))
+      .json("touch_us", spread(found.touch))
+      .json("servo_step_us", spread(found.servo_steps))
+      .json("pings", found.there.size())
+      .json("touches", found.touch.size())
+      .json("missed", found.missed)
+      .json("real_time", found.real_time)
+      .json("cpu_of_peer", found.cpu_of_peer())
+      .json("felt", found.felt)
+      .line();
+}
+
+/// Before anything is begun.
+void check_key(const std::string& file) {
+  if (file.empty()) return;
+  try {
+    static_cast<void>(peer::load_group_key(file));
+  } catch (const peer::KeyFileError& error) {
+    throw tools::UsageError(error.what());
+  }
+}
+
+class LatencyStudy final : public Study {
+ public:
+  std::vector<Flag> flags() override {
+    return {
+        {"--iface", &options_.iface, "latency: interface that is used (lo)",
+         std::string(tools::kInterfaces)},
+        {"--key", &options_.key, "latency: key file, of a touch that is sealed"},
+        {"--contact-groups", &options_.touch_tier,
+         "latency: the touch goes by a group of its own, as [[aoim.tier]] to = \"touch\" has it"}};
+  }
+
+  StudyOutput run(const StudyCall& call) override {
+    options_.length = shared_.span();
+    options_.seed = shared_.first_seed();
+    if (!shared_.files.empty())
+      throw tools::UsageError("bench latency reads no FILE: leave it out");
+    if (options_.length < kShortestLatencyStudy)
+      throw tools::UsageError(
+          "--for: bench latency takes 4s at least, for one round of pings and touches");
+    check_key(options_.key);
+    try {
+      const Latencies found = measure_latency(options_, call.console);
+      return {shared_.json ? latency_json(options_, found) : latency_text(options_, found)};
+    } catch (const std::runtime_error& error) {
+      throw tools::EnvironmentError(error.what());
+    }
+  }
+
+ private:
+  LatencyOptions options_;
+};
 
 }  // namespace
 
@@ -282,18 +325,9 @@ peer::Spread spread_us(std::vector<nanoseconds> times) {
 }
 
 Latencies measure_latency(const LatencyOptions& options, const tools::Console& console) {
-  return Study(options, console).run(options.length);
+  return Measurement(options, console).run(options.length);
 }
 
-int bench_latency(const LatencyOptions& options, const tools::Console& console) {
-  Latencies found;
-  try {
-    found = measure_latency(options, console);
-  } catch (const std::runtime_error& error) {
-    throw tools::EnvironmentError(error.what());
-  }
-  (options.json ? print_json : print_text)(console.out, options, found);
-  return tools::exit_status(tools::ExitCode::good);
-}
+std::unique_ptr<Study> latency_study() { return std::make_unique<LatencyStudy>(); }
 
 }  // namespace reckon::bench

@@ -22,7 +22,6 @@ struct LatencyOptions {
   std::chrono::nanoseconds length = std::chrono::seconds(60);
   std::uint64_t seed = 1;   ///< of jumps and pauses
   bool touch_tier = false;  ///< the touch goes by groups of its own
-  bool json = false;
 };
 
 /// Hands have to meet first, and one round takes its time.
@@ -39,6 +38,11 @@ struct Latencies {
   double cpu_seconds = 0;   ///< of the whole process, while the peers ran
   double peer_seconds = 0;  ///< time that they ran
   std::uint64_t felt = 0;   ///< updates that went by contact groups
+
+  /// Share of a core.
+  [[nodiscard]] double cpu_of_peer() const {
+    return peer_seconds > 0 ? 0.5 * cpu_seconds / peer_seconds : 0.0;
+  }
 };
 
 /// Percentiles [us].
@@ -49,8 +53,5 @@ struct Latencies {
 /// @throws std::runtime_error where the interface or its sockets cannot be had.
 [[nodiscard]] Latencies measure_latency(const LatencyOptions& options,
                                         const tools::Console& console);
-
-/// `reckon bench latency`: measures and prints; the exit status.
-int bench_latency(const LatencyOptions& options, const tools::Console& console);
 
 }  // namespace reckon::bench

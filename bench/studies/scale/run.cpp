@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/bench/studies/accuracy/query_cost.hpp"
+#include "reckon/bench/studies/frame/text_lines.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
 #include "reckon/bench/studies/scale/measured_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"

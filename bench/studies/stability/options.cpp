@@ -11,9 +11,9 @@
 #include <sstream>
 #include <utility>
 
+#include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 
@@ -28,11 +28,7 @@ CouplingMode read_mode(std::string_view name) {
   if (const auto mode = coupling_mode(name)) return *mode;
   std::vector<std::string_view> names;
   for (const CouplingMode mode : kCouplingModes) names.push_back(name_of(mode));
-  const std::string_view nearest = peer::nearest_word(name, names);
-  throw tools::UsageError(
-      fmt::format("--coupling: there is no '{}'{}; known: {}, all", name,
-                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                  fmt::join(names, ", ")));
+  refuse_name("--coupling", name, names, ", all");
 }
 
 /// In the order of the list, each once.
@@ -185,13 +181,34 @@ OperatorModel recorded_operator(const std::string& file) {
   return hand;
 }
 
+std::vector<Flag> StabilityWords::flags() {
+  std::vector<std::string_view> names, known;
+  for (const StabilityParameter& parameter : stability_parameters())
+    names.push_back(parameter.name);
+  for (const CouplingMode mode : kCouplingModes) known.push_back(name_of(mode));
+  return {{"--sweep", &sweeps,
+           fmt::format("stability: NAME=A..B/N or NAME=A,B,C, once an axis; all else stays as FILE "
+                       "has it; names: {}",
+                       fmt::join(names, ", "))},
+          {"--coupling", &modes,
+           fmt::format("stability: modes between commas, or all (the default): {}",
+                       fmt::join(known, ", "))},
+          {"--no-gate", &no_gate,
+           "stability: the mode reckon without its energy port, told wherever it shows"},
+          {"--hand", &hand, "stability: recorded trace that the hand follows"},
+          {"--peak", &peak, "stability: force above which peaks are counted (10 N)"}};
+}
+
 StabilityOptions read_stability_options(const StabilityWords& words) {
   StabilityOptions options;
   StabilityPlan& plan = options.plan;
-  if (!words.scene.empty()) apply_scene(words.scene, options);
+  if (words.files.size() > 1)
+    throw tools::UsageError("bench stability reads one FILE, the scene; leave the others out");
+  const bool has_scene = !words.files.empty();
+  if (has_scene) apply_scene(words.files.front(), options);
   if (!words.modes.empty() || plan.modes.empty()) plan.modes = read_modes(words.modes);
   for (const std::string& sweep : words.sweeps) plan.axes.push_back(read_stability_axis(sweep));
-  if (words.sweeps.empty() && words.scene.empty() && words.hand.empty()) plan.axes = default_axes();
+  if (words.sweeps.empty() && !has_scene && words.hand.empty()) plan.axes = default_axes();
   if (words.seed) plan.seed = *words.seed;
   if (words.length) plan.base.run.duration = read_length(*words.length);
   plan.peak = read_peak(words.peak);

@@ -6,10 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/studies/frame/study.hpp"
 #include "reckon/bench/studies/stability/plan.hpp"
-#include "reckon/bench/studies/stability/run.hpp"
 
 namespace reckon::bench {
+
+/// The words as typed.
+struct StabilityWords : SharedWords {
+  std::vector<std::string> sweeps;  ///< "delay=0..200ms/5"
+  std::vector<std::string> modes;   ///< names between commas; none: the scene's baseline, else all
+  std::string hand;                 ///< recorded trace of the hand
+  std::string peak = "10 N";
+  bool no_gate = false;
+
+  [[nodiscard]] std::vector<Flag> flags();
+};
 
 struct StabilityOptions {
   StabilityPlan plan;

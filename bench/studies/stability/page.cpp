@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/bench/studies/stability/page.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +8,7 @@
 
 #include "reckon/bench/plots/html_page.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/bench/studies/stability/text.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -198,11 +197,11 @@ void append_map(std::string& out, const StabilityReport& report, const Layout& l
     if (axis != layout.across && axis != layout.up)
       fmt::format_to(tools::end_of(caption), "{}{} {}", caption.empty() ? "" : ", ",
                      short_name(*plan.axes[axis].parameter), text_at(plan, axis, cells.front()));
-  fmt::format_to(tools::end_of(out),
-                 "<figure style=\"width:{1}px\"><figcaption>{0}</figcaption>\n<svg class=\"map\" "
-                 "width=\"{1}\" "
-                 "height=\"{2}\" viewBox=\"0 0 {1} {2}\" role=\"img\" aria-label=\"{0}\">\n",
-                 html_escaped(caption), width, bottom + kBelow);
+  fmt::format_to(
+      tools::end_of(out),
+      "<figure style=\"width:{1}px\"><figcaption>{0}</figcaption>\n<svg class=\"map\" "
+      "width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\" role=\"img\" aria-label=\"{0}\">\n",
+      html_escaped(caption), width, bottom + kBelow);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto column = static_cast<int>(i % wide), row = static_cast<int>(i / wide);
     append_cell(out, report, mode * plan.cells() + cells[i], kLeft + column * kCellWide,
@@ -222,10 +221,10 @@ void append_map(std::string& out, const StabilityReport& report, const Layout& l
     label(kLeft + static_cast<int>(wide) * kCellWide / 2, bottom + 33, "middle",
           std::string(plan.axes[*layout.across].parameter->name));
   if (layout.up)
-    fmt::format_to(tools::end_of(out),
-                   "<text transform=\"translate(11 {}) rotate(-90)\" "
-                   "text-anchor=\"middle\">{}</text>\n",
-                   (kTop + bottom) / 2, plan.axes[*layout.up].parameter->name);
+    fmt::format_to(
+        tools::end_of(out),
+        "<text transform=\"translate(11 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+        (kTop + bottom) / 2, plan.axes[*layout.up].parameter->name);
   out += "</svg></figure>\n";
 }
 
@@ -247,40 +246,24 @@ std::vector<std::vector<std::size_t>> maps_of(const StabilityPlan& plan, const L
 }
 
 void append_summary(std::string& out, const StabilityReport& report) {
-  out += fmt::format(
-      "<section class=\"wide\">\n<table>\n<tr><th class=\"w\">mode</th><th>right</th><th>makes "
-      "energy</th><th>runs away</th><th>peak &gt; {:g} N</th><th>no rest</th><th>force off</th>"
-      "<th>stiffness kept</th><th>worst energy [J]</th></tr>\n",
-      report.plan.peak);
-  const auto share = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.1f} %", 100 * *value) : std::string("-");
-  };
-  for (const StabilitySummary& row : summaries_of(report))
-    fmt::format_to(tools::end_of(out),
-                   "<tr><td class=\"w\"><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td>"
-                   "<td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td><td>{7}</td><td>{8:.3g}</td>"
-                   "</tr>\n",
-                   row.mode, share(row.right), share(row.made_energy), share(row.diverged),
-                   share(row.peak), share(row.cycles), share(row.wrong),
-                   row.kept ? number_text(*row.kept) : "-", row.least_energy);
   fmt::format_to(
       tools::end_of(out),
-      "</table>\n<p class=\"note\">right: no energy made, at rest where it should be, force off by "
-      "{0:g} % at most (rms, of the right force's). makes energy: more than 1 nJ that nobody put "
-      "in. runs away: beyond 10 m or 1 MN. no rest: moves on at more than {1:g} m/s under a "
-      "constant push against what stands still. force off: by more than {0:g} %, of those that did "
-      "not run away. stiffness kept: median.</p>\n</section>\n",
-      100 * kWrong, kRest);
+      "<section>\n{2}<p class=\"note\">right: no energy made, at rest where it should be, force "
+      "off by {0:g} % at most (rms, of the right force's). makes energy: more than 1 nJ that "
+      "nobody put in. runs away: beyond 10 m or 1 MN. no rest: moves on at more than {1:g} m/s "
+      "under a constant push against what stands still. force off: by more than {0:g} %, of those "
+      "that did not run away. stiffness kept: median.</p>\n</section>\n",
+      100 * kWrong, kRest, stability_page_table(report));
 }
 
 void append_legend(std::string& out) {
   out += "<div class=\"legend\">";
   for (std::size_t i = 0; i < kVerdicts; ++i)
-    fmt::format_to(tools::end_of(out),
-                   "<span><svg width=\"20\" height=\"20\"><rect class=\"v{0}\" width=\"20\" "
-                   "height=\"20\"/><text class=\"c v{0}\" x=\"10\" y=\"14\">{1}</text></svg>{2}"
-                   "</span>",
-                   i, kLetters[i], name_of(static_cast<StabilityVerdict>(i)));
+    fmt::format_to(
+        tools::end_of(out),
+        "<span><svg width=\"20\" height=\"20\"><rect class=\"v{0}\" width=\"20\" "
+        "height=\"20\"/><text class=\"c v{0}\" x=\"10\" y=\"14\">{1}</text></svg>{2}</span>",
+        i, kLetters[i], name_of(static_cast<StabilityVerdict>(i)));
   out += "</div>\n";
 }
 
@@ -290,8 +273,9 @@ std::string stability_page(const StabilityReport& report) {
   const StabilityPlan& plan = report.plan;
   std::string body = fmt::format(
       "<p>A hand touches through each coupling in turn, in every cell with the same fate of its "
-      "samples. Rest the pointer on a cell: all of its numbers.</p>\n<dl><dt>command</dt><dd>"
-      "<code>{}</code></dd><dt>options</dt><dd>{}</dd></dl>\n",
+      "samples. Rest the pointer on a cell: all of its "
+      "numbers.</p>\n<dl><dt>command</dt><dd><code>{}</code></dd><dt>options</dt><dd>{}</dd></"
+      "dl>\n",
       html_escaped(report.command), html_escaped(plan.text()));
   if (!plan.gate)
     fmt::format_to(tools::end_of(body), "<p class=\"loud\">{}</p>\n", gate_warning(plan));

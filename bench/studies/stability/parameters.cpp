@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
@@ -22,113 +23,91 @@ constexpr std::array<std::string_view, 4> kEnvironments{"linear", "hardening", "
 constexpr std::array<std::string_view, 4> kOperators{"push", "soft", "tracking", "trace"};
 constexpr std::array<std::string_view, 2> kCounterparts{"server", "hand"};
 
-constexpr std::array<StabilityParameter, 15> kParameters{{
-    {"hand.k1",
-     "stiffness of what is touched",
-     {"N/m", 0, 1e5, true},
-     {},
-     [](const Setting& s) { return s.stiffness; },
-     [](Setting& s, double value) { s.stiffness = value; }},
-    {"impairment.delay",
-     "one way",
-     {"s", 0, 10, false},
-     {},
-     [](const Setting& s) { return pdu::to_seconds(s.run.network.delay); },
-     [](Setting& s, double value) { s.run.network.delay = pdu::from_seconds(value); }},
-    {"impairment.loss",
-     "share of the samples",
-     {"", 0, 0.99, false},
-     {},
-     [](const Setting& s) { return s.run.network.loss; },
-     [](Setting& s, double value) { s.run.network.loss = value; }},
-    {"impairment.jitter",
-     "delay +- so long, never below 0 in sum",
-     {"s", 0, 10, false},
-     {},
-     [](const Setting& s) { return pdu::to_seconds(s.run.network.jitter); },
-     [](Setting& s, double value) { s.run.network.jitter = pdu::from_seconds(value); }},
-    {"jitter_share",
-     "delay +- this share of it",
-     {"", 0, 1, false},
-     {},
-     [](const Setting& s) { return s.jitter_share.value_or(0); },
-     [](Setting& s, double value) { s.jitter_share = value; }},
-    {"impairment.reorder",
-     "share held back",
-     {"", 0, 1, false},
-     {},
-     [](const Setting& s) { return s.run.network.reorder; },
-     [](Setting& s, double value) { s.run.network.reorder = value; }},
-    {"impairment.reorder_delay",
-     "for so long",
-     {"s", 0, 10, false},
-     {},
-     [](const Setting& s) { return pdu::to_seconds(s.run.network.reorder_delay); },
-     [](Setting& s, double value) { s.run.network.reorder_delay = pdu::from_seconds(value); }},
-    {"environment",
-     "what is touched",
-     {},
-     kEnvironments,
-     [](const Setting& s) { return static_cast<double>(s.environment); },
-     [](Setting& s, double value) {
-       s.environment = static_cast<EnvironmentKind>(static_cast<int>(value));
-     }},
-    {"operator",
-     "the hand at the device",
-     {},
-     kOperators,
-     [](const Setting& s) { return static_cast<double>(s.operator_number); },
-     [](Setting& s, double value) { s.operator_number = static_cast<std::size_t>(value); }},
-    {"counterpart",
-     "what is at the other end",
-     {},
-     kCounterparts,
-     [](const Setting& s) { return static_cast<double>(s.run.counterpart); },
-     [](Setting& s, double value) {
-       s.run.counterpart = static_cast<Counterpart>(static_cast<int>(value));
-     }},
-    {"device.damping",
-     "of the device, sure",
-     {"N s/m", 0, 1000, true},
-     {},
-     [](const Setting& s) { return s.run.device.damping; },
-     [](Setting& s, double value) { s.run.device.damping = value; }},
-    {"device.rate",
-     "of the servo",
-     {"Hz", 250, 10'000, false},
-     {},
-     [](const Setting& s) { return 1 / s.run.device.period; },
-     [](Setting& s, double value) { s.run.device.period = 1 / value; }},
-    {"device.mass",
-     "of the handle",
-     {"kg", 1e-3, 100, false},
-     {},
-     [](const Setting& s) { return s.run.device.mass; },
-     [](Setting& s, double value) { s.run.device.mass = value; }},
-    {"update_rate",
-     "samples to the hand",
-     {"Hz", 1, 10'000, false},
-     {},
-     [](const Setting& s) { return s.run.update_hz; },
-     [](Setting& s, double value) { s.run.update_hz = value; }},
-    {"uplink_rate",
-     "samples to a server",
-     {"Hz", 1, 10'000, false},
-     {},
-     [](const Setting& s) { return s.run.uplink_hz; },
-     [](Setting& s, double value) { s.run.uplink_hz = value; }},
-}};
+double number_in(double value) { return value; }
+double number_in(const std::optional<double>& value) { return value.value_or(0); }
+double number_in(std::chrono::nanoseconds time) { return pdu::to_seconds(time); }
+template <class Kind>
+double number_in(Kind kind) {
+  return static_cast<double>(kind);
+}
+
+void put(double value, double& to) { to = value; }
+void put(double value, std::optional<double>& to) { to = value; }
+void put(double value, std::chrono::nanoseconds& to) { to = pdu::from_seconds(value); }
+template <class Kind>
+void put(double value, Kind& to) {
+  to = static_cast<Kind>(static_cast<int>(value));
+}
+
+/// @param at gives the member of a setting
+template <class At>
+constexpr StabilityParameter row(std::string_view name, std::string_view meaning, ValueRule rule,
+                                 At /*at*/, std::span<const std::string_view> words = {}) {
+  return {name,
+          meaning,
+          rule,
+          words,
+          [](const Setting& s) { return number_in(At{}(s)); },
+          [](Setting& s, double value) { put(value, At{}(s)); }};
+}
+
+constexpr std::array kParameters{
+    row(
+        "hand.k1", "stiffness of what is touched", {"N/m", 0, 1e5, true},
+        [](auto& s) -> auto& { return s.stiffness; }),
+    row(
+        "impairment.delay", "one way", {"s", 0, 10, false},
+        [](auto& s) -> auto& { return s.run.network.delay; }),
+    row(
+        "impairment.loss", "share of the samples", {"", 0, 0.99, false},
+        [](auto& s) -> auto& { return s.run.network.loss; }),
+    row(
+        "impairment.jitter", "delay +- so long, never below 0 in sum", {"s", 0, 10, false},
+        [](auto& s) -> auto& { return s.run.network.jitter; }),
+    row(
+        "jitter_share", "delay +- this share of it", {"", 0, 1, false},
+        [](auto& s) -> auto& { return s.jitter_share; }),
+    row(
+        "impairment.reorder", "share held back", {"", 0, 1, false},
+        [](auto& s) -> auto& { return s.run.network.reorder; }),
+    row(
+        "impairment.reorder_delay", "for so long", {"s", 0, 10, false},
+        [](auto& s) -> auto& { return s.run.network.reorder_delay; }),
+    row(
+        "environment", "what is touched", {}, [](auto& s) -> auto& { return s.environment; },
+        kEnvironments),
+    row(
+        "operator", "the hand at the device", {},
+        [](auto& s) -> auto& { return s.operator_number; }, kOperators),
+    row(
+        "counterpart", "what is at the other end", {},
+        [](auto& s) -> auto& { return s.run.counterpart; }, kCounterparts),
+    row(
+        "device.damping", "of the device, sure", {"N s/m", 0, 1000, true},
+        [](auto& s) -> auto& { return s.run.device.damping; }),
+    StabilityParameter{"device.rate",
+                       "of the servo",
+                       {"Hz", 250, 10'000, false},
+                       {},
+                       [](const Setting& s) { return 1 / s.run.device.period; },
+                       [](Setting& s, double value) { s.run.device.period = 1 / value; }},
+    row(
+        "device.mass", "of the handle", {"kg", 1e-3, 100, false},
+        [](auto& s) -> auto& { return s.run.device.mass; }),
+    row(
+        "update_rate", "samples to the hand", {"Hz", 1, 10'000, false},
+        [](auto& s) -> auto& { return s.run.update_hz; }),
+    row(
+        "uplink_rate", "samples to a server", {"Hz", 1, 10'000, false},
+        [](auto& s) -> auto& { return s.run.uplink_hz; }),
+};
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
 double word_value(const StabilityParameter& parameter, std::string_view word) {
   const auto found = std::ranges::find(parameter.words, word);
   if (found != parameter.words.end()) return static_cast<double>(found - parameter.words.begin());
-  const std::string_view nearest = peer::nearest_word(word, parameter.words);
-  throw tools::UsageError(
-      fmt::format("--sweep {}: there is no '{}'{}; known: {}, all", parameter.name, word,
-                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                  fmt::join(parameter.words, ", ")));
+  refuse_name(fmt::format("--sweep {}", parameter.name), word, parameter.words, ", all");
 }
 
 std::vector<double> word_values(const StabilityParameter& parameter, std::string_view text) {

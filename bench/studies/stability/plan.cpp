@@ -51,8 +51,7 @@ void check_axes(const StabilityPlan& plan) {
   const auto needs = [&](std::string_view name, std::string_view other, std::string_view example) {
     if (has_axis(plan, name) && !(most_of(plan, other) > 0))
       throw tools::UsageError(
-          fmt::format("--sweep: {} has no effect where {} is 0; sweep that too, as in "
-                      "--sweep {}",
+          fmt::format("--sweep: {} has no effect where {} is 0; sweep that too, as in --sweep {}",
                       name, other, example));
   };
   needs("jitter_share", "impairment.delay", "delay=50ms");
@@ -165,10 +164,9 @@ void check(const StabilityPlan& plan) {
     CouplingRun run = plan.setting(cell).run;
     run.mode = plan.modes.front();
     if (run.duration > kMostCouplingSamples * run.device.period)
-      throw tools::UsageError(
-          fmt::format("--for: {} samples in a run; {} are the most: take less time or "
-                      "a lower device.rate",
-                      std::ceil(run.duration / run.device.period), kMostCouplingSamples));
+      throw tools::UsageError(fmt::format(
+          "--for: {} samples in a run; {} are the most: take less time or a lower device.rate",
+          std::ceil(run.duration / run.device.period), kMostCouplingSamples));
     run.duration = run.device.period;
     try {
       static_cast<void>(simulate(run));

@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/bench/studies/stability/run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "reckon/bench/studies/stability/options.hpp"
-#include "reckon/bench/studies/stability/page.hpp"
 #include "reckon/bench/studies/stability/text.hpp"
 #include "reckon/bench/studies/sweep/journal.hpp"
 #include "reckon/bench/studies/sweep/progress_bar.hpp"
-#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
@@ -48,40 +45,47 @@ bool run_missing(const StabilityPlan& plan, StabilityResults& results, SweepJour
       });
 }
 
-void tell_stop(const StabilityWords& words, const StabilityResults& results,
-               const tools::Console& console) {
+std::string stop_note(const StabilityWords& words, const StabilityResults& results) {
   const auto done = std::ranges::count_if(results, [](const auto& row) { return row.has_value(); });
-  fmt::print(console.err, "stopped after {} of {}; {}\n",
-             tools::counted(static_cast<std::size_t>(done), "run"), results.size(),
-             words.csv.empty() ? "with --csv FILE the next time could go on from here"
-                               : fmt::format("the same command goes on from {}", words.csv));
+  return fmt::format("stopped after {} of {}; {}\n",
+                     tools::counted(static_cast<std::size_t>(done), "run"), results.size(),
+                     words.csv.empty()
+                         ? "with --csv FILE the next time could go on from here"
+                         : fmt::format("the same command goes on from {}", words.csv));
 }
+
+class StabilityStudy final : public Study {
+ public:
+  std::vector<Flag> flags() override { return words_.flags(); }
+  SharedWords& shared() override { return words_; }
+
+  StudyOutput run(const StudyCall& call) override {
+    StabilityOptions options = read_stability_options(words_);
+    const StabilityPlan& plan = options.plan;
+    SweepJournal journal(words_.csv, kStudy, plan.text(), stability_columns(plan));
+    StabilityResults results = results_in(journal, plan, words_.csv);
+    if (!plan.gate) fmt::print(call.console.err, "{}\n", gate_warning(plan));
+    if (!run_missing(plan, results, journal, call.console))
+      return {.note = stop_note(words_, results)};
+    StabilityReport report{call.command, plan, {}, std::move(options.notes)};
+    std::vector<std::string> lines;
+    for (std::size_t run = 0; run < results.size(); ++run) {
+      report.results.push_back(*results[run]);
+      lines.push_back(stability_row(plan, run, report.results.back()));
+    }
+    journal.finish(lines);
+    StudyOutput output{words_.json ? stability_json(report) : stability_text(report)};
+    output.page = stability_page(report);
+    if (!words_.csv.empty()) output.note = fmt::format("wrote {}\n", words_.csv);
+    return output;
+  }
+
+ private:
+  StabilityWords words_;
+};
 
 }  // namespace
 
-int bench_stability(const StabilityWords& words, const std::string& command,
-                    const tools::Console& console) {
-  StabilityOptions options = read_stability_options(words);
-  const StabilityPlan& plan = options.plan;
-  tools::check_writable(words.report);
-  SweepJournal journal(words.csv, kStudy, plan.text(), stability_columns(plan));
-  StabilityResults results = results_in(journal, plan, words.csv);
-  if (!plan.gate) fmt::print(console.err, "{}\n", gate_warning(plan));
-  if (!run_missing(plan, results, journal, console)) {
-    tell_stop(words, results, console);
-    return tools::exit_status(tools::ExitCode::good);
-  }
-  StabilityReport report{command, plan, {}, std::move(options.notes)};
-  std::vector<std::string> lines;
-  for (std::size_t run = 0; run < results.size(); ++run) {
-    report.results.push_back(*results[run]);
-    lines.push_back(stability_row(plan, run, report.results.back()));
-  }
-  journal.finish(lines);
-  fmt::print(console.out, "{}", words.json ? stability_json(report) : stability_text(report));
-  if (!words.csv.empty()) fmt::print(console.err, "wrote {}\n", words.csv);
-  tools::write_output(words.report, stability_page(report), console);
-  return tools::exit_status(tools::ExitCode::good);
-}
+std::unique_ptr<Study> stability_study() { return std::make_unique<StabilityStudy>(); }
 
 }  // namespace reckon::bench

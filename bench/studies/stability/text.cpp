@@ -8,10 +8,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 #include "reckon/bench/statistics/quantile.hpp"
+#include "reckon/bench/studies/frame/fields.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -32,11 +33,6 @@ constexpr std::array kResultMeasures{Measure{"least_energy_J", &StabilityResult:
                                      Measure{"truth_rms_N", &StabilityResult::truth_rms},
                                      Measure{"truth_p95_N", &StabilityResult::truth_p95},
                                      Measure{"stiffness_kept", &StabilityResult::kept}};
-
-/// An axis value in SI, a word as it is.
-std::string plain_value(const StabilityParameter& parameter, double value) {
-  return parameter.words.empty() ? fmt::format("{}", value) : value_text(parameter, value);
-}
 
 double share(std::size_t part, std::size_t all) {
   return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
@@ -92,38 +88,53 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-/// Mode and axes of a run, as they stand in its line.
-std::string place_text(const StabilityPlan& plan, std::size_t run) {
-  std::string out = fmt::format("{},{}", run, plan.mode_name(plan.mode_of(run)));
-  for (std::size_t axis = 0; axis < plan.axes.size(); ++axis) {
-    const StabilityAxis& row = plan.axes[axis];
-    out += "," + plain_value(*row.parameter, row.values[plan.place(plan.cell_of(run), axis)]);
+Fields run_fields(const StabilityPlan& plan, std::size_t run, const StabilityResult& result) {
+  const std::size_t cell = plan.cell_of(run);
+  Fields fields("cell"), axes;
+  fields.csv("run", run).value("mode", plan.mode_name(plan.mode_of(run))).json("cell", cell);
+  for (std::size_t i = 0; i < plan.axes.size(); ++i) {
+    const auto& [parameter, values] = plan.axes[i];
+    const double number = values[plan.place(cell, i)];
+    const Value value =
+        parameter->words.empty() ? Value(number) : Value(value_text(*parameter, number));
+    axes.json(parameter->name, value);
+    fields.csv(parameter->name, value);
   }
-  return out;
+  fields.json("axes", axes);
+  for (const Measure& measure : kResultMeasures) fields.value(measure.name, result.*measure.member);
+  return fields.value("diverged", result.diverged);
 }
 
-void append_run(std::string& out, const StabilityReport& report, std::size_t run) {
-  const StabilityPlan& plan = report.plan;
-  const StabilityResult& result = report.results[run];
-  tools::JsonObject object(out);
-  object.text("kind", "cell").text("mode", plan.mode_name(plan.mode_of(run)));
-  object.value("cell", plan.cell_of(run));
-  tools::JsonObject inner(object.member("axes"));
-  for (std::size_t axis = 0; axis < plan.axes.size(); ++axis) {
-    const StabilityAxis& row = plan.axes[axis];
-    const double value = row.values[plan.place(plan.cell_of(run), axis)];
-    if (row.parameter->words.empty())
-      inner.value(row.parameter->name, value);
-    else
-      inner.text(row.parameter->name, value_text(*row.parameter, value));
-  }
-  inner.end();
-  for (const Measure& measure : kResultMeasures)
-    object.number(measure.name, result.*measure.member);
-  object.value("diverged", result.diverged)
-      .number("force_off", force_off(result))
-      .text("verdict", name_of(verdict_of(plan.setting(plan.cell_of(run)), result)))
-      .end("\n");
+Fields summary_fields(const StabilitySummary& row, const StabilityPlan& plan) {
+  Fields fields("mode");
+  fields.json("mode", row.mode)
+      .json("cells", row.cells)
+      .word("MODE", row.mode)
+      .page_word("mode", fmt::format("<a href=\"#{0}\">{0}</a>", row.mode));
+  const auto share = [&](std::string_view name, std::string title, std::string_view page_title,
+                         const std::optional<double>& value) {
+    fields.json(name, value)
+        .shown(std::move(title), page_title, value.value_or(-1), percent(value));
+  };
+  share("right", "RIGHT", "right", row.right);
+  share("made_energy", "MAKES ENERGY", "makes energy", row.made_energy);
+  share("diverged", "RUNS AWAY", "runs away", row.diverged);
+  fields.json("peak_above", plan.peak);
+  share("peak", fmt::format("PEAK > {:g} N", plan.peak), fmt::format("peak &gt; {:g} N", plan.peak),
+        row.peak);
+  share("no_rest", "NO REST", "no rest", row.cycles);
+  share("force_off", "FORCE OFF", "force off", row.wrong);
+  return fields.json("stiffness_kept", row.kept)
+      .json("worst_energy_J", row.least_energy)
+      .json("gate", plan.gate)
+      .shown("KEPT", "stiffness kept", row.kept.value_or(-1),
+             row.kept ? number_text(*row.kept) : "-")
+      .shown("WORST [J]", "worst energy [J]", row.least_energy, number_text(row.least_energy));
+}
+
+/// The fields of a mode in a study of this plan.
+auto fields_in(const StabilityPlan& plan) {
+  return [&plan](const StabilitySummary& row) { return summary_fields(row, plan); };
 }
 
 }  // namespace
@@ -142,54 +153,32 @@ std::string_view gate_warning(const StabilityPlan& plan) {
 }
 
 std::string stability_text(const StabilityReport& report) {
-  constexpr auto kRight = tools::TextTable::Align::right;
-  tools::TextTable table({{"MODE"},
-                          {"RIGHT", kRight},
-                          {"MAKES ENERGY", kRight},
-                          {"RUNS AWAY", kRight},
-                          {fmt::format("PEAK > {:g} N", report.plan.peak), kRight},
-                          {"NO REST", kRight},
-                          {"FORCE OFF", kRight},
-                          {"KEPT", kRight},
-                          {"WORST [J]", kRight}});
-  for (const StabilitySummary& row : summaries_of(report))
-    table.add({row.mode, percent(row.right), percent(row.made_energy), percent(row.diverged),
-               percent(row.peak), percent(row.cycles), percent(row.wrong),
-               row.kept ? number_text(*row.kept) : "-", number_text(row.least_energy)});
   std::string out;
   if (!report.plan.gate) fmt::format_to(tools::end_of(out), "{}\n\n", gate_warning(report.plan));
   for (const std::string& note : report.notes)
     fmt::format_to(tools::end_of(out), "note: {}\n", note);
   fmt::format_to(tools::end_of(out), "{} of {:g} s each, in {}\n{}",
                  tools::counted(report.plan.cells(), "cell"), report.plan.base.run.duration,
-                 tools::counted(report.plan.modes.size(), "mode"), table.text());
+                 tools::counted(report.plan.modes.size(), "mode"),
+                 table_of(summaries_of(report), fields_in(report.plan)));
   out += fmt::format(
       "\nRIGHT: no energy made, at rest where it should be, force off by {:g} % at most (rms, of "
-      "the "
-      "right\nforce's). MAKES ENERGY: more than 1 nJ that nobody put in. RUNS AWAY: beyond 10 m or "
-      "1 MN. NO REST:\nmoves on at more than {:g} m/s under a constant push against what stands "
-      "still (- where no cell is so).\nFORCE OFF: by more than that, of those that did not run "
-      "away. KEPT: share of the stiffness, median.\nWORST: energy, of those that did not run "
+      "the right\nforce's). MAKES ENERGY: more than 1 nJ that nobody put in. RUNS AWAY: beyond 10 "
+      "m or 1 MN. NO REST:\nmoves on at more than {:g} m/s under a constant push against what "
+      "stands still (- where no cell is so).\nFORCE OFF: by more than that, of those that did not "
+      "run away. KEPT: share of the stiffness, median.\nWORST: energy, of those that did not run "
       "away.\n",
       100 * kWrong, kRest);
   return out;
 }
 
 std::string stability_columns(const StabilityPlan& plan) {
-  std::string out = "run,mode";
-  for (const StabilityAxis& axis : plan.axes)
-    fmt::format_to(tools::end_of(out), ",{}", axis.parameter->name);
-  for (const Measure& measure : kResultMeasures)
-    fmt::format_to(tools::end_of(out), ",{}", measure.name);
-  return out + ",diverged";
+  return run_fields(plan, 0, {}).csv_names();
 }
 
 std::string stability_row(const StabilityPlan& plan, std::size_t run,
                           const StabilityResult& result) {
-  std::string out = place_text(plan, run);
-  for (const Measure& measure : kResultMeasures)
-    fmt::format_to(tools::end_of(out), ",{}", result.*measure.member);
-  return out + (result.diverged ? ",1" : ",0");
+  return run_fields(plan, run, result).csv_values();
 }
 
 std::optional<std::pair<std::size_t, StabilityResult>> read_stability_row(const StabilityPlan& plan,
@@ -199,9 +188,12 @@ std::optional<std::pair<std::size_t, StabilityResult>> read_stability_row(const 
   const auto number = number_of(fields[0]);
   if (!number || !(*number >= 0 && *number < static_cast<double>(plan.runs()))) return std::nullopt;
   const auto run = static_cast<std::size_t>(*number);
-  if (!line.starts_with(place_text(plan, run) + ",")) return std::nullopt;
   StabilityResult result;
-  std::size_t place = plan.axes.size() + 2;
+  std::size_t place = plan.axes.size() + 2;  // behind number, mode and axes
+  const std::string own = stability_row(plan, run, result);
+  const auto own_fields = parts_between_commas(own);
+  if (!std::ranges::equal(std::span(fields).first(place), std::span(own_fields).first(place)))
+    return std::nullopt;
   for (const Measure& measure : kResultMeasures) {
     const auto value = number_of(fields[place++]);
     if (!value) return std::nullopt;
@@ -212,27 +204,22 @@ std::optional<std::pair<std::size_t, StabilityResult>> read_stability_row(const 
   return std::pair{run, result};
 }
 
+std::string stability_page_table(const StabilityReport& report) {
+  return page_table_of(summaries_of(report), fields_in(report.plan));
+}
+
 std::string stability_json(const StabilityReport& report) {
+  const StabilityPlan& plan = report.plan;
   std::string out;
-  for (std::size_t run = 0; run < report.results.size(); ++run) append_run(out, report, run);
-  for (const StabilitySummary& row : summaries_of(report)) {
-    tools::JsonObject object(out);
-    object.text("kind", "mode")
-        .text("mode", row.mode)
-        .value("cells", row.cells)
-        .value("right", row.right)
-        .value("made_energy", row.made_energy)
-        .value("diverged", row.diverged)
-        .value("peak_above", report.plan.peak)
-        .value("peak", row.peak)
-        .number("no_rest", row.cycles)
-        .number("force_off", row.wrong)
-        .number("stiffness_kept", row.kept)
-        .number("worst_energy_J", row.least_energy)
-        .value("gate", report.plan.gate)
-        .end("\n");
+  for (std::size_t run = 0; run < report.results.size(); ++run) {
+    const StabilityResult& result = report.results[run];
+    out += run_fields(plan, run, result)
+               .json("force_off", force_off(result))
+               .json("verdict", name_of(verdict_of(plan.setting(plan.cell_of(run)), result)))
+               .object() +
+           '\n';
   }
-  return out;
+  return out + json_of(summaries_of(report), fields_in(plan));
 }
 
 }  // namespace reckon::bench

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A sweep of couplings as table, CSV rows and JSON.
+// A sweep of couplings as table, CSV rows, JSON and page.
 #pragma once
 
 #include <optional>
@@ -47,6 +47,13 @@ struct StabilitySummary {
 /// Back from a line; nothing where it is none of this plan.
 [[nodiscard]] std::optional<std::pair<std::size_t, StabilityResult>> read_stability_row(
     const StabilityPlan& plan, std::string_view line);
+
+/// The table of a page.
+[[nodiscard]] std::string stability_page_table(const StabilityReport& report);
+/// One HTML page: a map of each mode, all numbers of a cell where a pointer rests on it. Without
+/// scripts, and in print, the maps show the verdicts, told apart by letters too; with scripts one
+/// number after the other can be shown.
+[[nodiscard]] std::string stability_page(const StabilityReport& report);
 
 /// A line for each run, then one for each mode.
 [[nodiscard]] std::string stability_json(const StabilityReport& report);

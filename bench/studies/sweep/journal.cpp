@@ -73,12 +73,12 @@ void SweepJournal::read() {
     throw tools::UsageError(
         fmt::format("{}: holds something else than this study; name a new file", path_));
   if (lines[0] != header_)
-    throw tools::UsageError(fmt::format(
-        "{}: holds the study of other options: {}; name a new file, or give the options of that "
-        "one to go on",
-        path_,
-        difference(std::string_view(lines[0]).substr(study.size()),
-                   std::string_view(header_).substr(study.size()))));
+    throw tools::UsageError(
+        fmt::format("{}: holds the study of other options: {}; name a new file, or give the "
+                    "options of that one to go on",
+                    path_,
+                    difference(std::string_view(lines[0]).substr(study.size()),
+                               std::string_view(header_).substr(study.size()))));
   if (lines[1] != columns_)
     throw tools::UsageError(
         fmt::format("{}: has the columns of another version; name a new file", path_));

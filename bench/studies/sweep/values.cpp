@@ -9,6 +9,7 @@
 #include <charconv>
 #include <string>
 
+#include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
@@ -125,6 +126,15 @@ std::vector<double> read_values(std::string_view text, const ValueRule& rule,
     if (std::find(values.begin(), value, *value) != value)
       refuse(where, format_quantity(*value, rule.unit), "is given twice; give each value once");
   return values;
+}
+
+void refuse_name(std::string_view where, std::string_view name,
+                 std::span<const std::string_view> known, std::string_view more) {
+  const std::string_view nearest = peer::nearest_word(name, known);
+  throw tools::UsageError(
+      fmt::format("{}: there is no '{}'{}; known: {}{}", where, name,
+                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                  fmt::join(known, ", "), more));
 }
 
 }  // namespace reckon::bench

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Values of an axis as they are typed: "0..200ms/5", "0, 20, 50 ms".
+// Values of an axis as they are typed, "0..200ms/5", "0, 20, 50 ms"; and rows of a list by their
+// names.
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,5 +32,37 @@ inline constexpr std::size_t kMostValues = 1000;
 
 /// The parts of `text` between commas, without blanks about them.
 [[nodiscard]] std::vector<std::string_view> parts_between_commas(std::string_view text);
+
+/// @param where begins the text: the flag  @param more behind the known names, as in ", all"
+/// @throws UsageError with the nearest of the known names
+[[noreturn]] void refuse_name(std::string_view where, std::string_view name,
+                              std::span<const std::string_view> known, std::string_view more = "");
+
+template <typename Row>
+[[nodiscard]] const Row& row_named(std::string_view name, std::span<const Row> rows,
+                                   std::string_view flag) {
+  std::vector<std::string_view> names;
+  for (const Row& row : rows) {
+    if (row.name == name) return row;
+    names.push_back(row.name);
+  }
+  refuse_name(flag, name, names);
+}
+
+/// Several in one word with commas between, or several words; "all" and no word: every row.
+template <typename Row>
+[[nodiscard]] std::vector<Row> rows_named(std::span<const std::string> words,
+                                          std::span<const Row> rows, std::string_view flag) {
+  std::vector<Row> chosen;
+  if (words.empty()) chosen.assign(rows.begin(), rows.end());
+  for (const std::string& word : words)
+    for (const std::string_view name : parts_between_commas(word)) {
+      if (name == "all")
+        chosen.insert(chosen.end(), rows.begin(), rows.end());
+      else
+        chosen.push_back(row_named(name, rows, flag));
+    }
+  return chosen;
+}
 
 }  // namespace reckon::bench

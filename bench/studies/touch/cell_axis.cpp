@@ -47,8 +47,7 @@ TouchCase cell_case(std::uint64_t seed) {
   TouchCase made;
   made.truth =
       "two hands of 20 mm and 300 N/m that sweep into each other and past, 5 ms of delay: 300 N/m "
-      "x "
-      "the true overlap at that instant";
+      "x the true overlap at that instant";
   made.remark =
       "The first row hears all: its error is that of prediction and delay. Hands touch at 40 mm. A "
       "peer joins every cell that it can sense, so small cells cost groups and lose nothing; "

@@ -238,8 +238,7 @@ TouchCase effects_case(std::uint64_t seed) {
   TouchCase made;
   made.truth = fmt::format(
       "slab of {} and {} N/m, 4 N s/m, friction 0.5 and 0.35, stroked across both at 8 Hz of "
-      "tremor: "
-      "the servo with all effects",
+      "tremor: the servo with all effects",
       kHard, kSoft);
   made.remark =
       "An error is what the hand misses without the effect. The limit of rate is always there; its "

@@ -121,8 +121,7 @@ TouchCase quantisation_case(std::uint64_t seed) {
   TouchCase made;
   made.truth = fmt::format(
       "a hand of {} N/m that swings in a probe at 2 Hz, 1 to 7 mm deep, an update (DRM 4) each {} "
-      "ms: all in "
-      "double",
+      "ms: all in double",
       kStiffness, kUpdate);
   made.remark = "Location: float64 and geocentric on the wire; the last two rows say why.";
   struct Choice {

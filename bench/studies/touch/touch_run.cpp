@@ -1,44 +1,288 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/bench/studies/touch/touch_run.hpp"
-
+// The study of touch as tables, JSON Lines, CSV, a picture and a page.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <string_view>
+#include <vector>
 
-#include "reckon/bench/studies/accuracy/query_cost.hpp"
-#include "reckon/bench/studies/touch/touch_report.hpp"
-#include "reckon/bench/studies/tune/options.hpp"
-#include "reckon/peer/scene/nearest_word.hpp"
-#include "reckon/tools/command_line/output_file.hpp"
-#include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/plots/log_axis.hpp"
+#include "reckon/bench/plots/sortable_page.hpp"
+#include "reckon/bench/studies/frame/fields.hpp"
+#include "reckon/bench/studies/frame/study_watch.hpp"
+#include "reckon/bench/studies/frame/text_lines.hpp"
+#include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/bench/studies/sweep/values.hpp"
+#include "reckon/bench/studies/touch/touch_study.hpp"
+#include "reckon/tools/plots/svg_elements.hpp"
 
 namespace reckon::bench {
 namespace {
 
-const TouchAxis& axis_named(std::string_view name) {
+constexpr std::string_view kLegend =
+    "Errors in mN against the truth of the axis. FELT: share of the time with an error that a "
+    "person may notice, above 10 % of the force and 50 mN; ! above 1 %. NS: one millisecond of "
+    "touch, a servo step at 1 kHz; median of blocks that took turns, then 10 and 90 % of them. OF "
+    "1 ms: share of the servo's time. <: another row of the axis takes no more time and errs no "
+    "more; =: the same as another.";
+
+// Of the picture and of the area inside the axes.
+constexpr double kWidth = 760, kHeight = 470;
+constexpr double kLeft = 84, kRight = 740, kTop = 40, kBottom = 400;
+constexpr double kLeastShown = 1e-6;  // [N]: what is below lies on the axis
+
+/// A shape in a square of 12 about the origin and a colour, by the place of the axis in its list.
+struct Mark {
+  std::string_view shape, colour;
+};
+constexpr std::array kMarks{
+    Mark{"M-5 0A5 5 0 1 0 5 0A5 5 0 1 0-5 0Z", "#d55e00"},
+    Mark{"M-4.5-4.5H4.5V4.5H-4.5Z", "#0072b2"},
+    Mark{"M0-6L5.5 4.5H-5.5Z", "#009e73"},
+    Mark{"M0 6L5.5-4.5H-5.5Z", "#cc79a7"},
+    Mark{"M0-6.5L6 0L0 6.5L-6 0Z", "#8c8c8c"},
+    Mark{"M-2-6H2V-2H6V2H2V6H-2V2H-6V-2H-2Z", "#b8860b"},
+};
+
+const Mark& mark_of(std::string_view axis) {
   const auto axes = touch_axes();
-  const auto found = std::ranges::find(axes, name, &TouchAxis::name);
-  if (found != axes.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const TouchAxis& axis : axes) names.push_back(axis.name);
+  const auto place = std::ranges::find(axes, axis, &TouchAxis::name) - axes.begin();
+  return kMarks[static_cast<std::size_t>(place) % kMarks.size()];
+}
+
+constexpr std::string_view kStyle =
+    "<style>.l{stroke:#59636e;stroke-dasharray:5 "
+    "4}.dot{stroke:#fff;stroke-width:.8}.dot.d{opacity:.28}@media(prefers-color-scheme:dark){.dot{"
+    "stroke:#0d1117}}</style>\n";
+
+/// All that was run.
+struct TouchReport {
+  std::string command;    ///< as typed
+  std::string processor;  ///< of the times
+  std::uint64_t seed = 1;
+  std::vector<TouchResult> results;
+};
+
+/// Down to 1 uN, below which rows are not told apart.
+std::string millinewtons(double newtons) {
+  return newtons == 0 ? "0" : newtons < 1e-6 ? "<0.001" : number_text(1e3 * newtons);
+}
+
+/// Short also where a block was interrupted.
+std::string time_text(double ns) {
+  return ns < 9999.5 ? number_text(ns) : fmt::format("{:.0f}us", 1e-3 * ns);
+}
+
+/// All rows of all axes, each with its axis.
+struct AxisRow {
+  const TouchResult* axis = nullptr;
+  TouchRow row;
+};
+std::vector<AxisRow> rows_of(std::span<const TouchResult> results) {
+  std::vector<AxisRow> rows;
+  for (const TouchResult& result : results)
+    for (const TouchRow& row : result.rows) rows.push_back({&result, row});
+  return rows;
+}
+
+Fields axis_row_fields(const AxisRow& of) {
+  const auto& [axis, row] = of;
+  const TouchCost& cost = row.cost;
+  const bool timed = cost.median > 0;
+  const std::string noticed = fmt::format("{:.1f} %", 100 * row.error.noticed);
+  Fields fields("touch");
+  fields.value("axis", axis == nullptr ? "" : axis->axis)
+      .value("setting", Value::quoted(row.setting))
+      .word("SETTING", row.setting)
+      .page_word("setting", html_escaped(row.setting));
+  const auto error = [&](std::string_view name, std::string title, std::string_view page_title,
+                         double value) {
+    fields.value(name, value).cell(std::move(title), millinewtons(value));
+    fields.page(page_title, value, number_text(1e3 * value));
+  };
+  error("error_rms_n", "RMS", "RMS [mN]", row.error.rms);
+  error("error_p99_n", "P99", "99 % [mN]", row.error.p99);
+  error("error_max_n", "MAX", "max [mN]", row.error.max);
+  fields.value("noticed", row.error.noticed)
+      .value("felt", row.is_felt())
+      .cell("FELT", noticed + (row.is_felt() ? " !" : ""))
+      .page("felt", row.error.noticed, noticed)
+      .cell("NS", timed ? time_text(cost.median) : "-")
+      .cell("10 % TO 90 %",
+            cost.low > 0 ? time_text(cost.low) + " to " + time_text(cost.high) : "-")
+      .cell("OF 1 ms", timed ? fmt::format("{:.1g} %", 100 * cost.median / kServoBudget) : "-");
+  const auto time = [&](std::string_view name, std::string_view page_title, double ns) {
+    fields.value(name, ns).page(page_title, ns, ns > 0 ? number_text(ns) : "-");
+  };
+  time("step_ns", "ns", cost.median);
+  time("step_p10_ns", "10 %", cost.low);
+  time("step_p90_ns", "90 %", cost.high);
+  fields.value("front", !row.beaten);
+  const std::string by = row.beaten ? axis->rows[row.beaten->by].setting : "";
+  if (row.beaten) fields.json("beaten_by", by);
+  return fields.word("", beaten_mark(row.beaten)).page_word("dominated by", html_escaped(by));
+}
+
+std::string axis_text(const TouchResult& result) {
+  std::string text = fmt::format("{}: {}\n", result.axis, result.meaning);
+  text += wrapped("Truth: " + result.truth + ".", kTextColumns) + '\n';
+  if (result.largest > 0) text += fmt::format("Up to {} N.\n", number_text(result.largest));
+  return text + table_of(rows_of({&result, 1}), axis_row_fields) +
+         wrapped(result.remark, kTextColumns) + "\n\n";
+}
+
+std::string touch_text(const TouchReport& report) {
+  std::string text;
+  for (const TouchResult& result : report.results) text += axis_text(result);
+  text += wrapped(kLegend, kTextColumns) + '\n';
+  for (const LeftOutAxis& axis : left_out_axes())
+    text += wrapped(fmt::format("Left out: {}: {}.", axis.name, axis.why), kTextColumns) + '\n';
+  return text + fmt::format("seed {}; {}\n", report.seed, report.processor);
+}
+
+std::string touch_json(const TouchReport& report) {
+  std::string text = Fields("touch_study")
+                         .json("command", report.command)
+                         .json("processor", report.processor)
+                         .json("seed", report.seed)
+                         .json("budget_ns", kServoBudget)
+                         .json("least_felt_n", kLeastFelt)
+                         .json("weber", kWeberShare)
+                         .line();
+  for (const TouchResult& result : report.results)
+    text += Fields("touch_axis")
+                .json("axis", result.axis)
+                .json("meaning", result.meaning)
+                .json("truth", result.truth)
+                .json("remark", result.remark)
+                .json("largest_n", result.largest)
+                .line() +
+            json_of(rows_of({&result, 1}), axis_row_fields);
+  return text + json_of(left_out_axes(), [](const LeftOutAxis& axis) {
+           return Fields("touch_left_out").json("axis", axis.name).json("why", axis.why);
+         });
+}
+
+struct Axes {
+  LogAxis time, error;
+};
+
+Axes axes_of(std::span<const TouchResult> results) {
+  // The lines of 1 ms and of the least force that is felt are always in the picture.
+  std::vector<double> times{kServoBudget}, errors{kLeastFelt};
+  for (const TouchResult& result : results) {
+    for (const TouchRow& row : result.rows) {
+      if (!(row.cost.median > 0)) continue;
+      times.push_back(row.cost.median);
+      errors.push_back(row.error.p99);
+    }
+  }
+  return {log_axis_over(times, 0.1, kLeft, kRight, 1),
+          log_axis_over(errors, kLeastShown, kBottom, kTop, 1)};
+}
+
+std::string time_tick(double ns) {
+  if (ns < 1e3) return number_text(ns) + " ns";
+  return ns < 1e6 ? number_text(1e-3 * ns) + " us" : number_text(1e-6 * ns) + " ms";
+}
+
+std::string force_tick(double newtons) {
+  if (newtons < 1e-3) return number_text(1e6 * newtons) + " uN";
+  return newtons < 1 ? number_text(1e3 * newtons) + " mN" : number_text(newtons) + " N";
+}
+
+/// What a servo step may take, and what is felt.
+void append_limits(std::string& out, const Axes& axes) {
+  const double limit = axes.time.at(kServoBudget), felt = axes.error.at(kLeastFelt);
+  tools::append_svg_line(out, "l", limit, kTop, limit, kBottom);
+  tools::append_svg_text(out, limit - 5, kTop + 14, " text-anchor=\"end\"", "1 ms, a servo step");
+  tools::append_svg_line(out, "l", kLeft, felt, kRight, felt);
+  tools::append_svg_text(out, std::min(limit, kRight) - 12, felt - 5, " text-anchor=\"end\"",
+                         "50 mN, the least force that is felt");
+}
+
+void append_marks(std::string& out, const TouchResult& result, const Axes& axes) {
+  const Mark& mark = mark_of(result.axis);
+  for (const TouchRow& row : result.rows) {
+    if (!(row.cost.median > 0)) continue;
+    out += fmt::format(
+        "<path class=\"dot{}\" transform=\"translate({:.1f} {:.1f})\" fill=\"{}\" "
+        "d=\"{}\"><title>{}: {}, {} ns, p99 {} mN{}</title></path>\n",
+        row.beaten ? " d" : "", axes.time.at(row.cost.median), axes.error.at(row.error.p99),
+        mark.colour, mark.shape, result.axis, html_escaped(row.setting),
+        number_text(row.cost.median), number_text(1e3 * row.error.p99),
+        row.beaten ? ", dominated" : "");
+  }
+}
+
+void append_legend(std::string& out, std::span<const TouchResult> results) {
+  double x = kLeft;
+  for (const TouchResult& result : results) {
+    const Mark& mark = mark_of(result.axis);
+    out += fmt::format(
+        "<path transform=\"translate({:g} {:g})\" fill=\"{}\" d=\"{}\"/><text x=\"{:g}\" "
+        "y=\"{:g}\">{}</text>\n",
+        x + 6, kHeight - 12, mark.colour, mark.shape, x + 17, kHeight - 8, result.axis);
+    x += 30 + 8.0 * static_cast<double>(result.axis.size());
+  }
+}
+
+std::string touch_svg(std::span<const TouchResult> results) {
+  const Axes axes = axes_of(results);
+  std::string inside(kStyle);
+  tools::append_svg_text(inside, kLeft, 24, " class=\"t\"",
+                         results.size() == 1 ? results.front().meaning
+                                             : "What accuracy of a force costs in the servo");
+  append_log_grid(inside, {axes.time, "time for one millisecond of touch", time_tick},
+                  {axes.error, "error of the force, 99 % below", force_tick});
+  append_limits(inside, axes);
+  for (const TouchResult& result : results) append_marks(inside, result, axes);
+  append_legend(inside, results);
+  return tools::svg_picture(inside, kWidth, kHeight);
+}
+
+void append_result(std::string& out, const TouchResult& result) {
+  out += fmt::format(
+      "<section id=\"{0}\">\n<h2>{0}: {1}</h2>\n<p>Truth: {2}.</p>\n<p "
+      "class=\"note\">{3}</p>\n{4}{5}</section>\n",
+      result.axis, html_escaped(result.meaning), html_escaped(result.truth),
+      html_escaped(result.remark), touch_svg({&result, 1}),
+      page_table_of(rows_of({&result, 1}), axis_row_fields,
+                    [](const AxisRow& of) { return of.row.beaten.has_value(); }));
+}
+
+std::string touch_page(const TouchReport& report) {
+  std::string out = fmt::format(
+      "<p>What a servo step computes, how far the force is from the truth of each axis, and what "
+      "it takes.</p>\n<dl>\n<dt>command</dt><dd><code>{}</code></dd>\n<dt>ns</dt><dd>{}; one "
+      "millisecond of touch, a servo step at 1 kHz; median of blocks that took "
+      "turns</dd>\n<dt>felt</dt><dd>share of the time with an error above 10 % of the force and 50 "
+      "mN</dd>\n</dl>\n<p class=\"note\">In full colour: no other setting of the axis takes no "
+      "more time and errs no more. Errors below 1 uN lie on the axis.</p>\n{}",
+      html_escaped(report.command), html_escaped(report.processor), touch_svg(report.results));
+  for (const TouchResult& result : report.results) append_result(out, result);
+  out += "<h2>left out</h2>\n<dl>\n";
+  for (const LeftOutAxis& axis : left_out_axes())
+    out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(axis.name), html_escaped(axis.why));
+  return sortable_page("Touch: accuracy against time", "", out + "</dl>\n");
+}
+
+const TouchAxis& axis_named(std::string_view name) {
   for (const LeftOutAxis& axis : left_out_axes())
     if (axis.name == name)
       throw tools::UsageError(fmt::format("--axis: {} is left out: {}", axis.name, axis.why));
-  const std::string_view nearest = peer::nearest_word(name, names);
-  throw tools::UsageError(
-      fmt::format("--axis: there is no '{}'{}; known: {}", name,
-                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                  fmt::join(names, ", ")));
+  return row_named(name, touch_axes(), "--axis");
 }
 
 /// Each once, in the order of the list.
-std::vector<const TouchAxis*> axes_of(const TouchOptions& options) {
+std::vector<const TouchAxis*> axes_asked(const std::vector<std::string>& words) {
   std::vector<const TouchAxis*> asked, axes;
-  for (const std::string& word : options.axes)
-    for (const std::string& name : list_of(word)) asked.push_back(&axis_named(name));
+  for (const std::string& word : words)
+    for (const std::string_view name : parts_between_commas(word))
+      if (!name.empty()) asked.push_back(&axis_named(name));
   for (const TouchAxis& axis : touch_axes())
     if (asked.empty() || std::ranges::count(asked, &axis) > 0) axes.push_back(&axis);
   return axes;
@@ -46,30 +290,22 @@ std::vector<const TouchAxis*> axes_of(const TouchOptions& options) {
 
 }  // namespace
 
-int bench_touch(const TouchOptions& options, const std::string& command,
-                const tools::Console& console) {
-  const auto axes = axes_of(options);
-  for (const std::string& path : {options.csv, options.report, options.plot})
-    tools::check_writable(path);
-  const auto now = [] { return std::chrono::steady_clock::now().time_since_epoch(); };
-  tools::StatusLine line(console.err, now());
-  TouchReport report{command, processor_name(), options.seed, {}};
+StudyOutput run_touch_study(const std::vector<std::string>& words, std::uint64_t seed, bool json,
+                            const StudyCall& call) {
+  const tools::Console& console = call.console;
+  const auto axes = axes_asked(words);
+  TouchReport report{call.command, processor_name(), seed, {}};
+  StudyWatch watch(console);
   for (const TouchAxis* axis : axes) {
-    if (console.stopped()) break;
-    line.show(fmt::format("{}: {} of {} axes", axis->name, report.results.size(), axes.size()),
-              now());
-    report.results.push_back(
-        run_touch_axis(*axis, options.seed, true, [&] { return !console.stopped(); }));
+    if (!watch.of("axes", axis->name)(report.results.size(), axes.size())) break;
+    report.results.push_back(run_touch_axis(*axis, seed, true, [&] { return !console.stopped(); }));
   }
-  line.clear();
   if (console.stopped())
     fmt::print(console.err, "stopped after {} of {} axes; the last one may lack settings\n",
                report.results.size(), axes.size());
-  fmt::print(console.out, "{}", options.json ? touch_json(report) : touch_text(report));
-  tools::write_output(options.csv, touch_csv(report), console);
-  tools::write_output(options.plot, touch_svg(report.results), console);
-  tools::write_output(options.report, touch_page(report), console);
-  return tools::exit_status(tools::ExitCode::good);
+  return {json ? touch_json(report) : touch_text(report),
+          csv_of(rows_of(report.results), axis_row_fields), touch_svg(report.results),
+          touch_page(report)};
 }
 
 }  // namespace reckon::bench

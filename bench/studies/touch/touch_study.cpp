@@ -36,11 +36,11 @@ constexpr std::array kAxes{
 constexpr std::array kLeftOut{
     LeftOutAxis{"graphics rate", "no force is computed from what is drawn"},
     LeftOutAxis{"mesh repair",
-                "welding and turning triangles changes the surface itself: there is "
-                "no truth to compare it with"},
+                "welding and turning triangles changes the surface itself: there is no truth to "
+                "compare it with"},
     LeftOutAxis{"energy port",
-                "what it holds back depends on what the hand does with it; see "
-                "--force, and how stiff a device may show things"},
+                "what it holds back depends on what the hand does with it; see --force, and how "
+                "stiff a device may show things"},
     LeftOutAxis{"threshold and delay", "newtons against packets, not against time: --force"},
 };
 

@@ -15,8 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/bench/studies/accuracy/pareto.hpp"
 #include "reckon/bench/studies/contact/contact_measures.hpp"
+#include "reckon/bench/studies/frame/pareto.hpp"
+#include "reckon/bench/studies/frame/study.hpp"
 
 namespace reckon::bench {
 
@@ -90,6 +91,11 @@ void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>
 /// largest, to 1 uN) and takes no more time, and is better in one; times within 10 % are the same.
 [[nodiscard]] TouchResult run_touch_axis(const TouchAxis& axis, std::uint64_t seed, bool timed,
                                          const std::function<bool()>& go_on = {});
+
+/// `reckon bench accuracy --touch`. @param axes words with names between commas; none: all
+/// @throws UsageError for an axis that is not there
+[[nodiscard]] StudyOutput run_touch_study(const std::vector<std::string>& axes, std::uint64_t seed,
+                                          bool json, const StudyCall& call);
 
 // The axes, one file each.
 [[nodiscard]] TouchCase order_case(std::uint64_t seed);

@@ -109,8 +109,7 @@ class StateCollector {
         "in the file. Savings are those against sending the recorded updates again.";
     if (captured > 0)
       note += fmt::format(
-          " The timestamps of {} of {} do not run with the capture: its arrival "
-          "times are taken.",
+          " The timestamps of {} of {} do not run with the capture: its arrival times are taken.",
           captured,
           entities_.size() == 1 ? "1 entity" : fmt::format("{} entities", entities_.size()));
     if (refused_ > 0)
@@ -163,10 +162,9 @@ TrackFile read_track_capture(const std::filesystem::path& path) {
   file.name = path.filename().string();
   file.tracks = builder.finish();
   if (file.tracks.empty())
-    throw tools::UsageError(
-        fmt::format("{}: no Entity State in it, so nothing moves; `reckon info {}` "
-                    "says what it holds",
-                    path.string(), path.string()));
+    throw tools::UsageError(fmt::format(
+        "{}: no Entity State in it, so nothing moves; `reckon info {}` says what it holds",
+        path.string(), path.string()));
   file.note = collector.note();
   file.has_orientation = true;
   file.is_capture = true;

@@ -8,17 +8,16 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <tuple>
+#include <vector>
 
 #include "reckon/bench/plots/log_plot.hpp"
+#include "reckon/bench/studies/frame/fields.hpp"
 #include "reckon/peer/scene/units.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
-#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
 namespace {
-
-using tools::JsonObject;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 /// A match beyond this threshold [m] says that nothing but heartbeats is left to compare.
@@ -68,35 +67,76 @@ std::string against(const TuneRow& row, const TuneRow& other) {
 
 void append_head(std::string& out, const TuneReport& report) {
   const TrackSummary& summary = report.summary;
-  fmt::format_to(tools::end_of(out),
-                 "{}: {}, {} in {} s; of an entity each {} s, moving {} in {} s (medians)\n",
-                 report.file.name,
-                 summary.entities == 1 ? "1 entity" : fmt::format("{} entities", summary.entities),
-                 tools::counted(summary.samples, "sample"), short_number(summary.span),
-                 short_number(summary.interval), length_text(summary.step),
-                 short_number(std::max(summary.interval, kLeastStepTime)));
-  if (!report.file.note.empty()) fmt::format_to(tools::end_of(out), "{}\n", report.file.note);
+  out += fmt::format(
+      "{}: {}, {} in {} s; of an entity each {} s, moving {} in {} s (medians)\n", report.file.name,
+      summary.entities == 1 ? "1 entity" : fmt::format("{} entities", summary.entities),
+      tools::counted(summary.samples, "sample"), short_number(summary.span),
+      short_number(summary.interval), length_text(summary.step),
+      short_number(std::max(summary.interval, kLeastStepTime)));
+  if (!report.file.note.empty()) out += fmt::format("{}\n", report.file.note);
   const bool often = report.options.heartbeat <= 2 * summary.interval && summary.interval > 0;
   if (often)
-    fmt::format_to(tools::end_of(out),
-                   "The heartbeat of {} is due at nearly every sample, so that thresholds decide "
-                   "little; a longer --heartbeat shows what they would.\n",
-                   peer::format_quantity(report.options.heartbeat, "s"));
+    out += fmt::format(
+        "The heartbeat of {} is due at nearly every sample, so that thresholds decide little; a "
+        "longer --heartbeat shows what they would.\n",
+        peer::format_quantity(report.options.heartbeat, "s"));
   out += '\n';
 }
 
-std::vector<std::string> cells_of(const TuneRow& row, std::string mark, const LengthUnit& unit,
-                                  bool angle) {
+/// A setting with what it is in its table.
+struct MarkedRow {
+  TuneRow row;
+  std::string_view kind;
+  bool is_knee = false;
+  std::string mark = {};  ///< before its line
+};
+
+Fields fields_of(const MarkedRow& of, const LengthUnit& unit, bool angle) {
+  const TuneRow& row = of.row;
   const PoseResult& result = row.result;
-  return {std::move(mark),
-          std::string(row.model),
-          threshold_of(row),
-          short_number(row.packets_per_s),
-          short_number(row.octets_per_s),
-          short_number(unit.scale * result.position.rms),
-          short_number(unit.scale * result.position.p99),
-          short_number(unit.scale * result.position.max),
-          angle ? short_number(result.angle.p99 * kDegrees) : "-"};
+  const auto threshold = row.threshold > 0 ? std::optional(row.threshold) : std::nullopt;
+  Fields fields(of.kind);
+  fields.csv("kind", of.kind)
+      .value("model", row.model)
+      .json("threshold_m", threshold)
+      .csv("threshold_m", row.threshold)
+      .value("packets_per_s", row.packets_per_s)
+      .value("octets_per_s", row.octets_per_s)
+      .value("packets_per_entity_s", result.updates_per_second())
+      .word("", of.mark)
+      .word("MODEL", row.model)
+      .cell("THRESHOLD", threshold_of(row))
+      .cell("PACKETS/s", short_number(row.packets_per_s))
+      .cell("OCTETS/s", short_number(row.octets_per_s));
+  for (const auto& [name, title, error] : {std::tuple{"rms_m", "RMS", result.position.rms},
+                                           std::tuple{"p99_m", "P99", result.position.p99},
+                                           std::tuple{"max_m", "MAX", result.position.max}})
+    fields.value(name, error)
+        .cell(fmt::format("{} {}", title, unit.name), short_number(unit.scale * error));
+  return fields.value("angle_p99_rad", result.angle.p99)
+      .value("velocity_step_p99_mps", result.velocity_step.p99)
+      .value("front", row.on_front)
+      .value("knee", of.is_knee)
+      .cell("ANGLE P99 deg", angle ? short_number(result.angle.p99 * kDegrees) : "-");
+}
+
+/// Of files, which hold SI.
+Fields tune_file_fields(const MarkedRow& of) { return fields_of(of, {}, true); }
+
+MarkedRow marked(const TuneReport& report, std::size_t place) {
+  const TuneRow& row = report.table.rows[place];
+  const bool is_knee = report.table.knee == place;
+  return {row, "setting", is_knee, is_knee ? "knee" : row.on_front ? "*" : ""};
+}
+
+/// All, and what they are compared with.
+std::vector<MarkedRow> file_rows(const TuneReport& report) {
+  std::vector<MarkedRow> rows;
+  for (std::size_t i = 0; i < report.table.rows.size(); ++i) rows.push_back(marked(report, i));
+  rows.push_back({report.table.every_sample, "every_sample"});
+  rows.push_back({report.table.common, "drm4_1m"});
+  if (report.table.matched) rows.push_back({*report.table.matched, "drm4_1m_matched"});
+  return rows;
 }
 
 /// Places of the rows to show: all as they are, or the front from dear to cheap.
@@ -113,59 +153,43 @@ std::vector<std::size_t> shown_rows(const TuneReport& report, bool all) {
 }
 
 void append_table(std::string& out, const TuneReport& report, bool all) {
-  constexpr auto kRight = tools::TextTable::Align::right;
   const bool angle = report.options.angle < std::numbers::pi;
   const TuneTable& tuned = report.table;
   const auto [least, most] =
       std::minmax_element(tuned.rows.begin(), tuned.rows.end(),
                           [](const TuneRow& x, const TuneRow& y) { return x.error() < y.error(); });
   const LengthUnit unit = unit_for(std::sqrt(least->error() * most->error()));
-  tools::TextTable table({{""},
-                          {"MODEL"},
-                          {"THRESHOLD", kRight},
-                          {"PACKETS/s", kRight},
-                          {"OCTETS/s", kRight},
-                          {fmt::format("RMS {}", unit.name), kRight},
-                          {fmt::format("P99 {}", unit.name), kRight},
-                          {fmt::format("MAX {}", unit.name), kRight},
-                          {"ANGLE P99 deg", kRight}});
-  for (const std::size_t i : shown_rows(report, all)) {
-    const TuneRow& row = report.table.rows[i];
-    const bool is_knee = report.table.knee == i;
-    table.add(cells_of(row, is_knee ? "knee" : row.on_front ? "*" : "", unit, angle));
-  }
-  table.add(cells_of(report.table.every_sample, "each", unit, angle));
-  table.add(cells_of(report.table.common, "DIS", unit, angle));
-  out += table.text();
+  std::vector<MarkedRow> rows;
+  for (const std::size_t i : shown_rows(report, all)) rows.push_back(marked(report, i));
+  rows.push_back({tuned.every_sample, {}, false, "each"});
+  rows.push_back({tuned.common, {}, false, "DIS"});
+  out += table_of(rows, [&](const MarkedRow& of) { return fields_of(of, unit, angle); });
   out +=
       "\n* on the front: no other setting has fewer packets and less p99 error. each: every sample "
       "sent and\nheld. DIS: DRM 4 (rvw) with 1 m. Packets are those of all entities, octets with "
       "UDP and IPv4.\n";
   for (const auto& [twin, model] : report.table.twins)
-    fmt::format_to(tools::end_of(out), "{} sends what {} sends.\n", twin, model);
+    out += fmt::format("{} sends what {} sends.\n", twin, model);
   out += "\n";
 }
 
 void append_advice(std::string& out, const TuneReport& report) {
   const TuneTable& table = report.table;
   if (report.advice.row == nullptr) {
-    fmt::format_to(tools::end_of(out), "{}\n", report.advice.why);
+    out += fmt::format("{}\n", report.advice.why);
     return;
   }
   const TuneRow& row = *report.advice.row;
-  fmt::format_to(tools::end_of(out), "Take {} with {}, {}: {} packets/s, {} kB/s, p99 error {}.\n",
-                 row.model, metres(row.threshold), report.advice.why,
-                 short_number(row.packets_per_s), short_number(row.octets_per_s / 1000),
-                 length_text(row.error()));
-  fmt::format_to(
-      tools::end_of(out),
+  out += fmt::format("Take {} with {}, {}: {} packets/s, {} kB/s, p99 error {}.\n", row.model,
+                     metres(row.threshold), report.advice.why, short_number(row.packets_per_s),
+                     short_number(row.octets_per_s / 1000), length_text(row.error()));
+  out += fmt::format(
       "Its packets are {} those of sending every sample, and {} those of DRM 4 with 1 m, whose p99 "
       "error is {}.\n",
       against(row, table.every_sample), against(row, table.common),
       length_text(table.common.error()));
   if (!table.matched || table.matched->threshold > kWidestMatch) return;
-  fmt::format_to(
-      tools::end_of(out),
+  out += fmt::format(
       "At the p99 error of DRM 4 with 1 m: {} with {} sends {} packets/s, {} of what that sends.\n",
       table.matched->model, length_text(table.matched->threshold),
       short_number(table.matched->packets_per_s), against(*table.matched, table.common));
@@ -181,55 +205,43 @@ std::string toml_of(const TuneReport& report) {
       peer::format_quantity(std::min(report.options.heartbeat, kLongestHeartbeat), "s"));
 }
 
-/// Of a run in which hands never touched there is none.
-std::optional<double> error_of(const ForceRow& row, double error) {
-  return row.samples > 0 ? std::optional(error) : std::nullopt;
-}
-
-std::string csv_number(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
-}
-
-void append_row_json(std::string& out, const TuneRow& row, std::string_view kind, bool is_knee) {
-  const PoseResult& result = row.result;
-  JsonObject(out)
-      .text("kind", kind)
-      .text("model", row.model)
-      .number("threshold_m", row.threshold > 0 ? std::optional(row.threshold) : std::nullopt)
-      .number("packets_per_s", row.packets_per_s)
-      .number("octets_per_s", row.octets_per_s)
-      .number("packets_per_entity_s", result.updates_per_second())
-      .number("rms_m", result.position.rms)
-      .number("p99_m", result.position.p99)
-      .number("max_m", result.position.max)
-      .number("angle_p99_rad", result.angle.p99)
-      .number("velocity_step_p99_mps", result.velocity_step.p99)
-      .value("front", row.on_front)
-      .value("knee", is_knee)
-      .end("\n");
-}
-
 std::optional<double> ratio(const TuneRow& row, const TuneRow& other) {
   if (!(other.packets_per_s > 0)) return std::nullopt;
   return row.packets_per_s / other.packets_per_s;
 }
 
-void append_row_csv(std::string& out, const TuneRow& row, std::string_view kind, bool is_knee) {
-  const PoseResult& result = row.result;
-  fmt::format_to(tools::end_of(out), "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", kind, row.model,
-                 row.threshold, row.packets_per_s, row.octets_per_s, result.updates_per_second(),
-                 result.position.rms, result.position.p99, result.position.max, result.angle.p99,
-                 result.velocity_step.p99, row.on_front ? 1 : 0, is_knee ? 1 : 0);
+Fields force_fields(const ForceRow& row, bool contact, const std::string& unit) {
+  const auto known = [&](double error) {
+    return row.samples > 0 ? std::optional(error) : std::nullopt;
+  };
+  Fields fields("force");
+  fields.value("name", Value::quoted(row.name))
+      .value("setting", Value::quoted(row.setting))
+      .value("unit", row.unit)
+      .value("packets_per_s", row.packets_per_s)
+      .value("octets_per_s", row.octets_per_s)
+      .value("raw_packets_per_s", row.raw_packets_per_s)
+      .value("share", row.share())
+      .word("NAME", row.name)
+      .word("SETTING", row.setting)
+      .cell("PACKETS/s", short_number(row.packets_per_s))
+      .cell("OCTETS/s", short_number(row.octets_per_s))
+      .cell("OF RAW %", short_number(100 * row.share()));
+  // Of a run in which hands never touched there are no errors.
+  for (const auto& [name, title, error] :
+       {std::tuple{"rms", "RMS ", row.error.rms}, std::tuple{"p99", "P99 ", row.error.p99},
+        std::tuple{"max", "MAX ", row.error.max}})
+    fields.value(name, known(error))
+        .cell(title + unit, row.samples > 0 ? short_number(error) : "-");
+  return fields.value("for_force_per_s", row.for_force_per_s)
+      .value("samples", row.samples)
+      .value("outside", row.outside)
+      .cell(contact ? "FOR FORCE/s" : "OUTSIDE",
+            contact ? short_number(row.for_force_per_s) : fmt::format("{}", row.outside));
 }
 
-template <typename Append>
-void for_all_rows(const TuneReport& report, Append&& append) {
-  const auto& rows = report.table.rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) append(rows[i], "setting", report.table.knee == i);
-  append(report.table.every_sample, "every_sample", false);
-  append(report.table.common, "drm4_1m", false);
-  if (report.table.matched) append(*report.table.matched, "drm4_1m_matched", false);
-}
+/// Of files, which have no columns of their own for contacts.
+Fields force_file_fields(const ForceRow& row) { return force_fields(row, false, row.unit); }
 
 }  // namespace
 
@@ -243,39 +255,27 @@ std::string tune_text(const TuneReport& report, bool all) {
 }
 
 std::string tune_json(const TuneReport& report) {
-  std::string out;
-  for_all_rows(report, [&](const TuneRow& row, std::string_view kind, bool is_knee) {
-    append_row_json(out, row, kind, is_knee);
-  });
   const TuneRow* row = report.advice.row;
-  JsonObject object(out);
-  object.text("kind", "recommendation")
-      .text("file", report.file.name)
-      .value("entities", report.summary.entities)
-      .value("samples", report.summary.samples)
-      .number("span_s", report.summary.span)
-      .text("why", report.advice.why)
-      .text("note", report.file.note);
+  Fields fields("recommendation");
+  fields.json("file", report.file.name)
+      .json("entities", report.summary.entities)
+      .json("samples", report.summary.samples)
+      .json("span_s", report.summary.span)
+      .json("why", report.advice.why)
+      .json("note", report.file.note);
   if (row != nullptr)
-    object.text("model", row->model)
-        .number("threshold_m", row->threshold)
-        .number("packets_per_s", row->packets_per_s)
-        .number("p99_m", row->error())
-        .number("of_every_sample", ratio(*row, report.table.every_sample))
-        .number("of_drm4_1m", ratio(*row, report.table.common))
-        .text("toml", toml_of(report));
-  object.end("\n");
-  return out;
+    fields.json("model", row->model)
+        .json("threshold_m", row->threshold)
+        .json("packets_per_s", row->packets_per_s)
+        .json("p99_m", row->error())
+        .json("of_every_sample", ratio(*row, report.table.every_sample))
+        .json("of_drm4_1m", ratio(*row, report.table.common))
+        .json("toml", toml_of(report));
+  return json_of(file_rows(report), tune_file_fields) + fields.line();
 }
 
 std::string tune_csv(const TuneReport& report) {
-  std::string out =
-      "kind,model,threshold_m,packets_per_s,octets_per_s,packets_per_entity_s,rms_m,p99_m,max_m,"
-      "angle_p99_rad,velocity_step_p99_mps,front,knee\n";
-  for_all_rows(report, [&](const TuneRow& row, std::string_view kind, bool is_knee) {
-    append_row_csv(out, row, kind, is_knee);
-  });
-  return out;
+  return csv_of(file_rows(report), tune_file_fields);
 }
 
 std::string tune_svg(const TuneReport& report) {
@@ -326,71 +326,17 @@ std::string tune_svg(const TuneReport& report) {
 }
 
 std::string force_text(std::span<const ForceRow> rows, bool contact) {
-  constexpr auto kRight = tools::TextTable::Align::right;
   const std::string unit = rows.empty() ? "" : rows.front().unit;
-  tools::TextTable table({{"NAME"},
-                          {"SETTING"},
-                          {"PACKETS/s", kRight},
-                          {"OCTETS/s", kRight},
-                          {"OF RAW %", kRight},
-                          {"RMS " + unit, kRight},
-                          {"P99 " + unit, kRight},
-                          {"MAX " + unit, kRight},
-                          {contact ? "FOR FORCE/s" : "OUTSIDE", kRight}});
-  for (const ForceRow& row : rows) {
-    const auto error = [&](double value) {
-      return row.samples > 0 ? short_number(value) : std::string("-");
-    };
-    table.add({row.name, row.setting, short_number(row.packets_per_s),
-               short_number(row.octets_per_s), short_number(100 * row.share()),
-               error(row.error.rms), error(row.error.p99), error(row.error.max),
-               contact ? short_number(row.for_force_per_s) : fmt::format("{}", row.outside)});
-  }
-  std::string out = table.text();
-  out += contact
-             ? "\nAll packets of both peers, against an Entity State and an Attribute PDU each "
-               "millisecond of each.\nError: force between the hands after the gate, against "
-               "the owner's own model there. FOR FORCE: updates\nthat the force asked for.\n"
-             : "\nOUTSIDE: samples where receivers were off by more than the deadband. Raw: each "
-               "sample sent.\n";
-  return out;
+  return table_of(rows, [&](const ForceRow& row) { return force_fields(row, contact, unit); }) +
+         (contact
+              ? "\nAll packets of both peers, against an Entity State and an Attribute PDU each "
+                "millisecond of each.\nError: force between the hands after the gate, against the "
+                "owner's own model there. FOR FORCE: updates\nthat the force asked for.\n"
+              : "\nOUTSIDE: samples where receivers were off by more than the deadband. Raw: each "
+                "sample sent.\n");
 }
 
-std::string force_json(std::span<const ForceRow> rows) {
-  std::string out;
-  for (const ForceRow& row : rows) {
-    JsonObject(out)
-        .text("kind", "force")
-        .text("name", row.name)
-        .text("setting", row.setting)
-        .text("unit", row.unit)
-        .number("packets_per_s", row.packets_per_s)
-        .number("octets_per_s", row.octets_per_s)
-        .number("raw_packets_per_s", row.raw_packets_per_s)
-        .number("share", row.share())
-        .number("rms", error_of(row, row.error.rms))
-        .number("p99", error_of(row, row.error.p99))
-        .number("max", error_of(row, row.error.max))
-        .number("for_force_per_s", row.for_force_per_s)
-        .value("samples", row.samples)
-        .value("outside", row.outside)
-        .end("\n");
-  }
-  return out;
-}
-
-std::string force_csv(std::span<const ForceRow> rows) {
-  std::string out =
-      "name,setting,unit,packets_per_s,octets_per_s,raw_packets_per_s,share,rms,p99,max,"
-      "for_force_per_s,samples,outside\n";
-  for (const ForceRow& row : rows)
-    fmt::format_to(tools::end_of(out), "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},{},{}\n", row.name,
-                   row.setting, row.unit, row.packets_per_s, row.octets_per_s,
-                   row.raw_packets_per_s, row.share(), csv_number(error_of(row, row.error.rms)),
-                   csv_number(error_of(row, row.error.p99)),
-                   csv_number(error_of(row, row.error.max)), row.for_force_per_s, row.samples,
-                   row.outside);
-  return out;
-}
+std::string force_json(std::span<const ForceRow> rows) { return json_of(rows, force_file_fields); }
+std::string force_csv(std::span<const ForceRow> rows) { return csv_of(rows, force_file_fields); }
 
 }  // namespace reckon::bench

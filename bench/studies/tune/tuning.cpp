@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <thread>
 #include <utility>
 
 #include "reckon/bench/statistics/quantile.hpp"
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/bench/studies/frame/pareto.hpp"
+#include "reckon/bench/studies/sweep/all_cores.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -70,33 +69,6 @@ struct Job {
   TuneRow* row;
   std::optional<Algorithm> algorithm;
 };
-
-/// Jobs on all cores. The order in which they end does not matter: each has its own row.
-/// False where `progress` stopped them.
-bool run_all(std::span<const Job> jobs, const std::function<void(const Job&)>& run,
-             const std::function<bool(std::size_t, std::size_t)>& progress) {
-  if (progress && !progress(0, jobs.size())) return false;
-  std::atomic<std::size_t> next{0}, done{0};
-  std::atomic<bool> stop{false};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size() && !stop; i = next++) {
-      run(jobs[i]);
-      ++done;
-    }
-  };
-  std::vector<std::jthread> threads;
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 0; i < std::min(cores, jobs.size()); ++i) {
-    threads.emplace_back(work);
-    peer::name_thread(threads.back().native_handle(), "rk-study");
-  }
-  while (progress && done < jobs.size() && !stop) {
-    stop = !progress(done, jobs.size());
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  threads.clear();
-  return !stop;
-}
 
 void run_row(std::span<const Track> tracks, const TuneOptions& options, double span,
              const Job& job) {
@@ -237,8 +209,11 @@ TuneTable tune(std::span<const Track> tracks, const TuneOptions& options,
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     jobs.push_back({&table.rows[i], options.models[i / options.thresholds.size()].sent});
 
-  const auto run = [&](const Job& job) { run_row(tracks, options, span, job); };
-  if (!run_all(jobs, run, progress)) return table;
+  table.stopped = !run_on_all_cores(
+      jobs.size(),
+      [&](std::size_t i, const std::atomic<bool>&) { run_row(tracks, options, span, jobs[i]); },
+      [&](std::size_t done) { return !progress || progress(done, jobs.size()); });
+  if (table.stopped) return table;
   if (!options.models.empty()) table.matched = match(tracks, options, table.common, span);
   if (options.drop_twins) drop_twins(table, options.thresholds.size());
   mark_front(table.rows);
@@ -247,18 +222,10 @@ TuneTable tune(std::span<const Track> tracks, const TuneOptions& options,
 }
 
 void mark_front(std::span<TuneRow> rows) {
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    if (rows[a].packets_per_s != rows[b].packets_per_s)
-      return rows[a].packets_per_s < rows[b].packets_per_s;
-    return rows[a].error() < rows[b].error();
-  });
-  double best = std::numeric_limits<double>::infinity();
-  for (const std::size_t i : order) {
-    rows[i].on_front = rows[i].error() < best;
-    best = std::min(best, rows[i].error());
-  }
+  std::vector<Costs> costs;
+  for (const TuneRow& row : rows) costs.push_back({row.packets_per_s, row.error(), 0});
+  const auto marks = mark_front(costs);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].on_front = !marks[i];
 }
 
 std::optional<std::size_t> knee_of(std::span<const TuneRow> rows) {

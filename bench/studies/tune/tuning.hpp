@@ -71,6 +71,7 @@ struct TuneTable {
   /// Models that were left out, and those that sent as many at each threshold with a p99 error
   /// alike within 5 %.
   std::vector<std::array<std::string_view, 2>> twins;
+  bool stopped = false;  ///< by `progress`: only some rows were run
 };
 
 /// Rounded to 1, 2, 5 times powers of ten, from a hundredth of `step` to ten times; 1 mm to 1 m

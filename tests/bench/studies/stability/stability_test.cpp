@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "reckon/bench/studies/stability/options.hpp"
-#include "reckon/bench/studies/stability/page.hpp"
 #include "reckon/bench/studies/stability/text.hpp"
 #include "reckon/tools/command_line/console.hpp"
 

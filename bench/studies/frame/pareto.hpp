@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace reckon::bench {
@@ -20,6 +21,11 @@ struct Beaten {
   std::size_t by = 0;
   bool equal = false;  ///< the costs of both are the same
 };
+
+/// In a table: "<", "=" for the same as another, nothing on the front.
+[[nodiscard]] constexpr std::string_view beaten_mark(const std::optional<Beaten>& by) {
+  return !by ? "" : by->equal ? "=" : "<";
+}
 
 /// For each setting the one that beats it, itself on the front; nothing for one on the front. Of
 /// several that beat it: the cheapest by the first cost, then by the second. Cost: n times the

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/bench/studies/accuracy/pareto.hpp"
+#include "reckon/bench/studies/frame/pareto.hpp"
 
 #include <algorithm>
 #include <cmath>
