@@ -127,7 +127,13 @@ StateSpace pair_loop(const PairParameters& p) {
 PairRadii pair_radii(const PairParameters& p) { return pair_radii(p, wall_of(p)); }
 
 PairRadii pair_radii(const PairParameters& p, const TransferFunction& environment) {
-  return {mode_radius(p, environment, -p.attenuation), mode_radius(p, environment, p.attenuation)};
+  return {mode_radius(p, environment, -p.attenuation), opposed_radius(p, environment)};
+}
+
+double opposed_radius(const PairParameters& p) { return opposed_radius(p, wall_of(p)); }
+
+double opposed_radius(const PairParameters& p, const TransferFunction& environment) {
+  return mode_radius(p, environment, p.attenuation);
 }
 
 double printed_scale(const PairParameters& p, double theta) {

@@ -50,6 +50,10 @@ struct PairRadii {
 /// The same with any environment in the place of the wall. @throws std::invalid_argument where its
 /// sample period is another
 [[nodiscard]] PairRadii pair_radii(const PairParameters& pair, const TransferFunction& environment);
+/// PairRadii::opposed alone, at half the cost.
+[[nodiscard]] double opposed_radius(const PairParameters& pair);
+[[nodiscard]] double opposed_radius(const PairParameters& pair,
+                                    const TransferFunction& environment);
 
 /// X of (4.8), (4.9): T^2 K^2/(4 (1 - cos w) {M^2 - 2 m M cos w + m^2}^2), M = m + b T.
 [[nodiscard]] double printed_scale(const PairParameters& pair, double theta);

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <deque>
 #include <numbers>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impairment.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::energy_transfer_test {
 namespace {
@@ -244,7 +244,7 @@ TEST(EnergyTransfer, MakesNoEnergyAtAnyDelayOrLoss) {
         line.stiffness = stiffness;
         line.loss = loss;
         line.delay = delay;
-        Outcome o = average(line, 8, 2);
+        Outcome o = average(line, 8, test::tries(1, 2));
         print(line, o);
         EXPECT_GE(o.least_sum, kPassive);
         EXPECT_GE(o.least_port, kPassive);
@@ -354,7 +354,7 @@ TEST(EnergyTransfer, AHandThatIsSwitchedOffAsksForNothing) {
 }
 
 TEST(EnergyTransfer, WholeGridStaysPassive) {
-  if (std::getenv("RECKON_SOAK") == nullptr) GTEST_SKIP() << "set RECKON_SOAK=1 for the full grid";
+  if (!test::soaks()) GTEST_SKIP() << "set RECKON_SOAK=1 for the full grid";
   for (const double rate : {0.0, 50.0, 200.0}) {
     for (const double stiffness : {500.0, 1500.0}) {
       for (const double loss : {0.0, 0.3}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Hands that press one another slowly feel what springs in a row would: against the closed form.
-// RECKON_SOAK=1 runs all cells with three seeds; without it one seed of fewer cells.
+// RECKON_SOAK=1 runs all cells with three seeds, a gate one seed of every third or fifth cell.
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "reckon/tests/support/soak.hpp"
+
 namespace reckon::haptics::hands_in_a_row_test {
 namespace {
 
 constexpr double kPassive = -1e-9;  // [J]
-
-bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
 
 struct Cell {
   std::size_t hands;
@@ -83,6 +83,7 @@ Felt press(const Cell& cell, unsigned seed) {
 }
 
 struct Grid {
+  int thinned = 3, first = 0;  // a gate runs one cell in so many, from the first on
   std::vector<std::size_t> hands{2};
   std::vector<double> stiffness{500}, presses{0.01, 0.02, 0.04}, ramps{5, 1};
   std::vector<double> delays{0, 0.0003, 0.005, 0.02, 0.05}, losses{0, 0.3}, rates{0, 50};
@@ -90,15 +91,18 @@ struct Grid {
 
 template <typename Visit>
 void each(const Grid& grid, Visit&& visit) {
+  test::Thinned thinned(grid.thinned, grid.first);
   for (const std::size_t n : grid.hands)
     for (const double k : grid.stiffness)
       for (const double press : grid.presses)
         for (const double ramp : grid.ramps)
           for (const double delay : grid.delays)
             for (const double loss : grid.losses)
-              for (const double rate : grid.rates)
-                for (unsigned seed = 1; seed <= (soak() ? 3 : 1); ++seed)
+              for (const double rate : grid.rates) {
+                if (thinned.skips()) continue;
+                for (unsigned seed = 1; seed <= test::tries(1U, 3U); ++seed)
                   visit(Cell{n, k, press, ramp, delay, loss, rate}, seed);
+              }
 }
 
 TEST(SlowPress, TwoHandsFeelTheSpringsInSeries) {
@@ -145,7 +149,7 @@ TEST(SlowPress, StiffHandsFeelThemWithoutLoss) {
   grid.delays = {0, 0.0003, 0.02, 0.05};
   grid.losses = {0};
   each(grid, [&](const Cell& cell, unsigned seed) {
-    EXPECT_LE(press(cell, seed).after_3s, soak() ? 0.05 : 0.03) << cell << ", seed " << seed;
+    EXPECT_LE(press(cell, seed).after_3s, test::tries(0.03, 0.05)) << cell << ", seed " << seed;
   });
 }
 
@@ -154,7 +158,8 @@ TEST(SlowPress, ThreeAndFourHandsInARowFeelThem) {
   grid.hands = {3, 4};
   grid.stiffness = {300, 500};
   grid.presses = {0.02, 0.04};
-  if (!soak()) grid.delays = {0.0003, 0.02, 0.05};
+  if (!test::soaks()) grid.delays = {0.0003, 0.02, 0.05};
+  grid.thinned = 5;
   int cells = 0, off = 0;
   each(grid, [&](const Cell& cell, unsigned seed) {
     const Felt felt = press(cell, seed);
@@ -197,7 +202,7 @@ TEST(QuickTap, IsFeltTheRightWayRoundSoonAfterTheLastCrossing) {
     for (const double radius : {0.01, 0.02})
       for (const double speed : {0.59, 0.88, 1.2})
         for (const double back : {0.0, 1.0})  // stays beyond, or comes back to touch
-          for (unsigned seed = 1; seed <= (soak() ? 10 : 2); ++seed) {
+          for (unsigned seed = 1; seed <= test::tries(2U, 10U); ++seed) {
             RowHands hands;
             hands.radius = radius;
             hands.start = -0.02;

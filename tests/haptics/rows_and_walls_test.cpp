@@ -13,6 +13,7 @@
 
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 #include "reckon/tests/support/climb.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::rows_and_walls_test {
 namespace {
@@ -25,7 +26,7 @@ using test::climb;
 using test::within;
 
 // RECKON_SOAK=1 draws two hundred.
-int tried() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 8; }
+int tried() { return test::tries(8, 200); }
 
 // What somebody pushes, and what came of it.
 struct Pushed {
@@ -69,10 +70,12 @@ Pushed push_a_row(const Choice<5>& c, unsigned seed) {
 // that uses up its energy.
 TEST(RowsAndWalls, RowsAreRightThreeSecondsAfterAPress) {
   double worst = 0;
+  test::Thinned thinned(5);
   for (const std::size_t count : {3u, 4u, 5u, 6u, 7u, 8u}) {
     for (const double stiffness : {300.0, 450.0, 600.0, 800.0}) {
       for (const double rise : {0.5, 1.2}) {
         for (const double delay : {0.0, 0.0005, 0.003}) {
+          if (thinned.skips()) continue;
           RowHands hands;
           hands.count = count;
           hands.stiffness = stiffness;

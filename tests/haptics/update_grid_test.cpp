@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <deque>
 #include <numbers>
 #include <ostream>
@@ -19,6 +18,7 @@
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impairment.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::update_grid_test {
 namespace {
@@ -244,23 +244,23 @@ TEST(UpdateGrid, BlendsForcesWhereStiffnessAndSurfaceChangeTogether) {
   }
 }
 
-bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
-
 TEST(UpdateGrid, MakesNoEnergyWhateverTheServerAnswers) {
   const std::vector<double> shares =
-      soak() ? std::vector{0.1, 0.25, 0.5, 0.75, 0.9, 1.05, 2.0} : std::vector{0.25, 0.9, 2.0};
+      test::tries(std::vector{0.25, 0.9, 2.0}, std::vector{0.1, 0.25, 0.5, 0.75, 0.9, 1.05, 2.0});
   const std::vector<double> delays =
-      soak() ? std::vector{0.0, 0.02, 0.05, 0.1, 0.2, 0.5} : std::vector{0.0, 0.05, 0.2};
+      test::tries(std::vector{0.0, 0.05, 0.2}, std::vector{0.0, 0.02, 0.05, 0.1, 0.2, 0.5});
   const std::vector<double> losses =
-      soak() ? std::vector{0.0, 0.1, 0.3, 0.5} : std::vector{0.0, 0.3};
+      test::tries(std::vector{0.0, 0.3}, std::vector{0.0, 0.1, 0.3, 0.5});
+  test::Thinned thinned(5);
   for (const Environment environment : kEnvironments) {
     Outcome worst;
     int runs = 0;
     for (const Operator hand : {Operator::push, Operator::soft, Operator::stiff})
       for (const double share : shares)
         for (const double delay : delays)
-          for (const double loss : losses)
-            for (unsigned seed = 1; seed <= (soak() ? 5 : 1); ++seed) {
+          for (const double loss : losses) {
+            if (thinned.skips()) continue;
+            for (unsigned seed = 1; seed <= test::tries(1U, 5U); ++seed) {
               const Cell cell{environment, hand, share, delay, loss};
               const Outcome o = run(cell, seed);
               ++runs;
@@ -277,6 +277,7 @@ TEST(UpdateGrid, MakesNoEnergyWhateverTheServerAnswers) {
               EXPECT_LT(o.farthest, 0.1) << cell << ", seed " << seed;
               EXPECT_LE(o.error, 1e-12) << cell << ", seed " << seed;
             }
+          }
     std::printf(
         "%-9s %5d runs: port at least %.1e J, peak %.1f N, farthest %.0f mm, "
         "push at rest %.3f m/s, linear wall off by %.1e N\n",

@@ -4,7 +4,7 @@
 // are on: what rests costs its heartbeats, a newcomer is shown all within two seconds, and what
 // moves, over borders of cells too, stays shown where it is.
 //
-// RECKON_SOAK=1 tries all pairs that the scene file accepts, otherwise 24 drawn by a seed;
+// RECKON_SOAK=1 tries all pairs that the scene file accepts, otherwise 12 drawn by a seed;
 // RECKON_SEEDS=N tries N drawn pairs, each with places and a network of its own.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,6 +23,7 @@
 
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::test::key_pairs_test {
 namespace {
@@ -306,7 +307,7 @@ TEST(KeyPairs, RestSilentlyMoveRightlyAndShowAllToNewcomers) {
   std::mt19937_64 random(7);
   std::shuffle(pairs.begin(), pairs.end(), random);
   const char* seeds = std::getenv("RECKON_SEEDS");
-  std::size_t runs = std::getenv("RECKON_SOAK") != nullptr ? pairs.size() : 24;
+  std::size_t runs = test::tries<std::size_t>(12, pairs.size());
   if (seeds != nullptr) runs = std::stoul(seeds);
   std::size_t excluded = 0;
   for (std::size_t run = 0; run < runs; ++run) {

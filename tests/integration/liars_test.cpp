@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <deque>
 #include <limits>
 #include <random>
@@ -22,6 +21,7 @@
 #include "reckon/tests/pdu/support/random_pdu.hpp"
 #include "reckon/tests/support/arriving_hand.hpp"
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/soak.hpp"
 #include "reckon/tests/support/tier_rows.hpp"
 
 namespace reckon::test::liars_test {
@@ -249,8 +249,7 @@ TEST_P(Liars, TakeNoContactAwayAndMoveHideAndFreezeNobody) {
   for (const std::size_t link : {0u, 1u})
     EXPECT_LE(world_.notices(link).size(), peer::NoticeGate::kAtOnce + kSeconds) << "lines";
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, Liars,
-                         testing::Range(1u, std::getenv("RECKON_SOAK") != nullptr ? 1001u : 21u));
+INSTANTIATE_TEST_SUITE_P(Seeds, Liars, testing::Range(1u, test::tries(11u, 1001u)));
 
 }  // namespace
 }  // namespace reckon::test::liars_test

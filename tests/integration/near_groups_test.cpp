@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/tests/integration/melee.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::test::near_groups_test {
 namespace {
@@ -21,12 +22,14 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 TEST(NearGroups, SpareACrowdWhatTheFarNeedNotKnowAndShowNobodyWorseThanItsRow) {
+  const auto span = tries(3s, 8s);
+  const auto each = 64 * static_cast<double>(span.count());
   std::uint64_t datagrams[2], octets[2], updates[2];
   for (const bool near : {false, true}) {
     Melee place(Melee::scene(near), crowd(64, 400.0, 1));
     place.run(4s);
     place.begin();
-    place.run(8s);
+    place.run(span);
     datagrams[near] = place.datagrams();
     octets[near] = place.octets();
     updates[near] = place.updates();
@@ -34,8 +37,8 @@ TEST(NearGroups, SpareACrowdWhatTheFarNeedNotKnowAndShowNobodyWorseThanItsRow) {
     std::printf(
         "[ residual ] %s: %.1f datagrams/s and %.0f octets/s heard, %.2f updates/s sent by each; "
         "%zu looks, %zu missing, %zu beyond their row, at most %.2f of it; %.2f m in the nearest\n",
-        near ? "near groups" : "one stream", static_cast<double>(datagrams[near]) / 64 / 8,
-        static_cast<double>(octets[near]) / 64 / 8, static_cast<double>(updates[near]) / 64 / 8,
+        near ? "near groups" : "one stream", static_cast<double>(datagrams[near]) / each,
+        static_cast<double>(octets[near]) / each, static_cast<double>(updates[near]) / each,
         seen.all, seen.missing, seen.beyond, seen.worst, seen.near_worst);
     EXPECT_EQ(seen.beyond, 0u);
     EXPECT_EQ(seen.missing, 0u);
@@ -60,7 +63,7 @@ TEST(NearGroups, SufferNoMoreFromLossAndDisorderThanOneStream) {
   constexpr double kLoss = 0.05;
   std::size_t all[2] = {}, beyond[2] = {}, near_beyond[2] = {}, missing[2] = {};
   for (const bool near : {false, true}) {
-    for (unsigned seed = 1; seed <= 10; ++seed) {
+    for (unsigned seed = 1; seed <= tries(4U, 10U); ++seed) {
       Melee place(Melee::scene(near), crowd(12, 150.0, seed), seed, kLoss, 30ms);
       place.run(4s);
       place.begin();
@@ -116,7 +119,7 @@ TEST(NearGroups, TellALeapedFocusWhatThoseNearKnow) {
 // its row is kept right by, or it would be led astray until that is told anew.
 TEST(NearGroups, LeaveNobodyWithAStateThatNobodyKeepsRight) {
   double worst = 0.0;
-  for (int turn = 0; turn < 40; ++turn) {
+  for (int turn = 0; turn < 40; turn += tries(3, 1)) {
     Melee place(Melee::scene(true), {bump(0.6, 1.0), stand({10, 20, 0}), stand({10, -20, 0})});
     place.run(10s + turn * 75ms);
     const double left = place.time();

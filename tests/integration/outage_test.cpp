@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <random>
 #include <string>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::test {
 namespace {
@@ -47,7 +47,7 @@ constexpr double kPressed = 2.5;    // [s], from the start; the press is at rest
 constexpr double kUnfelt = 1e-9;    // [N]
 constexpr double kHeartbeat = 5.6;  // [s], of a hand that rests, and a little
 
-int outages() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 8; }
+int outages() { return test::tries(8, 200); }
 
 // What chance decides; times in seconds from the start.
 struct Cut {

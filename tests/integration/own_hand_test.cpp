@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/soak.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 
 namespace reckon::test {
@@ -67,7 +68,7 @@ TEST(OwnHand, IsNotForgottenBetweenSlowHeartbeats) {
     world.start(0, scene);
     world.start(1, scene);
     world.run(1000);
-    for (int second = 0; second < 150; ++second) {
+    for (int second = 0; second < tries(80, 150); ++second) {
       world.run(1000);
       const auto rows = world.peer(0).model().remote().rows();
       ASSERT_EQ(rows.size(), 1u) << validity << ' ' << second;

@@ -20,6 +20,7 @@
 
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/integration/federates.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::test::round_places_test {
 namespace {
@@ -198,7 +199,7 @@ void try_place(std::uint64_t seed) {
 }
 
 TEST(RoundPlaces, AreShownAllTheTimeToWhoIsInReachOrFollows) {
-  std::uint64_t seeds = std::getenv("RECKON_SOAK") != nullptr ? 10'000 : 40;
+  std::uint64_t seeds = test::tries(40U, 10'000U);
   if (const char* given = std::getenv("RECKON_SEEDS")) seeds = std::stoul(given);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) try_place(seed);
 }

@@ -16,6 +16,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/support/climb.hpp"
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::test {
 namespace {
@@ -40,7 +41,7 @@ constexpr double kFollowed = 0.01;     // [s], two time constants of what follow
 constexpr double kShownApart = 0.005;  // [m]
 constexpr int kApartFor = 20;          // [ms]
 
-int taps() { return std::getenv("RECKON_SOAK") != nullptr ? 2000 : 40; }
+int taps() { return test::tries(40, 2000); }
 
 // Both hands have the same grip; the law is that of both ways.
 struct Tap {

@@ -88,8 +88,7 @@ FigurePanel one_pushes_panel(Model model, Quantity quantity) {
 /// By which opposed motion grows, as exp(rate t) [1/s].
 double opposed_growth(Model model) {
   const PairParameters pair;
-  return std::log(pair_radii(pair, environment_of(one_pushes(), model)).opposed) /
-         pair.sample_period;
+  return std::log(opposed_radius(pair, environment_of(one_pushes(), model))) / pair.sample_period;
 }
 
 Figure figure_of(Model model, Quantity quantity, std::optional<double> level,

@@ -56,7 +56,7 @@ int least_unstable_delay(SpringReading reading) {
     PairParameters pair;
     pair.reading = reading;
     pair.delay_samples = delay;
-    return pair_radii(pair).opposed > 1.0;
+    return opposed_radius(pair) > 1.0;
   };
   int stable = 0, unstable = 1;
   while (!is_unstable(unstable)) {

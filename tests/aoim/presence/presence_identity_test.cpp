@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reckon/tests/aoim/support/segment.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -18,7 +19,7 @@ struct Race {
 class PresenceRace : public testing::TestWithParam<Race> {};
 
 TEST_P(PresenceRace, AllAreDistinctAndMutuallySeenWithinTwoSecondsAndNobodyMovesAgain) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= reckon::test::tries(3U, 10U); ++seed) {
     Segment segment(seed, GetParam().loss);
     std::mt19937_64 random(seed);
     for (std::size_t i = 0; i < GetParam().peers; ++i) {
@@ -245,7 +246,7 @@ class PresenceSplit : public testing::TestWithParam<Split> {};
 TEST_P(PresenceSplit, HealsWithOneRenameAtMostForEachAndNoneForTheMany) {
   const auto [left, right] = GetParam();
   for (const double loss : {0.0, 0.2}) {
-    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (std::uint64_t seed = 1; seed <= reckon::test::tries(4U, 10U); ++seed) {
       Segment segment(seed, loss);
       segment.cut([n = left](std::size_t a, std::size_t b) { return (a < n) != (b < n); });
       for (std::size_t i = 0; i < left + right; ++i) {

@@ -9,13 +9,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "reckon/bench/baselines/coupling_simulation.hpp"
 #include "reckon/haptics/contact/energy_exchange.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -23,8 +23,6 @@ namespace {
 constexpr double kLimit = 2000.0;  // [N/m], 2 b / T
 constexpr std::array kEnvironments{EnvironmentKind::linear, EnvironmentKind::hardening,
                                    EnvironmentKind::moving, EnvironmentKind::switching};
-
-bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
 
 struct Cells {
   int runs = 0, made = 0, beyond = 0;  // beyond: at a share of the limit above 0.9
@@ -38,8 +36,8 @@ struct Study {
   Counterpart counterpart = Counterpart::server;
   EnvironmentKind environment = EnvironmentKind::linear;
   unsigned seeds = 1;
-  double duration = soak() ? 12 : 5;  // [s]
-  std::vector<double> losses = soak() ? std::vector{0.0, 0.1, 0.3, 0.5} : std::vector{0.0, 0.3};
+  double duration = test::tries(5.0, 12.0);  // [s]
+  std::vector<double> losses = test::tries(std::vector{0.0, 0.3}, std::vector{0.0, 0.1, 0.3, 0.5});
 };
 
 void note(Cells& cells, const CouplingOutcome& outcome, double share, bool push) {
@@ -55,9 +53,9 @@ void note(Cells& cells, const CouplingOutcome& outcome, double share, bool push)
 
 Cells run(const Study& study) {
   const std::vector<double> shares =
-      soak() ? std::vector{0.1, 0.25, 0.5, 0.75, 0.9, 1.05, 2.0} : std::vector{0.25, 0.9};
+      test::tries(std::vector{0.25, 0.9}, std::vector{0.1, 0.25, 0.5, 0.75, 0.9, 1.05, 2.0});
   const std::vector<double> delays =
-      soak() ? std::vector{0.0, 0.02, 0.05, 0.1, 0.2, 0.5} : std::vector{0.0, 0.05, 0.2};
+      test::tries(std::vector{0.0, 0.05, 0.2}, std::vector{0.0, 0.02, 0.05, 0.1, 0.2, 0.5});
   const double whole = study.counterpart == Counterpart::hand ? 0.5 * kLimit : kLimit;
   Cells cells;
   for (const auto hand : {OperatorKind::push, OperatorKind::soft, OperatorKind::tracking})
@@ -97,7 +95,7 @@ TEST(CouplingGrid, PrintedDeadReckoningFailsWhereItsModelChanges) {
     const Cells cells =
         run({CouplingMode::printed_dead_reckoning, Counterpart::server, environment});
     // Above the device's own limit no spring is passive: that is no matter of updates.
-    if (environment == EnvironmentKind::linear && !soak()) {
+    if (environment == EnvironmentKind::linear && !test::soaks()) {
       EXPECT_EQ(cells.made, 0);
     } else if (environment != EnvironmentKind::linear) {
       EXPECT_GE(cells.failed(), 0.1) << name_of(environment);
@@ -108,13 +106,14 @@ TEST(CouplingGrid, PrintedDeadReckoningFailsWhereItsModelChanges) {
 TEST(CouplingGrid, OursMakesNoEnergyInAnyCell) {
   for (const auto environment : kEnvironments) {
     Study study{CouplingMode::reckon, Counterpart::server, environment};
-    if (soak()) study.seeds = 5;
+    if (test::soaks()) study.seeds = 5;
     const Cells cells = run(study);
     EXPECT_EQ(cells.made, 0) << name_of(environment);
     EXPECT_LE(cells.peak, 15.0) << name_of(environment);
   }
   // What is lost in one draw and not in another decides whether a hand has to borrow.
-  const Cells hands = run({CouplingMode::reckon, Counterpart::hand, EnvironmentKind::linear, 5});
+  const Cells hands =
+      run({CouplingMode::reckon, Counterpart::hand, EnvironmentKind::linear, test::tries(2U, 5U)});
   EXPECT_EQ(hands.made, 0);
   EXPECT_LE(hands.loan, 2 * haptics::kGreatestHandLoan);
   EXPECT_LE(hands.peak, 25.0);
@@ -125,7 +124,7 @@ TEST(CouplingGrid, GainCutIsStableAtAFractionOfOurStiffness) {
   for (const auto counterpart : {Counterpart::server, Counterpart::hand}) {
     Study study{CouplingMode::gain_cut, counterpart};
     study.losses = {0.0};
-    study.duration = soak() ? 30 : 12;  // so soft a spring settles slowly
+    study.duration = test::tries(12.0, 30.0);  // so soft a spring settles slowly
     const Cells cut = run(study);
     study.mode = CouplingMode::reckon;
     const Cells ours = run(study);

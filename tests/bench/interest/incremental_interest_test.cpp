@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -115,7 +116,7 @@ class World {
 };
 
 TEST(IncrementalInterest, TellsWhatBruteForceTellsWhateverEntitiesDo) {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::tries(6U, 12U); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     World world(400, seed % 3 == 0 ? 400.0 : 60.0, seed, static_cast<SimdLevel>(seed / 2 % 3));
     if (seed % 2 == 0) world.use_radii({0.0, 3.0, 8.0, 12.0, 12.0, 12.0, 90.0, -1.0});
@@ -211,7 +212,7 @@ TEST(IncrementalInterest, FewAreComparedByThemselvesAmongManyThatWalk) {
   World world(800, 80.0, 41, best_simd_level());
   world.use_radii({10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 150.0});
   for (int i = 0; i < 1500; ++i) world.join();
-  for (int tick = 0; tick < 30; ++tick) {
+  for (int tick = 0; tick < test::tries(15, 30); ++tick) {
     world.move_all(0.2, 100, 30, 5);
     world.join();
     world.leave();

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "reckon/tests/bench/support/membranes.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -71,6 +72,8 @@ TEST(CongruenceReduction, IsWithinFivePerCentOfMembranesWithSixteenModes) {
   for (const int side : {6, 8, 14}) {
     for (const double bed : {4.0, 40.0}) {
       for (const double spring_damping : {2e-4, 2e-3}) {
+        // Of the largest ones in a gate the softest, least damped one.
+        if (!test::soaks() && side > 8 && (bed > 4.0 || spring_damping > 2e-4)) continue;
         test::Membrane of;
         of.side = side;
         of.bed = bed;

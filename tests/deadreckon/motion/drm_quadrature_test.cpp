@@ -13,6 +13,7 @@
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/tests/deadreckon/support/oracle.hpp"
 #include "reckon/tests/deadreckon/support/quadrature.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::deadreckon::test::drm_quadrature_test {
 namespace {
@@ -178,7 +179,7 @@ bool has_rate(Algorithm algorithm) {
 TEST(DrmQuadrature, EveryModelIsWithinAMicrometreAndANanoradianForAllRates) {
   Motions motions(20);
   std::array<Off, kCases.size()> worst;
-  for (int i = 0; i < kStates; ++i) {
+  for (int i = 0; i < reckon::test::tries(30'000, kStates); ++i) {
     const Motion m = motions.next();
     const Reference reference(m);
     for (std::size_t k = 0; k < kCases.size(); ++k) {

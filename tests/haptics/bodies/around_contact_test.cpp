@@ -20,6 +20,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::around_contact_test {
 namespace {
@@ -154,7 +155,7 @@ void add_far_pile(Stage& stage, unsigned seed) {
 }
 
 TEST(FarPile, ChangesNeitherForceNorMotionElsewhere) {
-  for (const unsigned seed : {1u, 2u, 3u}) {
+  for (unsigned seed = 1; seed <= test::tries(2U, 3U); ++seed) {
     const Stage alone = carrying();
     Stage crowded = carrying();
     add_far_pile(crowded, seed);
@@ -196,7 +197,7 @@ TEST(FarPile, NeverGainsEnergy) {
     stage.scene.objects.resize(stage.scene.objects.size() - 2);  // what overlaps at the start
     Hands hands(stage, {[](double) { return Vector3d(0, -3, 1); }});
     double least = hands.world->energy();
-    for (int i = 0; i < 4'000; ++i) {
+    for (int i = 0; i < test::tries(2'000, 4'000); ++i) {
       hands.step();
       ASSERT_LE(hands.world->energy(), least + 1e-3) << seed << ", " << i;
       least = std::min(least, hands.world->energy());
@@ -333,7 +334,7 @@ TEST(PassingBody, ThinBoardKeepsAPressedHandOut) {
       Hands hands(stage, {[goal](double t) {
                     return Vector3d(0, 0, 0.03 + (goal - 0.03) * ease(t / 0.5));
                   }});
-      for (int i = 0; i < 10'000; ++i) hands.step();
+      for (int i = 0; i < test::tries(4'000, 10'000); ++i) hands.step();
       EXPECT_EQ(hands.at().tally.passed, 0U) << mass << " kg, " << stiffness << " N/m";
       EXPECT_NEAR(hands.at().force.z(), 9.0, 0.1) << mass << " kg, " << stiffness << " N/m";
     }

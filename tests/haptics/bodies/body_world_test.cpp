@@ -15,6 +15,7 @@
 #include "reckon/haptics/bodies/contact_islands.hpp"
 #include "reckon/tests/haptics/support/body_table.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::body_world_test {
 namespace {
@@ -277,7 +278,7 @@ TEST(BodyWorld, ABulletDoesNotPassAThinWall) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   int passed = 0;
-  for (int shot = 0; shot < 10'000; ++shot) {
+  for (int shot = 0; shot < test::tries(1'000, 10'000); ++shot) {
     Table table;
     table.without_gravity();
     SceneObject& wall = table.box(1.0, {0, 0, 0}, {});

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -21,6 +20,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/support/soak.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics::carried_object_test {
@@ -92,7 +92,7 @@ void press_on(test::MeshData data, double size, unsigned seed) {
   Vector3d hand(0, 0, 0.3), wanted = hand;
   double time = 0.0;
   int touched = 0, passed = 0;
-  const bool soaks = std::getenv("RECKON_SOAK") != nullptr;
+  const bool soaks = test::soaks();
   for (int i = 0; i < (soaks ? 1'000'000 : 30'000); ++i) {
     const double dt = i % 20 == 0 ? 1e-3 * (2.0 + any(random)) : 1e-3;
     time += dt;

@@ -14,6 +14,7 @@
 #include <random>
 
 #include "reckon/haptics/bodies/body_world.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::impacts_test {
 namespace {
@@ -144,7 +145,7 @@ TEST(Impacts, KeepMomentumOfBoxesAndCylinders) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   double worst = 0.0, gained = -1.0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::tries(80, 200); ++i) {
     Scene scene = scene_of({Thrown{{-0.2, 0, 0}, {}, 0.1, 0.015}, Thrown{}}, 0.6);
     SceneObject& other = scene.objects[1];
     if (i % 2 == 0) {

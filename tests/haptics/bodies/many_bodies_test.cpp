@@ -15,6 +15,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::many_bodies_test {
 namespace {
@@ -150,7 +151,7 @@ TEST(ManyBodies, AreFeltByAHandAsIfTheOthersWereNotThere) {
 
 // Each in turn: slots pass from those that sleep again.
 TEST(ManyBodies, SlideOneAfterTheOtherAsFarAsFrictionSays) {
-  Field field(300, 1);
+  Field field(test::tries(120, 300), 1);
   BodyWorld& world = field.begin();
   const double speed = 1.0;
   for (int row = 0; row < field.rows(); ++row) {
@@ -206,13 +207,14 @@ TEST(ManyBodies, StopABulletThoughTheySleep) {
 
 // A copy that was not written for long gets what has moved meanwhile.
 TEST(ManyBodies, ArePublishedWholeHoweverSeldomTheyAreRead) {
-  Field field(600, 1);
+  Field field(test::tries(240, 600), 1);
   BodyWorld& world = field.begin();
+  const int sixth = field.rows() / 6;
   int reads = 0;
   for (int row = 0; row < field.rows(); ++row) {
     field.strike(field.first_of(row), 1.0);
-    field.run(row < 500 ? 25 : 1);
-    if (row % 7 != 0 && row < 400) continue;
+    field.run(row < 5 * sixth ? 25 : 1);
+    if (row % 7 != 0 && row < 4 * sixth) continue;
     ++reads;
     ASSERT_TRUE(world.published().update());
     const BodyStates& read = world.published().read();
@@ -221,21 +223,22 @@ TEST(ManyBodies, ArePublishedWholeHoweverSeldomTheyAreRead) {
       ASSERT_EQ(read.bodies[i].awake, world.states()[i].awake) << i;
     }
   }
-  EXPECT_GT(reads, 100);
+  EXPECT_GT(reads, sixth);
   ASSERT_TRUE(world.outgoing().update());  // read for the first time
   for (std::size_t i = 0; i < world.states().size(); ++i)
     ASSERT_EQ(world.outgoing().read().bodies[i].position, world.states()[i].position) << i;
 }
 
 TEST(ManyBodies, WakeAndSleepWithoutAllocation) {
-  Field field(200, 2);
+  const int rows = test::tries(40, 100);
+  Field field(2 * rows, 2);
   field.begin();
-  for (int row = 0; row < 100; ++row) {
+  for (int row = 0; row < rows; ++row) {
     field.strike(field.first_of(row), 1.5);
     field.run(40);
   }
   const test::AllocationGuard guard;
-  for (int row = 100; row < 200; ++row) {
+  for (int row = rows; row < 2 * rows; ++row) {
     field.strike(field.first_of(row), 1.5);
     field.run(40);
   }

@@ -16,6 +16,7 @@
 #include "reckon/haptics/bodies/body_world.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::spring_body_test {
 namespace {
@@ -130,6 +131,8 @@ TEST(SpringBody, SwingsAsTheClosedFormSaysOrIsRefused) {
       if (!fits) continue;
       ++shown;
       for (const double damped : {0.0, 0.02}) {
+        // In a gate one of both, in turn.
+        if (!test::soaks() && (damped > 0.0) != ((k + m) % 2 == 0)) continue;
         at.viscosity = damped * at.mass / kT;
         const Swing swing = swing_of(at);
         EXPECT_LT(swing.error, 0.01 * swing.way) << name;

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -19,6 +18,7 @@
 #include "reckon/tests/haptics/support/drawn_touch.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::virtual_handle_test {
 namespace {
@@ -147,7 +147,7 @@ TEST(VirtualHandle, GoesAsAMassWithDampingAtAnyRate) {
 // Masses, grips, loops, walls, friction, delays: what the hand got beyond what was written off is
 // the loan, and what the device did by itself while the mass stood. RECKON_SOAK=1 draws 1,000.
 TEST(VirtualHandle, GivesTheHandAtMostALoanWhateverTheDeviceAndTheGrip) {
-  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 1000 : 60;
+  const unsigned seeds = test::tries(24U, 1000U);
   unsigned heavier = 0;
   double lowest = 0.0;
   for (unsigned seed = 1; seed <= seeds; ++seed) {

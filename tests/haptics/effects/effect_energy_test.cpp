@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <set>
 #include <string>
@@ -20,6 +19,7 @@
 
 #include "reckon/haptics/contact/static_contact.hpp"
 #include "reckon/tests/support/effect_adversary.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -99,7 +99,7 @@ Scene scene_of(Random& random, const std::vector<Switch>& switches) {
   return scene;
 }
 
-int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 1000 : 3; }
+int seeds() { return test::tries(3, 1000); }
 
 TEST(EffectEnergy, NoPairOfEffectsGivesTheHandWhatItDidNotPutIn) {
   const std::vector<Switch> all = all_switches();

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::evdev_energy_test {
 namespace {
@@ -61,13 +61,15 @@ Told roam(unsigned seed, microseconds report, microseconds latency, double stiff
           plugged.last().port_energy - model.absorbed()};
 }
 
-// RECKON_SOAK=1 draws 120 of each.
+// RECKON_SOAK=1 draws 120 of each, a gate one or two.
 TEST(EvdevLoop, NeverGivesMoreEnergyThanTheHandPutIn) {
-  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 120 : 6;
+  const unsigned seeds = test::tries(6U, 120U);
+  test::Thinned thinned(5);
   Told all;
   for (const auto report : {microseconds(1000), microseconds(4000), microseconds(8000)}) {
     for (const auto latency : {microseconds(0), microseconds(2000), microseconds(8000)}) {
       for (unsigned seed = 1; seed <= seeds; ++seed) {
+        if (thinned.skips()) continue;
         const Told one = roam(seed, report, latency, seed % 2 == 0 ? 300 : 900);
         ASSERT_LT(one.fastest, 1.0) << "the hand is faster than stated";
         ASSERT_GE(one.least, -1e-9) << "seed " << seed << ", report " << report.count()
@@ -102,7 +104,7 @@ void expect_within_books(const std::vector<BookedStep>& steps, const std::vector
 // Nearly always at the greatest speed that is stated, through walls and hands of others. Of the
 // changes of each step the device's own springs get no more than was booked.
 TEST(EvdevLoop, NoChangeCostsMoreThanIsBookedThoughTheHandIsAlwaysAsFastAsStated) {
-  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 120 : 4;
+  const unsigned seeds = test::tries(4U, 120U);
   constexpr double kSpeed = 0.4;  // [m/s]
   const Hand brisk = [](double t) {
     const double turn = std::numbers::pi / 0.06 * 0.9 * kSpeed / 0.95;

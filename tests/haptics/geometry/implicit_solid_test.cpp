@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/implicit_solids.hpp"
 #include "reckon/tests/support/random_point.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::implicit_solid_test {
 namespace {
@@ -26,8 +26,6 @@ using test::random_point;
 using SolidPointer = std::shared_ptr<const ImplicitSolid>;
 
 constexpr double kTight = 1e-9;  // [m]
-
-bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
 
 template <class ShapeOfIt>
 SolidPointer solid(const ShapeOfIt& shape) {
@@ -80,7 +78,7 @@ TEST(ImplicitSolid, NoPokeBringsTheContactPointInsideNorAwayFromTheSurface) {
   for (const test::NamedSolid& named : test::implicit_solids()) {
     for (const double radius : {0.0, 3e-3}) {
       Pokes pokes;
-      poke(*named.solid, named.solid, radius, soak() ? 4500 : 60, pokes);
+      poke(*named.solid, named.solid, radius, test::tries(60, 4500), pokes);
       const std::string told = named.name + ", radius " + std::to_string(radius);
       EXPECT_LT(pokes.deepest, kTight) << told;
       EXPECT_LT(pokes.highest, kTight) << told;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -13,6 +12,7 @@
 
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/reference_data.hpp"
+#include "reckon/tests/support/soak.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
@@ -54,7 +54,7 @@ StrokeQuality stroke(const std::shared_ptr<const SurfaceMesh>& mesh, double spee
 }
 
 // RECKON_SOAK=1 strokes each mesh longer: 6 meshes x 2 speeds x 2 frictions make 1.2 million ticks.
-int stroke_ticks() { return std::getenv("RECKON_SOAK") != nullptr ? 50000 : 2000; }
+int stroke_ticks() { return test::tries(700, 50000); }
 
 TEST(MeshData, EveryMeshIsFeltWithoutPopThroughLagOrGap) {
   RECKON_NEED_DATA("meshes");

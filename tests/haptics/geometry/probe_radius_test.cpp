@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <random>
 #include <vector>
 
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
+#include "reckon/tests/support/soak.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
@@ -19,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
-
-bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
 
 Vector3d random_direction(std::mt19937& random) {
   std::normal_distribution<double> any;
@@ -33,7 +31,7 @@ struct Subject {
 };
 
 std::vector<Subject> subjects() {
-  if (soak()) {
+  if (test::soaks()) {
     return {{"torus of 5 k", test::torus(72, 36)},
             {"torus of 70 k", test::torus(264, 132)},
             {"torus of 1 M", test::torus(1000, 500)}};
@@ -43,7 +41,7 @@ std::vector<Subject> subjects() {
 
 // Whether p is inside, by a way that shares no code with the library where that is affordable.
 bool inside(const SurfaceMesh& mesh, const Vector3d& p) {
-  return soak() ? mesh.contains(p) : test::winding_number(mesh, p) > 0.5;
+  return test::soaks() ? mesh.contains(p) : test::winding_number(mesh, p) > 0.5;
 }
 
 // From outside into the solid and out on another side, in a few leaps.
@@ -85,7 +83,7 @@ TEST(ProbeRadius, NoPokePopsThroughAMeshOfAnySize) {
     for (const double size : {1e-3, 0.2, 200.0}) {
       const auto mesh = std::make_shared<const SurfaceMesh>(test::make_mesh(subject.data, size));
       for (const double radius : {0.0, 1e-3}) {
-        const int count = soak() ? soak_pokes(mesh->triangles().size(), size, radius) : 150;
+        const int count = test::soaks() ? soak_pokes(mesh->triangles().size(), size, radius) : 150;
         EXPECT_EQ(pokes_that_pop(mesh, radius, count), 0)
             << subject.name << " of " << size << " m, radius " << radius;
         pokes += count;

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "reckon/tests/haptics/support/hid_wheel.hpp"
 #include "reckon/tests/haptics/support/plugged_events.hpp"
 #include "reckon/tests/haptics/support/servo_bench.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::hid_events_test {
 namespace {
@@ -150,7 +150,7 @@ TEST(HidEvents, ReadingsGoOnWhileItIsTold) {
 // Strokes that press every wall, stops, hands of others and stands of the program. RECKON_SOAK=1
 // draws 200 of each.
 TEST(HidEvents, NeverGivesMoreEnergyThanTheHandPutIn) {
-  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 200 : 4;
+  const unsigned seeds = test::tries(4U, 200U);
   double least = 0, lead = 0, greatest = 0;
   for (const auto takes : {microseconds(100), microseconds(1000), microseconds(2000)}) {
     for (unsigned seed = 1; seed <= seeds; ++seed) {

@@ -6,10 +6,10 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 
 #include "reckon/haptics/measurement/measuring_servo.hpp"
 #include "reckon/tests/haptics/support/wired_board.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::measured_board_test {
 namespace {
@@ -60,12 +60,10 @@ class Measured : public test::WiredBoard {
 };
 
 // RECKON_SOAK=1 measures each seed at each period, and both lags below.
-bool soaks() { return std::getenv("RECKON_SOAK") != nullptr; }
-
 TEST(MeasuredBoard, DampingAndDelayAreFoundWithinTenPerCent) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     for (const int period : {1'000, 2'000}) {
-      if (!soaks() && (seed == 1) != (period == 1'000)) continue;
+      if (!test::soaks() && (seed == 1) != (period == 1'000)) continue;
       SerialBoardOptions options;
       options.seed = seed;
       options.damping = seed % 2 == 0 ? 0.5 : 2.0;
@@ -89,7 +87,7 @@ TEST(MeasuredBoard, DampingAndDelayAreFoundWithinTenPerCent) {
 // The motors pull later than the board reports: nothing but a push can tell.
 TEST(MeasuredBoard, WhatMotorsLagBehindTheirReportsIsFound) {
   for (const int lag : {2, 5}) {
-    if (!soaks() && lag != 5) continue;
+    if (!test::soaks() && lag != 5) continue;
     SerialBoardOptions options;
     options.lag = lag;
     Measured wired(options);

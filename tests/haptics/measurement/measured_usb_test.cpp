@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 
@@ -18,6 +17,7 @@
 #include "reckon/tests/haptics/support/falcon_model.hpp"
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/polhem_model.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::measured_usb_test {
 namespace {
@@ -150,7 +150,7 @@ int failures(const typename Kind::Options& options, int delay) {
 
 // RECKON_SOAK=1 measures four.
 TYPED_TEST(MeasuredUsbTest, DampingAndDelayAreFoundWithinTenPerCent) {
-  const unsigned seeds = std::getenv("RECKON_SOAK") != nullptr ? 4 : 1;
+  const unsigned seeds = test::tries(1U, 4U);
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     const double damping = seed <= 2 ? 0.4 : 2.0;
     const auto options = options_of<TypeParam>(seed, damping);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -161,11 +162,12 @@ TEST(Wrench, DampedAxesKeepWorkAndLoss) {
 
 // Any energy, any tool: what the port holds leaves enough for the worst motion, and no more than
 // that where it cuts.
-TEST(SixAxes, APortAnswersForTheWorstMotionOfAHundredThousandTools) {
+TEST(SixAxes, APortAnswersForTheWorstMotionOfAnyTool) {
   Random random(4);
   double tightest = 0;
+  const int tools = test::tries(40'000, 100'000);
   int cut = 0, whole = 0;
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < tools; ++i) {
     const Tool tool(random);
     const DampedAxes axes(tool.damping);
     const auto [springs, curvature] = tool.pressed();
@@ -197,8 +199,8 @@ TEST(SixAxes, APortAnswersForTheWorstMotionOfAHundredThousandTools) {
     if (held.extra < 1 || held.springs < 1) tightest = std::max(tightest, 1.0 - margin / level);
   }
   std::printf("[ six axes ] %d cut, %d whole, tightest %.3f of the bound\n", cut, whole, tightest);
-  EXPECT_GT(cut, 10'000);
-  EXPECT_GT(whole, 10'000);
+  EXPECT_GT(cut, tools / 10);
+  EXPECT_GT(whole, tools / 10);
   EXPECT_GE(tightest, 0.9);
 }
 

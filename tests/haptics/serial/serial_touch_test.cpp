@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include "reckon/tests/haptics/support/wired_board.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::serial_touch_test {
 namespace {
@@ -20,7 +20,7 @@ using std::chrono::nanoseconds;
 using test::DrawnTouch;
 using test::TouchKind;
 
-int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 2; }
+int seeds() { return test::tries(2, 200); }
 
 constexpr int kLatencies = 5;
 

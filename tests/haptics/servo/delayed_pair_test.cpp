@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <deque>
 #include <numbers>
 #include <random>
@@ -21,6 +20,7 @@
 #include "reckon/haptics/passivity/held_forces.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::delayed_pair_test {
 namespace {
@@ -35,8 +35,6 @@ constexpr int kSteps = 2000;
 
 constexpr std::array kDelays{0, 1, 2, 3, 4, 16};           // [samples]
 constexpr std::array kResolutions{0.0, 2e-6, 2e-5, 1e-4};  // [m]
-
-int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 2000 : 20; }
 
 struct DeviceStep {
   int delay = 0;          // [samples]
@@ -241,7 +239,7 @@ class DelayedPair : public testing::TestWithParam<std::tuple<int, double>> {};
 // One device is that of the cell; in every second run so is the other, else it is any.
 TEST_P(DelayedPair, TakeNoMoreEnergyThanTheyPutIn) {
   const auto [delay, resolution] = GetParam();
-  const int tried = delay > 4 ? seeds() / 10 : seeds();
+  const int tried = delay > 4 ? test::tries(2, 200) : test::tries(10, 2000);
   Books all;
   for (int seed = 1; seed <= tried; ++seed) {
     PressedPair pair({delay, resolution}, seed);
@@ -257,7 +255,7 @@ TEST_P(DelayedPair, TakeNoMoreEnergyThanTheyPutIn) {
       "peak %.1f N, encoder allowed %.2g J\n",
       tried, all.least, all.least_sum, all.meter, all.transferred, all.shown, all.allowance);
   // They do push each other. Behind 16 samples they show some 30 N/m and few of them give anything.
-  if (tried >= 20) {
+  if (tried >= 10) {
     EXPECT_GT(all.transferred, 1e-4);
   }
 }

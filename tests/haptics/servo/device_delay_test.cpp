@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <tuple>
 
 #include "reckon/tests/haptics/support/servo_bench.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::device_delay_test {
 namespace {
@@ -21,8 +21,6 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr double kRoundOff = 1e-9;  // [J], of sums of some joules
-
-int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 2000 : 40; }
 
 // What touches the hand.
 enum class Against { leaps, wave, liar, wall, corner };
@@ -154,7 +152,7 @@ class DeviceDelay : public testing::TestWithParam<Cell> {};
 
 TEST_P(DeviceDelay, NoMoreEnergyComesOutThanTheDevicesOwnBooksHave) {
   const auto [against, delay, resolution] = GetParam();
-  const int tried = delay > 4 ? seeds() / 10 : seeds();
+  const int tried = delay > 4 ? test::tries(4, 200) : test::tries(10, 2000);
   double least = 0, meter = -1e9, allowance = 0;
   for (int seed = 1; seed <= tried; ++seed) {
     Trial trial(against, delay, resolution, seed);

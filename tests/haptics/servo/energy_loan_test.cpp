@@ -11,6 +11,7 @@
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -97,7 +98,7 @@ TEST(EnergyLoan, LateDiscoveryOverALossyLine) {
   for (const double loss : {0.2, 0.5}) {
     for (const double press : {0.010, 0.020}) {
       for (const double delay : kDelays) {
-        for (unsigned seed = 1; seed <= 4; ++seed) {
+        for (unsigned seed = 1; seed <= test::tries(1U, 4U); ++seed) {
           const Cell cell{press, delay, loss};
           HandsInARow row = overlapping(cell, seed);
           for (int i = 0; i < 1500; ++i) row.step(false);

@@ -13,6 +13,7 @@
 
 #include "reckon/tests/haptics/support/servo_bench.hpp"
 #include "reckon/tests/support/climb.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::force_steps_test {
 namespace {
@@ -238,7 +239,7 @@ TEST(AHandThatGetsStiffer, PushesNoHarderThanItWill) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, ForceStepsOfSeeds, ::testing::Range(1U, 6U));
+INSTANTIATE_TEST_SUITE_P(Seeds, ForceStepsOfSeeds, ::testing::Range(1U, test::tries(3U, 6U)));
 
 }  // namespace
 }  // namespace reckon::haptics::force_steps_test

@@ -11,6 +11,8 @@
 #include <deque>
 #include <random>
 
+#include "reckon/tests/support/soak.hpp"
+
 namespace reckon::haptics {
 namespace {
 
@@ -149,13 +151,14 @@ TEST(MotionFilter, EqualsTheDirectFitOverHoursAndFarFromTheOrigin) {
     Hand hand(7, far);
     Worst worst;
     double time = far == 0.0 ? 0.0 : 1e5;
-    constexpr int kSteps = 3'400'000;  // 10 million of the three: 2.8 hours at 1 kHz
-    for (int i = 0; i < kSteps; ++i) {
+    // In a soak 10 million of the three: 2.8 hours at 1 kHz.
+    const int steps = test::tries(400'000, 3'400'000);
+    for (int i = 0; i < steps; ++i) {
       time += 1e-3;
       const Vector3d position = hand.next(1e-3);
       filter.add(position, time);
       direct.add(position, time);
-      if (i % 41 == 0 || i > kSteps - 1000) worst.note(filter, direct);
+      if (i % 41 == 0 || i > steps - 1000) worst.note(filter, direct);
     }
     std::printf("far %g m: velocity off by %.2g, acceleration by %.2g\n", far, worst.velocity,
                 worst.acceleration);
@@ -165,7 +168,7 @@ TEST(MotionFilter, EqualsTheDirectFitOverHoursAndFarFromTheOrigin) {
 }
 
 TEST(MotionFilter, EqualsTheDirectFitWhateverTheSpacingOfTheSamples) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
+  for (unsigned seed = 0; seed < test::tries(6U, 20U); ++seed) {
     MotionFilter filter;
     DirectFit direct;
     Hand hand(seed, seed % 2 == 0 ? 0.1 : 1e3);

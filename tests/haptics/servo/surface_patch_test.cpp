@@ -16,6 +16,7 @@
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/support/mesh_text.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -300,16 +301,17 @@ TEST(SurfacePatch, WhatNobodyPaidForIsNotFeltAndTold) {
 
 // 700 N/m more at 5 mm would be 8.75 mJ a round if growing springs were free. Rounds that take it:
 // down on the soft side, over the border, up on the hard one; every fourth stroke goes anywhere.
-TEST(SurfacePatch, AHundredThousandStrokesOverABorderMakeNoEnergy) {
+TEST(SurfacePatch, StrokesOverABorderMakeNoEnergy) {
   const TemporaryMesh mesh(".obj", kSlab);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   for (const double mu : {0.0, 0.5}) {
     Bench bench(slab(mesh, soft_and_hard(mu, 0.3 * mu)));
     bench.go({-0.001, 0, 0.0005}, 0.01);
-    std::size_t crossings = 0;
+    const int strokes = test::tries(8'000, 50'000);
+    int crossings = 0;
     double x = -0.001, depth = 0.0, most = 0.0;
-    for (int stroke = 0; stroke < 50'000; ++stroke) {
+    for (int stroke = 0; stroke < strokes; ++stroke) {
       const double before = x;
       const double reach = 0.0005 + 0.001 * any(random);
       if (stroke % 4 == 0) depth = 0.003 + 0.003 * any(random);
@@ -326,9 +328,9 @@ TEST(SurfacePatch, AHundredThousandStrokesOverABorderMakeNoEnergy) {
     }
     EXPECT_GE(bench.least, -1e-9) << "[J], friction " << mu;
     EXPECT_GE(bench.snapshot().port_energy_min, -1e-9);
-    EXPECT_GT(crossings, 20'000u);
+    EXPECT_GT(crossings, strokes / 5 * 2);
     EXPECT_GT(most, 4.0) << "[N]";
-    std::printf("friction %.1f: least energy %.2g J in %zu crossings, up to %.1f N\n", mu,
+    std::printf("friction %.1f: least energy %.2g J in %d crossings, up to %.1f N\n", mu,
                 bench.least, crossings, most);
   }
 }

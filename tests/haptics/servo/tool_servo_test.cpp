@@ -16,6 +16,7 @@
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/haptics/support/tool_scenes.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::tool_servo_test {
 namespace {
@@ -232,7 +233,7 @@ Outcome stroke(unsigned seed, bool in_steps, bool late) {
 
 TEST(ToolServo, NeverGivesEnergyByTheDevicesOwnBooks) {
   double least = 0.0, torque = 0.0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  for (unsigned seed = 1; seed <= test::tries(20U, 60U); ++seed) {
     const Outcome one = stroke(seed, false, false);
     EXPECT_GE(one.least, -1e-9) << "seed " << seed;
     EXPECT_GE(one.stated, -1e-9) << "seed " << seed;
@@ -245,7 +246,7 @@ TEST(ToolServo, NeverGivesEnergyByTheDevicesOwnBooks) {
 
 TEST(ToolServo, KeepsItsBooksWithEncodersAndLateSteps) {
   double worst = 0.0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  for (unsigned seed = 1; seed <= test::tries(20U, 60U); ++seed) {
     const Outcome one = stroke(seed, seed % 2 == 0, true);
     EXPECT_GE(one.least, -one.allowance - 1e-9) << "seed " << seed;
     worst = std::min(worst, one.least + one.allowance);

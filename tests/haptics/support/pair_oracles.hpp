@@ -185,10 +185,27 @@ inline std::vector<Corners> corners_of(const haptics::SurfaceMesh& mesh,
   return all;
 }
 
+/// A ball about a triangle.
+struct Ball {
+  explicit Ball(const Corners& t) : middle((t[0] + t[1] + t[2]) / 3.0) {
+    for (const Vector3d& corner : t) radius = std::max(radius, (corner - middle).norm());
+  }
+  Vector3d middle;
+  double radius = 0.0;
+};
+
+/// Least distance of two triangles. Those whose balls are farther apart than the least so far are
+/// left out.
 inline double all_triangles(const std::vector<Corners>& a, const std::vector<Corners>& b) {
+  const std::vector<Ball> balls(b.begin(), b.end());
   double best = std::numeric_limits<double>::infinity();
-  for (const Corners& one : a)
-    for (const Corners& other : b) best = std::min(best, triangle_triangle(one, other));
+  for (const Corners& one : a) {
+    const Ball ball(one);
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if ((balls[i].middle - ball.middle).norm() - balls[i].radius - ball.radius > best) continue;
+      best = std::min(best, triangle_triangle(one, b[i]));
+    }
+  }
   return best;
 }
 

@@ -17,6 +17,7 @@
 
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::usb_loop_test {
 namespace {
@@ -112,7 +113,7 @@ TYPED_TEST(UsbLoopTest, UnpluggedAtAnyInstantTheForceIsZeroWithin10Ms) {
   std::uniform_int_distribution<int> instant(0, 400);
   // In and out: a hand that only holds still would not pay back what each ramp borrows.
   Plugged<TypeParam> usb([](double t) { return Vector3d(0, 0, 0.02 * std::sin(3 * t) - 0.01); });
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::tries(18, 60); ++i) {
     // Also while it is set up, and while the force ramps up.
     usb.run((i % 2 == 0 ? nanoseconds(TypeParam::kReady) : nanoseconds(0)) +
             std::chrono::microseconds(997) * instant(random));

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <string>
 
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::usb_reach_test {
 namespace {
@@ -26,7 +26,7 @@ using test::TouchKind;
 
 // Without the damping of each pose three of the first eight fail of a Falcon.
 constexpr int kFirst = 24;
-int runs() { return std::getenv("RECKON_SOAK") != nullptr ? 800 : 8; }
+int runs() { return test::tries(8, 800); }
 
 constexpr double kDamping = 6.0;  // [N s/m], of the handle in the middle of its work space
 constexpr double kThere = 3.0, kLeaves = 7.5;  // [s]

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include "reckon/tests/haptics/support/plugged_device.hpp"
 #include "reckon/tests/haptics/support/usb_kinds.hpp"
+#include "reckon/tests/support/soak.hpp"
 
 namespace reckon::haptics::usb_touch_test {
 namespace {
@@ -20,7 +20,7 @@ using std::chrono::nanoseconds;
 using test::DrawnTouch;
 using test::TouchKind;
 
-int seeds() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 1; }
+int seeds() { return test::tries(1, 200); }
 
 template <class Kind>
 class UsbTouch : public testing::Test {};

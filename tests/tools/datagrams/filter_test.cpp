@@ -16,6 +16,7 @@
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tests/support/soak.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
@@ -329,7 +330,7 @@ TEST(Filter, MeansWhatASecondEvaluationOfRandomExpressionsMeans) {
 TEST(Filter, AnswersAnyTextWithAFilterOrAColumn) {
   RandomExpressions expressions(11);
   constexpr std::string_view kLetters = "kind side==!<>()'\"&|*:-. 0123456789and or not\t\x80\xff";
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::tries(1000, 3000); ++i) {
     std::string text = expressions.make(3).text;
     const unsigned changes = expressions.below(4);
     for (unsigned c = 0; c < changes && !text.empty(); ++c)

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How much a test tries: a sample as a gate of each commit, all in `./run soak tests`.
+#pragma once
+
+#include <cstdlib>
+
+namespace reckon::test {
+
+/// RECKON_SOAK is set.
+[[nodiscard]] inline bool soaks() { return std::getenv("RECKON_SOAK") != nullptr; }
+
+/// @return `gate`, or `soak` in a soak
+template <typename T>
+[[nodiscard]] T tries(T gate, T soak) {
+  return soaks() ? soak : gate;
+}
+
+/// Leaves out cells of a grid that loops visit: a gate keeps each nth one. All values of each loop
+/// still appear, with those of the others, where n has no factor in common with the lengths of the
+/// inner loops.
+class Thinned {
+ public:
+  /// @param n 1: keeps all  @param first the first cell to keep, below n
+  explicit Thinned(int n, int first = 0) : n_(tries(n, 1)), next_(n_ - first % n_) {}
+  /// Of the next cell.
+  [[nodiscard]] bool skips() { return next_++ % n_ != 0; }
+
+ private:
+  int n_, next_;
+};
+
+}  // namespace reckon::test
