@@ -209,6 +209,8 @@ TuneTable tune(std::span<const Track> tracks, const TuneOptions& options,
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     jobs.push_back({&table.rows[i], options.models[i / options.thresholds.size()].sent});
 
+  table.stopped = progress && !progress(0, jobs.size());
+  if (table.stopped) return table;
   table.stopped = !run_on_all_cores(
       jobs.size(),
       [&](std::size_t i, const std::atomic<bool>&) { run_row(tracks, options, span, jobs[i]); },

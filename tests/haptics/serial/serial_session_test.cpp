@@ -171,8 +171,8 @@ class Witness {
 };
 
 TEST(SerialSession, ReadingsTellJustTheForcesThatTheBoardHeldBetweenThem) {
-  int ways = 0, runs = 0, with_gaps = 0;
-  for (unsigned seed = 1; seed <= 60; seed += test::tries(5U, 1U)) {
+  int ways = 0, runs = 0, with_gaps = 0, tried = 0;
+  for (unsigned seed = 1; seed <= 60; seed += test::tries(5U, 1U), ++tried) {
     SCOPED_TRACE(seed);
     Witness witness(seed);
     witness.run(6'000);
@@ -181,9 +181,9 @@ TEST(SerialSession, ReadingsTellJustTheForcesThatTheBoardHeldBetweenThem) {
     with_gaps += witness.with_gaps();
     if (::testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(ways, 150'000);
-  EXPECT_GT(runs, 1'500);
-  EXPECT_GT(with_gaps, 6'000);
+  EXPECT_GT(ways, 2'500 * tried);
+  EXPECT_GT(runs, 25 * tried);
+  EXPECT_GT(with_gaps, 100 * tried);
 }
 
 // For a few lost reports the readings of one run go on; not where the board let go meanwhile,
