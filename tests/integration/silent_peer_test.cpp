@@ -179,8 +179,8 @@ TEST(SilentPeer, ComesBackWithItsForceAndNoEnergyIsMade) {
   }
 }
 
-// Ten datagrams in a row are lost once in four hours of a peer: of the 32 minutes of a soak one may
-// be, of the eight of a gate none is.
+// A peer loses ten datagrams in a row once in four hours. A soak of 32 minutes may see that once, a
+// gate of eight does not.
 TEST(SilentPeer, IsNotDoubtedInContactForABadNetwork) {
   peer::ImpairmentLaw law;
   law.loss = 0.3;

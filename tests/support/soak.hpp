@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How much a test tries: a sample as a gate of each commit, all in `./run soak tests`.
+// How much a test tries: a sample in the gate of each commit, everything in `./run soak tests`.
 #pragma once
 
 #include <cstdlib>
@@ -16,14 +16,14 @@ template <typename T>
   return soaks() ? soak : gate;
 }
 
-/// Leaves out cells of a grid that loops visit: a gate keeps each nth one. All values of each loop
-/// still appear, with those of the others, where n has no factor in common with the lengths of the
-/// inner loops.
+/// Thins a grid that nested loops visit: a gate keeps every nth cell. If n has no factor in common
+/// with the lengths of the inner loops, every value of each loop still appears beside those of the
+/// others.
 class Thinned {
  public:
   /// @param n 1: keeps all  @param first the first cell to keep, below n
   explicit Thinned(int n, int first = 0) : n_(tries(n, 1)), next_(n_ - first % n_) {}
-  /// Of the next cell.
+  /// Whether to skip the next cell.
   [[nodiscard]] bool skips() { return next_++ % n_ != 0; }
 
  private:

@@ -30,7 +30,7 @@ struct AccuracyReport {
 /// "80 ms +-40 %, 10 % lost, medians of 20 seeds from 1", and the other things in common.
 [[nodiscard]] std::string conditions_text(const AccuracyGrid& grid);
 
-/// The tables and what is said of them; at most 100 columns.
+/// The tables and their sentences, at most 100 columns wide.
 [[nodiscard]] std::string accuracy_text(const AccuracyReport& report, bool front_only);
 
 /// Titles and one row a setting; lengths in metres, angles in radians.

@@ -23,7 +23,7 @@ namespace reckon::bench {
 
 class Fields;
 
-/// A value as JSON and CSV write it. Nothing, and what is not finite, is null in JSON.
+/// A value as JSON and CSV write it. JSON has null for no value and for one that is not finite.
 struct Value {
   std::string json, csv;
 
@@ -60,7 +60,7 @@ struct Value {
 /// The same where a comma, quote or line end asks for it, else as it is.
 [[nodiscard]] std::string csv_cell(std::string_view text);
 
-/// A row in the making; every function appends to what it names, in the order of the calls.
+/// The fields of one row. Each function appends to the outputs that it names, in call order.
 class Fields {
  public:
   Fields() = default;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A study: its flags as rows, and a run that gives what is printed and written. The frame declares
-// the flags, refuses those that a run would not look at, checks the files before and writes them
-// after. The list of the studies of `reckon bench` is in verbs/bench.cpp.
+// A study: its flags as rows, and a run that returns its output. The frame declares the flags,
+// refuses those that a run does not use, checks before the run that the files can be written, and
+// writes them after it. The list of the studies of `reckon bench` is in verbs/bench.cpp.
 #pragma once
 
 #include <chrono>
@@ -57,12 +57,12 @@ struct Flag {
 
   std::string name;
   FlagTarget target;
-  unsigned modes;  ///< a bit for each way to run that looks at it
+  unsigned modes;  ///< a bit for each way to run that uses it
   std::string help;
   std::string offered;  ///< values that completion offers
 };
 
-/// What a study gave.
+/// Output of a study.
 struct StudyOutput {
   std::string out = {};  ///< tables and sentences, or JSON Lines
   /// For the files of these flags; empty: nothing is written.
@@ -72,7 +72,7 @@ struct StudyOutput {
   bool reports_files = true;  ///< on err
 };
 
-/// How a study is called.
+/// A call of a study.
 struct StudyCall {
   std::vector<std::string> given;  ///< as CommandLine::given()
   std::string command;             ///< as typed

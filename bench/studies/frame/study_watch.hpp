@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far a study is, on a terminal; and its end when the user asks.
+// Progress of a study on a terminal, and its end at Ctrl-C.
 #pragma once
 
 #include <fmt/format.h>

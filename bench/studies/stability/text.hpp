@@ -50,9 +50,9 @@ struct StabilitySummary {
 
 /// The table of a page.
 [[nodiscard]] std::string stability_page_table(const StabilityReport& report);
-/// One HTML page: a map of each mode, all numbers of a cell where a pointer rests on it. Without
-/// scripts, and in print, the maps show the verdicts, told apart by letters too; with scripts one
-/// number after the other can be shown.
+/// One HTML page with a map of each mode; a tooltip shows all numbers of a cell. Without scripts,
+/// and in print, a map shows the verdicts, each with a colour and a letter. With scripts a reader
+/// selects the number that it shows.
 [[nodiscard]] std::string stability_page(const StabilityReport& report);
 
 /// A line for each run, then one for each mode.

@@ -66,7 +66,7 @@ struct TouchReport {
   std::vector<TouchResult> results;
 };
 
-/// Down to 1 uN, below which rows are not told apart.
+/// [mN]; rows that are off by less than 1 uN have the same text.
 std::string millinewtons(double newtons) {
   return newtons == 0 ? "0" : newtons < 1e-6 ? "<0.001" : number_text(1e3 * newtons);
 }

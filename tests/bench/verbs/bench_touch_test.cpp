@@ -18,7 +18,9 @@ namespace reckon::bench {
 namespace {
 
 using nlohmann::json;
+using test::cells_of;
 using test::content;
+using test::lines_of;
 using test::run_bench;
 using test::unbalanced;
 using ::testing::HasSubstr;
@@ -45,6 +47,9 @@ TEST(BenchTouch, TellsWhatAccuracyOfAForceCostsInTheServo) {
   EXPECT_EQ(unbalanced(content(picture)), "");
   for (const char* needed : {"1 ms, a servo step", "50 mN, the least force that is felt"})
     EXPECT_THAT(content(picture), HasSubstr(needed));
+  const auto titles = cells_of(lines_of(content(csv)).front());
+  for (const std::string& line : lines_of(content(csv)))
+    EXPECT_EQ(cells_of(line).size(), titles.size()) << line;
 }
 
 TEST(BenchTouch, WritesOneJsonObjectForEachSettingOfATouch) {

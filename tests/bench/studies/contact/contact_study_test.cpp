@@ -130,7 +130,7 @@ TEST(ContactReport, MarksWhatAPersonMayNoticeAndSaysWhereHandsDidNotTouch) {
   EXPECT_THAT(text, HasSubstr("delay 5 ms +-30 %, 10 % lost; seed 7"));
 }
 
-TEST(ContactReport, JsonHasErrorsAndStrokesAsObjects) {
+TEST(ContactReport, IsJsonAndCsvWithAColumnForEachValue) {
   std::vector<ContactRow> rows{row_of(0.01, 20, 0.1), row_of(0.2, 25, 0.3)};
   rows[0].stroke = {{{1.1, -0.2}, {0.9, 0.1}}};
   rows[0].from_twin = 0.07;
@@ -144,6 +144,15 @@ TEST(ContactReport, JsonHasErrorsAndStrokesAsObjects) {
   EXPECT_EQ(first["twin_rms_n"], 0.07);
   std::getline(lines, line);
   EXPECT_TRUE(nlohmann::json::parse(line)["stroke"].is_null());
+  std::istringstream table(contact_csv(rows, {}));
+  std::ptrdiff_t columns = -1;
+  while (std::getline(table, line)) {
+    const auto commas = std::count(line.begin(), line.end(), ',');
+    if (columns >= 0) {
+      EXPECT_EQ(commas, columns) << line;
+    }
+    columns = commas;
+  }
 }
 
 }  // namespace
