@@ -14,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -14,8 +14,8 @@
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/loops/wake_signal.hpp"
 #include "reckon/peer/peer.hpp"
-#include "reckon/peer/real_time_priority.hpp"
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/real_time_priority.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 
 namespace reckon::peer {
 

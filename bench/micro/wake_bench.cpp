@@ -30,7 +30,7 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/joined_peer.hpp"
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 
 namespace reckon::peer {
 namespace {

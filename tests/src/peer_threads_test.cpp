@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 #include "reckon/tests/src/support/manual_link.hpp"
 
 namespace reckon::peer::peer_threads_test {

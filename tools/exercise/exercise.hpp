@@ -23,7 +23,7 @@
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
 #include "reckon/tools/exercise/notice_digest.hpp"
 #include "reckon/tools/exercise/real_devices.hpp"

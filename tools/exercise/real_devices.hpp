@@ -13,8 +13,8 @@
 #include "reckon/haptics/usb/usb_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/peer.hpp"
-#include "reckon/peer/real_device.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/threads/real_device.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {

@@ -23,7 +23,7 @@
 #include "reckon/peer/scene/device_descriptor.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/units.hpp"
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 #include "reckon/tools/exercise/device_measuring.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/exercise/stop_control.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/exercise/servo_report.hpp"
 
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 
 namespace reckon::tools {
 

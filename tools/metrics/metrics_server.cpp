@@ -13,7 +13,7 @@
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/link.hpp"
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 #include "reckon/tools/metrics/open_metrics.hpp"
 
 namespace reckon::tools {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/awake_processors.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
+#include "reckon/peer/threads/awake_processors.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/verb_rows.hpp"
 #include "reckon/tools/exercise/attached_devices.hpp"

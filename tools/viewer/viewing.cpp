@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::bench {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/real_device.hpp"
+#include "reckon/peer/threads/real_device.hpp"
 
 #include <utility>
 
 #include "reckon/haptics/evdev/evdev_device.hpp"
 #include "reckon/haptics/usb/usb_device.hpp"
-#include "reckon/peer/device_thread.hpp"
+#include "reckon/peer/threads/device_thread.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/real_time_priority.hpp"
+#include "reckon/peer/threads/real_time_priority.hpp"
 
 namespace reckon::peer {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/awake_processors.hpp"
+#include "reckon/peer/threads/awake_processors.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

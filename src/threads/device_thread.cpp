@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/device_thread.hpp"
+#include "reckon/peer/threads/device_thread.hpp"
 
 #include <chrono>
 #include <utility>
 
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/awake_processors.hpp"
+#include "reckon/peer/threads/awake_processors.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/real_time_priority.hpp"
+#include "reckon/peer/threads/real_time_priority.hpp"
 
 #include <pthread.h>
 #include <sched.h>
 
 #include <ctime>
 
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/servo_thread.hpp"
+#include "reckon/peer/threads/servo_thread.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "reckon/peer/awake_processors.hpp"
-#include "reckon/peer/thread_name.hpp"
+#include "reckon/peer/threads/awake_processors.hpp"
+#include "reckon/peer/threads/thread_name.hpp"
 
 namespace reckon::peer {
 namespace {
