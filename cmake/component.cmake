@@ -72,8 +72,8 @@ function(reckon_precompile target)
   target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
-# reckon_unite(target SOURCES .. ALONE .. APART .. COLD .. WARM ..): eight files of a folder at a time become one translation unit. What
-# is left over of folders is compiled with what is left over of the next, up to twelve files.
+# reckon_unite(target SOURCES .. ALONE .. APART .. COLD .. WARM ..): sixteen files of a folder at a time become one translation unit. What
+# is left over of folders is compiled with what is left over of the next, up to twenty files.
 # APART: "FILE FILE .." "FILE FILE .." ..: files with a name of their own (in an unnamed namespace) that a neighbour has
 # too, each list one unit. ALONE: those with definitions from CMake, or too long for company. Where the compiler says that
 # two names collide, rename one, or name its file here; a file of tests gets a namespace that has its name.
@@ -129,9 +129,9 @@ function(reckon_unite target)
   endforeach()
   list(REMOVE_ITEM sources ${ARG_ALONE})
   list(REMOVE_ITEM cold_sources ${ARG_ALONE})
-  reckon_united_rooms(${target} "" 8 12 ${sources})
+  reckon_united_rooms(${target} "" 16 20 ${sources})
   # After the others: of a function that both kinds have, a linker takes the first.
-  reckon_united_rooms(${target} cold_ 16 20 ${cold_sources})
+  reckon_united_rooms(${target} cold_ 32 40 ${cold_sources})
   # GCC takes what a source file keeps to itself for a header's, where the file is included in another.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()

@@ -40,7 +40,7 @@ bool is_inside(const Occluders::Box& box, const Position& p) noexcept {
 }
 
 // The part of the line, 0 .. 1, between two planes; an empty part has begin >= end.
-struct Part {
+struct LinePart {
   double begin = 0.0, end = 1.0;
 
   void cut(double from, double to, double lower, double upper) noexcept {
@@ -56,7 +56,7 @@ struct Part {
 };
 
 bool crosses(const Occluders::Box& box, const Position& from, const Position& to) noexcept {
-  Part part;
+  LinePart part;
   part.cut(from.x, to.x, box.lower.x, box.upper.x);
   part.cut(from.y, to.y, box.lower.y, box.upper.y);
   part.cut(from.z, to.z, box.lower.z, box.upper.z);

@@ -16,20 +16,20 @@ namespace {
 
 using End = std::unique_ptr<CouplingEnd>;
 
-void require(bool good, const char* what) {
+void demand(bool good, const char* what) {
   if (!good) throw std::invalid_argument(std::string("coupling: ") + what);
 }
 
 void check(const CouplingEndConfig& config) {
   const auto above_0 = [](double x) { return x > 0 && std::isfinite(x); };
-  require(above_0(config.period), "the sample period must be above 0 s");
-  require(above_0(config.damping), "the device's damping must be above 0 N s/m");
-  require(above_0(config.mass), "the mass must be above 0 kg");
-  require(above_0(config.impedance), "the line's impedance must be above 0 N s/m");
-  require(config.gain >= 0 && config.gain <= 1, "the gain must be 0 to 1");
-  require(config.counterpart == Counterpart::server ||
-              config.environment.kind() == EnvironmentKind::linear,
-          "two hands press on a linear spring: take environment linear, or a server");
+  demand(above_0(config.period), "the sample period must be above 0 s");
+  demand(above_0(config.damping), "the device's damping must be above 0 N s/m");
+  demand(above_0(config.mass), "the mass must be above 0 kg");
+  demand(above_0(config.impedance), "the line's impedance must be above 0 N s/m");
+  demand(config.gain >= 0 && config.gain <= 1, "the gain must be 0 to 1");
+  demand(config.counterpart == Counterpart::server ||
+             config.environment.kind() == EnvironmentKind::linear,
+         "two hands press on a linear spring: take environment linear, or a server");
 }
 
 // The one at which the spring is, where it is at one end only.

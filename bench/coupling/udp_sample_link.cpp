@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kSayAgain(20);
 
-void require(int result, const char* what) {
+void check_call(int result, const char* what) {
   if (result != 0) throw std::system_error(errno, std::generic_category(), what);
 }
 
@@ -34,23 +34,23 @@ UdpSampleLink::UdpSampleLink(const peer::IpEndpoint& local, SampleQueue incoming
       patience_(patience) {
   sockaddr_storage address{};
   const socklen_t size = peer::to_sockaddr(local, 0, address);
-  require(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), size),
-          "coupling study: bind");
+  check_call(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), size),
+             "coupling study: bind");
 }
 
 peer::IpEndpoint UdpSampleLink::local() const {
   sockaddr_storage address{};
   socklen_t size = sizeof address;
-  require(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size),
-          "coupling study: getsockname");
+  check_call(::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size),
+             "coupling study: getsockname");
   return peer::from_sockaddr(address);
 }
 
 void UdpSampleLink::connect(const peer::IpEndpoint& remote) {
   sockaddr_storage address{};
   const socklen_t size = peer::to_sockaddr(remote, 0, address);
-  require(::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), size),
-          "coupling study: connect");
+  check_call(::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), size),
+             "coupling study: connect");
 }
 
 std::span<const CouplingSample> UdpSampleLink::receive(std::uint32_t number) {

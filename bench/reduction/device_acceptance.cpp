@@ -14,9 +14,9 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr int kRounds = 40;       // of the search for the least damper
-constexpr double kMargin = 1e-6;  // of the device's damping, kept in reserve
-constexpr double kNoise = 1e-9;   // of the model: added against rounding
+constexpr int kSearchRounds = 40;  // of the search for the least damper
+constexpr double kMargin = 1e-6;   // of the device's damping, kept in reserve
+constexpr double kNoise = 1e-9;    // of the model: added against rounding
 
 MatrixXd number(double value) { return MatrixXd::Constant(1, 1, value); }
 
@@ -66,7 +66,7 @@ Acceptance accepted(const StateSpace& position_to_force, const RenderingDevice& 
   PositiveRealReport need = judged(model);
   answer.required = -need.least;
   answer.angular_frequency = need.angular_frequency;
-  for (int round = 0; round < kRounds && !(-need.least <= device.damping); ++round) {
+  for (int round = 0; round < kSearchRounds && !(-need.least <= device.damping); ++round) {
     const double relief = std::cos(need.angular_frequency * T);
     if (!std::isfinite(need.least) || !(relief > 1e-6)) break;
     answer.added_damping += (-need.least - allowed) / relief;

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double kRounding = 1e-9;  // of the largest entry of `rest`
+constexpr double kModalRounding = 1e-9;  // of the largest entry of `rest`
 
 std::string refused(const std::string& what, double number, const char* remedy) {
   return "modal force model: " + what + " is " + std::to_string(number) + "; " + remedy;
@@ -36,11 +36,11 @@ std::string refused_rest(const ModalForceModel& model) {
   const MatrixXd rest = model.rest;
   const double most = rest.cwiseAbs().maxCoeff();
   const double skew = (rest - rest.transpose()).cwiseAbs().maxCoeff();
-  if (skew > kRounding * most) {
+  if (skew > kModalRounding * most) {
     return refused("asymmetry of the static rest", skew, "give a symmetric one");
   }
   const double least = symmetric_parts(rest).values[0];
-  if (least < -kRounding * most) {
+  if (least < -kModalRounding * most) {
     return refused("least eigenvalue of the static rest", least,
                    "a spring there pushes away; give one >= 0");
   }

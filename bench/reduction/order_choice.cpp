@@ -24,7 +24,7 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr int kGrid = 96;            // frequencies besides those near resonances
+constexpr int kOrderGrid = 96;       // frequencies besides those near resonances
 constexpr double kSlowest = 1e-4;    // of the band: practically 0
 constexpr double kBeyond = 30.0;     // times the fastest resonance: practically infinite
 constexpr double kNarrowest = 1e-4;  // of a resonance: smallest half-width considered
@@ -46,7 +46,7 @@ void check(const InputRange& range, double threshold) {
 // Grid up to a frequency, with points near the resonances below it.
 std::vector<double> grid_to(double highest, double lowest,
                             const std::vector<Resonance>& resonances) {
-  std::vector<double> grid = frequency_grid(lowest, highest, kGrid);
+  std::vector<double> grid = frequency_grid(lowest, highest, kOrderGrid);
   for (const Resonance& resonance : resonances) {
     const double width = std::max(resonance.half_width, kNarrowest * resonance.omega);
     if (resonance.omega > 0.0) near_resonance(resonance.omega, width, grid);

@@ -87,8 +87,8 @@ void* try_real_time(void* result) {
 }
 
 void sleep_until(nanoseconds due) {
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(due);
-  const timespec limit{seconds.count(), (due - seconds).count()};
+  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(due);
+  const timespec limit{whole.count(), (due - whole).count()};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &limit, nullptr) == EINTR) {
   }
 }

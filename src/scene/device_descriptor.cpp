@@ -73,7 +73,7 @@ void check_descriptor(TomlReader& file, DeviceDescriptor& device) {
     file.problem("work_space", "'to' must be beyond 'from' along each axis");
 }
 
-Section<WorkSpaceCorners> work_space_section() {
+Section<WorkSpaceCorners> work_space_keys() {
   return {{{"from", &WorkSpaceCorners::from, within("m", -10, 10), "least place along each axis"},
            {"to", &WorkSpaceCorners::to, within("m", -10, 10), "greatest place"}}};
 }
@@ -114,7 +114,7 @@ const Section<DeviceDescriptor>& descriptor_section() {
           {"friction", &Device::friction, within("N", 0, 100),
            "dry friction at the handle; a simulated device has it, and no stiffness follows from "
            "it"},
-          {"work_space", &Device::work_space, work_space_section(),
+          {"work_space", &Device::work_space, work_space_keys(),
            "a box of places in its own axes: x to the right, y away from the person, z up"},
           {"max_torque", &Device::max_torque, declared("N m", 1e-4, 100),
            "of six axes: it can show for long"},

@@ -43,7 +43,7 @@ struct Outcome {
   std::array<double, 2> steady{};
   double end_speed = 0;
   std::vector<double> error;  // [N], rendered against the owner's true model, in contact
-  [[nodiscard]] double quantile(double share) { return bench::quantile(error, share); }
+  [[nodiscard]] double quantile(double share) { return reckon::bench::quantile(error, share); }
 };
 
 // A presses 15 mm into B's place and then moves +-10 mm at 1.5 Hz; B holds still, softly.

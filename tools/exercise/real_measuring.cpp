@@ -38,11 +38,11 @@ using haptics::MeasuringStage;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr milliseconds kPeriod{1};
-constexpr milliseconds kGlance{20};            // so late may a key be
-constexpr milliseconds kSettling{3000};        // after Enter, where its readings fail now and then
-constexpr milliseconds kFarewell{50};          // in which a zero reaches the device
-constexpr std::chrono::seconds kPatience{60};  // until it is ready, where nobody is asked
+constexpr milliseconds kServoPeriod{1};
+constexpr milliseconds kGlance{20};      // so late may a key be
+constexpr milliseconds kSettling{3000};  // after Enter, where its readings fail now and then
+constexpr milliseconds kFarewell{50};    // in which a zero reaches the device
+constexpr std::chrono::seconds kReadyWithin{60};  // until it is ready, where nobody is asked
 
 void check_measurable(const RealMeasuring& wanted) {
   const std::string& name = wanted.choice.device;
@@ -129,7 +129,7 @@ class ServoBeside {
  public:
   ServoBeside(const peer::Clock& clock, MeasuringServo& servo) : servo_(servo), thread_(clock) {
     peer::Servo stepped;
-    stepped.period = kPeriod;
+    stepped.period = kServoPeriod;
     stepped.step = [&servo](nanoseconds now) { servo.step(now); };
     stepped.is_urgent = [&servo] { return servo.stage() == MeasuringStage::pushing; };
     number_ = thread_.add(std::move(stepped));
@@ -168,7 +168,7 @@ class Conversation {
         keys_(wanted.keys) {}
 
   void wait_until_ready() {
-    const nanoseconds end = clock_.now() + kPatience;
+    const nanoseconds end = clock_.now() + kReadyWithin;
     bool told = false, told_switch = false;
     while (servo_.stage() != MeasuringStage::ready) {
       if (servo_.stage() == MeasuringStage::switch_off && !std::exchange(told_switch, true))
@@ -319,7 +319,7 @@ std::string measure_real(const RealMeasuring& wanted, const Console& console) {
   const peer::SteadyClock clock;
   OpenedDevice opened(wanted);
   const haptics::UsbDevice* const reports = opened.real().reports();
-  MeasuringServo servo(opened.device(), stop.stop(), kPeriod, reports);
+  MeasuringServo servo(opened.device(), stop.stop(), kServoPeriod, reports);
   MeasuredChain chain;
   DeviceMeasurement::Axes axes{};
   {
@@ -334,7 +334,7 @@ std::string measure_real(const RealMeasuring& wanted, const Console& console) {
     axes = conversation.pushed_axes();
   }
   chain.limits = opened.device().limits();
-  chain.period = pdu::to_seconds(kPeriod);
+  chain.period = pdu::to_seconds(kServoPeriod);
   chain.needed_delay = reports == nullptr ? 0 : reports->needed_delay();
   std::vector<std::string> remarks = remarks_of(chain);
   if (std::ranges::count(axes, false) > 0)

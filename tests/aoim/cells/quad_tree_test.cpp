@@ -15,7 +15,7 @@
 
 #include "reckon/aoim/interest/subscription.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::quad_tree_test {
 namespace {
 
 QuadTreeConfig square(std::size_t pool = 64) {
@@ -224,4 +224,4 @@ TEST(QuadTree, IsSubscribedToLikeAGrid) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::quad_tree_test

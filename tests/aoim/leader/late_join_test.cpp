@@ -12,7 +12,7 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/tests/aoim/support/samples.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::late_join_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -212,4 +212,4 @@ TEST(LateJoin, AsksTheOwnersWhereItLeadsBeforeItWasToldAll) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::late_join_test

@@ -11,7 +11,7 @@
 
 #include "reckon/aoim/cells/cell_grid.hpp"
 
-namespace reckon::aoim {
+namespace reckon::aoim::join_announcer_test {
 namespace {
 
 using std::chrono::seconds;
@@ -65,4 +65,4 @@ TEST(JoinAnnouncer, SaysAThousandCellsThatWereGivenUpInRequestsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace reckon::aoim
+}  // namespace reckon::aoim::join_announcer_test

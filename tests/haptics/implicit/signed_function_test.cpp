@@ -14,7 +14,7 @@
 #include "reckon/tests/support/implicit_solids.hpp"
 #include "reckon/tests/support/random_point.hpp"
 
-namespace reckon::haptics {
+namespace reckon::haptics::signed_function_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -217,4 +217,4 @@ TEST(SignedFunctions, RefuseWhatCannotBeEvaluated) {
 }
 
 }  // namespace
-}  // namespace reckon::haptics
+}  // namespace reckon::haptics::signed_function_test

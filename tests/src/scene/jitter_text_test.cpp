@@ -7,7 +7,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tests/src/support/refusal.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::jitter_text_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -79,4 +79,4 @@ TEST(JitterText, IsRefusedWhereItStandsInASceneFile) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::jitter_text_test

@@ -17,17 +17,17 @@ constexpr pdu::EntityType kPegType{pdu::EntityKind::cultural_feature, pdu::Entit
 // The incoming half of a peer that hears one entity; times in seconds from the start.
 class DoubtedHalf {
  public:
-  void hear(const pdu::EntityType& type, double seconds) {
+  void hear(const pdu::EntityType& type, double time) {
     Inbound update;
     update.has_model = true;
     update.model.kind = pdu::ForceModelKind::sphere;
     update.state.entity_type = type;
-    half_.put_state(update, kDoubted, {}, pdu::from_seconds(seconds), {});
-    half_.take(update, pdu::from_seconds(seconds));
+    half_.put_state(update, kDoubted, {}, pdu::from_seconds(time), {});
+    half_.take(update, pdu::from_seconds(time));
   }
-  void doubt(double seconds) { half_.remote.doubt(kDoubted, pdu::from_seconds(seconds)); }
-  void believe(double seconds) {
-    const std::chrono::nanoseconds now = pdu::from_seconds(seconds);
+  void doubt(double time) { half_.remote.doubt(kDoubted, pdu::from_seconds(time)); }
+  void believe(double time) {
+    const std::chrono::nanoseconds now = pdu::from_seconds(time);
     half_.remote.believe_peer(0, now, now);
   }
   // Seconds until which its force is there, then it fades.

@@ -15,7 +15,7 @@
 #include "reckon/tests/src/support/incoming_half.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
-namespace reckon::peer {
+namespace reckon::peer::remote_entities_test {
 namespace {
 
 using deadreckon::AccelerationReading;
@@ -381,4 +381,4 @@ TEST(RemoteEntities, AnUpdateEndsADoubt) {
 }
 
 }  // namespace
-}  // namespace reckon::peer
+}  // namespace reckon::peer::remote_entities_test

@@ -15,7 +15,7 @@
 #include "reckon/tests/tools/support/driven_trucks.hpp"
 #include "reckon/tests/tools/support/test_certificate.hpp"
 
-namespace reckon::tools {
+namespace reckon::tools::view_test {
 namespace {
 
 using test::run_reckon;
@@ -164,4 +164,4 @@ TEST(ViewVerb, OfADemoIsServedToOtherHostsWhereThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace reckon::tools
+}  // namespace reckon::tools::view_test

@@ -26,6 +26,14 @@ struct ProfilePoint {
   double radius, height;
 };
 
+/// The shortest turn of the axis z to a direction; half a turn about x to the opposite one.
+Eigen::Quaterniond turn_to(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d to = direction.normalized();
+  if (to.z() < -1 + 1e-12) return {0, 1, 0, 0};
+  const double s = std::sqrt(2 * (1 + to.z()));
+  return {0.5 * s, -to.y() / s, to.x() / s, 0};
+}
+
 void revolve(std::span<const ProfilePoint> profile, DrawnSolid& out) {
   out.shape = "mesh";
   for (const ProfilePoint& point : profile) {
@@ -101,8 +109,7 @@ struct Drawing {
 
   void operator()(const haptics::PlaneShape& plane) const {
     out.shape = "plane";
-    out.pose.orientation *=
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), plane.normal);
+    out.pose.orientation *= turn_to(plane.normal);
   }
   void operator()(const haptics::SphereShape& sphere) const {
     out.shape = "sphere";
