@@ -206,7 +206,7 @@ PlannedObject plan_object(const SceneObject& object, ShapeMaker& shapes) {
                         object.matter,
                         object.grab,
                         object.carried};
-  // A mesh whose vertices are far from its origin has axes of its own.
+  // A mesh far from its origin has its own axes.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
     planned.origin = (*mesh)->origin();
     planned.position += planned.orientation * planned.origin;
