@@ -36,11 +36,11 @@ struct PortNeeds {
 /// reaches the end of a row of hands.
 ///
 /// A loan is energy that nobody put in. Three kinds of contact get one: a contact that began
-/// inside, a contact whose force was cut to zero, and a contact that is short for longer while the
-/// hand holds still in touch; none that has parted since. There the port may be empty with nobody
-/// left to fill it: hands that start overlapping, an outage in contact, a late discovery, a start
-/// inside a wall, a released switch, a trip, a row of hands that was pressed quickly. The loan is
-/// repaid before anything is given, even if the contact ends.
+/// inside, a contact whose force was cut to zero, and a contact that is short of energy for long
+/// while the hand is at rest in contact; none after a separation. There the port may be empty with
+/// nobody left to fill it: hands that start overlapping, an outage in contact, a late discovery, a
+/// start inside a wall, a released switch, a trip, a row of hands that was pressed quickly. The
+/// loan is repaid before anything is given, even if the contact ends.
 /// @return number of engaged contacts.
 std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyLedger& ledger,
                             const PortNeeds& needs) noexcept;

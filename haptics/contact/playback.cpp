@@ -35,7 +35,7 @@ deadreckon::Pose carry_on(deadreckon::Pose pose, const Eigen::Vector3d& stated,
 deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) noexcept {
   if (!(age > kTrustedFaster)) return deadreckon::extrapolate(state, age);
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
-  // Steady motion: its extrapolated direction says nothing more.
+  // Steady motion: its extrapolated direction has no further information.
   if (!terms.acceleration && !terms.body_axes) {
     if (!(age > kTrusted)) return deadreckon::extrapolate(state, age);
     const deadreckon::Pose steady = deadreckon::extrapolate(state, kTrusted);

@@ -195,8 +195,8 @@ void RemoteContact::recede(ContactParameters& target, const StepContext& step) n
 }
 
 // Greatest share of the difference to the prediction that is taken in this step: a jump is felt as
-// a push, not as a blow. The spring of a hand changes separately and slowly, that of a body
-// together with its place.
+// a push, not as a blow. The spring of a hand changes separately and slowly; the spring of a body
+// changes with its position.
 double RemoteContact::calm_share(const ContactParameters& shown,
                                  const StepContext& step) const noexcept {
   const Eigen::Vector3d normal = spring_.normal_force() * spring_.geometry().normal;

@@ -13,9 +13,9 @@ namespace reckon::haptics {
 ///
 /// Clutch: when it goes down, the motion of the handle still counts in that step, because the last
 /// force has worked on it, and in a device with a delay as long as older forces are pending. Then
-/// the hand stands still. While the clutch is down, the operator's switch counts as released, so
-/// contacts release and no force is written. When it goes up, the hand continues from where it
-/// stood, and contacts fade in. Rotations of the handle always count.
+/// the hand stops. While the clutch is down, the operator's switch counts as released, so contacts
+/// release and no force is written. When it goes up, the hand continues from there, and contacts
+/// fade in. Rotations of the handle always count.
 class MappedDevice : public HapticDevice {
  public:
   /// @param device outlives this @throws std::invalid_argument if the scale is not above 0, or the
@@ -40,7 +40,7 @@ class MappedDevice : public HapticDevice {
   int clutched_ = 0;                                  // samples, at most delay_ + 1
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();  // [m], offset of the hand from clutching
   Eigen::Vector3d stands_ =
-      Eigen::Vector3d::Zero();  // [m], position of the hand while it stands still
+      Eigen::Vector3d::Zero();  // [m], position of the hand while it is stopped
 };
 
 }  // namespace reckon::haptics

@@ -11,8 +11,8 @@
 namespace reckon::haptics {
 
 /// Reports the file that this thread loads after 1 s, and then once a second, while it goes on.
-/// Readers look at the clock between units of work. It holds for the thread that makes it, until
-/// its end; one that is made while another holds reports nothing.
+/// Readers look at the clock between units of work. It is active for its thread while it exists;
+/// one made while another is active reports nothing.
 class LoadProgress {
  public:
   using Clock = std::function<std::chrono::nanoseconds()>;

@@ -4,9 +4,9 @@
 // without contact.
 //
 //   potential(point)          stores energy, as a spring does
-//   range(reach)              besides: it is a source, so that a loan pays for what it stores
-//   sink(point, most)         besides: lowers the place where it stores nothing
-//   shake(point)              a force that its own bucket of energy pays for
+//   range(reach)              with potential(): a source, whose storage a loan pays for
+//   sink(point, most)         with potential(): lowers the zero of the potential
+//   shake(point)              an oscillating force, paid for by a bucket of energy
 //   force(point)              any other force on the device
 #pragma once
 

@@ -22,7 +22,7 @@ namespace reckon::haptics {
 
 namespace {
 
-// Greatest excess of a patch's value over that of the object's own surface.
+// Greatest excess of a patch's value over the value of the object's own surface.
 double most_beyond(const SurfacePatches* patches, double Surface::*member) noexcept {
   double most = 0.0;
   if (patches == nullptr) return most;
