@@ -115,8 +115,8 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
   if (is_new) tell(cell, led);
 }
 
-// The successor leads at once. The others wait for its claim as long as for that of a leader just
-// received.
+// The successor leads at once. The others wait for its claim as long as for the claim of a leader
+// that was just received.
 void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
                                    std::uint32_t successor, nanoseconds now) {
   std::erase_if(cell.members, [sender](const Member& m) { return m.epoch == sender; });

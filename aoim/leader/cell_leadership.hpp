@@ -35,7 +35,7 @@ class CellLeadership {
   /// @param utc our time since 1970, which ranks us. Returns false and does nothing if we are
   /// already in the maximum number of cells.
   bool enter(CellId cell, std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
-  /// Leaves the cell, and sends that three times.
+  /// Leaves the cell, and sends a farewell three times.
   void leave(CellId cell, std::chrono::nanoseconds now);
 
   /// Takes the role of a known peer in one cell.  @param sender its epoch, from its datagram

@@ -115,7 +115,7 @@ void Leading::note_attribute(std::span<const std::byte> octets, std::uint32_t se
   }
 }
 
-// The number under which a state received in `group` is kept: that of its cell, or the base group
+// The number under which a state received in `group` is kept: its cell's number, or the base group
 // if the cell is not ours.
 GroupIndex Leading::kept_as(GroupIndex group, const pdu::EntityState& state) const {
   if (!hands_out()) return group;

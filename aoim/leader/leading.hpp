@@ -71,7 +71,7 @@ class Leading {
   /// Takes a datagram of this epoch, from a known peer at its own address.
   void receive(GroupIndex group, std::span<const std::byte> datagram, std::uint32_t sender,
                Nanoseconds now, Nanoseconds came);
-  /// Takes the Entity States that leaders relayed to us as a newcomer, except those of owners that
+  /// Takes the Entity States that leaders relayed to us as a newcomer, except states of owners that
   /// are not known yet. The caller drops a state that is older than one from the owner itself.
   [[nodiscard]] std::vector<RelayedState> take_relayed(Nanoseconds now);
   /// Whether take_relayed() has anything to examine.

@@ -30,7 +30,7 @@ class SnapshotReader {
   /// are to be used.  @param leader epoch that sent it
   bool receive(const pdu::CellSnapshot& part, std::uint32_t leader, std::chrono::nanoseconds now);
 
-  /// Calls say(CellId) for each cell whose leader is to be asked now.
+  /// Calls say(CellId) for each cell whose leader must be asked now.
   template <typename Say>
   void for_each_due(std::chrono::nanoseconds now, Say&& say) const {
     for (const Reading& reading : readings_) {

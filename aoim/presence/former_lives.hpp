@@ -27,8 +27,8 @@ struct FormerLife {
   bool has_announced_end = false;
 };
 
-/// The last 64 ended epochs. Those that may return and were received for long are kept longest. One
-/// thread; allocates nothing after construction.
+/// The last 64 ended epochs. Epochs that may return and were received for long are kept longest.
+/// One thread; allocates nothing after construction.
 class FormerLives {
  public:
   static constexpr std::size_t kMost = 64;
