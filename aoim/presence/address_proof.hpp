@@ -51,7 +51,7 @@ class SlotClock {
   Nanoseconds since_ = kUnknown;   // of `latest_`
 };
 
-/// What a revealed key shows.
+/// Result of checking a revealed key.
 struct Disclosure {
   std::optional<SourceAddress> proven;  ///< the address of the last genuine announcement
   SourceAddress refuted;                ///< an address that replayed a received announcement

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Epochs of peers that have ended, as far as presence knows. They identify stale datagrams, and
-// peers that return.
+// Epochs of peers that presence has found to have ended. They identify stale datagrams, and peers
+// that return.
 #pragma once
 
 #include <chrono>
@@ -46,7 +46,7 @@ class FormerLives {
                              std::chrono::nanoseconds pin) noexcept;
   /// Adds an ended epoch.
   void add(const FormerLife& life);
-  /// Removes an epoch. @return what was known of it
+  /// Removes an epoch. @return its stored data
   std::optional<FormerLife> take(std::uint32_t epoch) noexcept;
 
  private:

@@ -34,7 +34,7 @@ struct BodiesAbout {
 /// path, and stay valid while the hand is where it was expected. Servo thread.
 class NearBodies {
  public:
-  /// A moving body is listed so many periods before it arrives.
+  /// Number of periods by which a moving body is listed before it arrives.
   static constexpr double kAhead = 4.0;
 
   /// @param radius of a ball around each body's origin that contains it [m]; infinite: always

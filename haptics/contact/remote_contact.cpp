@@ -116,8 +116,8 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
   return theta;
 }
 
-// Extrapolation does not know touches: a hand that ours stops would continue through the middle of
-// ours, and pull from there. Only its owner knows on which side the hand is.
+// Extrapolation does not include touches: a hand that ours stops would continue through the middle
+// of ours, and pull from there. Only the owner's states show on which side the hand is.
 void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
                                        const Eigen::Vector3d& probe) const noexcept {
   if (!hand_.has_device || !is_sphere(full_.kind)) return;

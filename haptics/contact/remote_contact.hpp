@@ -106,7 +106,8 @@ class RemoteContact {
   /// Whether energy may be exchanged: the hand is touched, or nearly.
   [[nodiscard]] bool engaged() const noexcept;
   /// The hand came to its place without feeling the surface: it was found inside, or again after
-  /// its model had expired or the force had been cut to zero. A surface that jumps stays known.
+  /// its model had expired or the force had been cut to zero. A surface that jumps is not such a
+  /// case.
   [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
   /// The force was cut to zero: it grows again from there.
   void drop() noexcept {

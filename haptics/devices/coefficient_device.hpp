@@ -14,12 +14,13 @@ namespace reckon::haptics {
 /// The model that the device renders now.
 struct ShownModel {
   SpringModel model;    ///< uploaded last
-  double energy = 0.0;  ///< [J], energy in its books outside the walls
+  double energy = 0.0;  ///< [J], energy in its account outside the walls
 };
 
 /// A device of kind `coefficients`. Its limits() have 1 or 2 axes, x and y, and a greatest
-/// stiffness. The device keeps the energy books itself, because it knows the instant of each
-/// change. It renders the model nearest to the requested one that its books can pay for.
+/// stiffness. The device keeps its own energy account, because only the device has the instant of
+/// each change. It renders the model nearest to the requested one for which the energy in the
+/// account suffices.
 ///
 /// The rules of HapticDevice apply: only the servo's thread; all calls return at once, and none
 /// throws or allocates. A requested model holds until the next one. Without a request for

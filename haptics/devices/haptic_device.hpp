@@ -70,8 +70,9 @@ struct DeviceSample {
   bool enabled = true;    ///< the operator's (dead man's) switch: force only while it is held
   bool ok = false;        ///< false: no reading this time (unplugged, transfer failed)
   bool watchdog = false;  ///< the device went to zero force by itself since the last read
-  /// With watchdog: position of the handle at that moment [m], frame D, if known. Then the books
-  /// stay exact and the force resumes; otherwise all energy that the contacts hold is written off.
+  /// With watchdog: position of the handle at that moment [m], frame D, if known. Then the energy
+  /// account stays exact and the force resumes; otherwise all energy that the contacts hold is
+  /// written off.
   std::optional<Eigen::Vector3d> released_at = {};
   std::optional<Eigen::Quaterniond> released_turned =
       {};  ///< tool -> D, for 6 axes, at that moment

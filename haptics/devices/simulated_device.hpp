@@ -47,7 +47,7 @@ struct SimulatedDeviceConfig {
   double max_speed = 2.0;         ///< [m/s], reported limit
   double max_stiffness = 0.0;     ///< [N/m], reported limit; 0: no limit of its own
   /// Reported number of writes until a force is at the handle, 0 .. kMostDelay. Each write advances
-  /// the queue by one, so a force is late by so many servo periods.
+  /// the queue by one, so a force is late by this number of servo periods.
   int delay_samples = 0;
   /// Time without a write until the force drops to zero, > 0 and at most HapticDevice::kWatchdog.
   /// With one and a half servo periods, a late step does not hold an outdated force: the force is

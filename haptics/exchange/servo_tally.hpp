@@ -15,7 +15,7 @@ struct Shortfall {
   static constexpr double kLeastForce = 0.001;  // [N]
 
   double seconds = 0.0;  ///< [s], duration
-  double share = 1.0;    ///< shown share of `asked` in the case that lacked most newtons
+  double share = 1.0;    ///< shown share of `asked` in the case with the greatest lack in newtons
   double asked = 0.0;    ///< [N], wanted in that case
 
   /// Counts one step of `dt` [s] that shows the share `shown` in [0, 1] of a force of `newtons`

@@ -19,10 +19,11 @@ inline constexpr std::size_t kMostFieldPixels = 1 << 20;
 /// than kMostFieldPixels, a length out of its range
 [[nodiscard]] GreyImage heights_of(const HeightsShape& shape);
 
-/// Its length along y [m]: as stated, or of square pixels.
+/// Length of the shape along y [m]: as stated, or for square pixels.
 [[nodiscard]] double length_of(const HeightsShape& shape, const GreyImage& picture) noexcept;
 
-/// A picture of at most so many pixels, evenly spread and with its border. For drawing.
+/// A picture of at most `most_pixels` pixels, evenly spread and with the border of `picture`. For
+/// drawing.
 [[nodiscard]] GreyImage thinned(const GreyImage& picture, std::size_t most_pixels);
 
 /// The closed surface: two triangles between each four pixels, four walls, a bottom. Its vertices

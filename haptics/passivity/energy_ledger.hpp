@@ -12,7 +12,7 @@
 namespace reckon::haptics {
 
 /// One level E for all contacts of a device, which includes the storage of the springs that others
-/// move. It knows energy only: no force, no axis. One thread; O(1); allocates nothing.
+/// move. It contains only energies: no force, no axis. One thread; O(1); allocates nothing.
 class EnergyLedger {
  public:
   /// Energy credited without observation [J], and the power at which this credit refills [W]. A
@@ -41,7 +41,7 @@ class EnergyLedger {
   /// Adds energy that a peer claims to have given. A hand at rest can only pass on what it
   /// received, and a surface that brings energy is observed to push. So energy is credited as far
   /// as it was observed. Beyond that 5 mJ are credited, which refill at 50 mW: one account for all
-  /// peers, whatever their identities. The rest is lost. @param seen observed energy [J] >= 0
+  /// peers, independent of their identities. The rest is lost. @param seen observed energy [J] >= 0
   double credit(double energy, double seen) noexcept;
   /// Books energy that went to others, at any level [J] >= 0; as much may be credited again.
   void give_back(double energy) noexcept;

@@ -18,8 +18,8 @@
 
 namespace reckon::haptics {
 
-/// Forces that the contacts of a device want to hold for the next sample.
-/// `axes` [N], and [N m] where an axis turns; see DampedAxes.
+/// Forces that the contacts of a device request for the next sample. `axes` [N], and [N m] where an
+/// axis turns; see DampedAxes.
 template <int axes>
 struct PortLoadOf {
   using Force = AxisForces<axes>;
