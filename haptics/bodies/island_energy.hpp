@@ -36,12 +36,12 @@ class IslandEnergy {
   void give(std::size_t slot, double work) noexcept { of_[slot].given += work; }
   /// A body touches a carried object. @param speed of the object at the contact, times 1 +
   /// restitution [m/s]. While its island also touches a static object, its kinetic energy is at
-  /// most the energy of all its mass at this speed, or its initial energy plus what it gained by
+  /// most the energy of all its mass at this speed, or its initial energy plus the energy gained by
   /// falling.
   void drive(std::size_t slot, double speed) noexcept;
   /// A body touches a static object.
   void pin(std::size_t slot) noexcept { of_[slot].is_pinned = true; }
-  /// Takes out the energy that the solver added. @return how much [J]
+  /// Takes out the energy that the solver added. @return the removed energy [J]
   double settle(BodySlots& slots, Islands& islands) noexcept;
 
  private:

@@ -146,7 +146,7 @@ const dThreadingFunctionsInfo kCalls{sizeof(kCalls), make_locks, free_locks, loc
                                      wait,           one_thread, have_room};
 const dWorldStepMemoryFunctionsInfo kMemory{sizeof(kMemory), allocate, shrink, release};
 
-/// Scope in which this thread steps the world of these blocks.
+/// Scope in which this thread steps the world that uses these blocks.
 class Stepping {
  public:
   explicit Stepping(Blocks& blocks) noexcept : outer_(std::exchange(stepped, &blocks)) {}

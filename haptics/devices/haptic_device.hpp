@@ -27,8 +27,8 @@ struct DeviceLimits {
   double max_stiffness = 0.0;  ///< [N/m]; 0: no limit of its own (the sampled bound always holds)
   double damping = 0.0;        ///< [N s/m], >= 0: guaranteed viscous friction
   /// [m/rad], greatest motion of the handle per turn of its joints at the pose for which `damping`
-  /// is guaranteed. The friction is then that of the joints, and the damping is less at poses with
-  /// a longer lever: see DeviceSample::damping. 0: `damping` is guaranteed at every pose.
+  /// is guaranteed. The joints then cause the friction, and the damping is less at poses with a
+  /// longer lever: see DeviceSample::damping. 0: `damping` is guaranteed at every pose.
   double lever = 0.0;
   double max_speed = 1.0;  ///< [m/s]; higher speeds are a fault
   Eigen::Vector3d workspace_min = Eigen::Vector3d::Constant(-0.05);  ///< [m], frame D

@@ -21,7 +21,7 @@ namespace reckon::haptics {
 /// - A spring is booked while it meets StoresEnergy: a function of |device - scp| that falls with
 ///   it, whose gradient is its force and whose curvature is at most stiffness(). It is tested at
 ///   many depths at construction, and around the present depth in each step. After a first failure
-///   its force counts as a held one, which the energy port bounds without knowledge of it.
+///   its force counts as a held force, which the energy port bounds for any effect.
 /// - An effect that is often slow is switched off, see CallGuard.
 ///
 /// A copy has its own state and shares the report. Assignment between copies of one effect does not

@@ -59,8 +59,8 @@ class WallEffects {
   [[nodiscard]] int play() noexcept;
   /// Stops and erases the effects, if any.
   void end() noexcept;
-  /// Uploads and plays what is due of these walls. @param now time of the newest reading; updated
-  /// by further readings
+  /// Uploads and plays the due effects of these walls. @param now time of the newest reading;
+  /// updated by further readings
   [[nodiscard]] int show(const SpringModel& asked, std::chrono::nanoseconds& now) noexcept;
   [[nodiscard]] const WallBooks& books() const noexcept { return books_; }
 

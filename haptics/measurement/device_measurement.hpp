@@ -21,13 +21,13 @@ enum class MeasurementProblem : std::uint8_t {
   none,
   readings,    ///< too many readings failed
   switch_off,  ///< the operator's switch is released
-  restless,    ///< it moves without force: held, or pulled by its weight
+  restless,    ///< it moves without force: a hand holds it, or its weight pulls it
   speed,       ///< it was faster than kMostSpeed
   place,       ///< it moved farther than kMostWay
   active,      ///< it becomes faster after the push: it gains energy, or a hand moves it
   stuck,       ///< the greatest push does not move it far enough
   late,        ///< its delay is above kLongestDelay
-  unlike,      ///< its motion is not that of a mass with friction
+  unlike,      ///< it does not move as a mass with friction
   busy,        ///< late steps: a gap above kMostGap, or more than a share kMostLate of the steps of
                ///< pushes
 };

@@ -21,8 +21,8 @@ namespace reckon::haptics {
 /// - A potential is booked while it meets StoresRegionEnergy: it is never negative, its curvature
 ///   is at most stiffness(), so its slope at most sqrt(2 stiffness energy), and it grows only by
 ///   the work of the hand. It is tested on three lines of 0.2 m at construction, and on the path of
-///   the hand. After a first failure its force counts as a held one, which the energy port bounds
-///   without knowledge of it.
+///   the hand. After a first failure its force counts as a held force, which the energy port bounds
+///   for any effect.
 /// - An effect that is often slow is switched off, see CallGuard.
 ///
 /// A booked potential never gives more energy than it stored, not even in the step of its failure:

@@ -13,7 +13,7 @@
 namespace reckon::haptics {
 
 /// Returns the setting unchanged. @throws std::invalid_argument if a setting is out of range; the
-/// text says which and why.
+/// text names the setting and the reason.
 [[nodiscard]] ServoConfig checked_config(const ServoConfig& config, const DeviceLimits& limits);
 [[nodiscard]] DeviceLimits checked_limits(const DeviceLimits& limits);
 [[nodiscard]] std::shared_ptr<const EffectPlan> checked_plan(

@@ -20,7 +20,8 @@ class ServoLoop {
  public:
   /// @param device outlives the loop; its limits are read once, here.
   /// @param plan not null; never modified, so that all servos of a process may share it
-  /// @throws std::invalid_argument when a setting is out of range; the text says which and why.
+  /// @throws std::invalid_argument when a setting is out of range; the text names the setting and
+  /// the reason.
   /// @param bodies bodies of the plan, if any; shared by the servos of one thread and one rate
   ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan, const ServoConfig& config,
             std::shared_ptr<BodyWorld> bodies = nullptr);
@@ -68,8 +69,8 @@ class ServoLoop {
   }
   /// The static scene; any thread.
   [[nodiscard]] const EffectPlan& plan() const noexcept { return core_->plan(); }
-  /// Stiffness limit of a remote hand [N/m]: half that of a wall, because two hands that press each
-  /// other share the energy of one spring.
+  /// Stiffness limit of a remote hand [N/m]: half the limit of a wall, because two hands that press
+  /// each other share the energy of one spring.
   [[nodiscard]] double remote_stiffness_limit() const noexcept {
     return core_->remote_stiffness_limit();
   }

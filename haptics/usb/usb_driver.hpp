@@ -73,7 +73,7 @@ class UsbDriver {
   virtual void lost(bool is_unplugged) noexcept = 0;
   /// Discards a partly received report.
   virtual void restart() noexcept = 0;
-  /// Parses the front of a transfer and removes what it has parsed. @return whether a report is
+  /// Parses the front of a transfer and removes the parsed octets. @return whether a report is
   /// complete; if false, the whole transfer is parsed
   [[nodiscard]] virtual bool read(std::span<const std::uint8_t>& transfer) noexcept = 0;
   /// Evaluates the last report. Sets position, orientation, buttons, lever and step of the reading.

@@ -21,8 +21,8 @@ struct UsbDeviceSeen {
   std::string problem;     ///< libusb's reason why it cannot be opened
 };
 
-/// All devices with readable descriptors. Those that `is_ours` selects are opened briefly; none is
-/// claimed.
+/// All devices with readable descriptors. Devices that `is_ours` selects are opened briefly; none
+/// is claimed.
 [[nodiscard]] std::vector<UsbDeviceSeen> usb_devices(
     UsbContext& context, const std::function<bool(const UsbDeviceSeen&)>& is_ours);
 
